@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -488,6 +489,63 @@ Result<Baseline> read_baseline(const std::string& path);
 
 /// An Error if an audit with these options would not meet the cases of the baseline.
 Status check_comparable(const Baseline& baseline, const AuditOptions& options, const MeshSource& meshes);
+
+// An audit by names: of kernels and families, files of meshes, an earlier audit.
+
+/// Kernels by their names, and those of users' libraries.
+struct KernelChoice {
+    std::vector<std::string> names = {};  ///< * and ? are wildcards; empty: all, beside libraries none of the catalogue
+    std::vector<std::string> libraries = {};
+    bool in_process = false;                     ///< else each library's kernel is run in a process of its own
+    double seconds = 1;                          ///< that it may take for a case there
+    std::optional<double> class_tolerance = {};  ///< of kernels that have no rule of their own
+};
+
+/// Of the catalogue, in its order, then those of the libraries. Error: a name that none has; a
+/// library that cannot be loaded; two with one name.
+Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice);
+
+/// Exactly one: that of the library, or the one that the name has. Error also: both are given, or neither.
+Result<Kernel> choose_kernel(const KernelChoice& choice);
+
+/// Those that match one of the names, in their order; all if there is none. Error: a name that none has.
+Result<std::vector<Family>> choose_families(const std::vector<std::string>& names);
+
+struct NamedMesh {
+    std::string name, path;  ///< as for read_mesh
+};
+
+struct AuditJob {
+    std::vector<NamedMesh> meshes;  ///< not read where no family draws from meshes, unless they are asked for
+    bool meshes_asked = false;
+    bool check = true;  ///< whether the meshes are partitions
+    Curved curved = Curved::straight;
+    KernelChoice kernels = {};
+    std::vector<std::string> families = {};  ///< see choose_families
+    std::string baseline;                    ///< what an earlier audit wrote as JSON; empty: none
+    AuditOptions options = {};               ///< but for kernels and families
+};
+
+/// What run_audit() and audit_mutants() are given.
+struct PreparedAudit {
+    AuditOptions options;
+    MeshSource meshes;
+    std::optional<Baseline> baseline;
+    std::map<std::string, std::string> libraries;  ///< by the names of their kernels
+    Notes notes;                                   ///< of the meshes
+};
+
+/// Errors: those of the choices, of read_mesh and read_baseline; a mesh without cells; a baseline of other cases.
+Result<PreparedAudit> prepare_audit(const AuditJob& job);
+
+/// A case that a family makes, as a witness.
+struct CaseJob {
+    std::string family;
+    std::uint64_t seed = 1, index = 0;
+    std::string simplex, kernel, reason;  ///< empty: any; what family and kernel leave open, the simplex decides
+    std::vector<NamedMesh> meshes;        ///< for families that draw from meshes
+};
+Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels);
 
 struct BaselineChange {
     std::string kernel, family, figure;

@@ -85,6 +85,13 @@ struct SearchReport {
 /// Errors: a floating-point environment in which results cannot be exact; no step; exponents out of range or order.
 Result<SearchReport> search_worst_case(const SearchOptions& options);
 
+/// Error: a rule that a search has no figure for. It has any, wrong_cases, the classes of finding, worst_weight_ulp and
+/// worst_value_ulp.
+Status check_search_rules(const std::vector<Threshold>& rules);
+
+/// A kernel that gave no weights where there are some has an infinite error.
+std::vector<Violation> violations(const SearchReport& report, const std::vector<Threshold>& rules);
+
 /// The witness on plainer coordinates: fewer significant bits, smaller exponents, zeros and ones, as long as its reason
 /// stays. A witness of an error keeps a 1024th of it at least. One that does not show its reason comes back as it is.
 /// Its exponents stay within the bounds. `steps`, if given, is increased by the number of cases asked.
@@ -178,6 +185,7 @@ struct GapsReport {
     int dimension = 3;
     Verdict verdict = Verdict::not_checked;
     CurvedCells curved;  ///< of the mesh: taken with straight sides
+    Notes notes;         ///< of the file of the mesh
     std::uint64_t seed = 0, count = 0;
     int threads = 0;
     double tolerance = 0;
@@ -190,6 +198,22 @@ struct GapsReport {
 /// a floating-point environment in which results cannot be exact; a mesh without cells; no kernel for its cells, or
 /// none that has one of the rules; two oracles that disagree.
 Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const std::string& name, Verdict verdict);
+
+/// The same of a file.
+struct GapsJob {
+    std::string mesh;  ///< as for read_mesh
+    Curved curved = Curved::straight;
+    bool check = true;  ///< whether the mesh is a partition
+    GapsOptions options = {};
+};
+Result<GapsReport> gaps_file(const GapsJob& job);
+
+/// FAULT or FAULT>NUMBER: more such points than that fail.
+struct GapsLimit {
+    ClaimFault fault = ClaimFault::gap;
+    double most = 0;
+};
+Result<GapsLimit> parse_gaps_limit(std::string_view text);
 
 /// The features of ClaimResult::by_feature.
 inline constexpr std::array<Feature, 3> claim_features{Feature::face, Feature::edge, Feature::vertex};

@@ -43,22 +43,34 @@ struct JobProgress {
     std::uint64_t done = 0;  ///< how many; 0: not counted
 };
 
-/// What both jobs have.
-struct SamplingJob {
-    std::string mesh;  ///< as for read_mesh
-    /// Of a mesh that is a series (.pvd, .vtu.series): which step. None: where the output has {step} or {time} in its
-    /// name, and there are no series of fields, every one, each into an output of its own, in which its number or time
-    /// takes that place; points are located anew where the mesh is another one. Else the first.
-    StepChoice step = {};
-    bool all_steps = false;  ///< Error where that is not so
+/// What all jobs on a mesh have.
+struct MeshJob {
+    std::string mesh;      ///< as for read_mesh
+    StepChoice step = {};  ///< of a mesh that is a series (.pvd, .vtu.series); none: the first
     std::vector<FieldFile> field_files = {};
+    Curved curved = Curved::straight;  ///< what becomes of curved cells
+
+    /// Where the caller will write reports, after what it calls them: the job makes sure that they are no other files
+    /// of the job, and can be written.
+    std::vector<std::pair<std::string, std::string>> reports = {};
+    std::string program = "barycert";  ///< how the user calls the program, for commands in messages
+    /// Called by one thread at a time, which need not be the caller's.
+    std::function<void(const JobProgress&)> progress = {};
+};
+
+/// What sampling and resampling have.
+struct SamplingJob : MeshJob {
+    /// Of a mesh that is a series: without a `step`, where the output has {step} or {time} in its name, and there are
+    /// no series of fields, every step is sampled, each into an output of its own, in which its number or time takes
+    /// that place; points are located anew where the mesh is another one. With all_steps it is an Error where that is
+    /// not so.
+    bool all_steps = false;
     /// Fields that change from step to step: each path has one *, and each file that it matches is a step, in natural
     /// order (2 before 10); or it is a .pvd or .vtu.series file. Where the output has {step} in its name, each step has
     /// an output of its own, in which what the * stood for, or the time, takes that place ({time} likewise); points are
     /// located once, and values of one step at a time are in memory. Else the steps of NAME, 256 at most, are columns
     /// NAME@STEP.
     std::vector<FieldFile> series = {};
-    Curved curved = Curved::straight;      ///< what becomes of curved cells, of the mesh of `onto` as well
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
     std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
     /// Where to write the weights of the points on the nodes of the mesh (sampler.hpp): .npz, a matrix that
@@ -67,13 +79,7 @@ struct SamplingJob {
     SampleOptions options = {};
     std::optional<VtkData> vtk_data = {};  ///< of an output in a format of VTK; not set: raw
 
-    /// Where the caller will write a report: the job makes sure that this is no other file of the job, and can be
-    /// written. Empty: nowhere.
-    std::string report;
-    bool count_degenerate = true;      ///< of SampleReport: a pass over the cells
-    std::string program = "barycert";  ///< how the user calls the program, for commands in messages
-    /// Called by one thread at a time, which need not be the caller's.
-    std::function<void(const JobProgress&)> progress = {};
+    bool count_degenerate = true;  ///< of SampleReport: a pass over the cells
 };
 
 /// Fields at points: rows to CSV, NPY or VTU files.
@@ -91,7 +97,7 @@ struct ResampleJob : SamplingJob {
     std::vector<std::int64_t> counts = {};         ///< points along each axis
     std::vector<double> spacing = {};              ///< of points: one for all axes, or one each
     std::vector<double> bounds = {};               ///< low and high, axis after axis; empty: the box of the cells
-    std::string onto;                              ///< a mesh
+    std::string onto;                              ///< a mesh; `curved` is of it, too
     std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
 };
 
@@ -173,13 +179,49 @@ struct SampleReport {
 Result<SampleReport> sample_files(const SampleJob& job);
 Result<SampleReport> resample_files(const ResampleJob& job);
 
+// A mesh checked, and repaired if asked.
+
+struct CheckJob : MeshJob {
+    CheckOptions options = {};  ///< but for plc and progress
+    std::string plc;            ///< a PLC, whose facets are to be unions of faces of cells
+    std::string measures;       ///< a .vtu file: the mesh with measures and defects of each cell
+    /// Where to write a repaired copy, one of them at most: VTK's or Gmsh's file, or a stem of TetGen's. `fix` merges
+    /// coincident nodes, drops degenerate and duplicate cells and turns negative ones; fix_orientation does the last
+    /// alone.
+    std::string fix, fix_orientation;
+    std::optional<double> merge_within = {};  ///< of `fix`: nodes of cells at most so far apart are merged
+    std::optional<VtkData> vtk_data = {};     ///< of outputs in a format of VTK; not set: raw
+};
+
+/// A mesh repaired and written, and what the check says of the file when it is read again.
+struct FixedMesh {
+    std::string file;
+    FixReport done;
+    Notes notes = {};  ///< what of the mesh the file cannot hold
+    CheckReport after;
+};
+
+/// A mesh that was checked, and what was done with it.
+struct CheckedMesh {
+    Mesh mesh;
+    std::string name;      ///< what the user calls it, without the suffix of TetGen's files
+    std::string artifact;  ///< the file that it is in: of several the first that is there
+    CheckReport report;
+    std::optional<FixedMesh> fixed;  ///< without `after` where there is no copy
+    bool copied = false;             ///< the copy was written and checked
+    Status written = Done{};         ///< the first output that could not be written, or why there is no copy
+
+    /// Of the copy, if there is one.
+    bool certified() const { return (copied ? fixed->after : report).certified(); }
+};
+
+/// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, or an output is an
+/// input or cannot be written. What goes wrong once the mesh is checked does not cost the report: CheckedMesh::written.
+Result<CheckedMesh> check_files(const CheckJob& job);
+
 // A whole job: the results that some tool wrote into a file, held against the exact ones.
 
-struct VerifyJob {
-    std::string mesh;      ///< as for read_mesh
-    StepChoice step = {};  ///< of a series
-    std::vector<FieldFile> field_files = {};
-    Curved curved = Curved::straight;      ///< what becomes of curved cells
+struct VerifyJob : MeshJob {
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: those that the results have
 
     /// Points with columns, as for open_points: .csv .npy .vtu .vtp .vti .vtk ...; "-" is CSV from stdin.
@@ -197,11 +239,6 @@ struct VerifyJob {
 
     VerifyOptions options = {};
     bool tolerance_given = false;  ///< else 1e-6 is taken where values are single precision throughout
-
-    /// Where the caller will write reports, after what it calls them: as SamplingJob::report.
-    std::vector<std::pair<std::string, std::string>> reports = {};
-    std::string program = "barycert";  ///< how the user calls the program, for commands in messages
-    std::function<void(const JobProgress&)> progress = {};
 };
 
 /// What a verification did: what its reports are made of.
@@ -288,32 +325,44 @@ struct RenderReport {
     double seconds = 0;  ///< from the options to the file
 };
 
-/// The boundary of a mesh of tetrahedra, or a mesh of triangles in the plane, as a PNG file.
-struct MeshPictureJob {
-    std::string mesh;      ///< as for read_mesh
-    StepChoice step = {};  ///< of a series
-    std::vector<FieldFile> field_files = {};
-    Curved curved = Curved::straight;  ///< what becomes of curved cells
-    std::string field;   ///< NAME, point:NAME, cell:NAME, each perhaps with .K for component K; empty: grey
-    std::string output;  ///< must end in .png
-    ViewOptions view;
-    int threads = 0;  ///< 0: as many as the machine has
+/// What a RenderJob draws. `scene`: that of a file. `gradient`: a triangle with a red, a green and a blue corner;
+/// `texture`: an image on a square or triangle; `cube`: a checkerboard on the faces of a cube in perspective, with the
+/// largest error of its texture coordinates; `clip`: a triangle and segments before and after they are clipped by a
+/// box; `mesh`: the boundary of a mesh of tetrahedra, or a mesh of triangles in the plane.
+enum class Picture : std::uint8_t { scene, gradient, texture, cube, clip, mesh };
+
+constexpr std::string_view name(Picture p) {
+    constexpr std::array<std::string_view, 6> names{"scene", "gradient", "texture", "cube", "clip", "mesh"};
+    return names[static_cast<std::size_t>(p)];
+}
+
+/// A picture as a PNG file. Of MeshJob, `mesh` and what belongs to it are for Picture::mesh alone.
+struct RenderJob : MeshJob {
+    Picture picture = Picture::scene;
+    std::string output;     ///< must end in .png
+    ViewOptions view = {};  ///< size, method and rounding of all pictures; the rest of that of a mesh
+
+    std::string scene;                                         ///< a file (.json)
+    Interpolation interpolation = Interpolation::perspective;  ///< of a cube
+    std::string image;                                         ///< of a texture: .png; empty: one of 2 by 2 texels
+    bool triangle = false;                                     ///< what that is put on; else a square
+    double low = 0, high = 1;                                  ///< u and v at its lower left and upper right
+    Wrap wrap = Wrap::clamp;
+    Filter filter = Filter::nearest;
+
+    std::string field;  ///< of a mesh: NAME, point:NAME, cell:NAME, each perhaps with .K for component K; empty: grey
+    int threads = 0;    ///< 0: as many as the machine has
 };
 
-/// Draws facets that one cell alone has; their colours are those of nodes, or of that cell. Returns an Error if the
-/// mesh cannot be read, has no such field or component or no cells, as draw_surface does, or if the file cannot be
-/// written.
-Result<RenderReport> render_mesh_file(const MeshPictureJob& job);
+/// Of a mesh it draws facets that one cell alone has; their colours are those of nodes, or of that cell. Returns an
+/// Error if the job contradicts itself, an input cannot be read, a mesh has no such field or component or no cells, as
+/// render and draw_surface do, or if the file cannot be written.
+Result<RenderReport> render_files(const RenderJob& job);
 
 // Whole jobs, files to files: iso-surfaces, iso-lines and slices of meshes. What `barycert render iso` and `barycert
 // render slice` call. Output files appear whole or not at all.
 
-struct ContourJob {
-    std::string mesh;      ///< as for read_mesh
-    StepChoice step = {};  ///< of a series
-    std::vector<FieldFile> field_files = {};
-    Curved curved = Curved::straight;  ///< what becomes of curved cells
-
+struct ContourJob : MeshJob {
     // Either: the field of nodes and its value; a field of several components as NAME.0, NAME.1, ...
     std::string field;
     std::optional<double> value = {};
@@ -329,9 +378,6 @@ struct ContourJob {
 
     std::optional<VtkData> vtk_data = {};  ///< of a .vtp file; not set: raw
     int threads = 0;                       ///< 0: as many as the machine has
-    std::string report;                    ///< as SamplingJob::report
-    std::string program = "barycert";
-    std::function<void(const JobProgress&)> progress = {};
 };
 
 /// Where the pixels of a picture of a plane lie. The middle of pixel (i, j), counted from the lower left, is

@@ -46,14 +46,6 @@ std::string policy_text(const OutsidePolicy& policy);
 std::string check_text(const CheckReport& report, const Mesh& mesh, const std::string& name,
                        const TerminalStyle& style);
 
-/// A mesh repaired and written, and what the check says of the file when it is read again.
-struct FixedMesh {
-    std::string file;
-    FixReport done;
-    Notes notes = {};  ///< what of the mesh the file cannot hold
-    CheckReport after;
-};
-
 /// What was done, the verdict on the copy, and what remains.
 std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style);
 

@@ -5,87 +5,42 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <memory>
 #include <utility>
 
 #include "audit_inputs.hpp"
-#include "barycert/audit.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "baseline.hpp"
 #include "command.hpp"
-#include "files.hpp"
 #include "options.hpp"
-#include "progress.hpp"
+#include "reports.hpp"
 
 namespace barycert::cli {
 namespace {
 
 struct AuditArguments {
-    CiOptions ci;
-    std::string baseline;
-    bool mutants = false;
-    std::vector<std::string> meshes, kernels, families, libraries, fail_on;
-    std::uint64_t count = 10000;
-    std::uint64_t seed = 1;
-    int threads = 0;
-    std::string json, html, witnesses, plot;
-    std::vector<std::string> others;
-    bool quiet = false, no_check = false, wide = false;
-    OracleChoice oracle = OracleChoice::automatic;
-    Curved curved = Curved::straight;
-    std::shared_ptr<KernelRules> rules = std::make_shared<KernelRules>();
+    AuditJob job;
+    std::vector<std::string> meshes, fail_on, others;
+    bool mutants = false, no_check = false, wide = false;
+    Reports reports;
 };
 
-/// The callback that shows how far the audit is.
-std::function<void(const AuditProgress&)> shown_on(Progress& progress) {
-    return [&progress](const AuditProgress& p) {
-        if (!progress.due()) return;
-        progress.stage(fmt::format("{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
-                                   p.cases_total, p.family));
-    };
-}
-
 /// What can be known of files before the work.
-Status check_files(const AuditArguments& a, bool table) {
-    std::vector<base::NamedFile> inputs;
-    Result<std::vector<std::string>> meshes = a.meshes;
-    if (a.meshes.empty()) meshes = own_meshes();
-    if (meshes) {
-        for (const std::string& mesh : *meshes) {
-            for (base::NamedFile& file : base::named_files("the mesh", mesh_files(mesh)))
-                inputs.push_back(std::move(file));
-        }
+Status check_files(const AuditArguments& a) {
+    std::vector<base::NamedFile> inputs = library_files(a.job.kernels);
+    for (const NamedMesh& mesh : a.job.meshes) {
+        for (const std::string& path : mesh_files(mesh.path)) inputs.push_back({"the mesh", path});
     }
-    for (const std::string& library : a.libraries) inputs.push_back({"--kernel-library", library});
     for (const std::string& file : a.others) inputs.push_back({"--with", file});
-    std::vector<base::NamedFile> outputs{
-        {"--json", a.json}, {"--html", a.html}, {"--witnesses", a.witnesses}, {"--plot", a.plot}};
-    if (!a.baseline.empty()) inputs.push_back({"--baseline", a.baseline});
-    add_ci_outputs(a.ci, table, outputs);
-    return base::check_outputs(inputs, std::move(outputs));
-}
-
-/// The page, with the pictures of signs and the maps in the order of the report.
-Status write_page(const AuditReport& report, const AuditArguments& a, const TerminalStyle& style,
-                  const MeshSource& meshes, const std::vector<OtherResults>& others) {
-    std::vector<Kernel> kernels;
-    for (const KernelResult& k : report.kernels) kernels.push_back(k.kernel);
-    const Result<std::string> page = audit_html(report, {.style = style,
-                                                         .command_line = command_line(),
-                                                         .signs = sign_pictures(kernels),
-                                                         .maps = mesh_maps(kernels, meshes, a.seed, a.threads),
-                                                         .others = others});
-    return page ? write_output(a.html, *page) : Status(page.error());
+    if (!a.job.baseline.empty()) inputs.push_back({"--baseline", a.job.baseline});
+    return a.reports.check(inputs);
 }
 
 /// The files of --with.
 Result<std::vector<OtherResults>> read_others(const AuditArguments& a) {
     std::vector<OtherResults> others;
-    if (!a.others.empty() && a.html.empty())
+    if (!a.others.empty() && a.reports.path("--html").empty())
         return Error{.what = "--with needs --html", .remedy = "it adds to the page"};
     for (const std::string& file : a.others) {
         Result<OtherResults> read = read_other_results(file);
@@ -93,21 +48,6 @@ Result<std::vector<OtherResults>> read_others(const AuditArguments& a) {
         others.push_back(std::move(*read));
     }
     return others;
-}
-
-/// The mutation score of the families.
-int run_mutants(const AuditArguments& a, const AuditOptions& options, const MeshSource& meshes, Progress& progress,
-                bool table) {
-    const Result<MutantReport> report = audit_mutants(options, meshes);
-    progress.clear();
-    if (!report) return fail(report.error());
-    std::vector<Status> written;
-    if (!a.json.empty()) written.push_back(write_output(a.json, mutants_json(*report)));
-    if (table)
-        written.push_back(
-            write_output("-", mutants_text(*report, {.colour = colour_on_stdout(), .command = command_name()})));
-    if (const Status ok = all_written(written); !ok) return fail(ok.error());
-    return report->caught() == report->mutants.size() ? exit_clean : exit_findings;
 }
 
 /// Other options than these say something of kernels under audit, or of reports on them.
@@ -125,140 +65,150 @@ Status check_mutants_alone(const CLI::App& sub) {
     return Done{};
 }
 
-int run_audit(const AuditArguments& a) {
-    std::vector<Threshold> rules;
-    for (const std::string& text : a.fail_on) {
-        const Result<Threshold> rule = parse_threshold(text);
-        if (!rule) return fail(rule.error());
-        rules.push_back(*rule);
-    }
-    const bool table =
-        !a.quiet && a.json != "-" && a.html != "-" && a.witnesses != "-" && a.plot != "-" && !a.ci.on_stdout();
-    if (const Status ok = check_files(a, table); !ok) return fail(ok.error());
-    const auto others = read_others(a);
-    if (!others) return fail(others.error());
-    AuditOptions options;
-    options.count = a.count;
-    options.seed = a.seed;
-    options.threads = a.threads;
-    options.oracle = a.oracle;
-    const auto kernels = select_kernels(a.kernels, a.libraries, *a.rules);
-    if (!kernels) return fail(kernels.error());
-    options.kernels = *kernels;
-    const auto families = select_families(a.families);
-    if (!families) return fail(families.error());
-    options.families = *families;
-    // Without a family that draws from meshes barycert's own need not be there.
-    const bool wanted = std::any_of(families->begin(), families->end(), [](const Family& f) { return f.needs_mesh; });
-    const Result<MeshSource> meshes =
-        wanted || !a.meshes.empty() ? load_meshes(a.meshes, !a.no_check, a.threads, a.quiet, a.curved) : MeshSource();
-    if (!meshes) return fail(meshes.error());
-    const auto baseline = read_comparable_baseline(a.baseline, options, *meshes);
-    if (!baseline) return fail(baseline.error());
+/// The mutation score of the families.
+Told told_of(const MutantReport& report) {
+    return {.files = {{"--json", [&] { return mutants_json(report); }}},
+            .text = [&](bool colour) { return mutants_text(report, {.colour = colour, .command = command_name()}); },
+            .clean = report.caught() == report.mutants.size()};
+}
 
-    Progress progress(!a.quiet && stderr_is_terminal());
-    options.progress = shown_on(progress);
-    if (a.mutants) return run_mutants(a, options, *meshes, progress, table);
-    const Result<AuditReport> report = barycert::run_audit(options, *meshes);
-    progress.clear();
-    if (!report) return fail(report.error());
-
-    // Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
-    // the user the table, the fruit of the whole run.
-    std::vector<Status> written;
-    if (!a.json.empty()) written.push_back(write_output(a.json, audit_json(*report)));
-    if (!a.witnesses.empty()) written.push_back(write_output(a.witnesses, witnesses_json(*report)));
-    if (!a.plot.empty()) written.push_back(write_output(a.plot, condition_plot(*report)));
-    const std::string witnesses = a.witnesses.empty() ? a.json : a.witnesses;
-    const TerminalStyle style{.colour = colour_on_stdout(),
+Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const AuditReport& report,
+             const std::vector<Threshold>& rules, const BaselineComparison* comparison,
+             const std::vector<OtherResults>& others) {
+    const std::string& apart = a.reports.path("--witnesses");
+    const std::string witnesses = apart.empty() ? a.reports.path("--json") : apart;
+    const TerminalStyle style{.colour = false,
                               .command = command_name(),
                               .witness_path = witnesses == "-" ? std::string() : witnesses,
                               .mesh_arguments = a.meshes,
-                              .library_arguments = a.libraries,
-                              .kernel_arguments = words_of(*a.rules),
+                              .library_arguments = a.job.kernels.libraries,
+                              .kernel_arguments = words_of(a.job.kernels),
                               .wide = a.wide};
-    if (!a.html.empty()) written.push_back(write_page(*report, a, style, *meshes, *others));
-    if (table) written.push_back(write_output("-", audit_text(*report, style)));
-    if (!a.quiet && !table) {
-        for (const CurvedCells& curved : report->curved) tell_curved(curved);
+    const auto page = [=, &a, &prepared, &report, &others]() -> Result<std::string> {
+        std::vector<Kernel> kernels;
+        for (const KernelResult& k : report.kernels) kernels.push_back(k.kernel);
+        AuditPage with{.style = style, .command_line = command_line(), .signs = sign_pictures(kernels)};
+        with.style.colour = colour_on_stdout();
+        with.maps = mesh_maps(kernels, prepared.meshes, a.job.options.seed, a.job.options.threads);
+        with.others = others;
+        return audit_html(report, with);
+    };
+    const std::vector<Violation> broken = violations(report, rules);
+    return {
+        .files = {{"--json", [&report] { return audit_json(report); }},
+                  {"--html", page},
+                  {"--witnesses", [&report] { return witnesses_json(report); }},
+                  {"--plot", [&report] { return condition_plot(report); }}},
+        .text =
+            [=, &report](bool colour) {
+                TerminalStyle shown = style;
+                shown.colour = colour;
+                return audit_text(report, shown);
+            },
+        .ci = [=, &report, &rules, &prepared] { return audit_outcomes(report, rules, comparison, prepared.libraries); },
+        .curved = report.curved,
+        .failures = (comparison ? baseline_text(*comparison, prepared.baseline->path) : "") + failures_of(broken),
+        .clean = broken.empty() && (comparison == nullptr || comparison->worse.empty())};
+}
+
+int run_audit(AuditArguments& a) {
+    const auto rules = thresholds(a.fail_on);
+    if (!rules) return fail(rules.error());
+    const auto meshes = meshes_or_own(a.meshes);
+    if (meshes) a.job.meshes = *meshes;
+    if (const Status ok = check_files(a); !ok) return fail(ok.error());
+    const auto others = read_others(a);
+    if (!others) return fail(others.error());
+    a.job.check = !a.no_check;
+    a.job.meshes_asked = !a.meshes.empty();
+    Result<PreparedAudit> prepared = prepare_audit(a.job);
+    if (!prepared) return fail(prepared.error());
+    if (!meshes && std::any_of(prepared->options.families.begin(), prepared->options.families.end(),
+                               [](const Family& f) { return f.needs_mesh; }))
+        return fail(meshes.error());
+    for (const Kernel& kernel : prepared->options.kernels) {
+        if (prepared->libraries.contains(kernel.name)) tell_note(prepared->libraries.at(kernel.name), kernel);
     }
-    const Result<bool> worse = write_audit_ci(a.ci, *report, rules, *baseline, options.kernels, a.libraries, written);
-    if (const Status ok = all_written(written); !ok) return fail(ok.error());
-    if (!worse) return fail(worse.error());
-    const auto broken = violations(*report, rules);
-    for (const Violation& v : broken)
-        tell(fmt::format("fails: {}: {} = {}, limit {}\n", v.kernel, v.figure, base::shortest(v.value),
-                         base::shortest(v.limit)));
-    return broken.empty() && !*worse ? exit_clean : exit_findings;
+    if (!a.reports.is_quiet()) tell_important(prepared->notes);
+    a.reports.begin();
+    Progress& progress = a.reports.progress();
+    prepared->options.progress = [&progress](const AuditProgress& p) {
+        if (!progress.due()) return;
+        progress.stage(fmt::format("{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
+                                   p.cases_total, p.family));
+    };
+    if (a.mutants)
+        return a.reports.end(audit_mutants(prepared->options, prepared->meshes),
+                             [](const MutantReport& report) { return told_of(report); });
+    std::optional<BaselineComparison> comparison;
+    return a.reports.end(barycert::run_audit(prepared->options, prepared->meshes), [&](const AuditReport& report) {
+        Status compared = Done{};
+        if (prepared->baseline) {
+            auto with = compare_with_baseline(report, *prepared->baseline);
+            if (with) comparison = std::move(*with);
+            if (!with) compared = with.error();
+        }
+        Told told = told_of(a, *prepared, report, *rules, comparison ? &*comparison : nullptr, *others);
+        if (!compared) told.ci = {};
+        told.written = compared;
+        return told;
+    });
 }
 
 }  // namespace
 
-void add_audit(CLI::App& app, int& exit_code) {
-    auto* sub = app.add_subcommand(
-        "audit", "Count how often each floating-point kernel is wrong, and by how much, against exact arithmetic");
-    sub->footer(
+void add_audit(const Options& program) {
+    const Options o = program.below(
+        "audit", "Count how often each floating-point kernel is wrong, and by how much, against exact arithmetic",
         "Exit codes: 0 done; 1 a rule of --fail-on is broken, a figure is worse than in the baseline, or a mutant is\n"
         "not caught; 2 usage or input error.");
     const auto a = std::make_shared<AuditArguments>();
-    file_option(*sub, "MESH", a->meshes,
-                "Meshes for the families mesh.*, in the formats of barycert sample; default: barycert's own")
+    AuditJob& job = a->job;
+    o.files("MESH", a->meshes,
+            "Meshes for the families mesh.*, in the formats of barycert sample; default: barycert's own")
         ->allow_extra_args(true);
-    sub->add_option("--kernel", a->kernels, "Audit only kernels that match; may be repeated")
-        ->type_name("KERNEL|GLOB")
-        ->allow_extra_args(false);
-    sub->add_option("--family", a->families, "Use only families that match; may be repeated")
-        ->type_name("FAMILY|GLOB")
-        ->allow_extra_args(false);
-    file_option(
-        *sub, "--kernel-library", a->libraries,
-        "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");
-    add_kernel_rules(*sub, a->rules);
-    choice_option<OracleChoice>(
-        *sub, "--oracle", a->oracle,
+    add_kernels(o, job.kernels, "Audit only kernels that match; may be repeated");
+    o.words("--family", job.families, "Use only families that match; may be repeated", "FAMILY|GLOB");
+    o.files("--kernel-library", job.kernels.libraries,
+            "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");
+    add_kernel_rules(o, job.kernels);
+    o.choice<OracleChoice>(
+        "--oracle", job.options.oracle,
         {{"integers", OracleChoice::integers}, {"cgal", OracleChoice::cgal}, {"both", OracleChoice::both}},
         "Who says what is right: exact integers, CGAL's exact kernel (Epeck), or both, who must agree; without it "
         "integers, or barycert's core where it judges others, and CGAL confirms a sample and the hard cases");
-    sub->add_option("--count", a->count, "Cases per family and simplex")
-        ->capture_default_str()
-        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 48).description(""))
-        ->type_name("N");
-    sub->add_option("--seed", a->seed, "The same seed gives the same cases on every machine")
-        ->capture_default_str()
-        ->check(whole_number())
-        ->type_name("S");
-    curved_option(*sub, a->curved);
-    threads_option(*sub, a->threads);
-    file_option(*sub, "--json", a->json, "Write the report as JSON; - is stdout and suppresses the table");
-    file_option(*sub, "--html", a->html,
-                "Write the report as an HTML page with pictures, histograms and witnesses; - is stdout and suppresses "
-                "the table");
-    file_option(*sub, "--with", a->others,
-                "Also show on that page what `./run flags --json FILE` or `./run systems --json FILE` wrote");
-    file_option(*sub, "--witnesses", a->witnesses, "Write the worst cases as JSON, for `barycert replay`; - is stdout");
-    file_option(*sub, "--plot", a->plot,
-                "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
+    add_count(o, job.options.count, 48, "Cases per family and simplex");
+    add_seed(o, job.options.seed, "The same seed gives the same cases on every machine");
+    o.curved(job.curved);
+    o.threads(job.options.threads);
+    a->reports.file(o, "--json", json_instead);
+    a->reports.file(o, "--html",
+                    "Write the report as an HTML page with pictures, histograms and witnesses; - is stdout and "
+                    "suppresses the table");
+    o.files("--with", a->others,
+            "Also show on that page what `./run flags --json FILE` or `./run systems --json FILE` wrote");
+    a->reports.file(o, "--witnesses", "Write the worst cases as JSON, for `barycert replay`; - is stdout");
+    a->reports.file(o, "--plot",
+                    "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
     std::string names;
     for (const std::string& rule : threshold_names()) names += " " + rule;
-    sub->add_option("--fail-on", a->fail_on,
-                    "Exit with 1 if this figure of a kernel exceeds NUMBER (0 if omitted); may be repeated. RULE is "
-                    "one of:" +
-                        names)
-        ->type_name("RULE[>NUMBER]")
-        ->allow_extra_args(false);
-    file_option(*sub, "--baseline", a->baseline,
-                "Compare with the --json report of an earlier audit of the same seed, count and meshes; exit with 1 if "
-                "a figure got worse");
-    add_ci_options(*sub, a->ci, "broken rules and what got worse than the baseline");
-    sub->add_flag("--mutants", a->mutants,
-                  "Audit kernels with seeded faults instead, and show which family catches which; exit with 1 if one "
-                  "is not caught");
-    sub->add_flag("--wide", a->wide, "Print all counts, the families and a witness of each kernel: 160 columns");
-    sub->add_flag("--no-check", a->no_check, "Do not check whether the meshes are partitions (see `barycert check`)");
-    sub->add_flag("--quiet", a->quiet, "Print no table and no progress");
-    sub->callback([a, sub, &exit_code] {
-        const Status ok = check_mutants_alone(*sub);
-        exit_code = ok ? run_audit(*a) : fail(ok.error());
+    o.words("--fail-on", a->fail_on,
+            "Exit with 1 if this figure of a kernel exceeds NUMBER (0 if omitted); may be repeated. RULE is one of:" +
+                names,
+            "RULE[>NUMBER]");
+    o.file("--baseline", job.baseline,
+           "Compare with the --json report of an earlier audit of the same seed, count and meshes; exit with 1 if "
+           "a figure got worse");
+    a->reports.ci(o, "broken rules and what got worse than the baseline");
+    o.flag("--mutants", a->mutants,
+           "Audit kernels with seeded faults instead, and show which family catches which; exit with 1 if one "
+           "is not caught");
+    o.flag("--wide", a->wide, "Print all counts, the families and a witness of each kernel: 160 columns");
+    o.flag("--no-check", a->no_check, "Do not check whether the meshes are partitions (see `barycert check`)");
+    a->reports.quiet(o, "Print no table and no progress");
+    o.run([a, o] {
+        const Status ok = check_mutants_alone(o.app());
+        return ok ? run_audit(*a) : fail(ok.error());
     });
 }
 

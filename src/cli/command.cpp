@@ -1,41 +1,100 @@
-// What all subcommands share: the mesh, what is said on stderr, what the terminal is like.
-
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
-
-#include "barycert/base/text.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 #include "command.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "barycert/base/output_file.hpp"
+#include "barycert/base/shell_word.hpp"
+#include "barycert/base/text.hpp"
+
 namespace barycert::cli {
+namespace {
+
+/// Members of jobs and what is in them whose options have the same name, with - for _.
+constexpr std::string_view same_names =
+    " bounds cell_base cell_column colours columns count family field fields fix fix_orientation in_process keep "
+    "kernel "
+    "kernel_library map mask_column merge_within mesh nonfinite_points onto output outside plane points range reason "
+    "results save_map seed simplex spacing step time tolerance value vtk_data weights width ";
+
+/// Those whose options have another.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> other_names{{
+    {"all", "--on-boundary"},
+    {"counts", "--grid"},
+    {"field_files", "--field"},
+    {"image", "--image"},
+    {"measures", "--vtu"},
+    {"plc", "--conforms-to"},
+    {"values", "--value"},
+}};
+
+/// What the rows of a file of a field belong to.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> of_rows{{
+    {"FieldFile::Of::points", "--point-field"},
+    {"FieldFile::Of::cells", "--cell-field"},
+    {"FieldFile::Of::either", "--field"},
+}};
+
+/// The option that sets the member; empty if none does.
+std::string option_of(std::string_view member) {
+    for (const auto& [name, option] : other_names) {
+        if (name == member) return std::string(option);
+    }
+    if (member.empty() || same_names.find(fmt::format(" {} ", member)) == std::string_view::npos) return "";
+    std::string option = "--" + std::string(member);
+    std::replace(option.begin() + 2, option.end(), '_', '-');
+    return option;
+}
+
+bool in_name(char c) {
+    return (c >= 'a' && c <= 'z') || c == '_';
+}
+
+std::string& remembered_arguments() {
+    static std::string arguments;
+    return arguments;
+}
+
+}  // namespace
+
 void tell(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }
 
-int fail(const Error& error) {
+int fail(Error error) {
     std::fflush(stdout);
+    for (std::string* const text : {&error.what, &error.expected, &error.remedy}) *text = with_options(*text);
     tell(fmt::format("error: {}\n", with_command_name(error.message())));
     return exit_error;
 }
 
 void tell_important(const Notes& notes) {
-    for (const Note& note : notes) {
-        if (note.important) tell(fmt::format("note: {}\n", message(note)));
+    for (const Note& note : with_options(notes)) {
+        if (note.important) tell(fmt::format("note: {}\n", with_command_name(message(note))));
     }
 }
 
-void tell_curved(const CurvedCells& curved) {
-    if (curved.cells != 0) tell(fmt::format("note: {}\n", message(curved)));
+Status write_output(const std::string& path, std::string_view bytes) {
+    if (path == "-") {
+        if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+            return Error{.what = "cannot write to stdout", .found = std::strerror(errno)};
+        return Done{};
+    }
+    base::OutputFile file(path);
+    file.write(bytes);
+    return file.commit();
 }
 
-Status check_curved(const Mesh& mesh, const std::string& path, Curved curved) {
-    if (curved == Curved::straight) return Done{};
-    const auto straight = take_as_straight(mesh, path, curved);
-    return straight ? Status(Done{}) : Status(straight.error());
+int exit_of(const Status& done) {
+    return done ? exit_clean : fail(done.error());
 }
 
 std::string command_name() {
@@ -50,28 +109,35 @@ std::string with_command_name(std::string text) {
     return text;
 }
 
-namespace {
-std::string& remembered_arguments() {
-    static std::string arguments;
-    return arguments;
+std::string with_options(std::string text) {
+    for (const auto& [name, option] : of_rows) {
+        for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at))
+            text.replace(at, name.size(), option);
+    }
+    for (const std::string_view owner : {"job.", "options."}) {
+        for (std::size_t at = text.find(owner); at != std::string::npos; at = text.find(owner, at + 1)) {
+            const std::size_t begin = at + owner.size();
+            std::size_t end = begin;
+            while (end < text.size() && in_name(text[end])) ++end;
+            const std::string option = option_of(std::string_view(text).substr(begin, end - begin));
+            const bool part = at > 0 && (in_name(text[at - 1]) || text[at - 1] == '"' || text[at - 1] == '/');
+            if (!option.empty() && !part) text.replace(at, end - at, option);
+        }
+    }
+    return text;
 }
-}  // namespace
 
-void remember_command_line(int argc, const char* const* argv) {
-    for (int i = 1; i < argc; ++i) remembered_arguments() += " " + report::shell_word(argv[i]);
+Notes with_options(Notes notes) {
+    for (Note& note : notes) note.text = with_options(note.text);
+    return notes;
 }
 
 std::string command_line() {
     return command_name() + remembered_arguments();
 }
 
-bool colour_on_stdout() {
-    const char* no_colour = std::getenv("NO_COLOR");
-    return isatty(STDOUT_FILENO) == 1 && (no_colour == nullptr || *no_colour == '\0');
-}
-
-bool stderr_is_terminal() {
-    return isatty(STDERR_FILENO) == 1;
+void remember_command_line(int argc, const char* const* argv) {
+    for (int i = 1; i < argc; ++i) remembered_arguments() += " " + base::shell_word(argv[i]);
 }
 
 }  // namespace barycert::cli

@@ -15,15 +15,13 @@
 #include "barycert/base/text.hpp"
 #include "barycert/jobs.hpp"
 #include "command.hpp"
-#include "files.hpp"
-#include "options/choice.hpp"
+#include "options.hpp"
 #include "options/command_table.hpp"
 #include "options/completion.hpp"
 #include "options/man_page.hpp"
 #include "options/mistyped.hpp"
 #ifdef BARYCERT_WITH_AUDIT
-#include "barycert/audit.hpp"
-#include "names.hpp"
+#include "barycert/audit_search.hpp"
 #endif
 
 namespace barycert::cli {
@@ -40,11 +38,12 @@ struct HelpArguments {
 Vocabulary vocabulary(const CLI::App& app) {
     Vocabulary words{{"KIND", verify_limit_names()}, {"SUBCOMMAND", command_names(app)}};
 #ifdef BARYCERT_WITH_AUDIT
-    words["KERNEL"] = kernel_names();
-    words["FAMILY"] = family_names();
-    words["REASON"] = reason_names();
+    words["KERNEL"] = names_of(kernels_matching("*"));
+    words["FAMILY"] = names_of(all_families());
+    for (std::size_t reason = 0; reason < witness_reasons; ++reason) words["REASON"].emplace_back(reason_name(reason));
     words["RULE"] = threshold_names();
-    words["FAULT"] = claim_fault_names();
+    for (std::size_t fault = 0; fault < claim_fault_count; ++fault)
+        words["FAULT"].emplace_back(name(static_cast<ClaimFault>(fault)));
 #endif
     return words;
 }
@@ -137,8 +136,7 @@ int explain(const CLI::App& app, const std::vector<std::string>& words) {
     const std::string text = command == &app
                                  ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal)
                                  : command->help(above);
-    const Status written = write_output("-", text);
-    return written ? exit_clean : fail(written.error());
+    return exit_of(write_output("-", text));
 }
 
 int run_help(const CLI::App& app, const HelpArguments& a) {
@@ -154,27 +152,24 @@ int run_help(const CLI::App& app, const HelpArguments& a) {
     if (!pages && !script) return explain(app, a.words);
     const CommandEntry program = command_table(app, vocabulary(app));
     if (!script) return write_pages(program, a.folder);
-    const Status written =
-        write_output("-", a.completion(a.words.empty() ? with_names_below_help(program) : mesher(program)));
-    return written ? exit_clean : fail(written.error());
+    return exit_of(write_output("-", a.completion(a.words.empty() ? with_names_below_help(program) : mesher(program))));
 }
 
 }  // namespace
 
-void add_help(CLI::App& app, int& exit_code) {
-    auto* sub = app.add_subcommand("help", "Explain a subcommand; print completions for shells, write manual pages");
-    sub->footer(
+void add_help(const Options& program) {
+    const Options o = program.below(
+        "help", "Explain a subcommand; print completions for shells, write manual pages",
         "`source <(barycert help --completion bash)` completes commands in this shell; `barycert help mesh\n"
         "--completion bash` those of barycert-tetgen. Packages install both.\nExit codes: 0 done; 2 usage or input "
         "error.");
     const auto a = std::make_shared<HelpArguments>();
-    sub->add_option("SUBCOMMAND", a->words, "The subcommand, such as sample or render iso; default: all, in a list");
-    choice_option<CompletionOf>(*sub, "--completion", a->completion,
-                                {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}},
-                                "Print a script that completes subcommands, options and their values in this shell");
-    file_option(*sub, "--man", a->folder, "Write the manual pages of barycert, its subcommands and barycert-tetgen")
-        ->type_name("DIR");
-    sub->callback([&app, a, &exit_code] { exit_code = run_help(app, *a); });
+    o.app().add_option("SUBCOMMAND", a->words, "The subcommand, such as sample or render iso; default: all, in a list");
+    o.choice<CompletionOf>("--completion", a->completion,
+                           {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}},
+                           "Print a script that completes subcommands, options and their values in this shell");
+    o.file("--man", a->folder, "Write the manual pages of barycert, its subcommands and barycert-tetgen", "DIR");
+    o.run([program, a] { return run_help(program.app(), *a); });
 }
 
 }  // namespace barycert::cli

@@ -1,6 +1,7 @@
 // The executable barycert: one subcommand a file.
 
 #include <tbb/cache_aligned_allocator.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -8,9 +9,11 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string_view>
+#include <vector>
 
 #include "barycert/base/begun_files.hpp"
 #include "barycert/base/nearest_name.hpp"
@@ -18,10 +21,9 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "command.hpp"
-#include "files.hpp"
+#include "options.hpp"
 #include "options/mistyped.hpp"
 #include "options/want_of_memory.hpp"
-#include "render.hpp"
 #include "tetgen/option_table.hpp"
 
 namespace barycert::cli {
@@ -33,6 +35,25 @@ void fetch_memory_for_threads() {
     constexpr std::size_t more_than_the_tables = 64 << 10;
     tbb::cache_aligned_allocator<char> memory;
     memory.deallocate(memory.allocate(more_than_the_tables), more_than_the_tables);
+}
+
+/// Hands over to barycert-tetgen, with the same arguments, as git does with its subcommands, so that TetGen's licence
+/// stays there; returns exit_error if it cannot be found.
+int exec_mesh(int argc, char** argv) {
+    namespace fs = std::filesystem;
+    std::vector<char*> arguments(argv + 1, argv + argc);
+    static char name[] = "barycert-tetgen";
+    arguments.front() = name;
+    arguments.push_back(nullptr);
+    std::error_code ignored;
+    const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / name;
+    if (!ignored && fs::exists(beside, ignored)) execv(beside.c_str(), arguments.data());
+    execvp(name, arguments.data());
+    return fail(
+        {.what = "cannot run barycert-tetgen",
+         .found = std::strerror(errno),
+         .remedy =
+             "install the package barycert-tetgen; among the sources use `./run barycert mesh ...`, which builds it"});
 }
 
 int run(int argc, char** argv) {
@@ -57,39 +78,41 @@ int run(int argc, char** argv) {
         "barycert");
     app.set_version_flag("--version", "barycert " BARYCERT_VERSION);
     app.require_subcommand(1);
-    app.failure_message([](const CLI::App* failed, const CLI::Error& e) {
+    app.failure_message([&](const CLI::App* failed, const CLI::Error& e) {
         return "error: " +
                base::printable(with_command_name(usage_error(
-                   *failed, e, "`barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options"))) +
+                   *failed, e, "`barycert --help` and `barycert SUBCOMMAND --help` list subcommands and options",
+                   {argv, static_cast<std::size_t>(argc)}))) +
                '\n';
     });
     int exit_code = exit_clean;
+    const Options program(app, exit_code);
 #ifdef BARYCERT_WITH_AUDIT
-    add_audit(app, exit_code);
-    add_gaps(app, exit_code);
+    add_audit(program);
+    add_gaps(program);
 #endif
-    add_check(app, exit_code);
-    add_sample(app, exit_code);
-    add_resample(app, exit_code);
-    add_verify(app, exit_code);
-    add_render(app, exit_code);
+    add_check(program);
+    add_sample(program);
+    add_resample(program);
+    add_verify(program);
+    add_render(program);
 #ifdef BARYCERT_WITH_AUDIT
-    add_search(app, exit_code);
-    add_replay(app, exit_code);
-    add_catalogue(app, exit_code);
+    add_search(program);
+    add_replay(program);
+    add_catalogue(program);
 #endif
     // Its options are those of barycert-tetgen, for help and completions; main() has handed all else over.
     auto* mesh =
         app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
     OptionTable mesh_options;
     add_options(*mesh, mesh_options);
-    add_help(app, exit_code);
+    add_help(program);
     // After the subcommands, which would take it over.
-    app.footer(
+    app.footer(with_command_name(
         "Exit codes: 0 success; 1 a mesh is not certified, results are wrong, a rule or baseline is not kept, a "
         "mutant\n"
         "is not caught, or a witness is not reproduced; 2 usage or input error.\n"
-        "Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.");
+        "Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each."));
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {
         return fail({.what = "no such subcommand",

@@ -4,41 +4,59 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 
 #include "barycert/base/text.hpp"
+#include "command.hpp"
 
 namespace barycert::cli {
+namespace {
+
+template <class N>
+std::optional<N> integer_of(std::string_view text) {
+    N n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return n;
+}
+
+CLI::Validator not_empty() {
+    return {[](std::string& text) { return text.empty() ? "expected the name of a file, found \"\"" : ""; }, ""};
+}
+
+/// Whether the text is NAME@PATTERN, and where the pattern begins; a name may have an @, and a file an =.
+std::optional<FieldFile> series_of(FieldFile::Of of, const std::string& text) {
+    const std::size_t sign = text.find('@'), equals = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) return std::nullopt;
+    const bool of_steps = text.find('*', sign) != std::string::npos || text.find(".pvd", sign) != std::string::npos ||
+                          text.find(".series", sign) != std::string::npos;
+    if (equals != std::string::npos && (equals < sign || !of_steps)) return std::nullopt;
+    return FieldFile{of, text.substr(0, sign), text.substr(sign + 1)};
+}
+
+FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::string& text) {
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) refuse_option(option, "NAME=FILE", text);
+    FieldFile file{of, text.substr(0, sign), text.substr(sign + 1)};
+    // FILE:COLUMN, where the file is the shortest beginning that there is; a file may have a colon in its name, and a
+    // column, too.
+    std::error_code ignored;
+    const auto is_there = [&](const std::string& path) { return std::filesystem::exists(path, ignored); };
+    std::size_t colon = is_there(file.path) ? std::string::npos : file.path.find(':');
+    while (colon != std::string::npos && !is_there(file.path.substr(0, colon))) colon = file.path.find(':', colon + 1);
+    if (colon == std::string::npos && !is_there(file.path)) colon = file.path.rfind(':');  // for the message
+    if (colon != std::string::npos && colon != 0 && colon + 1 != file.path.size()) {
+        file.column = file.path.substr(colon + 1);
+        file.path.resize(colon);
+    }
+    return file;
+}
+
+}  // namespace
 
 void refuse_option(const std::string& option, const std::string& expected, std::string_view found) {
     throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
-}
-
-void threads_option(CLI::App& sub, int& threads) {
-    sub.add_option("--threads", threads, "Number of threads; 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 4096).description(""))
-        ->type_name("N");
-}
-
-void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data) {
-    std::vector<std::pair<std::string, std::optional<VtkData>>> choices;
-    choices.reserve(std::size(vtk_data_names));
-    for (const std::string_view word : vtk_data_names) choices.emplace_back(word, vtk_data_named(word));
-    choice_option(sub, "--vtk-data", data, choices,
-                  "Numbers in an output of VTK's formats: raw (default), zlib, lz4, lzma (compressed), ascii (text)");
-}
-
-void curved_option(CLI::App& sub, Curved& curved) {
-    choice_option<Curved>(sub, "--curved", curved, {{"straight", Curved::straight}, {"refuse", Curved::refuse}},
-                          "Second-order cells with mid-edge nodes off the middle: straight: take their sides as "
-                          "straight, and say so (default); refuse: fail");
-}
-
-std::optional<std::int64_t> count_of(std::string_view text) {
-    std::int64_t n = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (error != std::errc{} || end != text.data() + text.size() || n < 1) return std::nullopt;
-    return n;
 }
 
 std::optional<double> finite(std::string_view text) {
@@ -46,31 +64,179 @@ std::optional<double> finite(std::string_view text) {
     return x && std::isfinite(*x) ? x : std::nullopt;
 }
 
-std::optional<double> positive(std::string_view text) {
-    const auto x = finite(text);
-    return x && *x > 0 ? x : std::nullopt;
+std::optional<std::int64_t> count_of(std::string_view text) {
+    const auto n = integer_of<std::int64_t>(text);
+    return n && *n >= 1 ? n : std::nullopt;
 }
 
-namespace {
+std::optional<std::vector<double>> finite_numbers(std::string_view text, std::size_t count) {
+    auto all = numbers_of(text, ',', finite);
+    return all && (count == 0 || all->size() == count) ? all : std::nullopt;
+}
 
-CLI::Validator finite_number(double least, bool itself) {
+std::string Options::told(const std::string& help) {
+    return with_command_name(help);
+}
+
+CLI::Validator Options::whole_number() {
+    return {[](std::string& text) {
+                return integer_of<std::uint64_t>(text)
+                           ? std::string()
+                           : fmt::format("expected a whole number from 0 to 2^64 - 1, found \"{}\"", text);
+            },
+            ""};
+}
+
+CLI::Validator Options::finite_number(double least, bool above) {
     return {[=](std::string& text) {
                 const auto x = finite(text);
-                if (x && (*x > least || (itself && *x == least))) return std::string();
-                return fmt::format("expected a finite number {} {}, found \"{}\"", itself ? "of at least" : "above",
+                if (x && (*x > least || (!above && *x == least))) return std::string();
+                return fmt::format("expected a finite number {} {}, found \"{}\"", above ? "above" : "of at least",
                                    base::shortest(least), text);
             },
             ""};
 }
 
-}  // namespace
-
-CLI::Validator finite_at_least(double least) {
-    return finite_number(least, true);
+Options Options::below(const std::string& name, const std::string& about, const std::string& footer) const {
+    CLI::App* const sub = app_->add_subcommand(name, about);
+    sub->footer(told(footer));
+    return {*sub, *exit_code_};
 }
 
-CLI::Validator finite_above(double least) {
-    return finite_number(least, false);
+CLI::Option* Options::file(const std::string& name, std::string& path, const std::string& help,
+                           const std::string& type) const {
+    return app_->add_option(name, path, told(help))->check(not_empty())->type_name(type);
+}
+
+CLI::Option* Options::files(const std::string& name, std::vector<std::string>& paths, const std::string& help,
+                            const std::string& type) const {
+    return words(name, paths, help, type)->check(not_empty());
+}
+
+CLI::Option* Options::word(const std::string& name, std::string& text, const std::string& help,
+                           const std::string& type) const {
+    return app_->add_option(name, text, told(help))->type_name(type);
+}
+
+CLI::Option* Options::words(const std::string& name, std::vector<std::string>& texts, const std::string& help,
+                            const std::string& type) const {
+    return app_->add_option(name, texts, told(help))->allow_extra_args(false)->type_name(type);
+}
+
+CLI::Option* Options::flag(const std::string& name, bool& value, const std::string& help) const {
+    return app_->add_flag(name, value, told(help));
+}
+
+CLI::Option* Options::parsed(const std::string& name, const std::string& type, const std::string& help,
+                             const std::string& expected, const std::function<bool(const std::string&)>& take) const {
+    return app_
+        ->add_option_function<std::string>(
+            name,
+            [=](const std::string& text) {
+                if (!take(text)) refuse_option(name, expected, text);
+            },
+            told(help))
+        ->type_name(type);
+}
+
+void Options::threads(int& threads) const {
+    integer("--threads", threads, 0, 4096, "Number of threads; 0: all");
+}
+
+void Options::curved(Curved& curved) const {
+    choice<Curved>("--curved", curved, {{"straight", Curved::straight}, {"refuse", Curved::refuse}},
+                   "Second-order cells with mid-edge nodes off the middle: straight: take their sides as "
+                   "straight, and say so (default); refuse: fail");
+}
+
+void Options::vtk_data(std::optional<VtkData>& data) const {
+    std::vector<std::pair<std::string, std::optional<VtkData>>> choices;
+    for (const std::string_view word : vtk_data_names) choices.emplace_back(word, vtk_data_named(word));
+    choice("--vtk-data", data, choices,
+           "Numbers in an output of VTK's formats: raw (default), zlib, lz4, lzma (compressed), ascii (text)");
+}
+
+void Options::nonfinite(NonfinitePoints& points) const {
+    choice<NonfinitePoints>(
+        "--nonfinite-points", points, {{"error", NonfinitePoints::error}, {"nan", NonfinitePoints::nan}},
+        "Points with a coordinate that is NaN, infinite or an empty field. error: the run ends (default); nan: they "
+        "are outside, with NaN for values whatever points outside get, and counted");
+}
+
+void Options::step(StepChoice& step, bool* all) const {
+    auto* const number =
+        parsed("--step", all != nullptr ? "N|all|last" : "N|last",
+               std::string("Of a MESH that is a series (.pvd, .vtu.series, .vtp.series): the step to read, by its "
+                           "number from 0; default: the first") +
+                   (all == nullptr ? "" : ", or all where {step} or {time} stands in --output: a file for each"),
+               std::string("a number from 0, ") + (all != nullptr ? "all or last" : "or last"),
+               [&step, all](const std::string& text) {
+                   if (all != nullptr && text == "all") return *all = true;
+                   if (text == "last") return step.last = true;
+                   step.number = integer_of<std::size_t>(text);
+                   return step.number.has_value();
+               });
+    parsed("--time", "T", "Likewise, by its time, exactly as the file has it", "a finite number",
+           [&step](const std::string& text) {
+               step.time = finite(text);
+               return step.time.has_value();
+           })
+        ->excludes(number);
+}
+
+void Options::field_files(std::vector<FieldFile>& files, const std::string& either,
+                          std::vector<FieldFile>* series) const {
+    const std::string any =
+        std::string(
+            "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy); "
+            "FILE:COLUMN: a column of a CSV or structured .npy file, or an array of another mesh") +
+        (series == nullptr ? ""
+                           : "; NAME@'step-*.npy': a series, one file a step in natural order, or a .pvd "
+                             "or .vtu.series file. {step} in --output: a file for each step; else columns NAME@STEP");
+    const auto add = [&](const std::string& name, FieldFile::Of of, const std::string& help) {
+        app_->add_option_function<std::vector<std::string>>(
+                name,
+                [=, &files](const std::vector<std::string>& all) {
+                    for (const std::string& text : all) {
+                        const auto steps = series == nullptr ? std::nullopt : series_of(of, text);
+                        if (steps) {
+                            series->push_back(*steps);
+                        } else {
+                            files.push_back(field_file_of(name, of, text));
+                        }
+                    }
+                },
+                help)
+            ->allow_extra_args(false)
+            ->type_name(series == nullptr ? "NAME=FILE[:COLUMN]" : "NAME=FILE[:COLUMN]|NAME@PATTERN[:COLUMN]");
+    };
+    add(either, FieldFile::Of::either, any);
+    add("--point-field", FieldFile::Of::points, "Like " + either + "; the rows belong to nodes");
+    add("--cell-field", FieldFile::Of::cells, "Like " + either + "; the rows belong to cells");
+}
+
+void Options::size(RasterSize& size) const {
+    parsed("--size", "WxH", fmt::format("Width and height in pixels; default: {}x{}", size.width, size.height),
+           fmt::format("width and height in pixels, 1 to {}, such as 640x480", max_raster_side),
+           [&size](const std::string& text) {
+               const auto sides = numbers_of(text, 'x', count_of);
+               if (!sides || sides->size() != 2 || std::max((*sides)[0], (*sides)[1]) > max_raster_side) return false;
+               size = {static_cast<std::int32_t>((*sides)[0]), static_cast<std::int32_t>((*sides)[1])};
+               return true;
+           });
+}
+
+void Options::camera(ViewOptions& view, const std::string& what) const {
+    const auto angle = [&](const char* name, double& degrees, std::string help) {
+        if (what.empty()) help.front() = static_cast<char>(std::toupper(help.front()));
+        parsed(name, "DEGREES", what + help, "degrees, a finite number", [&degrees](const std::string& text) {
+            const auto x = finite(text);
+            if (x) degrees = *x;
+            return x.has_value();
+        });
+    };
+    angle("--azimuth", view.azimuth, "where the camera stands, from the x axis towards the y axis; default: 30");
+    angle("--elevation", view.elevation, "how far above the xy plane; default: 25");
 }
 
 }  // namespace barycert::cli

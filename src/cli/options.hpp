@@ -1,55 +1,169 @@
-/// Kinds of options: numbers between separators. One of a few words: options/choice.hpp.
+/// How a subcommand declares its options, a call each; and the options that several of them have.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "barycert/check.hpp"
-#include "barycert/table.hpp"
+#include "barycert/jobs.hpp"
+#include "barycert/result.hpp"
 #include "options/choice.hpp"
 
 namespace barycert::cli {
 
-/// Throws what the parser of options tells.
-[[noreturn]] void refuse_option(const std::string& option, const std::string& expected, std::string_view found);
+/// A finite number; nothing if the text is something else. Likewise an integer of at least 1.
+std::optional<double> finite(std::string_view text);
+std::optional<std::int64_t> count_of(std::string_view text);
 
-/// The parts of the text between separators, each read by `read`, which returns nothing for what it does not take.
-template <class Number, class Read>
-std::vector<Number> numbers_of(const std::string& option, std::string_view text, char separator, Read read,
-                               const char* expected) {
-    std::vector<Number> all;
-    for (std::string_view rest = text;;) {
-        const std::size_t end = rest.find(separator);
-        const std::optional<Number> x = read(rest.substr(0, end));
-        if (!x) refuse_option(option, expected, text);
+/// The parts of the text between separators, each read by `read`; nothing if one of them is not what it reads.
+template <class Read>
+auto numbers_of(std::string_view text, char separator, Read read)
+    -> std::optional<std::vector<typename decltype(read(text))::value_type>> {
+    std::vector<typename decltype(read(text))::value_type> all;
+    for (;;) {
+        const std::size_t end = text.find(separator);
+        const auto x = read(text.substr(0, end));
+        if (!x) return std::nullopt;
         all.push_back(*x);
         if (end == std::string_view::npos) return all;
-        rest.remove_prefix(end + 1);
+        text.remove_prefix(end + 1);
     }
 }
 
-/// --threads
-void threads_option(CLI::App& sub, int& threads);
+/// Numbers between commas, as many as asked for (0: any number).
+std::optional<std::vector<double>> finite_numbers(std::string_view text, std::size_t count = 0);
 
-/// --vtk-data, how the numbers of VTK's files are written.
-void vtk_data_option(CLI::App& sub, std::optional<VtkData>& data);
+/// Of each item its name, a member or name(item).
+template <class Items>
+std::vector<std::string> names_of(const Items& items) {
+    std::vector<std::string> names;
+    names.reserve(items.size());
+    for (const auto& item : items) {
+        if constexpr (requires { item.name; })
+            names.push_back(item.name);
+        else
+            names.emplace_back(name(item));
+    }
+    return names;
+}
 
-/// --curved, what becomes of curved cells.
-void curved_option(CLI::App& sub, Curved& curved);
+/// The options of one subcommand. What they set must live as long as the parser. Texts name the program as it is
+/// called.
+class Options {
+public:
+    /// `exit_code` is set by the subcommand that has run.
+    Options(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}
 
-/// An integer of at least 1.
-std::optional<std::int64_t> count_of(std::string_view text);
+    /// The options of a subcommand below this one. `footer`: what its help ends with.
+    Options below(const std::string& name, const std::string& about, const std::string& footer) const;
 
-std::optional<double> finite(std::string_view text);
-std::optional<double> positive(std::string_view text);
+    CLI::App& app() const { return *app_; }
 
-/// Takes finite numbers of at least `least`, or above it.
-CLI::Validator finite_at_least(double least);
-CLI::Validator finite_above(double least);
+    /// What the subcommand does; it returns the exit code.
+    template <class Run>
+    void run(Run run) const {
+        app_->callback([run, code = exit_code_] { *code = run(); });
+    }
+    void exit_with(int code) const { *exit_code_ = code; }
+
+    /// A file or mesh: the empty string is refused.
+    CLI::Option* file(const std::string& name, std::string& path, const std::string& help,
+                      const std::string& type = "FILE") const;
+    CLI::Option* files(const std::string& name, std::vector<std::string>& paths, const std::string& help,
+                       const std::string& type = "FILE") const;
+    CLI::Option* word(const std::string& name, std::string& text, const std::string& help,
+                      const std::string& type) const;
+    /// May be repeated.
+    CLI::Option* words(const std::string& name, std::vector<std::string>& texts, const std::string& help,
+                       const std::string& type) const;
+    CLI::Option* flag(const std::string& name, bool& value, const std::string& help) const;
+
+    /// An integer from `least` to `most`; the help shows what it is without the option.
+    template <class N>
+    CLI::Option* integer(const std::string& name, N& n, N least, N most, const std::string& help,
+                         const std::string& type = "N") const {
+        return app_->add_option(name, n, told(help))
+            ->capture_default_str()
+            ->check(CLI::Range(least, most).description(""))
+            ->type_name(type);
+    }
+    /// A whole number of 64 bits, all of which may be given. "-1" and 2^64 are refused: the parser takes both for
+    /// 2^64 - 1.
+    template <class N>
+    CLI::Option* whole(const std::string& name, N& n, const std::string& help, const std::string& type = "S") const {
+        return app_->add_option(name, n, told(help))->check(whole_number())->type_name(type);
+    }
+    /// A finite number of at least `least`; with `above`, more than it.
+    template <class X>
+    CLI::Option* number(const std::string& name, X& x, double least, const std::string& help, const std::string& type,
+                        bool above = false) const {
+        return app_->add_option(name, x, told(help))->check(finite_number(least, above))->type_name(type);
+    }
+    /// What take(text) reads; it returns false for what is not as `expected`.
+    CLI::Option* parsed(const std::string& name, const std::string& type, const std::string& help,
+                        const std::string& expected, const std::function<bool(const std::string&)>& take) const;
+    /// One of a few words.
+    template <class Value>
+    CLI::Option* choice(const std::string& name, Value& value,
+                        const std::vector<std::pair<std::string, Value>>& choices, const std::string& help) const {
+        return choice_option<Value>(*app_, name, value, choices, told(help));
+    }
+    /// MIN,MAX: what the first and the last colour of a picture mean.
+    template <class Range>
+    CLI::Option* range(Range& range, const std::string& help) const {
+        return parsed("--range", "MIN,MAX", help, "MIN,MAX, finite numbers, MIN < MAX",
+                      [&range](const std::string& text) {
+                          const auto ends = finite_numbers(text, 2);
+                          if (!ends || !((*ends)[0] < (*ends)[1])) return false;
+                          range = {(*ends)[0], (*ends)[1]};
+                          return true;
+                      });
+    }
+
+    // Options that several subcommands have.
+    void threads(int& threads) const;
+    void curved(Curved& curved) const;
+    void vtk_data(std::optional<VtkData>& data) const;
+    void nonfinite(NonfinitePoints& points) const;
+    /// --step and --time, of a MESH that is a series. `all`: what --step all sets; nullptr: not allowed.
+    void step(StepChoice& step, bool* all = nullptr) const;
+    /// Fields from files; `either` names the option whose rows may belong to nodes or to cells. `series`: where fields
+    /// with a file for each step go; nullptr: there are none.
+    void field_files(std::vector<FieldFile>& files, const std::string& either,
+                     std::vector<FieldFile>* series = nullptr) const;
+    /// --size WxH.
+    void size(RasterSize& size) const;
+    /// Where the camera stands. `what`: "Picture: ", where there are other outputs.
+    void camera(ViewOptions& view, const std::string& what) const;
+
+private:
+    static std::string told(const std::string& help);
+    static CLI::Validator whole_number();
+    static CLI::Validator finite_number(double least, bool above);
+
+    CLI::App* app_;
+    int* exit_code_;
+};
+
+/// Throws what the parser of options tells.
+[[noreturn]] void refuse_option(const std::string& option, const std::string& expected, std::string_view found);
+
+/// What MESH may be.
+inline constexpr const char* mesh_help =
+    "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
+    ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";
+
+/// What the help ends with where there are no other exit codes.
+inline constexpr const char* done_or_error = "Exit codes: 0 done; 2 usage or input error.";
+
+/// What two outputs of text say of themselves.
+inline constexpr const char* json_instead = "Write the report as JSON; - is stdout and suppresses the table";
+inline constexpr const char* json_summary = "Write the summary as JSON; - is stdout";
 
 }  // namespace barycert::cli

@@ -1,34 +1,132 @@
-// barycert render: pictures and surfaces, one subcommand of its own each; here a scene from a file.
+// barycert render: pictures of scenes and meshes; the rest of its subcommands have files of their own.
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
+#include <tuple>
+#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
 #include "command.hpp"
-#include "files.hpp"
+#include "options.hpp"
 #include "options/mistyped.hpp"
-#include "render.hpp"
-#include "render_options.hpp"
+#include "reports.hpp"
 
 namespace barycert::cli {
 namespace {
 
 constexpr const char* pictures_remedy = "`barycert render --help` lists the pictures";
 
-int run_scene_file(const std::string& path, const PictureOptions& o, const std::vector<std::string>& pictures) {
-    if (path.empty())
+struct PictureArguments {
+    RenderJob job;
+    bool no_bar = false;
+    Reports reports{Reports::Text::summary};
+};
+
+int run_picture(PictureArguments& a) {
+    a.job.reports = a.reports.outputs();
+    a.job.progress = a.reports.begin();
+    a.job.view.bar = !a.no_bar;
+    return a.reports.end(render_files(a.job), [](const RenderReport& report) {
+        return Told{.files = {{"--json", [&] { return render_json(report, measure_environment()); }}},
+                    .text = [&](bool colour) { return render_text(report, colour); },
+                    .notes = report.notes};
+    });
+}
+
+int run_scene_file(PictureArguments& a, const std::vector<std::string>& pictures) {
+    if (a.job.scene.empty())
         return fail({.what = "nothing to draw",
                      .expected = "the name of a picture, or a scene (.json)",
                      .remedy = pictures_remedy});
-    if (const Status named = check_picture_name(path, pictures); !named) return fail(named.error());
-    if (o.output.empty())
+    if (const Status named = check_picture_name(a.job.scene, pictures); !named) return fail(named.error());
+    if (a.job.output.empty())
         return fail({.what = "--output is required", .remedy = "name the picture: --output FILE.png"});
-    std::vector<base::NamedFile> inputs{{"the scene", path}};
-    for (base::NamedFile& file : base::named_files("an image of the scene", scene_files(path)))
-        inputs.push_back(std::move(file));
-    return run_scene(o, "scene", inputs, [&] { return read_scene(path); });
+    return run_picture(a);
+}
+
+void add_outputs(const Options& o, PictureArguments& a, bool required = true) {
+    o.file("--output", a.job.output, "The picture: .png")->required(required);
+    a.reports.file(o, "--json", json_summary);
+    a.reports.quiet(o, "Print no summary");
+}
+
+void add_methods(const Options& o, ViewOptions& view) {
+    o.choice<FillMethod>("--method", view.method,
+                         {{"barycentric", FillMethod::barycentric},
+                          {"scanline", FillMethod::scanline},
+                          {"bilinear", FillMethod::bilinear}},
+                         "How values are found at pixels: by the weights at each (default); by constant steps; along "
+                         "auxiliary lines");
+    o.choice<Rounding>("--rounding", view.rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}},
+                       "plain: computed in double (default); correct: the exact values, rounded once");
+}
+
+/// One of the small pictures; `more` declares what comes before the options that all have.
+template <class More>
+void add_picture(const Options& render, Picture picture, RasterSize size, const std::string& about, More more) {
+    const Options o = render.below(std::string(name(picture)), about, done_or_error);
+    const auto a = std::make_shared<PictureArguments>();
+    a->job.picture = picture;
+    a->job.view.size = size;
+    more(o, a->job);
+    add_outputs(o, *a);
+    o.size(a->job.view.size);
+    if (picture != Picture::clip) add_methods(o, a->job.view);
+    o.run([a] { return run_picture(*a); });
+}
+
+void add_texture(const Options& o, RenderJob& job) {
+    o.file("--image", job.image, "The picture: .png; default: one of 2 by 2 texels");
+    o.choice<bool>("--shape", job.triangle, {{"square", false}, {"triangle", true}},
+                   "What it is put on; default: square");
+    o.choice<Wrap>("--wrap", job.wrap, {{"clamp", Wrap::clamp}, {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}},
+                   "What is beyond the picture: its rim (default), the picture again, or again "
+                   "and every other time reversed");
+    o.choice<Filter>("--filter", job.filter, {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}},
+                     "The texel at a point (default), or between the four around it");
+    o.parsed("--coordinates", "MIN,MAX",
+             "u and v at the lower left and the upper right; default: 0,1, the picture once", "MIN,MAX, finite numbers",
+             [&job](const std::string& text) {
+                 const auto ends = finite_numbers(text, 2);
+                 if (ends) std::tie(job.low, job.high) = std::pair((*ends)[0], (*ends)[1]);
+                 return ends.has_value();
+             });
+}
+
+void add_cube(const Options& o, RenderJob& job) {
+    o.choice<Interpolation>("--interpolation", job.interpolation,
+                            {{"perspective", Interpolation::perspective},
+                             {"affine", Interpolation::affine},
+                             {"projected-z", Interpolation::projected_z}},
+                            "Of texture coordinates in the window: (v/w)/(1/w) (default); v itself, which is wrong; "
+                            "with the projected z in place of w, which is wrong as well");
+}
+
+void add_mesh(const Options& render) {
+    const Options o = render.below(
+        "mesh", "The boundary of a mesh, lit, in the colours of a field",
+        "Triangles in the plane are drawn from above. Colours go from dark violet (low) to light yellow (high); grey: "
+        "no\n"
+        "finite value. Second-order cells are drawn with straight sides.\nExit codes: 0 done; 2 usage or input error.");
+    const auto a = std::make_shared<PictureArguments>();
+    RenderJob& job = a->job;
+    job.picture = Picture::mesh;
+    o.file("MESH", job.mesh, mesh_help)->required();
+    o.step(job.step);
+    o.word("--field", job.field,
+           "The field: A, point:A or cell:A; A.1 is its component 1; default: none, the mesh is grey", "NAME");
+    o.field_files(job.field_files, "--field-file");
+    o.range(job.view.range, "The values of the first and the last colour; default: min and max of the values drawn");
+    o.camera(job.view, "");
+    o.flag("--no-bar", a->no_bar, "Draw no colour bar");
+    add_outputs(o, *a);
+    o.size(job.view.size);
+    add_methods(o, job.view);
+    o.curved(job.curved);
+    o.threads(job.threads);
+    o.run([a] { return run_picture(*a); });
 }
 
 }  // namespace
@@ -41,34 +139,36 @@ Status check_picture_name(const std::string& word, const std::vector<std::string
                  .remedy = base::did_you_mean(word, pictures, pictures_remedy)};
 }
 
-void add_render(CLI::App& app, int& exit_code) {
-    auto* sub = app.add_subcommand(
-        "render", "Pictures of meshes and scenes, surfaces in meshes, and what the shortcuts of rasterisers cost");
-    const auto path = std::make_shared<std::string>();
-    const auto o = std::make_shared<PictureOptions>();
-    file_option(*sub, "SCENE", *path, "A scene (.json)");
-    add_picture_options(*sub, *o, false);
-    sub->require_subcommand(0, 1);
-    add_render_gradient(*sub, exit_code);
-    add_render_texture(*sub, exit_code);
-    add_render_cube(*sub, exit_code);
-    add_render_clip(*sub, exit_code);
-    add_render_mesh(*sub, exit_code);
-    add_render_iso(*sub, exit_code);
-    add_render_slice(*sub, exit_code);
+void add_render(const Options& program) {
+    const Options o = program.below(
+        "render", "Pictures of meshes and scenes, surfaces in meshes, and what the shortcuts of rasterisers cost", "");
+    const auto a = std::make_shared<PictureArguments>();
+    o.file("SCENE", a->job.scene, "A scene (.json)");
+    add_outputs(o, *a, false);
+    o.app().require_subcommand(0, 1);
+    const auto nothing = [](const Options&, RenderJob&) {};
+    add_picture(o, Picture::gradient, {400, 400}, "A triangle with a red, a green and a blue corner", nothing);
+    add_picture(o, Picture::texture, {400, 400}, "A picture on a square or a triangle", add_texture);
+    add_picture(o, Picture::cube, {480, 400},
+                "A checkerboard on the faces of a cube in perspective, and the largest error of its texture "
+                "coordinates",
+                add_cube);
+    add_picture(o, Picture::clip, {640, 320},
+                "A triangle and segments with colours, before and after clipping by a box", nothing);
+    add_mesh(o);
+    add_render_contours(o);
 #ifdef BARYCERT_WITH_AUDIT
-    add_render_drift(*sub, exit_code);
-    add_render_texels(*sub, exit_code);
+    add_render_tables(o);
 #endif
     // After the pictures, which would take it over.
-    sub->footer(
+    o.app().footer(with_command_name(
         "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage "
         "is\n"
         "exact: a pixel belongs to the triangle that holds its centre, and on a common side to exactly one of the "
         "two.\n"
-        "`barycert help render PICTURE` explains each picture. Exit codes: 0 done; 2 usage or input error.");
-    sub->callback([=, &exit_code] {
-        if (sub->get_subcommands().empty()) exit_code = run_scene_file(*path, *o, command_names(*sub));
+        "`barycert help render PICTURE` explains each picture. Exit codes: 0 done; 2 usage or input error."));
+    o.app().callback([a, o] {
+        if (o.app().get_subcommands().empty()) o.exit_with(run_scene_file(*a, command_names(o.app())));
     });
 }
 

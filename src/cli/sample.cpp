@@ -1,20 +1,126 @@
-// barycert sample: the fields of a mesh at points, row by row.
+// barycert sample, barycert resample: the fields of a mesh at points, on a regular grid, or at the nodes of another
+// mesh.
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <memory>
+#include <optional>
 
-#include "barycert/jobs.hpp"
+#include "barycert/base/nearest_name.hpp"
+#include "barycert/base/text.hpp"
 #include "command.hpp"
-#include "files.hpp"
-#include "options/choice.hpp"
-#include "sampling_options.hpp"
+#include "options.hpp"
+#include "reports.hpp"
 
 namespace barycert::cli {
+namespace {
 
-void add_sample(CLI::App& app, int& exit_code) {
-    auto* sub = app.add_subcommand("sample", "Sample the fields of a mesh at points, correctly rounded");
-    sub->footer(
+template <class Job>
+struct SamplingArguments {
+    Job job;
+    Reports reports{Reports::Text::summary};
+};
+
+/// The number after `word=`; nothing if the text is something else.
+std::optional<double> number_after(std::string_view word, std::string_view text) {
+    if (!text.starts_with(word) || text.substr(word.size(), 1) != "=") return std::nullopt;
+    return base::parse_double(text.substr(word.size() + 1));
+}
+
+OutsidePolicy policy_of(const std::string& text) {
+    if (text == "nan") return {};
+    if (text == "error") return {.kind = Outside::error};
+    if (text == "extrapolate") return {.kind = Outside::extrapolate};
+    if (text == "nearest") return {.kind = Outside::nearest};
+    if (const auto value = number_after("fill", text)) return {.kind = Outside::fill, .fill = *value};
+    if (const auto limit = number_after("nearest", text); limit && std::isfinite(*limit) && *limit >= 0)
+        return {.kind = Outside::nearest, .limit = *limit};
+    const std::string word = text.substr(0, text.find('='));
+    const bool known = word == "fill" || word == "nearest";
+    const std::string meant =
+        known ? (text == "fill" ? "say with what" : '"' + text.substr(text.find('=') + 1) + "\" is no such number") +
+                    ": " + word + "=0.5"
+              : base::did_you_mean(word, {"nan", "error", "fill", "nearest", "extrapolate"});
+    throw CLI::ValidationError("--outside",
+                               "expected nan, error, fill=NUMBER, nearest, nearest=DISTANCE (at least 0) or "
+                               "extrapolate, found \"" +
+                                   text + '"' + (meant.empty() ? "" : "; " + meant));
+}
+
+/// What both have.
+void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) {
+    o.step(job.step, &job.all_steps);
+    o.field_files(job.field_files, "--field", &job.series);
+    o.words("--fields", job.fields,
+            "Fields to sample: A,B,...; columns have this order, fields of nodes before fields of cells, and these "
+            "before lengths; cell:A is the cell field A if there is also a node field "
+            "A; default: all. Of each, or of these again: A.x or A.0, a component; |A|, the length; grad(A), the "
+            "gradient in the owner; mean(A), cell data averaged to nodes by volume, then interpolated",
+            "NAMES");
+    o.file("--weights", job.weights,
+           "Write the correctly rounded weight of each node for each point, .npz: a sparse matrix for "
+           "scipy.sparse.load_npz, to be multiplied with any field of the nodes");
+    o.choice<Rounding>("--rounding", job.options.rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}},
+                       "correct: the exact value, rounded once (default); plain: computed in double");
+    o.app()
+        .add_option_function<std::string>(
+            "--outside", [&job](const std::string& text) { job.options.outside = policy_of(text); },
+            "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the "
+            "value at the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest "
+            "cell")
+        ->type_name("nan|error|fill=V|nearest[=D]|extrapolate");
+    o.curved(job.curved);
+    o.threads(job.options.threads);
+    o.vtk_data(job.vtk_data);
+    reports.file(o, "--json", json_summary);
+    reports.quiet(o, "Print no summary, no notes and no progress");
+    reports.rows(job.output);
+}
+
+template <class Job>
+int run_sampling(SamplingArguments<Job>& a, Result<SampleReport> (*files)(const Job&)) {
+    a.job.reports = a.reports.outputs();
+    a.job.progress = a.reports.begin();
+    a.job.program = command_name();
+    a.job.count_degenerate = !a.reports.is_quiet() || a.reports.any_file();
+    return a.reports.end(files(a.job), [](const SampleReport& report) {
+        return Told{.files = {{"--json", [&] { return sample_json(report, measure_environment()); }}},
+                    .text = [&](bool colour) { return sample_text(report, colour); },
+                    .notes = report.notes};
+    });
+}
+
+void add_targets(const Options& o, ResampleJob& job) {
+    o.parsed("--grid", "NXxNYxNZ", "Number of points along each axis, ends included; a single point lies in the middle",
+             "numbers of points along the axes, min 1, such as 200x200x100", [&job](const std::string& text) {
+                 const auto counts = numbers_of(text, 'x', count_of);
+                 if (counts) job.counts = *counts;
+                 return counts && counts->size() >= 2 && counts->size() <= 3;
+             });
+    o.parsed("--spacing", "H|HXxHYxHZ", "Distance of points along each axis, from the lower end of the bounds",
+             "a positive number, or one for each axis, such as 0.1x0.1x0.2", [&job](const std::string& text) {
+                 const auto spacing = numbers_of(text, 'x', [](std::string_view part) {
+                     const auto x = finite(part);
+                     return x && *x > 0 ? x : std::nullopt;
+                 });
+                 if (spacing) job.spacing = *spacing;
+                 return spacing && spacing->size() <= 3;
+             });
+    o.parsed("--bounds", "XMIN,XMAX,...", "Box of the grid; default: the box of the cells",
+             "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX (2D: the first four), finite numbers", [&job](const std::string& text) {
+                 const auto bounds = finite_numbers(text);
+                 if (bounds) job.bounds = *bounds;
+                 return bounds && (bounds->size() == 4 || bounds->size() == 6);
+             });
+    o.file("--onto", job.onto, "Sample at the nodes of this mesh", "MESH2");
+}
+
+}  // namespace
+
+void add_sample(const Options& program) {
+    const Options o = program.below(
+        "sample", "Sample the fields of a mesh at points, correctly rounded",
         "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...): node\n"
         "fields, cell fields, lengths; then with --outside nearest or extrapolate the distance to the mesh, then "
         "labels of cells "
@@ -25,34 +131,53 @@ void add_sample(CLI::App& app, int& exit_code) {
         "the output of another run.\n"
         "Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input\n"
         "error.");
-    const auto a = std::make_shared<SampleJob>();
-    const auto quiet = std::make_shared<bool>(false);
-    file_option(*sub, "MESH", a->mesh, mesh_help)->required();
-    file_option(*sub, "--points", a->points,
-                "Points: .csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV "
-                "from stdin, "
-                "and so is any pipe");
-    sub->add_option(
-           "--columns", a->columns,
-           "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed "
-           "where the file does not name x,y,z and has more columns than the mesh has dimensions")
-        ->allow_extra_args(false)
-        ->type_name("A,B,C");
-    sub->add_option("--keep", a->keep,
-                    "Columns of the points that rows are to have, as they are: names; or all: every column but the "
-                    "coordinates and those that rows have anyway; NEW=NAME gives a column another name")
-        ->allow_extra_args(false)
-        ->type_name("NAMES|all");
-    file_option(*sub, "--output", a->output, "Rows: .csv .npy .vtu; - is CSV on stdout");
-    add_sampling_options(*sub, *a, *quiet);
-    nonfinite_option(*sub, a->options.nonfinite_points);
-    choice_option<std::optional<bool>>(
-        *sub, "--on-boundary", a->all, {{"lowest", false}, {"all", true}},
+    const auto a = std::make_shared<SamplingArguments<SampleJob>>();
+    SampleJob& job = a->job;
+    o.file("MESH", job.mesh, mesh_help)->required();
+    o.file("--points", job.points,
+           "Points: .csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV "
+           "from stdin, and so is any pipe");
+    o.words("--columns", job.columns,
+            "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed "
+            "where the file does not name x,y,z and has more columns than the mesh has dimensions",
+            "A,B,C");
+    o.words("--keep", job.keep,
+            "Columns of the points that rows are to have, as they are: names; or all: every column but the "
+            "coordinates and those that rows have anyway; NEW=NAME gives a column another name",
+            "NAMES|all");
+    o.file("--output", job.output, "Rows: .csv .npy .vtu; - is CSV on stdout");
+    add_sampling_options(o, job, a->reports);
+    o.nonfinite(job.options.nonfinite_points);
+    o.choice<std::optional<bool>>(
+        "--on-boundary", job.all, {{"lowest", false}, {"all", true}},
         "If several cells contain a point: one row for the cell of lowest index (default), or one row per cell");
-    file_option(*sub, "--save-map", a->save_map, "Write the cell of each point to a file for --map");
-    file_option(*sub, "--map", a->map,
-                "Instead of --points: take points and cells from this map; for other fields on the same mesh");
-    sub->callback([=, &exit_code] { exit_code = run_sampling(*a, *quiet, [&] { return sample_files(*a); }); });
+    o.file("--save-map", job.save_map, "Write the cell of each point to a file for --map");
+    o.file("--map", job.map,
+           "Instead of --points: take points and cells from this map; for other fields on the same mesh");
+    o.run([a] { return run_sampling(*a, sample_files); });
+}
+
+void add_resample(const Options& program) {
+    const Options o = program.below(
+        "resample", "Sample the fields of a mesh on a regular grid, or onto another mesh, correctly rounded",
+        "Grids go, by the suffix, to .vti (an array a field, and vtkValidPointMask and cell), .npy (an array of shape\n"
+        "nz,ny,nx, or nz,ny,nx,columns), .csv (rows as of `barycert sample`; - is stdout), .png (one layer of one\n"
+        "column). With --onto to .vtu or .vtk (MESH2, its fields of nodes replaced by those sampled, "
+        "vtkValidPointMask\n"
+        "and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's, with attributes), .csv, "
+        ".npy.\n"
+        "Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input\n"
+        "error.");
+    const auto a = std::make_shared<SamplingArguments<ResampleJob>>();
+    ResampleJob& job = a->job;
+    o.file("MESH", job.mesh, mesh_help)->required();
+    add_targets(o, job);
+    o.file("--output", job.output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .msh .node .csv .npy")
+        ->required();
+    o.range(job.range,
+            "Picture: the values of the first and the last colour; default: min and max of the values drawn");
+    add_sampling_options(o, job, a->reports);
+    o.run([a] { return run_sampling(*a, resample_files); });
 }
 
 }  // namespace barycert::cli

@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <optional>
+#include <string_view>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/shell_word.hpp"
@@ -33,15 +35,51 @@ std::optional<Mistyped> mistyped_option(const CLI::App& app) {
     return std::nullopt;
 }
 
+/// The option of the command that was given, or one below it, that has more values than it takes.
+const CLI::Option* given_twice(const CLI::App& app) {
+    for (const CLI::App* sub : app.get_subcommands()) {
+        if (const CLI::Option* const found = given_twice(*sub)) return found;
+    }
+    for (const CLI::Option* option : app.get_options()) {
+        if (static_cast<int>(option->count()) > std::max(1, option->get_items_expected_max())) return option;
+    }
+    return nullptr;
+}
+
+/// Whether the command that was given, or one below it, has such an option, which takes a value.
+bool takes_value(const CLI::App& app, const std::string& option) {
+    const CLI::Option* const found = app.get_option_no_throw(option);
+    if (found != nullptr && found->get_items_expected_max() > 0) return true;
+    const auto subs = app.get_subcommands();
+    return std::any_of(subs.begin(), subs.end(), [&](const CLI::App* sub) { return takes_value(*sub, option); });
+}
+
+/// "; --points takes one value", where the word stands behind the value of that option.
+std::string one_value(const CLI::App& app, std::span<const char* const> words, const std::string& extra) {
+    for (std::size_t i = 2; i < words.size(); ++i) {
+        const std::string option = words[i - 2], value = words[i - 1];
+        if (words[i] == extra && option.starts_with("--") && !value.starts_with("--") && takes_value(app, option))
+            return "; " + option + " takes one value";
+    }
+    return "";
+}
+
 }  // namespace
 
-std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest) {
+std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,
+                        std::span<const char* const> words) {
     std::string message = error.what();
     // The parser tells them in reverse.
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         message = "not expected:";
-        for (const std::string& word : app.remaining(true)) message += ' ' + base::shell_word(base::printable(word));
+        const std::vector<std::string> extras = app.remaining(true);
+        for (const std::string& word : extras) message += ' ' + base::shell_word(base::printable(word));
+        if (extras.size() == 1) message += one_value(app, words, extras.front());
     }
+    const CLI::Option* const twice =
+        dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr ? given_twice(app) : nullptr;
+    if (twice != nullptr)
+        message = twice->get_name() + " is given " + std::to_string(twice->count()) + " times: give it once";
     std::string text = message + (message.ends_with('?') ? " " : "; ");
     if (const auto option = mistyped_option(app)) {
         // Another error may have been found before.

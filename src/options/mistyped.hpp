@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,9 @@ namespace barycert::cli {
 
 /// What the parser's message says, with a remedy: `did you mean "--output"? ` before the rest for the first word that
 /// looks like an option and is none of the command it was given to; the rest alone if there is no such word, or no
-/// option near.
-std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest);
+/// option near. An option that is given twice is told, and with the words of the command line one that has two values.
+std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,
+                        std::span<const char* const> words = {});
 
 /// The names of the commands below one.
 std::vector<std::string> command_names(const CLI::App& app);

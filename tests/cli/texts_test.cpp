@@ -49,6 +49,12 @@ TEST(texts, commands_to_repeat_have_the_name_of_the_wrapper) {
         EXPECT_TRUE(contains(r.err, "`./run barycert ")) << r.err;
         EXPECT_FALSE(contains(r.err, "`barycert ")) << r.err;
     }
+    for (const Words& line : std::vector<Words>{{"--help"}, {"resample", "--help"}, {"help", "search"}}) {
+        const Ended r = run(line, wrapped);
+        EXPECT_EQ(r.code, 0);
+        EXPECT_TRUE(contains(r.out, "`./run barycert ")) << r.out;
+        EXPECT_FALSE(contains(r.out, "`barycert ")) << r.out;
+    }
 }
 
 TEST(texts, results_without_rows_are_not_right) {

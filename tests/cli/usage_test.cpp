@@ -171,6 +171,22 @@ TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
 #endif
 }
 
+TEST(usage, an_option_with_two_values_says_so) {
+    const std::string m = mesh("plate");
+    const std::vector<Refusal> refusals{
+        {{"sample", m, "--points", "a.csv", "--points", "b.csv", "--output", "-"},
+         "error: --points is given 2 times: give it once; "},
+        {{"audit", "--threads", "3", "--count", "9", "--threads", "4"}, "error: --threads is given 2 times"},
+        {{"render", "gradient", "--output", "a.png", "--output", "b.png"}, "error: --output is given 2 times"},
+        {{"sample", m, "--points", "a.csv", "b.csv", "--output", "-"},
+         "error: not expected: b.csv; --points takes one value; "},
+        {{"check", m, "--json", "a.json", "b.json"}, "not expected: b.json; --json takes one value"},
+        {{"check", m, "b"}, "error: not expected: b; `barycert"},
+        {{"check", "--delaunay", m, "b"}, "error: not expected: b; `barycert"},
+    };
+    for (const Refusal& refusal : refusals) expect_refused(refusal);
+}
+
 // Where a file is meant, an empty name, of a variable that is not set perhaps, is no leave to go without.
 TEST(usage, an_empty_name_of_a_file_is_refused) {
     const std::string m = mesh("plate");

@@ -96,7 +96,8 @@ TEST(Jobs, RefusedJobsWriteNothing) {
     SampleJob same;
     same.mesh = mesh;
     same.points = mesh + ".node";
-    same.output = same.report = folder / "rows.csv";
+    same.output = folder / "rows.csv";
+    same.reports = {{"the report", same.output}};
     EXPECT_FALSE(sample_files(same)) << "the report is to go where the rows go";
     ResampleJob none;
     none.mesh = mesh;

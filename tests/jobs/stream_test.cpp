@@ -8,14 +8,11 @@
 #include <limits>
 
 #include "barycert/base/random.hpp"
-#include "barycert/jobs/stages.hpp"
 #include "bench/generated_mesh.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {
 namespace {
-
-using jobs::Engine;
 
 /// Random points in a cube a little larger than the unit cube; an Error in place of one of them.
 class RandomSource final : public PointSource {
@@ -72,6 +69,25 @@ private:
     std::size_t fault_;
 };
 
+/// Points that no further step reads again.
+class Rows final : public jobs::PointRows {
+public:
+    using PointRows::PointRows;
+    Status begin_again(const jobs::SampledMesh&) override { return Error{.what = "once"}; }
+};
+
+class Output final : public jobs::RowsOutput {
+public:
+    Output(Written& to, std::size_t fault) : to_(to), fault_(fault) {}
+    Result<std::unique_ptr<TableSink>> open(const TableFormat&, const std::string&) override {
+        return std::unique_ptr<TableSink>(std::make_unique<Sink>(to_, fault_));
+    }
+
+private:
+    Written& to_;
+    std::size_t fault_;
+};
+
 constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
 
 struct How {
@@ -100,18 +116,16 @@ protected:
         job.mesh = *folder_ / "cube";
         job.options = {Rounding::correct, how.outside, how.threads};
         job.progress = progress;
-        jobs::Run run{job};
-        run.summary.points = "the points";
-        auto engine = Engine::open(run);
-        EXPECT_TRUE(engine);
-        RandomSource source(how.count, how.source_fault, how.known);
-        source.low = how.low;
+        jobs::SampledMesh mesh(job, {}, "sample");
+        mesh.report.points = "the points";
+        EXPECT_TRUE(mesh.open());
+        auto source = std::make_unique<RandomSource>(how.count, how.source_fault, how.known);
+        source->low = how.low;
+        Rows rows(std::move(source));
         Written written;
-        const auto open = [&](const TableFormat&) -> Result<std::unique_ptr<TableSink>> {
-            return std::unique_ptr<TableSink>(std::make_unique<Sink>(written, how.sink_fault));
-        };
-        const Status done = jobs::sample_stream(run, **engine, source, {.rows = open});
-        if (summary != nullptr) *summary = run.summary;
+        Output output(written, how.sink_fault);
+        const Status done = jobs::sample_rows(mesh, rows, output);
+        if (summary != nullptr) *summary = mesh.report;
         return {std::move(written), done ? "" : done.error().message()};
     }
 

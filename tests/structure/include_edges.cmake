@@ -17,7 +17,7 @@ set(may_jobs base core mesh surface io raster index check locate sample verify j
 set(may_pieces base core mesh index locate sample pieces)
 set(may_raster base core mesh io raster)
 set(may_exact exact)
-set(may_audit base core kernels mesh check locate exact audit)
+set(may_audit base core kernels mesh io check locate exact audit)
 set(may_report base core kernels mesh surface io raster index check locate sample verify jobs exact audit report)
 # Shared code would be shared bugs: the oracle takes plain types and the environment, nothing that computes.
 set(may_exact_too barycert/simplex.hpp barycert/environment.hpp)

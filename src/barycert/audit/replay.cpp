@@ -34,7 +34,7 @@ std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) 
     if (reason == search_reasons) return "no class of finding has that name";
     const auto named = [&](const auto& x) { return x.name == w.kernel; };
     if (std::none_of(kernels.begin(), kernels.end(), named)) {
-        return "no kernel of that name here; name its library with --kernel-library";
+        return "no kernel of that name here; name its library with job.kernel_library";
     }
     const auto a =
         std::find_if(r.answers.begin(), r.answers.end(), [&](const auto& x) { return x.kernel == w.kernel; });

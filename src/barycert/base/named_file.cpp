@@ -101,9 +101,9 @@ Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile
                          .file = out.path,
                          .expected = "a name without " + std::string(place),
                          .remedy =
-                             "files of steps are --output of sample and resample, of a series as mesh or field: "
-                             "a .pvd or .vtu.series file, or --field NAME@'step-*.npy'; elsewhere choose one "
-                             "step by --step or --time"};
+                             "files of steps are job.output of sample and resample, of a series as mesh or field: "
+                             "a .pvd or .vtu.series file, or job.field_files NAME@'step-*.npy'; elsewhere choose one "
+                             "step by job.step or job.time"};
         }
         if (Status ok = check_writable(out.path); !ok) return ok;
     }

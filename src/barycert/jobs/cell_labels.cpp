@@ -39,7 +39,7 @@ Status check_label(const Mesh& mesh, const Column& label) {
         return Error{.what = "a label of cells has the integer that stands for points outside",
                      .expected = "integers above " + std::to_string(mesh::no_label),
                      .found = base::quoted(label.name),
-                     .remedy = "leave it out of --fields"};
+                     .remedy = "leave it out of job.fields"};
     return Done{};
 }
 
@@ -76,7 +76,7 @@ Result<std::vector<const Column*>> take_labels(const Mesh& mesh, std::vector<std
             taken.begin() + static_cast<std::ptrdiff_t>(i))
             return Error{.what = "a label of cells is named twice",
                          .found = base::quoted(taken[i]->name),
-                         .remedy = "name it once in --fields"};
+                         .remedy = "name it once in job.fields"};
         if (Status fits = check_label(mesh, *taken[i]); !fits) return fits.error();
     }
     names = std::move(rest);
@@ -87,7 +87,7 @@ void note_labels(const Mesh& mesh, const std::vector<std::string>& names, Notes&
     if (mesh.cell_labels.empty() || !names.empty()) return;
     std::string text = mesh.cell_labels.size() == 1 ? "label of cells " : "labels of cells ";
     for (std::size_t i = 0; i < mesh.cell_labels.size(); ++i) text += (i == 0 ? "" : ", ") + mesh.cell_labels[i].name;
-    notes.push_back({Note::Kind::left_out, text + "; name fields and labels in --fields to have them"});
+    notes.push_back({Note::Kind::left_out, text + "; name fields and labels in job.fields to have them"});
 }
 
 }  // namespace barycert::jobs

@@ -67,15 +67,15 @@ Status check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<Fie
         if (std::find(known.begin(), known.end(), value) == known.end()) {
             std::string list;
             for (const std::string& name : known) list += (list.empty() ? "" : ", ") + base::quoted(name);
-            return Error{.what = "--value: the mesh has no such value",
-                         .expected = list.empty() ? "no field at all: give one with --field" : list,
+            return Error{.what = "job.values: the mesh has no such value",
+                         .expected = list.empty() ? "no field at all: give one with job.field_files" : list,
                          .found = base::quoted(value),
                          .remedy = base::did_you_mean(value, known)};
         }
-        if (!has(there, column)) return no_column(job, "--value", column, there);
+        if (!has(there, column)) return no_column(job, "job.values", column, there);
     }
     for (const auto& [option, column] :
-         {std::pair("--cell-column", job.cell_column), {"--mask-column", job.mask_column}}) {
+         {std::pair("job.cell_column", job.cell_column), {"job.mask_column", job.mask_column}}) {
         if (!column.empty() && column != none && !has(there, column)) return no_column(job, option, column, there);
     }
     return Done{};
@@ -112,7 +112,7 @@ Result<std::vector<double>> numbers_of(const Column& column, const VerifyJob& jo
                          .file = job.results,
                          .expected = "a number, nan, or nothing",
                          .found = base::quoted(text),
-                         .remedy = "choose the columns to compare: --fields, --value, --cell-column"};
+                         .remedy = "choose the columns to compare: job.fields, job.values, job.cell_column"};
         out.push_back(*x);
     }
     return out;
@@ -187,14 +187,15 @@ Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, c
         std::string names;
         for (const FieldChoice& choice : fields)
             names += (names.empty() ? "" : ", ") + base::quoted(choice.field->name);
-        return Error{.what = "the results have no column to compare",
-                     .file = job.results,
-                     .expected = "columns named as fields of the mesh (" + (names.empty() ? "it has none" : names) +
-                                 "), `cell` or vtkValidPointMask",
-                     .found = list_of(there),
-                     .remedy =
-                         "say which column is which: --value FIELD=COLUMN, --cell-column NAME; fields that are not "
-                         "in the mesh file: --field NAME=FILE"};
+        return Error{
+            .what = "the results have no column to compare",
+            .file = job.results,
+            .expected = "columns named as fields of the mesh (" + (names.empty() ? "it has none" : names) +
+                        "), `cell` or vtkValidPointMask",
+            .found = list_of(there),
+            .remedy =
+                "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not "
+                "in the mesh file: job.field_files NAME=FILE"};
     }
     return out;
 }
@@ -223,7 +224,7 @@ Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>&
                              .file = job.results,
                              .expected = "an integer",
                              .found = base::shortest(x),
-                             .remedy = "name the column of cells: --cell-column NAME, or none"};
+                             .remedy = "name the column of cells: job.cell_column NAME, or none"};
             const std::int64_t number = std::isnan(x) ? -1 : static_cast<std::int64_t>(x);
             out.cells.push_back(number < 0 ? -1 : index_of(number - job.cell_base, mesh));
         }

@@ -17,19 +17,17 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs.hpp"
-#include "barycert/jobs/engine.hpp"
+#include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/pixel_grid.hpp"
-#include "barycert/jobs/run.hpp"
 #include "barycert/sample/quantity/expression.hpp"
 #include "barycert/sample/quantity/made_fields.hpp"
 
 namespace barycert {
 namespace {
 
-using jobs::Engine;
-using jobs::Run;
 using jobs::Stopwatch;
+using jobs::tell_stage;
 
 bool is_picture(const ContourJob& job) {
     return io::has_suffix(job.output, ".png");
@@ -44,37 +42,22 @@ Status check_job(const ContourJob& job) {
     const bool picture = is_picture(job);
     if (!surface && !picture) return jobs::unknown_output(job.output, ".vtp, .ply, .off or .png");
     if (!picture && !job.colours.empty())
-        return Error{.what = "--colours is for pictures", .remedy = "leave it out, or name a .png file"};
+        return Error{.what = "job.colours is for pictures", .remedy = "leave it out, or name a .png file"};
     if (picture && job.field.empty())
-        return Error{.what = "a picture shows a field", .expected = "--field NAME", .found = "none"};
+        return Error{.what = "a picture shows a field", .expected = "job.field NAME", .found = "none"};
     if (job.value && job.field.empty())
-        return Error{.what = "which field has the value", .expected = "--field NAME", .found = "none"};
+        return Error{.what = "which field has the value", .expected = "job.field NAME", .found = "none"};
     if (job.plane && !picture && !job.field.empty() && !job.fields.empty())
-        return Error{.what = "--field and --fields", .expected = "one of them", .remedy = "--fields names several"};
+        return Error{
+            .what = "job.field and job.fields", .expected = "one of them", .remedy = "job.fields names several"};
     if (picture && !job.fields.empty())
-        return Error{.what = "--fields cannot be combined with a picture", .remedy = "--field names what it shows"};
+        return Error{.what = "job.fields cannot be combined with a picture", .remedy = "job.field names what it shows"};
     if (!picture && job.range)
-        return Error{.what = "--range is for pictures", .remedy = "leave it out, or name a .png file"};
+        return Error{.what = "job.range is for pictures", .remedy = "leave it out, or name a .png file"};
+    if (Status data = jobs::check_vtk_data(job.vtk_data, job.output); !data) return data;
     if (job.width < 1 || job.width > 1000000)
-        return Error{.what = "--width", .expected = "1 to 1000000", .found = std::to_string(job.width)};
+        return Error{.what = "job.width", .expected = "1 to 1000000", .found = std::to_string(job.width)};
     return Done{};
-}
-
-/// What reads the mesh, and samples it.
-SamplingJob sampling_of(const ContourJob& job) {
-    SamplingJob s;
-    s.mesh = job.mesh;
-    s.step = job.step;
-    s.field_files = job.field_files;
-    s.curved = job.curved;
-    s.output = job.output;
-    s.vtk_data = job.vtk_data;
-    s.options.threads = job.threads;
-    s.report = job.report;
-    s.count_degenerate = false;
-    s.program = job.program;
-    s.progress = job.progress;
-    return s;
 }
 
 /// Sets low and high to those of at(node) over the nodes of cells.
@@ -104,10 +87,17 @@ void set_range(const Mesh& mesh, At at, ContourReport& summary) {
 
 class Contour {
 public:
-    Contour(const ContourJob& job, Run& run, Engine& engine) : job_(job), run_(run), engine_(engine) {}
+    explicit Contour(const ContourJob& job) : job_(job) {}
 
     Result<ContourReport> run() {
+        Stopwatch whole;
         ContourReport& s = summary_;
+        Stopwatch watch;
+        Result<Mesh> opened = jobs::open_mesh(job_, job_.threads, job_.step, s.curved);
+        if (!opened) return opened.error();
+        mesh_ = std::move(*opened);
+        if (Status added = jobs::add_fields(job_.field_files, mesh_); !added) return added.error();
+        s.seconds.mesh = watch.lap();
         s.mesh = job_.mesh;
         s.field = job_.field;
         s.output = job_.output;
@@ -116,15 +106,13 @@ public:
         s.nodes = mesh().point_count();
         s.cells = mesh().cell_count();
         s.dimension = mesh().dimension;
-        s.curved = run_.summary.curved;
         s.notes = mesh().notes;
-        s.seconds.mesh = run_.summary.seconds.mesh;
+        s.threads = jobs::thread_count(job_.threads);
         if (job_.plane && mesh().dimension == 2)
             return Error{.what = "a plane cuts meshes of tetrahedra",
                          .file = job_.mesh,
                          .found = "triangles in the plane",
                          .remedy = "draw a mesh of triangles by `" + job_.program + " resample --grid`"};
-        Stopwatch watch;
         const bool picture = is_picture(job_);
         if (picture && job_.value && mesh().dimension == 2)
             return Error{.what = "iso-lines cannot be written as a picture",
@@ -141,14 +129,15 @@ public:
                                : job_.plane ? draw(cut->surface)
                                             : draw_view(cut->surface);
         if (!written) return written.error();
+        s.seconds.total = whole.lap();
         return std::move(summary_);
     }
 
 private:
-    const Mesh& mesh() const { return engine_.mesh(); }
+    const Mesh& mesh() const { return mesh_; }
 
     Result<Cut> cut_plane(CutOptions options) {
-        run_.stage("cutting");
+        tell_stage(job_, "cutting");
         options.threads = job_.threads;
         const std::array<double, 3>& n = job_.plane->normal;
         set_range(
@@ -186,7 +175,7 @@ private:
                 .expected = "a field of nodes",
                 .found = "a number for each cell",
                 .remedy = "a field of cells jumps from cell to cell: there is no surface on which it has a value"};
-        run_.stage("cutting");
+        tell_stage(job_, "cutting");
         set_range(
             mesh(), [&](std::size_t i) { return field.data[i]; }, summary_);
         return mesh().dimension == 2 ? isoline(mesh(), field, *job_.value, options)
@@ -205,7 +194,7 @@ private:
     Status write(Surface& surface) {
         Stopwatch watch;
         for (Mesh::Index& cell : surface.mesh_cells) cell = mesh().cell_number(cell);
-        run_.stage("writing " + job_.output);
+        tell_stage(job_, "writing " + job_.output);
         Result<SurfaceFile> file = write_surface(surface, job_.output, job_.vtk_data.value_or(VtkData::raw));
         if (!file) return file.error();
         summary_.file = std::move(*file);
@@ -235,13 +224,14 @@ private:
                                   touches ? "a plane that only touches the boundary:" : "where", base::shortest(low),
                                   base::shortest(high));
             const double inwards = at == low ? low + (high - low) / 1000 : high - (high - low) / 1000;
-            e.remedy = fmt::format("{}: --plane {},{}", touches ? "move it inwards" : "choose D between them", normal,
+            e.remedy = fmt::format("{}: job.plane {},{}", touches ? "move it inwards" : "choose D between them", normal,
                                    base::shortest(touches ? inwards : low / 2 + high / 2));
             return e;
         }
         const auto count = static_cast<std::uint64_t>(pixels->width * pixels->height);
-        if (Status ready = engine_.prepare(); !ready) return ready;
-        const Result<Sampler> sampler = Sampler::build(engine_.locator(), {*column});
+        const Result<Locator> locator = jobs::build_locator(job_, mesh(), job_.threads);
+        if (!locator) return locator.error();
+        const Result<Sampler> sampler = Sampler::build(*locator, {*column});
         if (!sampler) return sampler.error();
         std::vector<double> values(count);
         std::vector<std::uint8_t> valid(count);
@@ -252,8 +242,8 @@ private:
                          .file = job_.output,
                          .expected = "a pixel whose middle is in the mesh, where the field is finite",
                          .found = fmt::format("{} x {} pixels without one", pixels->width, pixels->height),
-                         .remedy = "give more pixels, --width N, or another field"};
-        run_.stage("writing " + job_.output);
+                         .remedy = "give more pixels, job.width N, or another field"};
+        tell_stage(job_, "writing " + job_.output);
         Slice slice;
         slice.width = static_cast<std::size_t>(pixels->width);
         slice.height = static_cast<std::size_t>(pixels->height);
@@ -293,7 +283,7 @@ private:
                          .found = base::shortest(*job_.value),
                          .remedy = "choose another value"};
         Stopwatch watch;
-        run_.stage("drawing");
+        tell_stage(job_, "drawing");
         SurfaceView view{.points = surface.points, .triangles = surface.cells};
         const bool of_points = !surface.point_fields.empty();
         if (of_points) view.point_values = surface.point_fields.front().data;
@@ -314,6 +304,8 @@ private:
     Status sample(const PixelGrid& pixels, const Sampler& sampler, std::vector<double>& values,
                   std::vector<std::uint8_t>& valid) {
         const std::int64_t lines = std::max<std::int64_t>(1, (std::int64_t{1} << 18) / pixels.width);
+        SampleOptions options;
+        options.threads = job_.threads;
         std::vector<double> points;
         Table rows;
         std::size_t at = 0;
@@ -326,20 +318,19 @@ private:
                     points.insert(points.end(), x.begin(), x.end());
                 }
             }
-            if (Status done = sampler.sample(points, run_.job.options, rows); !done) return done;
+            if (Status done = sampler.sample(points, options, rows); !done) return done;
             summary_.samples.add(rows.counts);
             for (std::size_t r = 0; r < rows.row_count(); ++r, ++at) {
                 values[at] = rows.value(r, 0);
                 valid[at] = rows.cells[r] >= 0 ? 1 : 0;
             }
-            run_.count(fmt::format("pixels of {}", values.size()), at);
+            tell_stage(job_, fmt::format("pixels of {}", values.size()), at);
         }
         return Done{};
     }
 
     const ContourJob& job_;
-    Run& run_;
-    Engine& engine_;
+    Mesh mesh_;
     ContourReport summary_;
     std::deque<Field> made_;
 };
@@ -350,20 +341,9 @@ Result<ContourReport> contour_files(const ContourJob& job) {
     const ExactEnvironment environment;
     const base::RunFiles run_files;
     if (Status good = check_job(job); !good) return good.error();
-    const SamplingJob sampling = sampling_of(job);
-    if (Status files = jobs::check_files(sampling, {}, {}, {{"--output", job.output}}); !files) return files.error();
-    Stopwatch whole;
-    std::optional<ContourReport> summary;
-    const auto done = jobs::run_job("render", sampling, {}, [&](Run& run, Engine& engine) -> Status {
-        auto result = Contour(job, run, engine).run();
-        if (!result) return result.error();
-        summary.emplace(std::move(*result));
-        return Done{};
-    });
-    if (!done) return done.error();
-    summary->threads = done->threads;
-    summary->seconds.total = whole.lap();
-    return std::move(*summary);
+    if (Status files = jobs::check_files(job, {}, {{"job.output", job.output}}); !files) return files.error();
+    const jobs::ThreadLimit limit(job.threads);
+    return Contour(job).run();
 }
 
 }  // namespace barycert

@@ -32,10 +32,11 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
     const bool fits_cells = rows == cells && file.of != FieldFile::Of::points;
     if (fits_nodes != fits_cells) return fits_cells;
     if (fits_nodes)
-        return Error{.what = "rows of field \"" + file.name + "\" could belong to nodes or to cells",
-                     .file = file.path,
-                     .found = "a mesh of " + std::to_string(nodes) + " nodes and the same number of cells",
-                     .remedy = "say which: --point-field or --cell-field instead of --field"};
+        return Error{
+            .what = "rows of field \"" + file.name + "\" could belong to nodes or to cells",
+            .file = file.path,
+            .found = "a mesh of " + std::to_string(nodes) + " nodes and the same number of cells",
+            .remedy = "say which: FieldFile::Of::points or FieldFile::Of::cells instead of FieldFile::Of::either"};
     std::string expected = count(nodes, "row") + ", one for each node";
     if (file.of == FieldFile::Of::cells) expected = count(cells, "row") + ", one for each cell";
     if (file.of == FieldFile::Of::either) expected += ", or " + std::to_string(cells) + ", one for each cell";
@@ -103,10 +104,11 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
     const Field* const of_points = may_be_points ? sample::field_named(other->point_fields, file.column) : nullptr;
     const Field* const of_cells = may_be_cells ? sample::field_named(other->cell_fields, file.column) : nullptr;
     if (of_points != nullptr && of_cells != nullptr)
-        return Error{.what = "there is an array of nodes and one of cells of that name",
-                     .file = file.path,
-                     .found = base::quoted(file.column),
-                     .remedy = "say which: --point-field or --cell-field instead of --field"};
+        return Error{
+            .what = "there is an array of nodes and one of cells of that name",
+            .file = file.path,
+            .found = base::quoted(file.column),
+            .remedy = "say which: FieldFile::Of::points or FieldFile::Of::cells instead of FieldFile::Of::either"};
     if (of_points == nullptr && of_cells == nullptr)
         return Error{
             .what = file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
@@ -114,7 +116,7 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
             .expected = file.column.empty() ? "" : base::quoted(file.column),
             .found = "of nodes " + names_of(other->point_fields) + "; of cells " + names_of(other->cell_fields),
             .remedy = base::did_you_mean(file.column, sample::all_field_names(*other),
-                                         "name one: --field " + file.name + "=" + file.path + ":ARRAY")};
+                                         "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY")};
     file.of = of_points != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
     const bool same =
         solution || (other->points == mesh.points && (of_points != nullptr || other->cells == mesh.cells));
@@ -173,7 +175,7 @@ Result<FieldPlace> add_field(const FieldFile& file, Mesh& mesh, bool replace) {
         return Error{.what = "a field of this name exists already",
                      .file = file.path,
                      .found = '"' + file.name + '"',
-                     .remedy = "give it another name: --field OTHER=" + file.path};
+                     .remedy = "give it another name: job.field_files OTHER=" + file.path};
     fields.push_back(std::move(*field));
     return FieldPlace{*cells, fields.size() - 1};
 }

@@ -18,6 +18,7 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vti/vti.hpp"
 #include "barycert/jobs/job_files.hpp"
+#include "barycert/jobs/user_rows.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -55,7 +56,7 @@ public:
         arrays.push_back({"cell", 1, io::NumberType::int32});
         for (const ColumnFormat& column : format.carried) {
             if (column.type == Column::Type::text)
-                return no_place(column, path, "numbers", "write .csv, or leave the label out of --fields");
+                return no_place(column, path, "numbers", "write .csv, or leave the label out of job.fields");
             const bool integer = column.type == Column::Type::integer;
             arrays.push_back({column.name, 1, integer ? io::NumberType::int64 : io::NumberType::float64});
         }
@@ -199,9 +200,9 @@ Result<std::array<std::size_t, 2>> axes_of_picture(const Grid& grid, const std::
     if (axes.size() != 2)
         return Error{.what = "a picture shows one layer",
                      .file = path,
-                     .expected = "one point along exactly one axis, such as --grid 800x600x1",
+                     .expected = "one point along exactly one axis, such as job.counts 800x600x1",
                      .found = fmt::format("{} x {} x {} points", grid.counts[0], grid.counts[1], grid.counts[2]),
-                     .remedy = "choose the layer with --bounds: it lies in the middle of the bounds"};
+                     .remedy = "choose the layer with job.bounds: it lies in the middle of the bounds"};
     constexpr std::int64_t max = 1000000;
     if (grid.counts[axes[0]] > max || grid.counts[axes[1]] > max)
         return Error{.what = "too many points for a picture",
@@ -212,15 +213,16 @@ Result<std::array<std::size_t, 2>> axes_of_picture(const Grid& grid, const std::
     return std::array{axes[0], axes[1]};
 }
 
-Result<GridOutput> open_picture(const ResampleJob& a, const std::vector<std::string>& columns, const Grid& grid) {
-    const auto axes = axes_of_picture(grid, a.output);
+Result<GridOutput> open_picture(const ResampleJob& a, const std::string& path, const std::vector<std::string>& columns,
+                                const Grid& grid) {
+    const auto axes = axes_of_picture(grid, path);
     if (!axes) return axes.error();
     if (columns.size() != 1)
         return Error{.what = "a picture shows one column",
-                     .file = a.output,
-                     .expected = "a field of one component, chosen by --fields",
+                     .file = path,
+                     .expected = "a field of one component, chosen by job.fields",
                      .found = columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
-                     .remedy = columns.empty() ? "add one by --field NAME=FILE" : "name one in --fields"};
+                     .remedy = columns.empty() ? "add one by job.field_files NAME=FILE" : "name one in job.fields"};
     const auto [w, h] = *axes;
     Slice slice;
     slice.width = static_cast<std::size_t>(grid.counts[w]);
@@ -232,7 +234,7 @@ Result<GridOutput> open_picture(const ResampleJob& a, const std::vector<std::str
         if (k != w && k != h) slice.title += fmt::format(", {} = {}", "xyz"[k], base::shortest(grid.origin[k]));
     }
     slice.pixel_length = grid.spacing[w];
-    auto sink = std::make_unique<PictureSink>(a.output, slice);
+    auto sink = std::make_unique<PictureSink>(path, slice);
     const SliceCounts* const counts = &sink->counts();
     return GridOutput{std::move(sink), counts};
 }
@@ -242,30 +244,31 @@ Result<GridOutput> open_picture(const ResampleJob& a, const std::vector<std::str
 Status check_grid_output(const ResampleJob& job) {
     const bool picture = io::has_suffix(job.output, ".png");
     if (job.range && !picture)
-        return Error{.what = "--range needs a picture",
+        return Error{.what = "job.range needs a picture",
                      .file = job.output,
-                     .remedy = "use --output FILE.png, or leave --range out"};
+                     .remedy = "use job.output FILE.png, or leave job.range out"};
     if (job.output == "-" || io::has_suffix(job.output, ".csv") || io::has_suffix(job.output, ".npy") ||
         io::has_suffix(job.output, ".vti") || picture)
         return Done{};
     return unknown_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
 }
 
-Result<GridOutput> open_grid_sink(const ResampleJob& job, const TableFormat& format, const Grid& grid) {
+Result<GridOutput> open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format,
+                                  const Grid& grid) {
     const std::vector<std::string> columns = format.columns();
-    const bool picture = io::has_suffix(job.output, ".png");
-    if (!format.carried.empty() && (picture || io::has_suffix(job.output, ".npy")))
-        return no_place(format.carried.front(), job.output, "fields",
-                        "write .csv, or integers to .vti, or leave the label out of --fields");
-    if (picture) return open_picture(job, columns, grid);
-    const bool array = io::has_suffix(job.output, ".npy");
+    const bool picture = io::has_suffix(path, ".png");
+    if (!format.carried.empty() && (picture || io::has_suffix(path, ".npy")))
+        return no_place(format.carried.front(), path, "fields",
+                        "write .csv, or integers to .vti, or leave the label out of job.fields");
+    if (picture) return open_picture(job, path, columns, grid);
+    const bool array = io::has_suffix(path, ".npy");
     if (array && columns.empty())
         return Error{.what = "no field to write",
-                     .file = job.output,
-                     .remedy = "add one by --field NAME=FILE; .vti and .csv can be written without fields"};
-    if (array) return GridOutput{std::make_unique<NpyArraySink>(job.output, grid, columns.size())};
-    const bool vti = io::has_suffix(job.output, ".vti");
-    Result<std::unique_ptr<TableSink>> sink = vti ? VtiSink::open(job.output, format, grid) : open_rows(job, format);
+                     .file = path,
+                     .remedy = "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields"};
+    if (array) return GridOutput{std::make_unique<NpyArraySink>(path, grid, columns.size())};
+    const bool vti = io::has_suffix(path, ".vti");
+    Result<std::unique_ptr<TableSink>> sink = vti ? VtiSink::open(path, format, grid) : open_rows(path, format);
     if (!sink) return sink.error();
     if (vti) return GridOutput{std::move(*sink)};
     return GridOutput{std::make_unique<GridRowsSink>(std::move(*sink), grid)};

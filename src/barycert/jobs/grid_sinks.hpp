@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <string>
 
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
@@ -20,8 +20,9 @@ struct GridOutput {
 /// What is wrong with the output of a grid, as far as its name and the options tell.
 Status check_grid_output(const ResampleJob& job);
 
-/// By the suffix of the output. Errors: a format that cannot hold these fields or that grid; a path that cannot be
-/// written.
-Result<GridOutput> open_grid_sink(const ResampleJob& job, const TableFormat& format, const Grid& grid);
+/// The output `path` of the job, by its suffix. Errors: a format that cannot hold these fields or that grid; a path
+/// that cannot be written.
+Result<GridOutput> open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format,
+                                  const Grid& grid);
 
 }  // namespace barycert::jobs

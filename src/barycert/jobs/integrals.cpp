@@ -101,8 +101,8 @@ const std::string& name_of(const FieldChoice& choice) {
 /// Keeps the values of some columns, one a node.
 class IntegralSink final : public TableSink {
 public:
-    IntegralSink(Run& run, Mesh mesh, std::vector<std::size_t> columns, std::unique_ptr<TableSink> sink)
-        : run_(run), mesh_(std::move(mesh)), columns_(std::move(columns)), sink_(std::move(sink)) {
+    IntegralSink(SampledMesh& of, Mesh mesh, std::vector<std::size_t> columns, std::unique_ptr<TableSink> sink)
+        : of_(of), mesh_(std::move(mesh)), columns_(std::move(columns)), sink_(std::move(sink)) {
         values_.resize(columns_.size());
     }
 
@@ -116,14 +116,14 @@ public:
 
     Status commit() override {
         for (std::size_t k = 0; k < columns_.size(); ++k) {
-            FieldIntegral& of = run_.summary.integrals[k];
+            FieldIntegral& of = of_.report.integrals[k];
             std::tie(of.target, of.target_left_out) = integral(mesh_, values_[k], rule_of_nodes(mesh_));
         }
         return sink_->commit();
     }
 
 private:
-    Run& run_;
+    SampledMesh& of_;
     Mesh mesh_;
     std::vector<std::size_t> columns_;
     std::vector<std::vector<double>> values_;
@@ -132,58 +132,60 @@ private:
 
 }  // namespace
 
-void note_cell_fields(Run& run, const Engine& engine, bool of_series) {
+void note_cell_fields(SampledMesh& mesh, bool of_series) {
     std::string names, made;
     std::size_t count = 0;
-    for (const FieldChoice& choice : engine.fields()) {
+    for (const FieldChoice& choice : mesh.fields()) {
         if (!choice.of_cells) continue;
         names += (count++ == 0 ? "" : ", ") + base::quoted(name_of(choice));
         if (!choice.steps.empty()) made += (made.empty() ? "" : ", ") + base::quoted(name_of(choice));
     }
     if (count == 0) return;
-    const std::string without = of_series      ? "; their integrals are printed for one step alone: --step N"
+    const std::string without = of_series      ? "; their integrals are printed for one step alone: job.step N"
                                 : made.empty() ? ""
                                                : "; integrals are printed of whole fields, not of " + made;
-    run.summary.notes.push_back(
+    mesh.report.notes.push_back(
         {Note::Kind::converted,
          std::to_string(count) + (count == 1 ? " field" : " fields") +
              " of cells into values at nodes, each that of the cell that owns the node: " + names + without,
-         run.job.mesh, true});
+         mesh.job.mesh, true});
 }
 
-Result<std::unique_ptr<TableSink>> with_integrals(Run& run, const Engine& engine, const Mesh& other,
-                                                  const TableFormat& format,
-                                                  const std::function<Result<std::unique_ptr<TableSink>>()>& open) {
+std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& format) {
     std::vector<std::size_t> columns;
     std::size_t first = 0;
     for (const TableField& field : format.fields) {
         const auto components = static_cast<std::size_t>(field.components);
-        const auto chosen =
-            std::find_if(engine.fields().begin(), engine.fields().end(), [&](const FieldChoice& choice) {
-                return choice.of_cells && choice.steps.empty() && name_of(choice) == field.name;
-            });
-        for (std::size_t k = 0; chosen != engine.fields().end() && k < components; ++k) {
+        const auto chosen = std::find_if(mesh.fields().begin(), mesh.fields().end(), [&](const FieldChoice& choice) {
+            return choice.of_cells && choice.steps.empty() && name_of(choice) == field.name;
+        });
+        for (std::size_t k = 0; chosen != mesh.fields().end() && k < components; ++k) {
             std::vector<double> values;
             for (std::size_t i = k; i < chosen->field->data.size(); i += components)
                 values.push_back(chosen->field->data[i]);
             FieldIntegral of;
             of.column = format.columns()[first + k];
-            std::tie(of.source, of.source_left_out) = integral(engine.mesh(), values, {0, 0, 0, 1});
-            run.summary.integrals.push_back(of);
+            std::tie(of.source, of.source_left_out) = integral(mesh.mesh(), values, {0, 0, 0, 1});
+            mesh.report.integrals.push_back(of);
             columns.push_back(first + k);
         }
         first += components;
     }
-    if (columns.empty()) return open();
-    Mesh geometry;  // `open` may take the mesh
-    geometry.dimension = other.dimension;
-    geometry.points = other.points;
-    geometry.cells = other.cells;
-    geometry.mid_nodes = other.mid_nodes;
-    auto sink = open();
-    if (!sink) return sink;
-    return std::unique_ptr<TableSink>(
-        std::make_unique<IntegralSink>(run, std::move(geometry), std::move(columns), std::move(*sink)));
+    return columns;
+}
+
+Mesh geometry_of(const Mesh& mesh) {
+    Mesh geometry;
+    geometry.dimension = mesh.dimension;
+    geometry.points = mesh.points;
+    geometry.cells = mesh.cells;
+    geometry.mid_nodes = mesh.mid_nodes;
+    return geometry;
+}
+
+std::unique_ptr<TableSink> integrate_target(SampledMesh& mesh, Mesh geometry, const std::vector<std::size_t>& columns,
+                                            std::unique_ptr<TableSink> sink) {
+    return std::make_unique<IntegralSink>(mesh, std::move(geometry), columns, std::move(sink));
 }
 
 }  // namespace barycert::jobs

@@ -1,6 +1,9 @@
-/// The files of a job: what can be known of them before the work.
+/// How all jobs open their meshes and fields, and what can be known of their files before the work.
 #pragma once
 
+#include <tbb/global_control.h>
+
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,18 +13,62 @@
 #include "barycert/io.hpp"
 #include "barycert/jobs.hpp"
 #include "barycert/jobs/series.hpp"
+#include "barycert/locator.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::jobs {
 
-/// What can be known of files before the work: of a job with those outputs and, besides the common ones, those inputs.
-/// Those that are called --output are one for each step, where they have a place for it. Errors: an output is an input
-/// or another output, or cannot be written; an input cannot be read; more steps than can be columns.
+/// Seconds since it was made or last asked.
+class Stopwatch {
+public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> time = now - last_;
+        last_ = now;
+        return time.count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// While it lives, no more threads than these; 0: as many as the machine has.
+class ThreadLimit {
+public:
+    explicit ThreadLimit(int threads) {
+        if (threads > 0)
+            limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    }
+
+private:
+    std::optional<tbb::global_control> limit_;
+};
+
+/// How many threads that is.
+int thread_count(int threads);
+
+/// Tells what the job is doing, and how much of it is done.
+void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0);
+
+/// Reads the mesh of the job, and takes its cells as straight, as far as it may: `curved` says which are not.
+Result<Mesh> open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved);
+
+/// What finds points in the mesh.
+Result<Locator> build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove = true);
+
+/// The mesh and the files of fields, and of VTK's files that name others, those.
+std::vector<base::NamedFile> input_files(const MeshJob& job);
+void add_input(std::vector<base::NamedFile>& inputs, const std::string& what, const std::string& path);
+
+/// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
+/// inputs. Error: an output is an input or another output, or cannot be written; an input cannot be read.
+Status check_files(const MeshJob& job, const std::vector<base::NamedFile>& more_inputs,
+                   std::vector<base::NamedFile> outputs);
+
+/// The same of a job of sampling. Outputs that are called job.output are one for each step, where they have a place for
+/// it. Error also: more steps than can be columns.
 Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
                    const std::vector<base::NamedFile>& more_inputs, std::vector<base::NamedFile> outputs);
-
-/// An input and, of VTK's files that name others, those.
-std::vector<base::NamedFile> input_files(const std::string& what, const std::string& path);
 
 /// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
 Status check_vtk_data(std::optional<VtkData> data, const std::string& path);
@@ -29,10 +76,7 @@ Status check_vtk_data(std::optional<VtkData> data, const std::string& path);
 /// That the suffix of the output is none of those `expected`.
 Error unknown_output(const std::string& path, const std::string& expected);
 
-/// Refuses what open_rows would refuse by its suffix alone.
+/// Refuses what open_table would refuse by its suffix alone.
 Status check_rows_format(const std::string& path);
-
-/// The output of the job as rows; names in a header that a terminal shows are without control characters.
-Result<std::unique_ptr<TableSink>> open_rows(const SamplingJob& job, const TableFormat& format);
 
 }  // namespace barycert::jobs

@@ -1,21 +1,16 @@
 // The boundary of a mesh as a picture.
 
-#include <tbb/global_control.h>
-
 #include <deque>
-#include <optional>
 #include <string>
 
-#include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "barycert/jobs.hpp"
 #include "barycert/jobs/field_files.hpp"
-#include "barycert/jobs/run.hpp"
+#include "barycert/jobs/job_files.hpp"
+#include "barycert/jobs/pictures.hpp"
 #include "barycert/sample/quantity/made_fields.hpp"
 #include "barycert/surface.hpp"
 
-namespace barycert {
-namespace jobs {
+namespace barycert::jobs {
 namespace {
 
 /// Triangles, with the chosen number at their points or on them.
@@ -64,29 +59,19 @@ Result<DrawnSurface> drawn_surface(const Mesh& mesh, const std::string& field, i
 }
 
 }  // namespace
-}  // namespace jobs
 
-Result<RenderReport> render_mesh_file(const MeshPictureJob& job) {
-    const ExactEnvironment environment;
-    jobs::Stopwatch time;
-    std::optional<tbb::global_control> limit;
-    if (job.threads > 0)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(job.threads));
-    Result<Mesh> mesh =
-        read_mesh(job.mesh, {.faces = false, .neighbours = false, .threads = job.threads, .step = job.step});
+Result<RenderReport> draw_mesh(const RenderJob& job) {
+    const ThreadLimit limit(job.threads);
+    RenderReport report;
+    Result<Mesh> mesh = open_mesh(job, job.threads, job.step, report.curved);
     if (!mesh) return mesh.error();
-    const auto curved = take_as_straight(*mesh, job.mesh, job.curved);
-    if (!curved) return curved.error();
-    if (Status added = jobs::add_fields(job.field_files, *mesh); !added) return added.error();
+    if (Status added = add_fields(job.field_files, *mesh); !added) return added.error();
     if (mesh->cells.empty())
         return Error{.what = "the mesh has no cells", .file = job.mesh, .remedy = "there is nothing to draw"};
-    RenderReport summary;
-    summary.picture = "mesh";
-    summary.input = job.mesh;
-    summary.output = job.output;
-    summary.size = job.view.size;
-    summary.notes = mesh->notes;
-    const auto drawn = jobs::drawn_surface(*mesh, job.field, job.threads, summary.notes);
+    report.input = job.mesh;
+    report.size = job.view.size;
+    report.notes = mesh->notes;
+    const auto drawn = drawn_surface(*mesh, job.field, job.threads, report.notes);
     if (!drawn) {
         Error error = drawn.error();
         if (error.file.empty()) error.file = job.mesh;
@@ -96,13 +81,11 @@ Result<RenderReport> render_mesh_file(const MeshPictureJob& job) {
     const Result<Image> image = draw_surface(drawn->view(mesh->dimension), job.view, &counts);
     if (!image) return image.error();
     if (Status written = write_png(job.output, *image); !written) return written.error();
-    summary.counts = counts.render;
-    summary.method = job.view.method;
-    summary.rounding = job.view.rounding;
-    if (!job.field.empty()) summary.colours = {job.field, counts.low, counts.high, counts.without_value};
-    summary.curved = *curved;
-    summary.seconds = time.lap();
-    return summary;
+    report.counts = counts.render;
+    report.method = job.view.method;
+    report.rounding = job.view.rounding;
+    if (!job.field.empty()) report.colours = {job.field, counts.low, counts.high, counts.without_value};
+    return report;
 }
 
-}  // namespace barycert
+}  // namespace barycert::jobs

@@ -62,7 +62,7 @@ private:
                 .what = fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
                 .file = path_,
                 .expected = "finite attributes: a .node file cannot hold NaN or infinity",
-                .remedy = "choose --outside nearest, extrapolate or fill=V for nodes outside, or another format"};
+                .remedy = "choose job.outside nearest, extrapolate or fill=V for nodes outside, or another format"};
         }
         return write_tetgen(mesh_, tetgen_stem(path_));
     }
@@ -88,7 +88,8 @@ std::vector<std::string> files_of_mesh_output(const ResampleJob& job) {
 
 Status check_mesh_output(const ResampleJob& job) {
     if (job.range)
-        return Error{.what = "--range cannot be combined with --onto", .remedy = "it is for pictures: leave it out"};
+        return Error{.what = "job.range cannot be combined with job.onto",
+                     .remedy = "it is for pictures: leave it out"};
     if (is_rows_output(job.output)) return Done{};
     if (io::mesh_output_format(job.output)) return Done{};
     return unknown_output(job.output,
@@ -102,7 +103,7 @@ Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path,
                      .file = path,
                      .expected = "fields",
                      .found = "label " + base::quoted(format.carried.front().name),
-                     .remedy = "leave labels out of --fields, or write rows: .csv or .npy"};
+                     .remedy = "leave labels out of job.fields, or write rows: .csv or .npy"};
     const Result<io::MeshFormat> kind = io::mesh_output_format(path);
     if (kind && *kind == io::MeshFormat::tetgen) io::note_lost_names(format.columns(), "a .node", notes);
     return std::unique_ptr<TableSink>(std::make_unique<MeshSink>(std::move(mesh), path, format));

@@ -101,7 +101,7 @@ Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& poi
     const double lines = std::max(1.0, std::round(tall / grid.pixel));
     if (!(lines * static_cast<double>(width) <= static_cast<double>(max_pixels)) || !(grid.pixel > 0))
         return no_picture("the picture would be too large", "at most " + std::to_string(max_pixels) + " pixels",
-                          std::to_string(width) + " by " + base::shortest(lines), "choose a smaller --width");
+                          std::to_string(width) + " by " + base::shortest(lines), "choose a smaller job.width");
     grid.height = static_cast<std::int64_t>(lines);
     // Lines are centred in the box.
     const double first[2] = {low[0] + 0.5 * grid.pixel, low[1] + 0.5 * (tall - (lines - 1) * grid.pixel)};

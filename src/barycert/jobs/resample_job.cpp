@@ -1,8 +1,6 @@
 // Fields on a regular grid, or at the nodes of another mesh.
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -12,7 +10,6 @@
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/jobs/engine.hpp"
 #include "barycert/jobs/grid_sinks.hpp"
 #include "barycert/jobs/integrals.hpp"
 #include "barycert/jobs/job_files.hpp"
@@ -23,8 +20,7 @@
 namespace barycert {
 namespace {
 
-using jobs::Engine;
-using jobs::Run;
+using jobs::SampledMesh;
 using jobs::Stopwatch;
 
 Error wrong_axes(const std::string& option, int dimension, const std::string& expected, std::size_t found) {
@@ -38,7 +34,7 @@ Result<Grid> grid_of(const ResampleJob& a, const Mesh& mesh) {
     Bounds3 box = bounds_of_cells(mesh);
     if (!a.bounds.empty()) {
         if (a.bounds.size() != 2 * d)
-            return wrong_axes("--bounds", mesh.dimension, fmt::format("{} numbers", 2 * d), a.bounds.size());
+            return wrong_axes("job.bounds", mesh.dimension, fmt::format("{} numbers", 2 * d), a.bounds.size());
         for (std::size_t k = 0; k < d; ++k) {
             box.low[k] = a.bounds[2 * k];
             box.high[k] = a.bounds[2 * k + 1];
@@ -47,13 +43,13 @@ Result<Grid> grid_of(const ResampleJob& a, const Mesh& mesh) {
     if (!a.counts.empty()) {
         const bool one_layer = d == 2 && a.counts.size() == 3 && a.counts[2] == 1;
         if (a.counts.size() != d && !one_layer)
-            return wrong_axes("--grid", mesh.dimension, fmt::format("{} numbers of points", d), a.counts.size());
+            return wrong_axes("job.counts", mesh.dimension, fmt::format("{} numbers of points", d), a.counts.size());
         std::array<std::int64_t, 3> counts{1, 1, 1};
         for (std::size_t k = 0; k < d; ++k) counts[k] = a.counts[k];
         return grid_over(mesh.dimension, counts, box.low, box.high);
     }
     if (a.spacing.size() != 1 && a.spacing.size() != d)
-        return wrong_axes("--spacing", mesh.dimension, fmt::format("one number or {}", d), a.spacing.size());
+        return wrong_axes("job.spacing", mesh.dimension, fmt::format("one number or {}", d), a.spacing.size());
     std::array<double, 3> spacing{};
     for (std::size_t k = 0; k < d; ++k) spacing[k] = a.spacing[a.spacing.size() == 1 ? 0 : k];
     return grid_spaced(mesh.dimension, spacing, box.low, box.high);
@@ -72,38 +68,30 @@ Status check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     const int targets = (job.counts.empty() ? 0 : 1) + (job.spacing.empty() ? 0 : 1) + (job.onto.empty() ? 0 : 1);
     if (targets != 1)
         return Error{.what = targets == 0 ? "no target" : "more than one target",
-                     .expected = "one of --grid, --spacing and --onto",
+                     .expected = "one of job.counts, job.spacing and job.onto",
                      .found = targets == 0 ? "none" : "several",
-                     .remedy = "`barycert resample --help` explains them"};
+                     .remedy = "`barycert resample job.help` explains them"};
     if (!job.bounds.empty() && !job.onto.empty())
-        return Error{.what = "--bounds cannot be combined with --onto",
-                     .remedy = "bounds are for --grid and --spacing: leave them out"};
+        return Error{.what = "job.bounds cannot be combined with job.onto",
+                     .remedy = "bounds are for job.counts and job.spacing: leave them out"};
     if (!job.weights.empty() && job.onto.empty())
-        return Error{.what = "--weights needs --onto here",
+        return Error{.what = "job.weights needs job.onto here",
                      .file = job.weights,
                      .remedy =
-                         "for the points of a grid, write them to a file first (--output grid.csv), and use "
-                         "`barycert sample --points grid.csv --weights`"};
+                         "for the points of a grid, write them to a file first (job.output grid.csv), and use "
+                         "`barycert sample job.points grid.csv job.weights`"};
     if (job.onto.empty()) {
         if (Status known = jobs::check_grid_output(job); !known) return known;
-        return jobs::check_files(job, steps, {}, {{"--output", job.output}});
+        return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
     if (Status known = jobs::check_mesh_output(job); !known) return known;
-    return jobs::check_files(job, steps, base::named_files("the mesh of --onto", mesh_files(job.onto)),
-                             base::named_files("--output", jobs::files_of_mesh_output(job)));
-}
-
-Result<TableFormat> user_format(Run& run, const Engine& engine, const TableFormat& of_rows) {
-    Result<TableFormat> format = jobs::user_format(engine, of_rows, {});
-    if (!format) return format;
-    run.summary.carried.clear();
-    for (const ColumnFormat& column : format->carried) run.summary.carried.push_back(column.name);
-    return format;
+    return jobs::check_files(job, steps, base::named_files("the mesh of job.onto", mesh_files(job.onto)),
+                             base::named_files("job.output", jobs::files_of_mesh_output(job)));
 }
 
 /// What its reader told, and the fields of nodes that the sampled ones replace.
-void note_the_other(Run& run, const ResampleJob& job, const Mesh& other) {
-    Notes& notes = run.summary.notes;
+void note_the_other(SampledMesh& mesh, const ResampleJob& job, const Mesh& other) {
+    Notes& notes = mesh.report.notes;
     notes.insert(notes.end(), other.notes.begin(), other.notes.end());
     if (other.point_fields.empty()) return;
     std::string text = other.point_fields.size() == 1 ? "field " : "fields ";
@@ -112,86 +100,127 @@ void note_the_other(Run& run, const ResampleJob& job, const Mesh& other) {
     notes.push_back({Note::Kind::left_out, text + " of its nodes", job.onto});
 }
 
-/// The fields as they are now. Points of a new mesh are counted.
-Status onto_grid(Run& run, const ResampleJob& job, Engine& engine, bool new_mesh) {
-    SampleReport& summary = run.summary;
-    const std::optional<Grid>& grid = summary.grid;
+/// The fields as they are now, into the output of that name. Points of a new mesh are counted.
+Status onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& path, bool new_mesh) {
+    SampleReport& report = mesh.report;
+    const Grid& grid = *report.grid;
     Stopwatch watch, within;
-    const Result<TableFormat> format = user_format(run, engine, engine.format());
+    const Result<TableFormat> format = user_format(mesh, mesh.format(), {});
     if (!format) return format.error();
-    auto output = jobs::open_grid_sink(job, *format, *grid);
+    auto output = jobs::open_grid_sink(job, path, *format, grid);
     if (!output) return output.error();
-    output->sink = jobs::user_rows(engine, std::move(output->sink));
+    output->sink = user_rows(mesh, std::move(output->sink));
     double writing = 0;
     const bool refuse = job.options.outside.kind == Outside::error;
-    const std::string what = fmt::format("points of {}", grid->point_count());
+    const std::string what = fmt::format("points of {}", grid.point_count());
     const auto sink = [&](const TableView& rows) -> Status {
         const auto outside = refuse ? std::find(rows.cells.begin(), rows.cells.end(), -1) : rows.cells.end();
         if (outside != rows.cells.end()) {
             const std::uint64_t i =
                 rows.first_row + static_cast<std::uint64_t>(std::distance(rows.cells.begin(), outside));
-            return jobs::outside_error("point " + std::to_string(i) + " of the grid", point_of(*grid, i), "");
+            return jobs::outside_error("point " + std::to_string(i) + " of the grid", point_of(grid, i), "");
         }
-        summary.nan_values += jobs::count_nan(rows);
+        report.nan_values += jobs::count_nan(rows);
         within.lap();
         Status written = output->sink->write(rows);
         writing += within.lap();
-        run.count(what, rows.first_row + rows.row_count());
+        mesh.tell(what, rows.first_row + rows.row_count());
         return written;
     };
-    Result<SampleCounts> counts = resample(engine.sampler(), *grid, jobs::without_refusal(job.options), sink);
+    Result<SampleCounts> counts = resample(mesh.sampler(), grid, jobs::without_refusal(job.options), sink);
     if (!counts) return counts.error();
     if (new_mesh) {
-        summary.counts.add(*counts);
-        summary.rows += grid->point_count();
+        report.counts.add(*counts);
+        report.rows += grid.point_count();
     }
-    summary.seconds.sample += watch.lap() - writing;
+    report.seconds.sample += watch.lap() - writing;
     Status committed = output->sink->commit();
-    summary.seconds.write += writing + watch.lap();
-    if (output->picture != nullptr) summary.picture = *output->picture;
+    report.seconds.write += writing + watch.lap();
+    if (output->picture != nullptr) report.picture = *output->picture;
     return committed;
 }
 
-Status onto_grid_in_steps(Run& run, const ResampleJob& job, Engine& engine) {
-    Result<Grid> grid = grid_of(job, engine.mesh());
+Status onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
+    Result<Grid> grid = grid_of(job, mesh.mesh());
     if (!grid) return grid.error();
     if (io::has_suffix(job.output, ".vti")) *grid = as_in_vti(*grid);
-    run.summary.from = PointsFrom::grid;
-    run.summary.grid = *grid;
-    const auto prepare = [&] {
-        return engine.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds");
-    };
-    if (Status ready = prepare(); !ready) return ready;
-    if (!run.step_by_step()) return onto_grid(run, job, engine, true);
-    for (std::size_t i = 0; i < run.steps.size(); ++i) {
-        run.count("steps", i);
+    mesh.report.from = PointsFrom::grid;
+    mesh.report.grid = *grid;
+    for (std::size_t i = 0; i == 0 || (mesh.step_by_step() && i < mesh.steps.size()); ++i) {
         if (i != 0) {
-            Status ready = engine.go_to(run.steps[i]);
-            if (ready && engine.is_another_mesh()) {
-                ready = prepare();
-                if (run.summary.meshes == 2 && job.bounds.empty())
-                    run.summary.notes.push_back({Note::Kind::guessed,
-                                                 "the grid of all steps lies in the box of the mesh of the first one: "
-                                                 "--bounds names another box",
-                                                 job.mesh, true});
-            }
+            mesh.tell("steps", i);
+            if (Status ready = mesh.go_to(mesh.steps[i]); !ready) return ready;
+        }
+        const bool new_mesh = i == 0 || mesh.is_another_mesh();
+        if (new_mesh) {
+            Status ready = mesh.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds");
             if (!ready) return ready;
         }
-        ResampleJob step = job;
-        step.output = output_of_step(job.output, run.steps[i]);
-        if (Status done = onto_grid(run, step, engine, i == 0 || engine.is_another_mesh()); !done) return done;
+        if (new_mesh && mesh.report.meshes == 2 && job.bounds.empty())
+            mesh.report.notes.push_back({Note::Kind::guessed,
+                                         "the grid of all steps lies in the box of the mesh of the first one: "
+                                         "job.bounds names another box",
+                                         job.mesh, true});
+        const std::string path = mesh.step_by_step() ? output_of_step(job.output, mesh.steps[i]) : job.output;
+        if (Status done = onto_grid(mesh, job, path, new_mesh); !done) return done;
     }
     return Done{};
 }
 
-Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
-    run.stage("reading " + job.onto);
+/// The nodes of another mesh.
+class NodesOfMesh final : public jobs::PointRows {
+public:
+    /// `again`: for steps with another mesh, which read them once more.
+    NodesOfMesh(const Mesh& other, bool again)
+        : PointRows(memory_points(other.points, other.dimension)), dimension_(other.dimension) {
+        if (again) nodes_ = other.points;
+    }
+    Status begin_again(const SampledMesh&) override {
+        points_ = memory_points(nodes_, dimension_);
+        return Done{};
+    }
+
+private:
+    std::vector<double> nodes_;
+    int dimension_;
+};
+
+/// Files of the other mesh with the fields, or rows.
+class OntoOutput final : public jobs::RowsOutput {
+public:
+    /// `further`: other steps follow the first.
+    OntoOutput(SampledMesh& mesh, Mesh& other, bool further) : mesh_(mesh), other_(other), further_(further) {}
+
+    Result<std::unique_ptr<TableSink>> open(const TableFormat& of_rows, const std::string& path) override {
+        const Result<TableFormat> format = user_format(mesh_, of_rows, {});
+        if (!format) return format.error();
+        // Of a series there would be integrals of each step.
+        const auto integrated = further_ ? std::vector<std::size_t>() : jobs::integrate_source(mesh_, of_rows);
+        Mesh geometry;
+        if (!integrated.empty()) geometry = jobs::geometry_of(other_);
+        auto sink = jobs::is_rows_output(path)
+                        ? jobs::open_rows(path, *format)
+                        : jobs::mesh_sink(further_ ? other_ : std::move(other_), path, *format, mesh_.report.notes);
+        if (!sink) return sink;
+        auto shown = user_rows(mesh_, std::move(*sink));
+        if (integrated.empty()) return shown;
+        return jobs::integrate_target(mesh_, std::move(geometry), integrated, std::move(shown));
+    }
+
+private:
+    SampledMesh& mesh_;
+    Mesh& other_;
+    bool further_;
+};
+
+Status onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
+    mesh.tell("reading " + job.onto);
     Stopwatch watch;
     const bool to_rows = jobs::is_rows_output(job.output);
     Result<Mesh> other =
         read_mesh(job.onto, {.faces = !to_rows, .neighbours = !to_rows, .threads = job.options.threads});
     if (!other) return other.error();
-    const int d = engine.mesh().dimension;
+    const int d = mesh.mesh().dimension;
     if (other->dimension != d)
         return Error{.what = "the meshes have different dimensions",
                      .file = job.onto,
@@ -200,45 +229,17 @@ Status onto_mesh(Run& run, const ResampleJob& job, Engine& engine) {
                      .remedy = "resample between meshes of triangles, or between meshes of tetrahedra"};
     const auto curved = take_as_straight(*other, job.onto, job.curved);
     if (!curved) return curved.error();
-    run.summary.onto_curved = *curved;
-    run.summary.from = PointsFrom::mesh;
-    run.summary.points = job.onto;
-    const bool further = run.step_by_step() && run.steps.size() > 1;
-    const std::vector<double> points = further ? other->points : std::vector<double>();
-    auto source = memory_points(other->points, d);
-    run.summary.seconds.read = watch.lap();
-    note_the_other(run, job, *other);
-    jobs::note_cell_fields(run, engine, further);
-    const auto sink_to = [&](const std::string& output) -> jobs::SinkFactory {
-        return [&, output](const TableFormat& of_rows) -> Result<std::unique_ptr<TableSink>> {
-            const Result<TableFormat> format = user_format(run, engine, of_rows);
-            if (!format) return format.error();
-            ResampleJob step = job;
-            step.output = output;
-            const auto open = [&]() -> Result<std::unique_ptr<TableSink>> {
-                auto sink =
-                    to_rows ? jobs::open_rows(step, *format)
-                            : jobs::mesh_sink(further ? *other : std::move(*other), output, *format, run.summary.notes);
-                if (!sink) return sink;
-                return jobs::user_rows(engine, std::move(*sink));
-            };
-            // Of a series there would be integrals of each step.
-            return further ? open() : jobs::with_integrals(run, engine, *other, of_rows, open);
-        };
-    };
-    jobs::KnownRows known;
-    const std::string output = run.step_by_step() ? output_of_step(job.output, run.steps.front()) : job.output;
-    jobs::StreamTargets targets;
-    targets.rows = sink_to(output);
-    targets.weights = job.weights;
-    targets.known = further ? &known : nullptr;
-    Status first = jobs::sample_stream(run, engine, *source, targets);
-    if (!first || !further) return first;
-    return jobs::sample_further_steps(run, engine, known, sink_to, [&](const jobs::StreamTargets& anew) -> Status {
-        if (!job.weights.empty()) return jobs::of_one_mesh("--weights", job.weights);
-        source = memory_points(points, d);
-        return jobs::sample_stream(run, engine, *source, anew);
-    });
+    SampleReport& report = mesh.report;
+    report.onto_curved = *curved;
+    report.from = PointsFrom::mesh;
+    report.points = job.onto;
+    const bool further = mesh.step_by_step() && mesh.steps.size() > 1;
+    NodesOfMesh nodes(*other, further);
+    report.seconds.read = watch.lap();
+    note_the_other(mesh, job, *other);
+    jobs::note_cell_fields(mesh, further);
+    OntoOutput output(mesh, *other, further);
+    return sample_rows(mesh, nodes, output);
 }
 
 }  // namespace
@@ -248,9 +249,12 @@ Result<SampleReport> resample_files(const ResampleJob& job) {
     auto steps = jobs::find_steps(job);
     if (!steps) return steps.error();
     if (Status ok = check_job(job, *steps); !ok) return ok.error();
-    return jobs::run_job("resample", job, std::move(*steps), [&](Run& run, Engine& engine) {
-        return job.onto.empty() ? onto_grid_in_steps(run, job, engine) : onto_mesh(run, job, engine);
-    });
+    const jobs::ThreadLimit limit(job.options.threads);
+    SampledMesh mesh(job, std::move(*steps), "resample");
+    Status done = mesh.open();
+    if (done) done = job.onto.empty() ? onto_grid_in_steps(mesh, job) : onto_mesh(mesh, job);
+    if (!done) return done.error();
+    return mesh.finish();
 }
 
 }  // namespace barycert

@@ -189,13 +189,13 @@ Result<std::vector<Step>> find_steps(const SamplingJob& job) {
     if (both)
         return Error{.what = "all steps of the mesh, and of series of fields",
                      .file = job.mesh,
-                     .remedy = "choose one step of the mesh: --step N"};
+                     .remedy = "choose one step of the mesh: job.step N"};
     if (job.all_steps && !series) return io::no_series(job.mesh);
     if (job.all_steps && !place)
         return Error{.what = "no name for the output of each step",
                      .file = job.output,
-                     .expected = "{step} or {time} in --output",
-                     .remedy = "such as --output 'rows-{step}.csv'"};
+                     .expected = "{step} or {time} in job.output",
+                     .remedy = "such as job.output 'rows-{step}.csv'"};
     if (!place || !series) return std::vector<Step>();
     const auto all = read_series(job.mesh);
     if (!all) return all.error();
@@ -209,7 +209,7 @@ Result<std::vector<Step>> find_steps(const SamplingJob& job) {
             if (std::error_code failed; !fs::exists(file, failed))
                 return Error{.what = "no such file, which step " + std::to_string(i) + " of the series names",
                              .file = file,
-                             .remedy = "restore it, or choose one step: --step N"};
+                             .remedy = "restore it, or choose one step: job.step N"};
         }
         steps.push_back({.label = std::to_string(i), .time = base::shortest((*all)[i].time), .of_mesh = i});
     }
@@ -256,9 +256,9 @@ Status check_step_outputs(const std::vector<base::NamedFile>& inputs, const std:
         if (!names.insert(path).second)
             return Error{.what = "two steps have the same output",
                          .file = path,
-                         .remedy = "put {step} into the name of --output"};
-        if (!add(path, "--output of another step", &before))
-            return Error{.what = "--output would overwrite " + *before,
+                         .remedy = "put {step} into the name of job.output"};
+        if (!add(path, "job.output of another step", &before))
+            return Error{.what = "job.output would overwrite " + *before,
                          .file = path,
                          .remedy = "choose another name for the output"};
     }

@@ -1,7 +1,6 @@
 // Results of a tool held against the exact ones.
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <array>
@@ -10,7 +9,6 @@
 #include <filesystem>
 #include <numeric>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "barycert/base/run_files.hpp"
@@ -20,7 +18,6 @@
 #include "barycert/jobs/claimed_columns.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
-#include "barycert/jobs/run.hpp"
 #include "barycert/jobs/stages.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
@@ -41,22 +38,12 @@ struct ResultBlock {
     std::vector<Column> columns;
     std::uint64_t first = 0, size = 0;
     Verdicts found;
-    std::optional<Error> error;
-    double seconds = 0;
 };
 
 Status check_job(const VerifyJob& job) {
     if (job.cell_base != 0 && job.cell_base != 1)
-        return Error{.what = "--cell-base", .expected = "0 or 1", .found = std::to_string(job.cell_base)};
-    std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(job.mesh));
-    const auto add = [&](const std::string& what, const std::string& path) {
-        for (base::NamedFile& file : jobs::input_files(what, path)) inputs.push_back(std::move(file));
-    };
-    add("--results", job.results);
-    for (const FieldFile& file : job.field_files) add("--field", file.path);
-    std::vector<base::NamedFile> outputs;
-    for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
-    return base::check_outputs(inputs, std::move(outputs));
+        return Error{.what = "job.cell_base", .expected = "0 or 1", .found = std::to_string(job.cell_base)};
+    return jobs::check_files(job, {{"job.results", job.results}}, {});
 }
 
 /// All that was read of a file, to be read again with fewer columns.
@@ -112,7 +99,7 @@ bool may_be_of_iteration(const ValueErrors& e) {
                                        count(-19, single ? -7 : -12) <= e.values / 10);
 }
 
-class Verification {
+class Verification final : jobs::Stages<ResultBlock> {
 public:
     explicit Verification(const VerifyJob& job) : job_(job) {}
 
@@ -137,20 +124,10 @@ public:
     }
 
 private:
-    void stage(const std::string& text) const {
-        if (job_.progress) job_.progress({.stage = text});
-    }
-
     Status read_all() {
         Stopwatch watch;
-        stage("reading " + job_.mesh);
-        const int threads = job_.options.threads;
-        Result<Mesh> mesh =
-            read_mesh(job_.mesh, {.faces = false, .neighbours = false, .threads = threads, .step = job_.step});
+        Result<Mesh> mesh = jobs::open_mesh(job_, job_.options.threads, job_.step, summary_.curved);
         if (!mesh) return mesh.error();
-        const auto curved = take_as_straight(*mesh, job_.mesh, job_.curved);
-        if (!curved) return curved.error();
-        summary_.curved = *curved;
         mesh_ = std::move(*mesh);
         if (Status added = jobs::add_fields(job_.field_files, mesh_); !added) return added;
         auto fields = sample::quantities_named(mesh_, job_.fields);
@@ -163,7 +140,7 @@ private:
         summary_.cells = mesh_.cell_count();
         summary_.dimension = mesh_.dimension;
         summary_.notes = mesh_.notes;
-        summary_.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+        summary_.threads = jobs::thread_count(job_.options.threads);
         auto all = open_results(job_, mesh_.dimension, {"all"});
         if (!all) return all.error();
         auto columns = jobs::claimed_columns(job_, mesh_, *fields, (*all)->carried(), summary_.notes);
@@ -183,10 +160,7 @@ private:
 
     Status build() {
         Stopwatch watch;
-        BuildOptions options;
-        options.threads = job_.options.threads;
-        options.progress = [&](const char* text) { stage(text); };
-        Result<Locator> locator = Locator::build(mesh_, options);
+        Result<Locator> locator = jobs::build_locator(job_, mesh_, job_.options.threads);
         if (!locator) return locator.error();
         locator_.emplace(std::move(*locator));
         Result<Sampler> sampler = Sampler::build(*locator_, columns_.fields);
@@ -202,18 +176,33 @@ private:
         return Done{};
     }
 
-    Result<std::size_t> read(ResultBlock& block, std::size_t size) {
+    Status read(ResultBlock& block) override {
         Stopwatch watch;
         block.points.clear();
         block.columns.clear();
         block.first = taken_;
-        Result<std::size_t> count = source_->read(size, block.points);
-        if (!count) return count;
+        const Result<std::size_t> count = source_->read(size_, block.points);
+        if (!count) return count.error();
         source_->take_carried(block.columns);
         taken_ += *count;
         block.size = *count;
         summary_.seconds.read += watch.lap();
-        return count;
+        return Done{};
+    }
+
+    Status work(ResultBlock& block) const override {
+        const auto claims = jobs::claims_of(columns_, block.columns, mesh_, job_, block.first);
+        if (!claims) return claims.error();
+        auto found = verifier_->verify({block.points, claims->cells, claims->inside, claims->values, block.first});
+        if (!found) return found.error();
+        block.found = std::move(*found);
+        return Done{};
+    }
+
+    Status write(ResultBlock& block) override {
+        summary_.verdicts.add(block.found, job_.options.examples);
+        jobs::tell_stage(job_, "rows", block.first + block.size);
+        return Done{};
     }
 
     /// Single precision is told by the first block.
@@ -225,7 +214,7 @@ private:
             cut_ = true;
             summary_.notes.push_back({Note::Kind::guessed,
                                       "values have six digits: what was cut off counts as an error; let the tool write "
-                                      "17 digits, of coordinates as well, or see --tolerance",
+                                      "17 digits, of coordinates as well, or see job.tolerance",
                                       job_.results, true});
             return;
         }
@@ -233,51 +222,26 @@ private:
         options.tolerance = tolerance_of_floats;
         summary_.notes.push_back({Note::Kind::guessed,
                                   "values are single precision: errors up to 1e-6 of the range count as right; "
-                                  "--tolerance says otherwise",
+                                  "job.tolerance says otherwise",
                                   job_.results, true});
     }
 
     Status compare() {
         const int threads = job_.options.threads;
-        const std::size_t size = jobs::block_size(source_->count(), threads, mesh_.cell_count());
-        ResultBlock first;
-        if (const auto read_first = read(first, size); !read_first) return read_first.error();
+        size_ = jobs::block_size(source_->count(), threads, mesh_.cell_count());
+        if (Status first_read = read_first(); !first_read) return first_read;
         VerifyOptions options = job_.options;
         options.threads = 1;  // blocks go side by side
-        choose_tolerance(first, options);
-        const Verifier verifier(*sampler_, options);
-        summary_.ranges = verifier.ranges();
-        summary_.relative_to = verifier.relative_to();
+        choose_tolerance(first(), options);
+        verifier_.emplace(*sampler_, options);
+        summary_.ranges = verifier_->ranges();
+        summary_.relative_to = verifier_->relative_to();
         summary_.tolerance = options.tolerance;
         summary_.exact = options.exact;
         summary_.outside_value = options.outside_value;
         summary_.verdicts.columns.resize(summary_.columns.size());
         locate::in_arena(threads, [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
-        bool begun = false;
-        const auto next = [&](ResultBlock& block) -> Status {
-            if (!begun) {
-                begun = true;
-                block = std::move(first);
-                return Done{};
-            }
-            const auto count = read(block, size);
-            return count ? Status(Done{}) : Status(count.error());
-        };
-        const auto work = [&](ResultBlock& block) -> Status {
-            const auto claims = jobs::claims_of(columns_, block.columns, mesh_, job_, block.first);
-            if (!claims) return claims.error();
-            auto found = verifier.verify({block.points, claims->cells, claims->inside, claims->values, block.first});
-            if (!found) return found.error();
-            block.found = std::move(*found);
-            return Done{};
-        };
-        const auto keep = [&](ResultBlock& block) -> Status {
-            summary_.verdicts.add(block.found, options.examples);
-            if (job_.progress) job_.progress({.stage = "rows", .done = block.first + block.size});
-            return Done{};
-        };
-        jobs::StagesOf<ResultBlock> stages(threads);
-        Status done = stages.run(next, work, keep);
+        Status done = Stages::run(threads);
         Stopwatch watch;
         if (done) done = Verifier(*sampler_, job_.options).measure(summary_.verdicts);
         for (const Note& note : source_->notes()) {
@@ -285,7 +249,7 @@ private:
             if (note.kind != Note::Kind::left_out) summary_.notes.push_back(note);
         }
         note_iteration();
-        summary_.seconds.sample = stages.seconds() + watch.lap();
+        summary_.seconds.sample = seconds() + watch.lap();
         return done;
     }
 
@@ -302,7 +266,7 @@ private:
             {Note::Kind::guessed,
              fmt::format("the errors are of the size of an iterative solver's tolerance: the largest is {:.2g} of the "
                          "range, and few are as small as rounding; a tool that finds points in second-order cells by "
-                         "iteration leaves such errors (VTK stops at 1e-5); --tolerance 1e-4 counts them as right",
+                         "iteration leaves such errors (VTK stops at 1e-5); job.tolerance 1e-4 counts them as right",
                          most),
              job_.results, true});
     }
@@ -313,7 +277,9 @@ private:
     std::unique_ptr<PointSource> source_;
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
+    std::optional<Verifier> verifier_;
     std::uint64_t taken_ = 0;
+    std::size_t size_ = 0;
     bool cut_ = false;  ///< values have six digits
     VerifyReport summary_;
 };
@@ -323,9 +289,7 @@ private:
 Result<VerifyReport> verify_files(const VerifyJob& job) {
     const base::RunFiles run;
     if (Status ok = check_job(job); !ok) return ok.error();
-    std::optional<tbb::global_control> limit;
-    if (job.options.threads > 0)
-        limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(job.options.threads));
+    const jobs::ThreadLimit limit(job.options.threads);
     return Verification(job).run();
 }
 

@@ -1,4 +1,4 @@
-// Rules of --fail-on for verified results.
+// Which wrong rows fail.
 
 #include <algorithm>
 #include <array>
@@ -59,8 +59,8 @@ Status check_limits(const VerifyReport& summary, const std::vector<VerifyLimit>&
                          .file = summary.results,
                          .expected = cells ? "a column that names cells" : "a column of values of a field",
                          .found = "none",
-                         .remedy = cells ? "name it with --cell-column, or leave the rule out"
-                                         : "name it with --value, or leave the rule out"};
+                         .remedy = cells ? "name it with job.cell_column, or leave the rule out"
+                                         : "name it with job.values, or leave the rule out"};
     }
     return Done{};
 }

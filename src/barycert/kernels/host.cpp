@@ -29,7 +29,7 @@ Error no_process(const std::string& path, std::string found) {
     return {.what = "cannot run the kernel library in a process of its own",
             .file = path,
             .found = std::move(found),
-            .remedy = "run it in this process with --in-process if you trust it"};
+            .remedy = "run it in this process with job.in_process if you trust it"};
 }
 
 /// How a process ended, in words.

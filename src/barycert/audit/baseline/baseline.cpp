@@ -150,7 +150,7 @@ Result<Baseline> read_baseline(const std::string& path) {
 Status check_comparable(const Baseline& b, const AuditOptions& options, const MeshSource& meshes) {
     if (b.seed != options.seed || b.count != options.count) {
         return not_comparable(b, in_words(options.seed, options.count), in_words(b.seed, b.count),
-                              "give --seed " + std::to_string(b.seed) + " --count " + std::to_string(b.count) +
+                              "give job.seed " + std::to_string(b.seed) + " job.count " + std::to_string(b.count) +
                                   ", or make a new baseline");
     }
     const auto draws = [](const Family& f) { return f.needs_mesh; };

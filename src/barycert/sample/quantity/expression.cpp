@@ -133,7 +133,7 @@ std::vector<std::string> all_field_names(const Mesh& mesh) {
 Error no_such_field(const Mesh& mesh, const std::string& name) {
     const std::string points = names_of(mesh.point_fields), cells = names_of(mesh.cell_fields);
     std::string remedy = "there are " + points;
-    if (points.empty()) remedy = cells.empty() ? "the mesh has none: add them by --field NAME=FILE" : "there are";
+    if (points.empty()) remedy = cells.empty() ? "the mesh has none: add them by job.field_files NAME=FILE" : "there are";
     if (!cells.empty()) remedy += (points.empty() ? " " : ", and of cells ") + cells;
     return {.what = "no field of that name",
             .file = {},
@@ -211,13 +211,13 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
             if (chosen[i].field == chosen[k].field && chosen[i].steps == chosen[k].steps)
                 return Error{.what = chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
                              .found = '"' + (chosen[i].name.empty() ? chosen[i].field->name : chosen[i].name) + '"',
-                             .remedy = "name it once in --fields"};
+                             .remedy = "name it once in job.fields"};
         }
     }
     if (const auto name = common_column(mesh, chosen)) {
         return Error{.what = "two columns have the same name",
                      .found = '"' + *name + '"',
-                     .remedy = "choose one of them in --fields"};
+                     .remedy = "choose one of them in job.fields"};
     }
     std::stable_sort(chosen.begin(), chosen.end(),
                      [&](const FieldChoice& a, const FieldChoice& b) { return rank(a) < rank(b); });

@@ -1,22 +1,15 @@
-// barycert render clip: a triangle and segments with colours, before and after they are clipped by a box.
+// A triangle and segments with colours, before and after they are clipped by a box.
 
-#include <CLI/CLI.hpp>
-
+#include <array>
 #include <cmath>
-#include <memory>
+#include <utility>
+#include <vector>
 
+#include "barycert/jobs/pictures.hpp"
 #include "barycert/raster.hpp"
-#include "command.hpp"
-#include "render.hpp"
-#include "render_options.hpp"
 
-namespace barycert::cli {
+namespace barycert::jobs {
 namespace {
-
-struct ClipPicture {
-    PictureOptions files;
-    RasterSize size{640, 320};
-};
 
 /// x, y, red, green, blue.
 using ColouredPoint = std::array<double, 5>;
@@ -28,7 +21,7 @@ constexpr std::array<std::array<ColouredPoint, 2>, 4> segments{{
     {{{0.6, -0.7, 1, 0.6, 0}, {0.85, 0.5, 0.5, 0, 0.8}}},   // inside
     {{{1.2, 1.7, 1, 0.6, 0}, {1.75, -0.4, 0.5, 0, 0.8}}},   // outside
 }};
-constexpr double window = 1.9;  ///< half the side of a panel
+constexpr double half_panel = 1.9;  ///< half the side of a panel
 
 /// Draws into one scene of coloured triangles; later ones in front.
 class ClipScene {
@@ -36,13 +29,13 @@ public:
     ClipScene(RasterSize size, int panels) : panels_(panels) {
         scene.size = size;
         // Squares beside each other, as large as they fit.
-        const double aspect = 1.0 * size.width / size.height, half = std::max(window * panels / aspect, window);
+        const double aspect = 1.0 * size.width / size.height, half = std::max(half_panel * panels / aspect, half_panel);
         scene.to_clip = scaling({1 / (half * aspect), 1 / half, 1});
         pixel_ = 2 * half / size.height;
     }
 
     void panel(int number) {
-        left_ = window * (2 * number + 1 - panels_);
+        left_ = half_panel * (2 * number + 1 - panels_);
         z_ = 0.9;
     }
 
@@ -111,8 +104,10 @@ Status add_after(ClipScene& s) {
     return Done{};
 }
 
-Result<Scene> clip_scene(const ClipPicture& p) {
-    ClipScene s(p.size, 2);
+}  // namespace
+
+Result<Scene> clip_scene(RasterSize size) {
+    ClipScene s(size, 2);
     s.panel(0);
     add_before(s);
     s.panel(1);
@@ -120,16 +115,4 @@ Result<Scene> clip_scene(const ClipPicture& p) {
     return std::move(s.scene);
 }
 
-}  // namespace
-
-void add_render_clip(CLI::App& render, int& exit_code) {
-    auto* sub =
-        render.add_subcommand("clip", "A triangle and segments with colours, before and after clipping by a box");
-    sub->footer(done_or_error);
-    const auto p = std::make_shared<ClipPicture>();
-    add_picture_options(*sub, p->files);
-    add_size_option(*sub, p->size);
-    sub->callback([=, &exit_code] { exit_code = run_scene(p->files, "clip", {}, [&] { return clip_scene(*p); }); });
-}
-
-}  // namespace barycert::cli
+}  // namespace barycert::jobs

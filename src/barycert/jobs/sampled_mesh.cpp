@@ -1,4 +1,4 @@
-#include "barycert/jobs/engine.hpp"
+#include "barycert/jobs/sampled_mesh.hpp"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -72,58 +72,65 @@ std::string reason_of(const Locator& locator, std::uint64_t degenerate, bool cur
 
 }  // namespace
 
-Result<std::unique_ptr<Engine>> Engine::open(Run& run) {
+SampledMesh::SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std::string command)
+    : job(of), steps(std::move(all_steps)) {
+    for (const Step& step : steps) {
+        report.steps.push_back(step.label);
+        if (step.of_mesh) report.times.push_back(base::parse_double(step.time).value_or(0));
+    }
+    report.command = std::move(command);
+    report.mesh = job.mesh;
+    report.output = job.output;
+    report.weights = job.weights;
+    report.rounding = job.options.rounding;
+    report.outside = job.options.outside;
+    report.threads = thread_count(job.options.threads);
+}
+
+Status SampledMesh::open() {
     Stopwatch watch;
-    run.stage("reading " + run.job.mesh);
-    std::unique_ptr<Engine> engine(new Engine(run));
-    Result<Mesh> mesh = engine->read(run.steps.empty() ? nullptr : &run.steps.front());
+    Result<Mesh> mesh = read(steps.empty() ? nullptr : &steps.front());
     if (!mesh) return mesh.error();
-    engine->mesh_ = std::move(*mesh);
-    if (Status added = engine->add_fields_of_job(); !added) return added.error();
-    if (Status chosen = engine->choose_fields(); !chosen) return chosen.error();
-    engine->names_of_first_ = engine->names_of_chosen();
-    SampleReport& summary = run.summary;
-    summary.notes = engine->mesh_.notes;
-    note_labels(engine->mesh_, run.job.fields, summary.notes);
-    summary.dimension = engine->mesh_.dimension;
-    summary.nodes = engine->mesh_.point_count();
-    summary.cells = engine->mesh_.cell_count();
-    summary.seconds.mesh = watch.lap();
-    return engine;
+    mesh_ = std::move(*mesh);
+    if (Status added = add_fields_of_job(); !added) return added;
+    if (Status chosen = choose_fields(); !chosen) return chosen;
+    names_of_first_ = names_of_chosen();
+    report.notes = mesh_.notes;
+    note_labels(mesh_, job.fields, report.notes);
+    report.dimension = mesh_.dimension;
+    report.nodes = mesh_.point_count();
+    report.cells = mesh_.cell_count();
+    report.seconds.mesh = watch.lap();
+    return Done{};
+}
+
+SampleReport SampledMesh::finish() {
+    report.seconds.total = whole_.lap();
+    return std::move(report);
 }
 
 /// That of the step, where it has one, or the one that the job asks for.
-Result<Mesh> Engine::read(const Step* step) {
+Result<Mesh> SampledMesh::read(const Step* step) {
     const bool of_step = step != nullptr && step->of_mesh.has_value();
-    Result<Mesh> mesh =
-        read_mesh(run_.job.mesh, {.faces = false,
-                                  .neighbours = false,
-                                  .threads = run_.job.options.threads,
-                                  .step = of_step ? StepChoice{.number = step->of_mesh} : run_.job.step});
-    if (!mesh) return mesh;
-    const auto curved = take_as_straight(*mesh, run_.job.mesh, run_.job.curved);
-    if (!curved) return curved.error();
-    // Of steps, that with the largest deviation.
-    if (curved->max_deviation >= run_.summary.curved.max_deviation) run_.summary.curved = *curved;
-    return mesh;
+    return open_mesh(job, job.options.threads, of_step ? StepChoice{.number = step->of_mesh} : job.step, report.curved);
 }
 
-Status Engine::add_fields_of_job() {
-    if (Status added = add_fields(run_.job.field_files, mesh_); !added) return added;
-    for (const Step& step : run_.steps) {
+Status SampledMesh::add_fields_of_job() {
+    if (Status added = add_fields(job.field_files, mesh_); !added) return added;
+    for (const Step& step : steps) {
         for (FieldFile file : step.files) {
-            if (!run_.step_by_step()) file.name = name_of_step(file.name, step);
-            const Result<FieldPlace> place = add_field(file, mesh_, run_.step_by_step());
+            if (!step_by_step()) file.name = name_of_step(file.name, step);
+            const Result<FieldPlace> place = add_field(file, mesh_, step_by_step());
             if (!place) return place.error();
             places_of_series_.push_back(*place);
         }
-        if (run_.step_by_step()) break;
+        if (step_by_step()) break;
     }
     give_each_a_name(mesh_);
     return Done{};
 }
 
-Status Engine::go_to(const Step& step) {
+Status SampledMesh::go_to(const Step& step) {
     Status gone = go(step);
     if (gone || !step.of_mesh) return gone;
     Error error = gone.error();
@@ -131,10 +138,10 @@ Status Engine::go_to(const Step& step) {
     return error;
 }
 
-Status Engine::go(const Step& step) {
+Status SampledMesh::go(const Step& step) {
     Stopwatch watch;
     Status read = step.of_mesh ? go_to_mesh(step) : go_to_fields(step);
-    run_.summary.seconds.mesh += watch.lap();
+    report.seconds.mesh += watch.lap();
     if (!read) return read;
     sampler_.reset();
     made_.clear();
@@ -143,19 +150,19 @@ Status Engine::go(const Step& step) {
         tell_once({{Note::Kind::left_out,
                     fmt::format("in step {} the fields of the first step: there they are {}, here {}", step.label,
                                 names_of_first_, names),
-                    run_.job.mesh, true}});
+                    job.mesh, true}});
     }
     Status built = another_mesh_ ? Status(Done{}) : build_sampler(part_ ? fields_of_part() : fields_);
-    run_.summary.seconds.build += watch.lap();
+    report.seconds.build += watch.lap();
     return built;
 }
 
-Status Engine::go_to_mesh(const Step& step) {
+Status SampledMesh::go_to_mesh(const Step& step) {
     Result<Mesh> mesh = read(&step);
     if (!mesh) return mesh.error();
     if (mesh->dimension != mesh_.dimension)
         return Error{.what = "step " + step.label + " has cells of another dimension",
-                     .file = run_.job.mesh,
+                     .file = job.mesh,
                      .expected = std::to_string(mesh_.dimension) + ", as the first one has",
                      .found = std::to_string(mesh->dimension)};
     another_mesh_ = mesh->points != mesh_.points || mesh->cells != mesh_.cells || mesh->mid_nodes != mesh_.mid_nodes ||
@@ -164,7 +171,7 @@ Status Engine::go_to_mesh(const Step& step) {
         sampler_.reset();
         locator_.reset();
         part_.reset();
-        ++run_.summary.meshes;
+        ++report.meshes;
         mesh_ = std::move(*mesh);
     } else {  // where the locator is, the mesh stays
         mesh_.point_fields = std::move(mesh->point_fields);
@@ -177,7 +184,7 @@ Status Engine::go_to_mesh(const Step& step) {
     return added;
 }
 
-Status Engine::go_to_fields(const Step& step) {
+Status SampledMesh::go_to_fields(const Step& step) {
     Notes notes;
     for (std::size_t i = 0; i < step.files.size(); ++i) {
         const FieldPlace place = places_of_series_[i];
@@ -202,9 +209,9 @@ Status Engine::go_to_fields(const Step& step) {
 }
 
 /// What is told of every step is told once.
-void Engine::tell_once(Notes notes) {
+void SampledMesh::tell_once(Notes notes) {
     for (Note& note : notes) {
-        Notes& told = run_.summary.notes;
+        Notes& told = report.notes;
         const bool known = std::any_of(told.begin(), told.end(), [&](const Note& other) {
             return other.kind == note.kind && other.text == note.text;
         });
@@ -213,20 +220,20 @@ void Engine::tell_once(Notes notes) {
 }
 
 /// With columns for all steps, what is asked of a series is asked of each step.
-std::vector<std::string> Engine::names_of_fields() const {
-    if (run_.step_by_step() || run_.steps.empty()) return run_.job.fields;
+std::vector<std::string> SampledMesh::names_of_fields() const {
+    if (step_by_step() || steps.empty()) return job.fields;
     std::vector<std::string> names;
     const auto of_steps = [&](const std::string& text) {
-        for (std::size_t s = 0; s < run_.steps.front().files.size(); ++s) {
-            const std::string& series = run_.steps.front().files[s].name;
+        for (std::size_t s = 0; s < steps.front().files.size(); ++s) {
+            const std::string& series = steps.front().files[s].name;
             if (!sample::with_other_name(text, series, series)) continue;
-            for (const Step& step : run_.steps)
+            for (const Step& step : steps)
                 names.push_back(*sample::with_other_name(text, series, name_of_step(series, step)));
             return true;
         }
         return false;
     };
-    for (const std::string& text : run_.job.fields) {
+    for (const std::string& text : job.fields) {
         if (of_steps(text)) continue;
         bool some = false;
         const std::size_t before = names.size();
@@ -243,9 +250,9 @@ std::vector<std::string> Engine::names_of_fields() const {
     return names;
 }
 
-Status Engine::choose_fields() {
+Status SampledMesh::choose_fields() {
     fields_.clear();
-    if (run_.job.output.empty() && !run_.job.weights.empty()) return Done{};
+    if (job.output.empty() && !job.weights.empty()) return Done{};
     std::vector<std::string> names = names_of_fields();
     Result<std::vector<const Column*>> of_cells = take_labels(mesh_, names);
     if (!of_cells) return of_cells.error();
@@ -255,61 +262,51 @@ Status Engine::choose_fields() {
     Result<std::vector<FieldChoice>> fields = sample::quantities_named(mesh_, names);
     if (!fields) return fields.error();
     fields_ = std::move(*fields);
-    for (const FieldChoice& choice : fields_) count_not_finite(*choice.field, choice.of_cells, run_.summary.not_finite);
+    for (const FieldChoice& choice : fields_) count_not_finite(*choice.field, choice.of_cells, report.not_finite);
     // What depends on all cells is made before some of them are looked at.
     for (FieldChoice& choice : fields_) {
         const std::size_t steps = sample::steps_of_whole_mesh(choice);
         if (steps == 0) continue;
         if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
-            return Error{.what = std::string("the mesh is inconsistent: ") + wrong, .file = run_.job.mesh};
+            return Error{.what = std::string("the mesh is inconsistent: ") + wrong, .file = job.mesh};
         if (Status done = sample::make_fields(mesh_, choice, steps, made_); !done) return done;
     }
     return Done{};
 }
 
-std::string Engine::names_of_chosen() const {
+std::string SampledMesh::names_of_chosen() const {
     std::string names;
     for (const FieldChoice& choice : fields_)
         names += (names.empty() ? "" : ", ") + base::quoted(choice.name.empty() ? choice.field->name : choice.name);
     return names.empty() ? "none" : names;
 }
 
-TableFormat Engine::format() const {
-    TableFormat format{mesh_.dimension, sampler_->fields(), gives_distances(run_.job.options.outside)};
-    format.vtk_data = run_.job.vtk_data.value_or(VtkData::raw);
+TableFormat SampledMesh::format() const {
+    TableFormat format{mesh_.dimension, sampler_->fields(), gives_distances(job.options.outside)};
+    format.vtk_data = job.vtk_data.value_or(VtkData::raw);
     return format;
 }
 
-Status Engine::build(bool prove) {
-    return build_on(mesh_, fields_, prove);
-}
-
-Status Engine::build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove) {
+Status SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove) {
     Stopwatch watch;
-    BuildOptions options;
-    options.prove = prove;
-    options.threads = run_.job.options.threads;
-    options.progress = [&](const char* stage) { run_.stage(stage); };
-    Result<Locator> locator = Locator::build(mesh, options);
+    Result<Locator> locator = build_locator(job, mesh, job.options.threads, prove);
     if (!locator) return locator.error();
     locator_.emplace(std::move(*locator));
     if (Status built = build_sampler(fields); !built) return built;
-    SampleReport& summary = run_.summary;
-    if (run_.job.count_degenerate)
-        summary.degenerate_cells += prove ? locator_->degenerate_cells() : count_degenerate(mesh);
-    summary.seconds.build += watch.lap();
+    if (job.count_degenerate) report.degenerate_cells += prove ? locator_->degenerate_cells() : count_degenerate(mesh);
+    report.seconds.build += watch.lap();
     return Done{};
 }
 
-Status Engine::build_sampler(const std::vector<FieldChoice>& fields) {
+Status SampledMesh::build_sampler(const std::vector<FieldChoice>& fields) {
     Result<Sampler> sampler = Sampler::build(*locator_, fields);
     if (!sampler) return sampler.error();
     sampler_.emplace(std::move(*sampler));
-    run_.summary.columns = sampler_->columns();
+    report.columns = sampler_->columns();
     return Done{};
 }
 
-std::vector<FieldChoice> Engine::fields_of_part() {
+std::vector<FieldChoice> SampledMesh::fields_of_part() {
     std::vector<FieldChoice> fields;
     part_->mesh.point_fields.clear();
     part_->mesh.cell_fields.clear();
@@ -323,23 +320,22 @@ std::vector<FieldChoice> Engine::fields_of_part() {
     return fields;
 }
 
-Status Engine::prepare() {
+Status SampledMesh::prepare() {
     if (locator_) return Done{};
-    if (Status built = build(true); !built) return built;
-    SampleReport& summary = run_.summary;
-    summary.method = FoundBy::walk;
-    summary.contested_cells += locator_->contested_cells();
+    if (Status built = build(mesh_, fields_, true); !built) return built;
+    report.method = FoundBy::walk;
+    report.contested_cells += locator_->contested_cells();
     // Of several meshes, that all are certified, or why one is not.
-    if (summary.verdict == Verdict::not_certified) return Done{};
-    summary.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
-    summary.reason = reason_of(*locator_, locator_->degenerate_cells(), summary.curved.cells != 0, run_.job.program);
+    if (report.verdict == Verdict::not_certified) return Done{};
+    report.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
+    report.reason = reason_of(*locator_, locator_->degenerate_cells(), report.curved.cells != 0, job.program);
     return Done{};
 }
 
-Status Engine::prepare_for_all(std::span<const double> points) {
+Status SampledMesh::prepare_for_all(std::span<const double> points) {
     const ExactEnvironment environment;
     const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
-    const bool asked = !gives_distances(run_.job.options.outside);
+    const bool asked = !gives_distances(job.options.outside);
     const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {
         const std::size_t entities = choice.of_cells ? cells : mesh_.point_count();
         return choice.field->data.size() == entities * static_cast<std::size_t>(choice.field->components);
@@ -347,23 +343,21 @@ Status Engine::prepare_for_all(std::span<const double> points) {
     // What is wrong with fields or points is told by the usual way.
     if (!asked || !needs_no_index(count, cells) || !fit || !base::all_finite(points)) return prepare();
     Stopwatch watch;
-    run_.stage("looking for the cells of the points");
+    tell("looking for the cells of the points");
     std::optional<std::vector<Mesh::Index>> near;
-    locate::in_arena(run_.job.options.threads,
-                     [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
+    locate::in_arena(job.options.threads, [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
     if (!near) return prepare();
     part_ = mesh::part_of(mesh_, std::move(*near));
     const std::vector<FieldChoice> fields = fields_of_part();
-    SampleReport& summary = run_.summary;
-    summary.method = FoundBy::pass;
-    summary.reason = fmt::format("no index for {}: {} of {} may hold some", counted(count, "point"),
-                                 part_->cells.size(), counted(cells, "cell"));
-    summary.seconds.build += watch.lap();
-    return build_on(part_->mesh, fields, false);
+    report.method = FoundBy::pass;
+    report.reason = fmt::format("no index for {}: {} of {} may hold some", counted(count, "point"), part_->cells.size(),
+                                counted(cells, "cell"));
+    report.seconds.build += watch.lap();
+    return build(part_->mesh, fields, false);
 }
 
-void Engine::let_go_of_mesh() {
-    if (gives_distances(run_.job.options.outside) || !mesh_.mid_nodes.empty() || run_.step_by_step()) return;
+void SampledMesh::let_go_of_mesh() {
+    if (gives_distances(job.options.outside) || !mesh_.mid_nodes.empty() || step_by_step()) return;
     // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
     give_back(mesh_.points);
     give_back(mesh_.cells);
@@ -371,8 +365,8 @@ void Engine::let_go_of_mesh() {
     for (Field& field : mesh_.point_fields) give_back(field.data);
 }
 
-Result<NodeWeights> Engine::weights_of(const TableView& rows, const OutsidePolicy& outside) const {
-    Result<NodeWeights> weights = node_weights(*locator_, rows, outside);
+Result<NodeWeights> SampledMesh::weights_of(const TableView& rows) const {
+    Result<NodeWeights> weights = node_weights(*locator_, rows, job.options.outside);
     // Nodes of a part are in the order of the mesh.
     if (weights && part_) {
         for (Mesh::Index& node : weights->nodes) node = part_->nodes[static_cast<std::size_t>(node)];
@@ -380,17 +374,17 @@ Result<NodeWeights> Engine::weights_of(const TableView& rows, const OutsidePolic
     return weights;
 }
 
-void Engine::name_cells(Table& rows) const {
+void SampledMesh::name_cells(Table& rows) const {
     if (!part_) return;
     for (Mesh::Index& cell : rows.cells) {
         if (cell >= 0) cell = part_->cells[static_cast<std::size_t>(cell)];
     }
 }
 
-Status Engine::prepare_without_search(FoundBy method, const std::string& reason) {
-    run_.summary.method = method;
-    run_.summary.reason = reason;
-    return build(false);
+Status SampledMesh::prepare_without_search(FoundBy method, const std::string& reason) {
+    report.method = method;
+    report.reason = reason;
+    return build(mesh_, fields_, false);
 }
 
 }  // namespace barycert::jobs

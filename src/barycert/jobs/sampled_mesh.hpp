@@ -1,32 +1,49 @@
-/// A mesh, what finds points in it, and what samples its fields.
+/// The mesh of a job of sampling with its fields, what finds points in it, and what samples the fields.
 #pragma once
 
 #include <cstdint>
 #include <deque>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "barycert/io.hpp"
 #include "barycert/jobs/field_files.hpp"
-#include "barycert/jobs/run.hpp"
-#include "barycert/locator.hpp"
-#include "barycert/mesh.hpp"
+#include "barycert/jobs/job_files.hpp"
+#include "barycert/jobs/series.hpp"
 #include "barycert/mesh/part.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert::jobs {
 
-/// Writes what it does into the summary of the run. Holds the mesh, and therefore stays where it is.
-class Engine {
+/// Writes what it does into the report of the job. The job must stay, and so must this: sampler and locator refer to
+/// the mesh.
+class SampledMesh {
 public:
-    /// Reads the mesh and the files of fields, and chooses fields. The run must stay.
-    static Result<std::unique_ptr<Engine>> open(Run& run);
+    /// `steps`: of the series of the job. `command`: of the report.
+    SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std::string command);
+    SampledMesh(const SampledMesh&) = delete;
+    SampledMesh& operator=(const SampledMesh&) = delete;
+
+    const SamplingJob& job;
+    const std::vector<Step> steps;
+    SampleReport report = {};
+
+    /// Reads the mesh and the files of fields, and chooses fields.
+    Status open();
+
+    /// The report, when all is done.
+    SampleReport finish();
 
     const Mesh& mesh() const { return mesh_; }
+
+    /// Whether each step has outputs of its own.
+    bool step_by_step() const { return !steps.empty() && has_step_place(job.output); }
+
+    void tell(const std::string& what, std::uint64_t done = 0) const { tell_stage(job, what, done); }
 
     /// Prepares for points one by one. A second call does nothing.
     Status prepare();
@@ -46,7 +63,7 @@ public:
     /// cannot be read, or has other numbers of rows or components than that of the first step. Precondition: prepared.
     Status go_to(const Step& step);
 
-    /// Whether the step that was gone to has another mesh than the one before it: then the engine is to be prepared.
+    /// Whether the step that was gone to has another mesh than the one before it: then this is to be prepared.
     bool is_another_mesh() const { return another_mesh_; }
 
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
@@ -55,7 +72,7 @@ public:
     void let_go_of_mesh();
 
     /// The weights of rows as the locator names their cells, on the nodes of the mesh. Not after let_go_of_mesh().
-    Result<NodeWeights> weights_of(const TableView& rows, const OutsidePolicy& outside) const;
+    Result<NodeWeights> weights_of(const TableView& rows) const;
 
     /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
     void name_cells(Table& rows) const;
@@ -70,7 +87,6 @@ public:
     const std::vector<const Column*>& labels() const { return labels_; }
 
 private:
-    explicit Engine(Run& run) : run_(run) {}
     Result<Mesh> read(const Step* step);
     Status go(const Step& step);
     std::string names_of_chosen() const;
@@ -82,10 +98,9 @@ private:
     std::vector<std::string> names_of_fields() const;
     std::vector<FieldChoice> fields_of_part();
     Status build_sampler(const std::vector<FieldChoice>& fields);
-    Status build(bool prove);
-    Status build_on(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove);
+    Status build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove);
 
-    Run& run_;
+    Stopwatch whole_;
     Mesh mesh_;
     bool another_mesh_ = false;
     std::string names_of_first_;  ///< of the fields that are sampled in the first step

@@ -1,0 +1,284 @@
+// What an audit is made of, by names: kernels, families, files of meshes.
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "barycert/audit.hpp"
+#include "barycert/audit_search.hpp"
+#include "barycert/base/named_limit.hpp"
+#include "barycert/base/nearest_name.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/check.hpp"
+#include "barycert/io.hpp"
+
+namespace barycert {
+namespace {
+
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+    std::vector<std::string> names;
+    names.reserve(items.size());
+    for (const Item& item : items) names.push_back(item.name);
+    return names;
+}
+
+/// Items of `all(glob)` for each glob, without repetition, in the order of the catalogue.
+template <class Item, class All>
+Result<std::vector<Item>> chosen(const std::vector<std::string>& globs, All all, const std::string& what,
+                                 const char* remedy) {
+    std::vector<Item> items = all("*");
+    if (globs.empty()) return items;
+    for (const std::string& glob : globs) {
+        if (all(glob).empty())
+            return Error{.what = "no " + what + " of that name",
+                         .found = '"' + glob + '"',
+                         .remedy = base::did_you_mean(glob, names_of(items), remedy)};
+    }
+    std::erase_if(items, [&](const Item& item) {
+        return std::none_of(globs.begin(), globs.end(),
+                            [&](const std::string& glob) { return base::glob_match(glob, item.name); });
+    });
+    return items;
+}
+
+/// A mesh whose cells are taken with straight sides, as far as they may.
+Result<Mesh> cells_of(const std::string& path, int threads, Curved curved, Notes& notes) {
+    Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = threads});
+    if (!mesh) return mesh;
+    if (curved == Curved::refuse) {
+        const auto straight = take_as_straight(*mesh, path, curved);
+        if (!straight) return straight.error();
+    }
+    notes.insert(notes.end(), mesh->notes.begin(), mesh->notes.end());
+    return mesh;
+}
+
+Certificate certificate_of(const Mesh& mesh, int threads) {
+    CheckOptions options;
+    options.verdict_only = true;
+    options.threads = threads;
+    return check_mesh(mesh, options).certificate;
+}
+
+Result<MeshSource> source_of(const std::vector<NamedMesh>& meshes, bool certify, int threads, Curved curved,
+                             Notes& notes) {
+    MeshSource source;
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    for (const NamedMesh& named : meshes) {
+        Result<Mesh> mesh = cells_of(named.path, threads, curved, notes);
+        if (!mesh) return mesh.error();
+        if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = named.path};
+        const Certificate certificate = certify ? certificate_of(*mesh, threads) : Certificate();
+        arena.execute([&] { source.add(named.name, std::move(*mesh), certificate); });
+    }
+    return source;
+}
+
+/// What a rule is held against; nothing if a search has no such figure.
+std::optional<double> figure(const SearchReport& report, const std::string& name) {
+    if (name == "any" || name == "wrong_cases") return static_cast<double>(report.wrong_cases);
+    const bool finding = finding_named(name).has_value();
+    if (!finding && name != "worst_weight_ulp" && name != "worst_value_ulp") return std::nullopt;
+    bool mute = report.given_up;
+    for (const SearchFind& f : report.finds) {
+        if (f.reason == name) return finding ? static_cast<double>(f.cases) : f.found.magnitude;
+        for (const Finding of :
+             {Finding::not_finite, Finding::false_declaration, Finding::crashed, Finding::hung, Finding::out_of_bounds})
+            mute = mute || f.reason == barycert::name(of);
+    }
+    // A kernel that gave no weights where there are some has no error to measure: it is worse than any.
+    return finding || !mute ? 0 : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice) {
+    Result<std::vector<Kernel>> all = std::vector<Kernel>{};
+    // With a library named and no glob, only the library's kernels are meant.
+    if (!choice.names.empty() || choice.libraries.empty()) {
+        all = chosen<Kernel>(choice.names, kernels_matching, "kernel",
+                             "`barycert kernels` lists them; * and ? are wildcards");
+        if (!all) return all;
+    }
+    for (const std::string& path : choice.libraries) {
+        Result<Kernel> kernel =
+            choice.in_process ? load_kernel_library(path) : load_contained_kernel(path, choice.seconds);
+        if (!kernel) return kernel.error();
+        if (std::any_of(all->begin(), all->end(), [&](const Kernel& k) { return k.name == kernel->name; }))
+            return Error{.what = "two kernel libraries have the same name",
+                         .file = path,
+                         .found = kernel->name,
+                         .remedy = "set another info->name in one of them"};
+        all->push_back(std::move(*kernel));
+    }
+    for (Kernel& kernel : *all) {
+        if (!choice.class_tolerance || kernel.rule != RegionRule::sign || kernel.certifies) continue;
+        kernel.rule = RegionRule::tolerant;
+        kernel.tolerance = *choice.class_tolerance;
+    }
+    return all;
+}
+
+Result<Kernel> choose_kernel(const KernelChoice& choice) {
+    if (choice.names.empty() == choice.libraries.empty())
+        return Error{.what = "which kernel",
+                     .expected = "the name of one kernel, or job.kernel_library FILE",
+                     .found = choice.names.empty() ? "neither" : "both",
+                     .remedy = "`barycert kernels` lists the names"};
+    if (!choice.libraries.empty()) {
+        const Result<std::vector<Kernel>> one = choose_kernels(choice);
+        return one ? one->front() : Result<Kernel>(one.error());
+    }
+    const std::string& name = choice.names.front();
+    const std::vector<Kernel> kernels = kernels_matching(name);
+    if (kernels.size() != 1)
+        return Error{
+            .what = "which kernel",
+            .expected = "the name of one kernel",
+            .found = kernels.empty() ? '"' + name + '"' : std::to_string(kernels.size()) + " of them",
+            .remedy = base::did_you_mean(name, names_of(kernels_matching("*")), "`barycert kernels` lists the names")};
+    return kernels.front();
+}
+
+Result<std::vector<Family>> choose_families(const std::vector<std::string>& names) {
+    return chosen<Family>(names, families_matching, "family", "`barycert families` lists them; * and ? are wildcards");
+}
+
+Result<PreparedAudit> prepare_audit(const AuditJob& job) {
+    PreparedAudit out{.options = job.options, .meshes = {}, .baseline = {}, .libraries = {}, .notes = {}};
+    auto kernels = choose_kernels(job.kernels);
+    if (!kernels) return kernels.error();
+    out.options.kernels = std::move(*kernels);
+    auto families = choose_families(job.families);
+    if (!families) return families.error();
+    out.options.families = std::move(*families);
+    const bool wanted = std::any_of(out.options.families.begin(), out.options.families.end(),
+                                    [](const Family& f) { return f.needs_mesh; });
+    if (wanted || job.meshes_asked) {
+        auto meshes = source_of(job.meshes, job.check, job.options.threads, job.curved, out.notes);
+        if (!meshes) return meshes.error();
+        out.meshes = std::move(*meshes);
+    }
+    if (!job.baseline.empty()) {
+        Result<Baseline> baseline = read_baseline(job.baseline);
+        if (!baseline) return baseline.error();
+        if (const Status ok = check_comparable(*baseline, out.options, out.meshes); !ok) return ok.error();
+        out.baseline = std::move(*baseline);
+    }
+    // Libraries' kernels stand behind those of the catalogue, in their order.
+    const std::vector<std::string>& libraries = job.kernels.libraries;
+    for (std::size_t i = 0; i < libraries.size(); ++i)
+        out.libraries[out.options.kernels[out.options.kernels.size() - libraries.size() + i].name] = libraries[i];
+    return out;
+}
+
+Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels) {
+    if (!job.reason.empty() && !finding_named(job.reason))
+        return Error{.what = "job.reason of a case that is generated",
+                     .expected = "a class of finding",
+                     .found = '"' + job.reason + '"',
+                     .remedy = "leave it out to see the answer whatever it is"};
+    const auto families = choose_families({job.family});
+    if (!families) return families.error();
+    if (families->size() != 1 || families->front().name != job.family)
+        return Error{
+            .what = "job.family must name one family",
+            .found = '"' + job.family + '"',
+            .remedy = base::did_you_mean(job.family, names_of(all_families()), "`barycert families` lists them")};
+    const Family& family = families->front();
+    std::optional<Simplex> simplex = simplex_named(job.simplex);
+    if (!job.simplex.empty() && !simplex) {
+        std::vector<std::string> names;
+        for (const Simplex s : all_simplices) names.emplace_back(name(s));
+        return Error{.what = "unknown simplex",
+                     .expected = "segment, triangle, triangle3d or tetrahedron",
+                     .found = '"' + job.simplex + '"',
+                     .remedy = base::did_you_mean(job.simplex, names)};
+    }
+    Witness w;
+    if (!job.kernel.empty()) {
+        const auto k = std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) {
+            return x.perspective == family.perspective && (!simplex || x.simplex == *simplex) &&
+                   base::glob_match(job.kernel, x.name);
+        });
+        if (k == kernels.end())
+            return Error{.what = "no kernel of that name for the cases of that family",
+                         .found = '"' + job.kernel + '"',
+                         .remedy = base::did_you_mean(job.kernel, names_of(kernels_matching("*")),
+                                                      "`barycert kernels` lists them")};
+        simplex = k->simplex;
+        w.kernel = k->name;
+    }
+    if (!simplex && family.simplices.size() == 1) simplex = family.simplices.front();
+    if (!simplex || !family.applies_to(*simplex))
+        return Error{.what = "the simplex is not determined: the family applies to several, or not to the one given",
+                     .remedy = "add job.simplex NAME or job.kernel NAME"};
+    MeshSource meshes;
+    if (family.needs_mesh) {
+        Notes notes;
+        auto loaded = source_of(job.meshes, false, 0, Curved::straight, notes);
+        if (!loaded) return loaded.error();
+        meshes = std::move(*loaded);
+        if (!meshes.supplies(*simplex))
+            return Error{.what = "no mesh supplies a " + std::string(name(*simplex)),
+                         .remedy = "name one with job.mesh"};
+    }
+    w.reason = job.reason;
+    w.family = family.name;
+    w.seed = job.seed;
+    w.index = job.index;
+    CaseOrigin origin;
+    w.c = make_case(family, *simplex, job.seed, job.index, meshes, &origin);
+    w.mesh = origin.mesh;
+    w.cell = origin.cell;
+    return w;
+}
+
+Status check_search_rules(const std::vector<Threshold>& rules) {
+    for (const Threshold& rule : rules) {
+        if (!figure({}, rule.name))
+            return Error{.what = "a rule that a search cannot tell",
+                         .expected = "any, a class of finding, worst_weight_ulp or worst_value_ulp",
+                         .found = rule.name};
+    }
+    return Done{};
+}
+
+std::vector<Violation> violations(const SearchReport& report, const std::vector<Threshold>& rules) {
+    std::vector<Violation> all;
+    for (const Threshold& rule : rules) {
+        const double value = figure(report, rule.name).value_or(0);
+        if (value > rule.limit) all.push_back({report.kernel.name, rule.name, value, rule.limit});
+    }
+    return all;
+}
+
+Result<GapsReport> gaps_file(const GapsJob& job) {
+    Notes notes;
+    const Result<Mesh> mesh = cells_of(job.mesh, job.options.threads, job.curved, notes);
+    if (!mesh) return mesh.error();
+    const Verdict verdict =
+        job.check ? certificate_of(*mesh, job.options.threads).verdict_on(*mesh) : Verdict::not_checked;
+    Result<GapsReport> report = find_gaps(job.options, *mesh, job.mesh, verdict);
+    if (report) report->notes = std::move(notes);
+    return report;
+}
+
+Result<GapsLimit> parse_gaps_limit(std::string_view text) {
+    const base::NamedLimit limit = base::named_limit(text);
+    std::vector<std::string> names;
+    for (std::size_t f = 0; f < claim_fault_count; ++f) {
+        const auto fault = static_cast<ClaimFault>(f);
+        if (name(fault) == limit.name && limit.most) return GapsLimit{fault, *limit.most};
+        names.emplace_back(name(fault));
+    }
+    return Error{.what = "unknown rule",
+                 .expected = "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
+                 .found = '"' + std::string(text) + '"',
+                 .remedy = base::did_you_mean(limit.name, names)};
+}
+
+}  // namespace barycert

@@ -1,0 +1,209 @@
+// barycert render iso: where a field has a value, in a mesh or on one segment. barycert render slice: a plane through a
+// mesh. Both as a surface or a picture.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/weights.hpp"
+#include "command.hpp"
+#include "options.hpp"
+#include "reports.hpp"
+
+namespace barycert::cli {
+namespace {
+
+struct ContourArguments {
+    ContourJob job;
+    Reports reports{Reports::Text::summary};
+    std::vector<double> ends, values;  ///< of --segment, end after end, and --values
+};
+
+/// What iso and slice share.
+void add_contour_options(const Options& o, ContourArguments& a) {
+    o.step(a.job.step);
+    o.field_files(a.job.field_files, "--field-file");
+    o.words("--fields", a.job.fields, "Fields to carry along: A,B,...; default: all", "NAMES");
+    o.curved(a.job.curved);
+    o.threads(a.job.threads);
+    o.vtk_data(a.job.vtk_data);
+    a.reports.file(o, "--json", json_summary);
+    a.reports.quiet(o, "Print no summary and no progress");
+}
+
+constexpr const char* range_help =
+    "Picture: the values of the first and the last colour; default: min and max of the values drawn";
+
+/// Refuses options of pictures that were given, where the output is a surface.
+Status check_picture_only(const CLI::App& sub, const std::string& output, const std::vector<const char*>& options) {
+    for (const char* const name : options) {
+        if (sub.get_option(name)->count() > 0 && !output.empty() && !io::has_suffix(output, ".png"))
+            return Error{.what = std::string(name) + " is for pictures", .remedy = "leave it out, or name a .png file"};
+    }
+    return Done{};
+}
+
+int run_contour(ContourArguments& a) {
+    a.job.reports = a.reports.outputs();
+    a.job.progress = a.reports.begin();
+    a.job.program = command_name();
+    return a.reports.end(contour_files(a.job), [](const ContourReport& report) {
+        return Told{.files = {{"--json", [&] { return contour_json(report, measure_environment()); }}},
+                    .text = [&](bool colour) { return contour_text(report, colour); },
+                    .notes = report.notes};
+    });
+}
+
+void add_segment(const Options& o, ContourArguments& a) {
+    o.parsed("--segment", "A:B", "Instead of a mesh: the ends of one segment; with --values",
+             "XA,YA,ZA:XB,YB,ZB, finite numbers, as many at both ends (one to three)", [&a](const std::string& text) {
+                 const std::string_view all = text;
+                 const std::size_t colon = all.find(':');
+                 if (colon == std::string_view::npos) return false;
+                 const auto first = finite_numbers(all.substr(0, colon)),
+                            second = finite_numbers(all.substr(colon + 1));
+                 if (!first || !second || first->size() != second->size() || first->size() > 3) return false;
+                 a.ends = *first;
+                 a.ends.insert(a.ends.end(), second->begin(), second->end());
+                 return true;
+             });
+    o.parsed("--values", "FA,FB", "The values at the ends of the segment", "two finite numbers, FA,FB",
+             [&a](const std::string& text) {
+                 const auto numbers = finite_numbers(text, 2);
+                 if (numbers) a.values = *numbers;
+                 return numbers.has_value();
+             });
+}
+
+/// t and the point, on one line. `of_mesh`: an option that was given and has no meaning for a segment.
+int on_segment(const ContourArguments& a, const std::string& of_mesh) {
+    if (a.values.empty() || !a.job.value)
+        return fail({.what = "--segment needs the values at its ends and the one to look for",
+                     .expected = "--values FA,FB --value V"});
+    if (!a.job.mesh.empty()) return fail({.what = "--segment cannot be combined with a mesh", .found = a.job.mesh});
+    if (!of_mesh.empty()) return fail({.what = "--segment cannot be combined with " + of_mesh});
+    const std::size_t d = a.ends.size() / 2;
+    const std::span<const double> ends(a.ends);
+    std::vector<double> point(d);
+    const auto t = point_of_value(ends.first(d), ends.subspan(d), a.values[0], a.values[1], *a.job.value, point);
+    if (!t) return fail(t.error());
+    std::string text;
+    if (t->undetermined) {
+        const bool all = a.values[0] == *a.job.value;
+        text = fmt::format("undetermined: both ends have the value {}: {}\n", base::shortest(a.values[0]),
+                           all ? "so has every point" : "no point has the one looked for");
+    } else {
+        text = "t " + base::shortest(t->t) + "\npoint ";
+        for (std::size_t k = 0; k < d; ++k) text += (k == 0 ? "" : ",") + base::shortest(point[k]);
+        text += t->t < 0 || t->t > 1 ? "\noutside the segment, on its line\n" : "\n";
+    }
+    return exit_of(write_output("-", text));
+}
+
+int run_iso(ContourArguments& a, const CLI::App& sub) {
+    if (const Status ok = check_picture_only(sub, a.job.output, {"--azimuth", "--elevation", "--size"}); !ok)
+        return fail(ok.error());
+    std::string of_mesh;
+    for (const CLI::Option* option : sub.get_options()) {
+        const std::string name = option->get_name();
+        const bool of_segment = name == "--segment" || name == "--values" || name == "--value";
+        if (option->count() > 0 && !of_segment && name.starts_with('-')) of_mesh = name;
+    }
+    if (!a.ends.empty()) return on_segment(a, of_mesh);
+    if (!a.values.empty()) return fail({.what = "--values needs --segment"});
+    if (a.job.mesh.empty() || a.job.field.empty() || !a.job.value || a.job.output.empty())
+        return fail({.what = "something is missing",
+                     .expected = "MESH --field NAME --value V --output FILE, or --segment A:B --values FA,FB --value V",
+                     .remedy = "`barycert render iso --help` explains them"});
+    return run_contour(a);
+}
+
+void add_iso(const Options& render) {
+    const Options o = render.below(
+        "iso", "Where a field has a value: the iso-surface of a mesh, the iso-lines of a mesh of triangles",
+        "The boundary of the set where the field is at least the value, exactly; watertight, normals towards lower\n"
+        "values. Points are on edges of the mesh, their coordinates and the fields carried along correctly rounded.\n"
+        "Files, by the suffix: .vtp (all fields), .ply (all fields), .off (no fields, no lines), .png (the surface, "
+        "lit).\n"
+        "--segment A:B --values FA,FB prints the parameter t of one segment (0 at A, 1 at B) and the point.\n"
+        "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.");
+    const auto a = std::make_shared<ContourArguments>();
+    ContourJob& job = a->job;
+    o.file("MESH", job.mesh, mesh_help);
+    o.word("--field", job.field,
+           "The field of nodes, or what is made of it, as sample names it: NAME.x or NAME.0, |NAME| (at the nodes)",
+           "NAME");
+    o.parsed("--value", "V", "Its value", "a finite number", [&job](const std::string& text) {
+        job.value = finite(text);
+        return job.value.has_value();
+    });
+    o.file("--output", job.output, "The surface: .vtp .ply .off .png");
+    add_contour_options(o, *a);
+    o.word("--colours", job.colours,
+           "Picture: the field of nodes or cells that colours the surface; default: none, it is grey", "NAME");
+    o.range(job.range, range_help);
+    o.camera(job.view, "Picture: ");
+    o.size(job.view.size);
+    add_segment(o, *a);
+    o.run([a, o] { return run_iso(*a, o.app()); });
+}
+
+std::optional<Plane> plane_of(const std::string& text) {
+    if (text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=') {
+        const std::optional<double> offset = finite(std::string_view(text).substr(2));
+        if (!offset) return std::nullopt;
+        Plane plane{{0, 0, 0}, *offset};
+        plane.normal[static_cast<std::size_t>(text[0] - 'x')] = 1;
+        return plane;
+    }
+    const auto n = finite_numbers(text, 4);
+    if (!n || ((*n)[0] == 0 && (*n)[1] == 0 && (*n)[2] == 0)) return std::nullopt;
+    return Plane{{(*n)[0], (*n)[1], (*n)[2]}, (*n)[3]};
+}
+
+void add_slice(const Options& render) {
+    const Options o = render.below(
+        "slice", "Cut a mesh of tetrahedra by a plane: a picture of a field, or a surface",
+        "Sides of nodes are exact, for the four numbers of the plane as they are read. By the suffix of the output:\n"
+        ".png         the field in colours, with a colour bar and a scale of lengths; seen from where the normal\n"
+        "             points to, z upwards. Values are exact at the pixels' middles, which are rounded to doubles.\n"
+        ".vtp .ply    triangles with all fields, correctly rounded; .off: without fields. Normals along the plane's.\n"
+        "Exit codes: 0 done; 2 usage or input error, a picture of nothing included.");
+    const auto a = std::make_shared<ContourArguments>();
+    ContourJob& job = a->job;
+    o.file("MESH", job.mesh, mesh_help)->required();
+    o.parsed("--plane", "NX,NY,NZ,D", "All points with NX x + NY y + NZ z = D; or of one axis: x=D, y=D, z=D",
+             "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers, a normal that is not zero, such as "
+             "0,0,1,0.5",
+             [&job](const std::string& text) {
+                 job.plane = plane_of(text);
+                 return job.plane.has_value();
+             })
+        ->required();
+    o.word("--field", job.field,
+           "Picture: the field of nodes or cells that it shows, or what is made of it, as sample names it: NAME.x or "
+           "NAME.0, |NAME|. Surface: carry this one only",
+           "NAME");
+    o.file("--output", job.output, "The section: .png .vtp .ply .off")->required();
+    o.integer<std::int64_t>("--width", job.width, 1, 1000000, "Picture: pixels across the section", "PIXELS");
+    o.range(job.range, range_help);
+    add_contour_options(o, *a);
+    o.run([a, o] {
+        const Status ok = check_picture_only(o.app(), a->job.output, {"--width"});
+        return ok ? run_contour(*a) : fail(ok.error());
+    });
+}
+
+}  // namespace
+
+void add_render_contours(const Options& render) {
+    add_iso(render);
+    add_slice(render);
+}
+
+}  // namespace barycert::cli

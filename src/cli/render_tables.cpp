@@ -1,0 +1,84 @@
+// barycert render drift, barycert render texels: what the shortcuts of rasterisers cost, against exact arithmetic.
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "audit_inputs.hpp"
+#include "barycert/audit_report.hpp"
+#include "command.hpp"
+#include "options.hpp"
+#include "reports.hpp"
+
+namespace barycert::cli {
+namespace {
+
+struct TableArguments {
+    KernelChoice kernels;
+    std::uint64_t count = 0, seed = 1;
+    Reports reports;
+};
+
+constexpr const char* json_figures = "Write the figures as JSON; - is stdout and suppresses the table";
+
+int run_drift(TableArguments& a) {
+    if (const std::string& plot = a.reports.path("--output"); plot.ends_with(".png"))
+        return fail({.what = "the plot is a drawing, not a picture of pixels",
+                     .expected = "a name that ends in .svg",
+                     .found = '"' + plot + '"',
+                     .remedy = "browsers and most programs show SVG"});
+    if (const Status ok = a.reports.check(library_files(a.kernels)); !ok) return fail(ok.error());
+    if (a.kernels.names.empty() && a.kernels.libraries.empty())
+        a.kernels.names = {"triangle.scanline-increments.float32", "triangle.scanline-increments", "triangle.bilinear",
+                           "triangle.signed-area", "triangle.exact"};
+    const auto kernels = chosen_kernels(a.kernels);
+    if (!kernels) return fail(kernels.error());
+    const DriftOptions options{.kernels = *kernels, .count = a.count, .seed = a.seed};
+    return a.reports.end(measure_drift(options), [](const DriftReport& report) {
+        return Told{
+            .files = {{"--json", [&] { return drift_json(report); }}, {"--output", [&] { return drift_plot(report); }}},
+            .text = [&](bool colour) { return drift_text(report, {.colour = colour}); }};
+    });
+}
+
+int run_texels(TableArguments& a) {
+    const std::vector<TexelResult> results = audit_texels(texel_rules(), a.count, a.seed);
+    return a.reports.write({.files = {{"--json", [&] { return texels_json(results); }}},
+                            .text = [&](bool colour) { return texels_text(results, {.colour = colour}); }});
+}
+
+void add_count_and_seed(const Options& o, TableArguments& a, const char* what) {
+    add_count(o, a.count, 32, what);
+    add_seed(o, a.seed, "The same seed gives the same cases on every machine");
+}
+
+}  // namespace
+
+void add_render_tables(const Options& render) {
+    const auto a = std::make_shared<TableArguments>(), t = std::make_shared<TableArguments>();
+    const Options drift =
+        render.below("drift", "Measure how far values that are stepped from pixel to pixel drift from the exact ones",
+                     done_or_error);
+    a->count = 10000;
+    a->reports.file(drift, "--output", "Plot the errors over the size of the triangle, as SVG; - is stdout");
+    a->reports.file(drift, "--json", json_figures);
+    add_kernels(drift, a->kernels,
+                "Kernels on triangles (not triangle.perspective-*); may be repeated; default: increments in float "
+                "and double, bilinear, signed-area, exact");
+    drift.files("--kernel-library", a->kernels.libraries,
+                "A shared library with a kernel of yours; alone without --kernel");
+    add_containment(drift, a->kernels);
+    add_count_and_seed(drift, *a, "Cases per size");
+    a->reports.quiet(drift, "Print no table");
+    drift.run([a] { return run_drift(*a); });
+    const Options texels =
+        render.below("texels",
+                     "Count how often rules for the texel of a texture coordinate are wrong or leave the "
+                     "texture",
+                     done_or_error);
+    t->count = 100000;
+    t->reports.file(texels, "--json", json_figures);
+    add_count_and_seed(texels, *t, "Coordinates");
+    texels.run([t] { return run_texels(*t); });
+}
+
+}  // namespace barycert::cli

@@ -1,0 +1,130 @@
+#include "reports.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "barycert/base/text.hpp"
+#include "command.hpp"
+
+namespace barycert::cli {
+
+void Progress::stage(std::string_view text) {
+    if (!on_) return;
+    tell(fmt::format("\r\033[K{}", base::printable(text)));
+    shown_ = true;
+    last_ = std::chrono::steady_clock::now();
+}
+
+void Progress::count(std::string_view what, std::uint64_t done) {
+    if (due()) stage(fmt::format("{}: {}", what, done));
+}
+
+bool Progress::due() const {
+    return on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100);
+}
+
+void Progress::clear() {
+    if (shown_) tell("\r\033[K");
+    shown_ = false;
+}
+
+void Reports::file(const Options& o, const char* option, const char* help) {
+    files_.push_back({option, ""});
+    o.file(option, files_.back().path, help);
+}
+
+void Reports::ci(const Options& o, const std::string& failures) {
+    o.file("--junit", junit_, "Write " + failures + " as failures in JUnit XML; - is stdout and suppresses the table");
+    o.file("--sarif", sarif_,
+           "Write all that was found as SARIF 2.1.0, " + failures + " as errors; - is stdout likewise");
+    o.flag("--annotations", annotations_,
+           "Print " + failures + " as annotations of GitHub's workflows, after the table");
+}
+
+const std::string& Reports::path(std::string_view option) const {
+    static const std::string none;
+    const auto named = std::find_if(files_.begin(), files_.end(), [&](const File& f) { return f.option == option; });
+    return named == files_.end() ? none : named->path;
+}
+
+bool Reports::any_file() const {
+    return std::any_of(files_.begin(), files_.end(), [](const File& f) { return !f.path.empty(); });
+}
+
+bool Reports::stdout_taken() const {
+    return junit_ == "-" || sarif_ == "-" || (rows_ != nullptr && *rows_ == "-") ||
+           std::any_of(files_.begin(), files_.end(), [](const File& f) { return f.path == "-"; });
+}
+
+std::vector<std::pair<std::string, std::string>> Reports::outputs() const {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const File& f : files_) all.emplace_back(f.option, f.path);
+    all.emplace_back("--junit", junit_);
+    all.emplace_back("--sarif", sarif_);
+    // Annotations follow the table; without one stdout is theirs alone.
+    if (table()) {
+        all.emplace_back(text_ == Text::table ? "the table" : "the summary", "-");
+    } else if (annotations_) {
+        all.emplace_back("--annotations", "-");
+    }
+    return all;
+}
+
+Status Reports::check(const std::vector<base::NamedFile>& inputs) const {
+    std::vector<base::NamedFile> files;
+    for (const auto& [what, path] : outputs()) files.push_back({what, path});
+    return base::check_outputs(inputs, std::move(files));
+}
+
+std::function<void(const JobProgress&)> Reports::begin() {
+    // Rows on the same terminal would run into the progress.
+    const bool rows_on_terminal = rows_ != nullptr && *rows_ == "-" && isatty(STDOUT_FILENO) == 1;
+    progress_.begin(!quiet_ && stderr_is_terminal() && !rows_on_terminal);
+    return [this](const JobProgress& p) { p.done == 0 ? progress_.stage(p.stage) : progress_.count(p.stage, p.done); };
+}
+
+int Reports::write(const Told& told) {
+    std::vector<Status> done{told.written};
+    for (const File& f : files_) {
+        const auto made = told.files.find(f.option);
+        if (f.path.empty() || made == told.files.end()) continue;
+        const Result<std::string> text = made->second();
+        done.push_back(text ? write_output(f.path, *text) : Status(text.error()));
+    }
+    if (!quiet_) tell_important(told.notes);
+    if (table()) {
+        done.push_back(write_output("-", told.text(colour_on_stdout())));
+    } else if (!quiet_ && text_ == Text::summary) {
+        tell(told.text(false));
+    } else if (!quiet_) {
+        for (const CurvedCells& curved : told.curved) {
+            if (curved.cells != 0) tell(fmt::format("note: {}\n", message(curved)));
+        }
+    }
+    if (told.ci && !junit_.empty()) done.push_back(write_output(junit_, ci_junit(told.ci())));
+    if (told.ci && !sarif_.empty()) done.push_back(write_output(sarif_, ci_sarif(told.ci())));
+    if (told.ci && annotations_) done.push_back(write_output("-", ci_annotations(told.ci())));
+    for (const Status& status : done) {
+        if (!status) return fail(status.error());
+    }
+    tell(told.failures);
+    return told.clean ? exit_clean : exit_findings;
+}
+
+bool stderr_is_terminal() {
+    return isatty(STDERR_FILENO) == 1;
+}
+
+bool colour_on_stdout() {
+    const char* no_colour = std::getenv("NO_COLOR");
+    return isatty(STDOUT_FILENO) == 1 && (no_colour == nullptr || *no_colour == '\0');
+}
+
+std::string failure(const std::string& what, const std::string& value, const std::string& limit) {
+    return fmt::format("fails: {} = {}, limit {}\n", what, value, limit);
+}
+
+}  // namespace barycert::cli

@@ -1,0 +1,120 @@
+/// A job run, and its reports written: files, the table or summary, what is told besides, the exit code.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "barycert/base/named_file.hpp"
+#include "barycert/jobs.hpp"
+#include "barycert/report.hpp"
+#include "barycert/result.hpp"
+#include "command.hpp"
+#include "options.hpp"
+
+namespace barycert::cli {
+
+/// One line of stderr that is written over and over and cleared at the end. Nothing is written where there is no
+/// terminal or the user wants no progress.
+class Progress {
+public:
+    void begin(bool on) { on_ = on; }
+    void stage(std::string_view text);
+    /// stage("what: done"), at most ten times a second.
+    void count(std::string_view what, std::uint64_t done);
+    /// True if a line is shown at all and the last one is a tenth of a second old.
+    bool due() const;
+    void clear();
+
+private:
+    bool on_ = false, shown_ = false;
+    std::chrono::steady_clock::time_point last_{};
+};
+
+/// What a job's report says, in each of its forms.
+struct Told {
+    /// By option, what goes into the file that it names. One that is not here is not written.
+    std::map<std::string_view, std::function<Result<std::string>()>> files = {};
+    std::function<std::string(bool colour)> text = {};  ///< the table or summary
+    std::function<CiReport()> ci = {};
+    Notes notes = {};
+    std::vector<CurvedCells> curved = {};  ///< the table tells them; without it, they are told
+    std::string failures = {};             ///< lines for stderr, when all is written
+    bool clean = true;
+    Status written = Done{};  ///< of what the job wrote itself
+};
+
+/// The options of reports, and all that is done with them.
+class Reports {
+public:
+    /// What text is on stdout: a table, which stands aside for a report on stdout; or a summary, which goes to stderr
+    /// then.
+    enum class Text { table, summary };
+    explicit Reports(Text text = Text::table) : text_(text) {}
+
+    // Declared in the order of the help.
+    void file(const Options& o, const char* option, const char* help);
+    /// --junit, --sarif, --annotations. `failures`: what is reported as failed, as in "broken rules".
+    void ci(const Options& o, const std::string& failures);
+    void quiet(const Options& o, const char* help) { o.flag("--quiet", quiet_, help); }
+
+    /// An output of the job that may be stdout.
+    void rows(const std::string& path) { rows_ = &path; }
+
+    bool is_quiet() const { return quiet_; }
+    bool table() const { return !quiet_ && !stdout_taken(); }
+    bool any_file() const;
+    const std::string& path(std::string_view option) const;
+
+    /// All outputs, after what their user calls them: for the job, or to be checked here.
+    std::vector<std::pair<std::string, std::string>> outputs() const;
+    Status check(const std::vector<base::NamedFile>& inputs) const;
+
+    /// Begins to show progress; what a job calls.
+    std::function<void(const JobProgress&)> begin();
+    Progress& progress() { return progress_; }
+
+    /// Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
+    /// the user the others, the fruit of the whole run. Returns the exit code.
+    int write(const Told& told);
+
+    /// The end of a job: its error, or its report by told(report), with options in the notes.
+    template <class Report, class Tell>
+    int end(Result<Report> report, Tell told) {
+        progress_.clear();
+        if (!report) return fail(report.error());
+        if constexpr (requires { report->notes; }) report->notes = with_options(std::move(report->notes));
+        if constexpr (requires { report->mesh.notes; })
+            report->mesh.notes = with_options(std::move(report->mesh.notes));
+        return write(told(std::as_const(*report)));
+    }
+
+private:
+    struct File {
+        std::string option, path;
+    };
+    bool stdout_taken() const;
+
+    Text text_;
+    std::deque<File> files_;  // options refer to the paths
+    std::string junit_, sarif_;
+    bool annotations_ = false, quiet_ = false;
+    const std::string* rows_ = nullptr;
+    Progress progress_;
+};
+
+bool stderr_is_terminal();
+
+/// True if text for people on stdout may be coloured: a terminal, and NO_COLOR is not set.
+bool colour_on_stdout();
+
+/// "fails: WHAT = VALUE, limit LIMIT", a line.
+std::string failure(const std::string& what, const std::string& value, const std::string& limit);
+
+}  // namespace barycert::cli
