@@ -11,9 +11,6 @@
 ///
 /// The gradient in a degenerate cell is NaN, and TierCounts::degenerate counts the cell. A nodal value that is NaN or
 /// infinite makes the gradient of its component NaN, for every node has a part; TierCounts::not_finite counts the cell.
-///
-/// How: plain double and one step of refinement with a proven bound, accepted where both ends of the bound round alike
-/// (gradient-inl.hpp); integers elsewhere.
 #pragma once
 
 #include <array>

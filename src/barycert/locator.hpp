@@ -16,13 +16,11 @@
 ///   N2  Its cost does not grow with the distance: a point 1e300 mesh sizes away visits about as many cells as one ten
 ///       sizes away.
 ///
-/// Method. Points where no cell is near are outside at once, by a bit for each of many bins of the mesh's box, made
-/// when enough points are asked for. While the index is made it is proved of each cell, if it is so, that all others
-/// meet it in common faces or not at all (doc/theorem.md); on a certified mesh (check.hpp) that is so of every cell.
-/// Points are sorted along a space-filling curve; each starts at a cell of its bin and walks, on SIMD lanes, to a cell
-/// that certainly contains it. Integers decide what the filter of signs leaves undecided. The cells around a face, edge
-/// or vertex follow from the mesh's connectivity. Where a walk ends at the boundary, or in a cell of which it is not
-/// proved, every cell whose box contains the point is tested.
+/// Method. While the index is made it is proved of each cell, if it is so, that all others meet it in common faces or
+/// not at all (doc/theorem.md). Points are sorted along a space-filling curve and walk, on SIMD lanes, to a cell that
+/// certainly contains them. Integers decide what the filter of signs leaves undecided; the cells around a face, edge or
+/// vertex follow from the mesh's connectivity. Where a walk ends at the boundary, or in a cell of which it is not
+/// proved, every cell whose box contains the point is tested. Points where no cell is near are outside at once.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 /// The oracle: exact answers to a case, each rounded correctly to double once, at the very end.
 ///
-/// Enters: a Case with finite coordinates and values. Leaves: exact signs, region and feature; exact weights and value
-/// rounded to nearest, ties to even; exact residuals of somebody else's weights. The oracle stands on exact integers
-/// alone and shares nothing with the kernels or with core's predicates, so that it can judge them.
+/// Input: a Case with finite coordinates and values. Output: exact signs, region and feature; exact weights and value
+/// rounded to nearest, ties to even; exact residuals of somebody else's weights. The oracle shares nothing with the
+/// kernels or with core's predicates, so that it can judge them.
 ///
 /// The mathematics. With v_i the vertices, p the point, all relative to p: the weight of vertex i is n_i / d where
 ///   tetrahedron: n_i = the 3x3 determinant of the other three with alternating sign,   d = sum n_i

@@ -21,9 +21,6 @@
 /// 1/Z < 0, likewise outside only, the plane is met behind the eye: the answers are those of that point. An attribute
 /// that is NaN or infinite makes its value NaN, unless its weight is exactly zero. A coordinate that is not finite, or
 /// a w that is not a finite number above zero, is an Error: clip before the division.
-///
-/// How: double-double numbers with a proven bound, accepted where both ends of the bound round alike; integers
-/// elsewhere, as on edges and for ties. See perspective-inl.hpp and perspective_exact.cpp.
 #pragma once
 
 #include <array>

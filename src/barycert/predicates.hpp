@@ -1,11 +1,9 @@
 /// Exact predicates: orientations, determinants of differences, in-circle and in-sphere tests, and the signs of
 /// barycentric weights.
 ///
-/// Each predicate comes in two forms. `orient2d(...)` requires finite coordinates and returns a Sign.
-/// `checked_orient2d(...)` accepts any doubles and returns an Error if one of them is NaN or infinite: use it for
-/// untrusted input.
-///
-/// Coordinates are doubles; the result is the sign of the exact polynomial in these very doubles.
+/// Each predicate returns the sign of the exact polynomial in its coordinates, which are doubles. `orient2d(...)`
+/// requires finite ones; `checked_orient2d(...)` is for untrusted input, and returns an Error if one is NaN or
+/// infinite.
 ///
 /// Laws (each is a test of that name in tests/core):
 ///   S1  A sign is exact for every finite input, subnormals and 1e308 included, in every rounding mode, with
@@ -14,15 +12,14 @@
 ///       argument included), an odd one flips it; the same permutation of the vertices permutes the signs of the
 ///       weights. Multiplying all axes by one power of two (without leaving the doubles) changes no sign. Multiplying
 ///       one axis changes none in a triangle or tetrahedron, but may change incircle and insphere.
-///   D1  Answers depend on the input bits alone, not on threads, SIMD target, compiler or optimisation. So do the
-///       counts of TierCounts, for which alone weight_signs sets the environment (environment.hpp).
+///   D1  Answers, and the counts of TierCounts, depend on the input bits alone, not on threads, SIMD target, compiler
+///       or optimisation.
 ///   E   A checked predicate returns an Error, never a sign, if a coordinate is NaN or infinite. An unchecked one
-///       given such a coordinate terminates and stays within its memory; which sign it returns is not specified. It is
-///       an assertion failure where the library was built without NDEBUG.
+///       terminates and stays within its memory; which sign it returns is not specified. It is an assertion failure
+///       where the library was built without NDEBUG.
 ///
-/// Not promised: anything about numbers that were rounded before they came here. A point computed to lie on a face most
-/// likely does not. Signs at a shared face are those of the exact geometry, zero for both cells: to assign the point
-/// to one of them takes a rule for ties.
+/// A point computed to lie on a face most likely does not. Signs at a shared face are zero for both cells: to assign
+/// the point to one of them takes a rule for ties.
 ///
 /// Conventions, those of CGAL::orientation:
 ///   orient2d(a, b, c) > 0 if a, b, c turn counter-clockwise;
@@ -46,10 +43,9 @@
 ///      .   a---b           insphere(a, b, c, d, p) * orient3d(a, b, c, d)
 ///        . _ .
 ///
-/// A flat simplex has no circle or sphere: the product is zero wherever the point is, the sign alone is that of the
-/// determinant. For three distinct points on a line, incircle has one sign on one side of the line, the other sign on
-/// the other side, and zero on it; likewise insphere and the plane of a, b, c, d, but it is zero everywhere if these
-/// lie on one circle or line. Both are zero everywhere if two vertices coincide.
+/// A flat simplex has no circle or sphere: the product is zero, the sign alone that of the determinant. For three
+/// distinct points on a line it changes from one side of the line to the other; likewise insphere and the plane of a,
+/// b, c, d, but it is zero everywhere if these lie on one circle or line. Both are zero if two vertices coincide.
 #pragma once
 
 #include <bit>

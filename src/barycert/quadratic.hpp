@@ -17,9 +17,6 @@
 ///
 /// In a degenerate cell values are NaN, and TierCounts::degenerate counts the case. A nodal value that is NaN or
 /// infinite makes its component NaN, and TierCounts::not_finite counts the case, unless its factor is exactly zero.
-///
-/// How: the refined weights of refinement-inl.hpp, then double-double with a proven bound (quadratic-inl.hpp); integers
-/// elsewhere.
 #pragma once
 
 #include <array>

@@ -18,12 +18,9 @@
 /// nodal value that is NaN or infinite makes its component NaN, and TierCounts::not_finite counts the case, unless its
 /// exact weight is zero: then it takes no part. NaN or infinity among the coordinates is an Error.
 ///
-/// Not promised: rounded weights need not sum to 1, and the point they give back (point_from_weights) need not be the
-/// one they came from; their rounded combination with nodal values is not the value. On simplices that are projected on
-/// (segment, triangle3d) V2 holds for points on the shared edge or vertex itself, not for those projected to it.
-///
-/// How: double plus a correction with a proven bound, accepted where both ends of the bound round alike; integers
-/// elsewhere. See refinement-inl.hpp and exact_tier.hpp.
+/// Rounded weights need not sum to 1, nor give back the point they came from; their rounded combination with nodal
+/// values is not the value. On segment and triangle3d V2 holds for points on the shared edge or vertex itself, not for
+/// those projected to it.
 #pragma once
 
 #include <array>

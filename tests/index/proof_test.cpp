@@ -196,7 +196,7 @@ TEST(IndexProof, D1_TheIndexHasTheSameBytesForAnyNumberOfThreads) {
         const Locator one = Locator::build(mesh, {.threads = 1}).value();
         for (const int threads : {2, 3, 8}) {
             const Locator other = Locator::build(mesh, {.threads = threads}).value();
-            const auto &a = one.data(), &b = other.data();
+            const auto &a = locate::LocatorData::of(one), &b = locate::LocatorData::of(other);
             EXPECT_TRUE(same_bytes(a.index.cells, b.index.cells) && same_bytes(a.index.nodes, b.index.nodes) &&
                         same_bytes(a.index.original, b.index.original))
                 << threads;

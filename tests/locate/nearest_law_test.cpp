@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "barycert/base/text.hpp"
+#include "barycert/locate/locator_data.hpp"
 #include "barycert/locate/nearest.hpp"
 #include "check/meshes.hpp"
 #include "check/random_complexes.hpp"
