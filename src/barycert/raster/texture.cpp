@@ -5,7 +5,7 @@
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/raster/bytes.hpp"
+#include "barycert/raster/draw.hpp"
 
 namespace barycert {
 namespace {
@@ -42,12 +42,12 @@ std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
 }
 
 /// Along one axis: the two texels, and the part of the second. With Filter::nearest both are one.
-struct Place {
+struct TexelPair {
     std::int32_t low, high;
     double part;
 };
 
-Place place(double u, std::int32_t size, Wrap wrap, Filter filter) {
+TexelPair texels_at(double u, std::int32_t size, Wrap wrap, Filter filter) {
     const double r = reduced(u, wrap);
     if (filter == Filter::nearest) {
         const auto i = static_cast<std::int32_t>(wrapped(exact_floor(r, size), size, wrap));
@@ -65,8 +65,8 @@ Place place(double u, std::int32_t size, Wrap wrap, Filter filter) {
 Rgba texel(const Texture& texture, double u, double v) {
     const ExactEnvironment environment;
     const Image& image = texture.image;
-    const Place x = place(held(u), image.width, texture.wrap, texture.filter);
-    const Place y = place(held(v), image.height, texture.wrap, texture.filter);
+    const TexelPair x = texels_at(held(u), image.width, texture.wrap, texture.filter);
+    const TexelPair y = texels_at(held(v), image.height, texture.wrap, texture.filter);
     if (texture.filter == Filter::nearest) return image.pixel(x.low, y.low);
     const Rgba a = image.pixel(x.low, y.low), b = image.pixel(x.high, y.low);
     const Rgba c = image.pixel(x.low, y.high), d = image.pixel(x.high, y.high);
