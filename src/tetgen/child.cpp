@@ -91,8 +91,7 @@ ChildOutcome run_in_child(const std::function<void(const Answer&)>& work, double
         return outcome;
     }
     std::fflush(nullptr);  // or the child would print it again
-    const pid_t parent = getpid();
-    const pid_t child = fork();
+    const pid_t parent = getpid(), child = fork();
     if (child == 0) {
         close(ends[0]);
         be_child(work, parent, ends[1], fileno(print));

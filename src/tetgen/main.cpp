@@ -120,11 +120,6 @@ Error tetgen_error(const Options& options, const ChildOutcome& outcome, const st
     return error;
 }
 
-int report_diagnosis(const std::string& printed) {
-    fmt::print(stderr, "{}", printed);
-    return printed.find("No faces are intersecting") != std::string::npos ? 0 : 2;
-}
-
 int run(const Options& options) {
     const auto start = std::chrono::steady_clock::now();
     const Result<Plc> plc = read_plc(options.input);
@@ -136,7 +131,10 @@ int run(const Options& options) {
     std::istringstream answer(outcome.answer);
     std::string verdict;
     std::getline(answer, verdict);
-    if (verdict == "diagnosed") return report_diagnosis(outcome.printed);
+    if (verdict == "diagnosed") {
+        fmt::print(stderr, "{}", outcome.printed);
+        return outcome.printed.find("No faces are intersecting") != std::string::npos ? 0 : 2;
+    }
     if (!verdict.starts_with("mesh ")) {
         Error error = tetgen_error(options, outcome, verdict);
         std::string printed = outcome.printed;
@@ -160,9 +158,7 @@ int run(const Options& options) {
     }
     if (options.quiet) return 0;
     std::istringstream counts(verdict.substr(5));
-    std::size_t nodes = 0;
-    std::size_t cells = 0;
-    std::size_t faces = 0;
+    std::size_t nodes = 0, cells = 0, faces = 0;
     counts >> nodes >> cells >> faces;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     fmt::print(stderr, "{}: {} nodes, {} cells, {} boundary faces in {:.2f} s\n", base::printable(options.input), nodes,

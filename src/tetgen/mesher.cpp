@@ -3,7 +3,7 @@
 #include <tetgen.h>
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 namespace barycert {
 namespace {
@@ -61,11 +61,9 @@ std::vector<To> copied(const From* from, std::size_t n) {
 std::vector<Field> fields_of(const double* values, std::size_t entities, int count) {
     std::vector<Field> fields;
     for (int a = 0; a < count; ++a) {
-        Field field{.name = "attribute" + std::to_string(a), .components = 1, .data = {}};
-        for (std::size_t i = 0; i < entities; ++i) {
+        Field& field = fields.emplace_back(Field{.name = "attribute" + std::to_string(a), .components = 1, .data = {}});
+        for (std::size_t i = 0; i < entities; ++i)
             field.data.push_back(values[i * static_cast<std::size_t>(count) + static_cast<std::size_t>(a)]);
-        }
-        fields.push_back(std::move(field));
     }
     return fields;
 }
@@ -98,8 +96,7 @@ Mesh mesh_of(const tetgenio& out) {
 }  // namespace
 
 Mesh make_mesh(const Plc& plc, const std::string& switches) {
-    tetgenio in;
-    tetgenio out;
+    tetgenio in, out;
     fill(plc, in);
     std::string text = switches;
     try {
@@ -111,23 +108,19 @@ Mesh make_mesh(const Plc& plc, const std::string& switches) {
 }
 
 CodeMeaning meaning_of(int code) {
-    switch (code) {
-        case 1:
-            return {"TetGen ran out of memory", "ask for larger cells"};
-        case 2:
-            return {"TetGen met an internal error", "try other options, or repair the PLC"};
-        case 3:
-            return {"TetGen found facets that intersect", "repair them; `--switches pd` lists all that do"};
-        case 4:
-            return {"the PLC has a feature too small for TetGen's tolerance",
-                    "remove it, or lower the tolerance by `--switches pT1e-12`"};
-        case 5:
-            return {"two facets lie too close to each other", "repair them, or try --keep-boundary"};
-        case 10:
-            return {"TetGen refuses the PLC", "repair it"};
-        default:
-            return {"TetGen failed with an unknown code", "try other options, or repair the PLC"};
+    static constexpr std::pair<int, CodeMeaning> known[] = {
+        {1, {"TetGen ran out of memory", "ask for larger cells"}},
+        {2, {"TetGen met an internal error", "try other options, or repair the PLC"}},
+        {3, {"TetGen found facets that intersect", "repair them; `--switches pd` lists all that do"}},
+        {4,
+         {"the PLC has a feature too small for TetGen's tolerance",
+          "remove it, or lower the tolerance by `--switches pT1e-12`"}},
+        {5, {"two facets lie too close to each other", "repair them, or try --keep-boundary"}},
+        {10, {"TetGen refuses the PLC", "repair it"}}};
+    for (const auto& [number, meaning] : known) {
+        if (number == code) return meaning;
     }
+    return {"TetGen failed with an unknown code", "try other options, or repair the PLC"};
 }
 
 }  // namespace barycert

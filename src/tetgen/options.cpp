@@ -23,15 +23,6 @@
 namespace barycert {
 namespace {
 
-/// A number of [lowest, highest]; `range` says so in the error.
-double number_in(const char* option, const std::string& text, double lowest, double highest, const char* range) {
-    const std::optional<double> value = base::parse_double(text);
-    if (!value || !(*value >= lowest && *value <= highest)) {
-        throw std::invalid_argument(fmt::format("{}: expected {}, found {}", option, range, text));
-    }
-    return *value;
-}
-
 /// Refuses what would go wrong silently: TetGen copies numbers and its command line into buffers of fixed size,
 /// ignores unknown switches, and some switches name files or outputs that do not exist here.
 void check_switches(const std::string& switches) {
@@ -50,18 +41,14 @@ void check_switches(const std::string& switches) {
     }
 }
 
-/// In full digits: TetGen reads no exponent after -q.
-std::string plain_digits(double x) {
-    return fmt::format("{:.10f}", x);
-}
-
 }  // namespace
 
 std::string Options::tetgen_switches() const {
     if (switches) return *switches + (switches->find('n') == std::string::npos ? "n" : "");
     std::string text = "pn";
-    if (quality) text += "q" + plain_digits(ratio);
-    if (min_dihedral) text += "/" + plain_digits(*min_dihedral);
+    // In full digits: TetGen reads no exponent after -q.
+    if (quality) text += fmt::format("q{:.10f}", ratio);
+    if (min_dihedral) text += fmt::format("/{:.10f}", *min_dihedral);
     if (max_volume) text += "a" + fmt::format("{}", *max_volume);
     if (keep_boundary) text += "Y";
     if (order == 2) text += "o2";
@@ -92,11 +79,10 @@ std::string default_output(const std::string& input) {
         const auto [end, error] = std::from_chars(last.data() + 1, last.data() + last.size(), number);
         const bool counted = error == std::errc{} && end == last.data() + last.size() && number >= 0 &&
                              number < std::numeric_limits<int>::max();
-        if (counted) {
+        if (counted)
             stem.replace_extension();
-        } else {
+        else
             number = 0;
-        }
     }
     return stem.string() + "." + std::to_string(number + 1);
 }
@@ -119,27 +105,28 @@ Parsed parse_options(int argc, char** argv) {
         options.keep_boundary = table.keep_boundary;
         options.quiet = table.quiet;
         const auto given = [&](const char* name) { return app.get_option(name)->count() > 0; };
+        // A number of [low, high], if the option is given; `range` says so in the error.
+        const auto number = [&](const char* option, const std::string& text, double low, double high,
+                                const char* range) -> std::optional<double> {
+            if (!given(option)) return std::nullopt;
+            const std::optional<double> value = base::parse_double(text);
+            if (value && *value >= low && *value <= high) return value;
+            throw std::invalid_argument(fmt::format("{}: expected {}, found {}", option, range, text));
+        };
         if (table.input.empty() && base::parse_double(table.ratio).value_or(0) == 0 && !table.ratio.empty()) {
             throw std::invalid_argument("--quality: expected a number, found " + table.ratio + "; put INPUT first");
         }
         if (options.input.empty()) throw std::invalid_argument("expected INPUT, a PLC");
-        constexpr double unbounded = std::numeric_limits<double>::max();
-        constexpr double tiny = std::numeric_limits<double>::min();
+        constexpr double unbounded = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::min();
         // A regular tetrahedron has the smallest ratio there is, 0.61, and the largest dihedral angle, 70.5 degrees.
         options.quality = given("--quality") || given("--min-dihedral") || given("--max-volume");
-        if (!table.ratio.empty()) options.ratio = number_in("--quality", table.ratio, 1, 1e6, "a ratio of at least 1");
-        if (given("--min-dihedral")) {
-            options.min_dihedral =
-                number_in("--min-dihedral", table.min_dihedral, 0, 70, "an angle from 0 to 70 degrees");
-        }
-        if (given("--max-volume")) {
-            options.max_volume =
-                number_in("--max-volume", table.max_volume, tiny, unbounded, "a volume greater than 0");
-        }
+        if (!table.ratio.empty())
+            options.ratio = number("--quality", table.ratio, 1, 1e6, "a ratio of at least 1").value();
+        options.min_dihedral = number("--min-dihedral", table.min_dihedral, 0, 70, "an angle from 0 to 70 degrees");
+        options.max_volume = number("--max-volume", table.max_volume, tiny, unbounded, "a volume greater than 0");
         if (given("--output") && (table.output.empty() || table.output == "-"))
             throw std::invalid_argument("--output: expected the stem of files, found \"" + table.output + '"');
-        if (given("--timeout"))
-            options.timeout = number_in("--timeout", table.timeout, 1e-3, 1e9, "a time of 0.001 to 1e9 s");
+        options.timeout = number("--timeout", table.timeout, 1e-3, 1e9, "a time of 0.001 to 1e9 s").value_or(0);
         if (given("--index-base")) options.index_base = table.index_base == "1" ? 1 : 0;
         if (given("--switches")) {
             check_switches(table.switches);

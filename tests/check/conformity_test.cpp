@@ -80,6 +80,22 @@ TEST(ConformityReport, FacetsWithHolesAndWithoutArea) {
     ASSERT_EQ(coarse.examples.size(), 2U);
     EXPECT_EQ(coarse.examples[0].facet, 0);
     EXPECT_EQ(coarse.examples[1].facet, 1);
+    // Faces cover both, though no union of faces is either.
+    for (const ViolatedFacet& f : coarse.examples) EXPECT_NEAR(f.covered, 1, 0x1p-40);
+}
+
+// What a face has in common with a facet counts, wherever its centroid lies.
+TEST(ConformityReport, TheShareThatIsCoveredIsAnArea) {
+    Plc plc;
+    plc.points = {2.5, 0, 0, 6.5, 0, 0, 6.5, 4, 0, 2.5, 4, 0, 3, 1, 0, 3.5, 1, 0, 3.5, 2, 0, 3, 2, 0};
+    plc.facets = {{{{0, 1, 2, 3}}, {}, 0}, {{{3, 2, 1, 0}, {4, 5, 6, 7}}, {3.25, 1.5, 0}, 0}};
+    const ConformityReport c = conformity(box(3, {4, 4, 4}), plc);
+    ASSERT_EQ(c.examples.size(), 2U);
+    EXPECT_NEAR(c.examples[0].covered, 6.0 / 16, 0x1p-40);
+    EXPECT_NEAR(c.examples[1].covered, 5.5 / 15.5, 0x1p-40);
+    for (std::size_t i = 2; i < plc.points.size(); i += 3) plc.points[i] = -1;  // no face is there
+    plc.facets[1].holes[2] = -1;
+    for (const ViolatedFacet& f : conformity(box(3, {4, 4, 4}), plc).examples) EXPECT_EQ(f.covered, 0);
 }
 
 // A bow-tie whose halves cancel: it has no area to respect.

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "barycert/check/pairs.hpp"
+#include "barycert/check/stages.hpp"
 #include "check/meshes.hpp"
 #include "check/signs.hpp"
 #include "sanitized.hpp"

@@ -3,9 +3,8 @@
 #include "variant.hpp"
 
 #include "barycert/kernels/perspective_formulas.hpp"
-#include "barycert/kernels/segment_formulas.hpp"
+#include "barycert/kernels/space_formulas.hpp"
 #include "barycert/kernels/tetrahedron_formulas.hpp"
-#include "barycert/kernels/triangle3d_formulas.hpp"
 #include "barycert/kernels/triangle_formulas.hpp"
 
 #ifndef FLAGS_SCALAR

@@ -71,13 +71,13 @@ AUDIT = [
     ("statistics.cpp", "for (std::size_t e = 0; e < 4; ++e)", "for (std::size_t e = 0; e < 3; ++e)", "degenerate cases of other threads"),
     ("statistics.cpp", "(word & fraction) + step - 1) / step", "word & fraction) / step", "steps that are not begun"),
     ("statistics.cpp", "    not_run += other.not_run;\n", "", "not run by another thread"),
-    ("error_sizes.cpp", "total() - unanswered()", "total()", "cases without an answer"),
+    ("statistics.cpp", "total() - unanswered()", "total()", "cases without an answer"),
     ("judge.cpp", "if (!same_answer(answer, other))", "if (answer.region != other.region)", "regions alone"),
     ("judge.cpp", " || (choice_ == OracleChoice::automatic && !answer.narrow)", "", "wide integers asked again"),
     ("thresholds.cpp", " || s.not_run != 0", "", "not run: no error to measure"),
     ("thresholds.cpp", "value > rule.limit", "value >= rule.limit", "at the limit"),
     ("block.cpp", "(bound == worst.value && index > worst.index)", "bound == worst.value", "the first of the worst"),
-    ("block.cpp", "result.quarrel->index))", "result.quarrel->index || true))", "the first quarrel"),
+    ("judge.hpp", "other->index < first->index", "true", "the first disagreement"),
     ("block.cpp", "return y < x ? std::nextafter(y, std::numeric_limits<double>::infinity()) : y;", "return y;", "a bound rounded down"),
     ("signs.cpp", "p.kernel.empty() && p.simplex", "p.simplex", "a kernel's picture taken for the exact one"),
 ]
@@ -104,6 +104,6 @@ ROOMS = {
                          "SampleOrder.*", "ResampleCells.Slivers", "ResampleMeshes.AnyScale"]),
     # What decides whether a kernel is wrong, and by how much.
     "audit": Room("audit", 60, AUDIT, last=["contained.*", "gaps.*"],
-                  only=["asking.cpp", "block.cpp", "comparison.cpp", "drift.cpp", "error_sizes.cpp", "judge.cpp", "prediction.cpp",
+                  only=["asking.cpp", "block.cpp", "comparison.cpp", "drift.cpp", "judge.cpp", "prediction.cpp",
                         "signs.cpp", "statistics.cpp", "thresholds.cpp"]),
 }

@@ -26,6 +26,12 @@ struct ResidualBound {
 using Long = long double;
 constexpr Long long_ulp = std::numeric_limits<Long>::epsilon();
 
+/// Rounded to a double that is not below it. What is a double already stays as it is.
+double up(Long x) {
+    const auto y = static_cast<double>(x);
+    return y < x ? std::nextafter(y, std::numeric_limits<double>::infinity()) : y;
+}
+
 /// A sum of at most five numbers, of products of doubles perhaps, that knows how far off it can be: each product and
 /// each of four additions is off by less than long_ulp times the sum of magnitudes, twice over for what those of the
 /// magnitudes are off. It also sees where every operation was exact, and is then not off at all.
@@ -50,46 +56,9 @@ public:
     }
 
 private:
-    /// Rounded to a double that is not below it. What is a double already stays as it is.
-    static double up(Long x) {
-        const auto y = static_cast<double>(x);
-        return y < x ? std::nextafter(y, std::numeric_limits<double>::infinity()) : y;
-    }
     Long sum_ = 0, size_ = 0;
     bool exact_ = true;
 };
-
-/// Whether sums as above, not watched, show that both residuals are below `partition` and `reproduction` also when they
-/// are rounded, for these were. What is rounded to infinity is not below infinity.
-bool below(const Case& c, const double* weights, double partition, double reproduction) {
-    // So that squares of all that is made of doubles are in range.
-    if constexpr (std::numeric_limits<Long>::digits < 64 || std::numeric_limits<Long>::max_exponent < 8192)
-        return false;
-    constexpr Long slack = 16 * long_ulp, tiny = 0x1p-1070, before = 1 - Long(0x1p-52);
-    constexpr double largest = std::numeric_limits<double>::max();
-    partition = std::min(partition, largest);
-    reproduction = std::min(reproduction, largest);
-    const int n = vertex_count(c.simplex);
-    Long sum = -1, size = 1;
-    for (int i = 0; i < n; ++i) {
-        sum += weights[i];
-        size += std::fabs(weights[i]);
-    }
-    if (!(std::fabs(sum) + slack * size + tiny < partition * before)) return false;
-    Long squares = 0;
-    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
-        Long r = -c.point[static_cast<std::size_t>(axis)], of = std::fabs(r);
-        for (int i = 0; i < n; ++i) {
-            const Long product = static_cast<Long>(weights[i]) * c.vertex(i, axis);
-            r += product;
-            of += std::fabs(product);
-        }
-        const Long component = std::fabs(r) + slack * of + tiny;
-        squares += component * component;
-    }
-    const Long limit = reproduction * before;
-    return limit > 0 && squares < limit * limit * (1 - slack);
-}
 
 /// The length of a vector whose components are at most these, rounded up: scaled by the largest, so that squares
 /// neither over- nor underflow. Infinite if the sums of a component overflowed, to infinity or to none.
@@ -105,33 +74,31 @@ double length_bound(const std::array<double, 3>& components) {
     return max * std::sqrt(squares) * (1 + 32 * u) + 0x1p-1070;
 }
 
-/// Where the weights belong to the point itself: sum w - 1 and sum w v - p, as they are defined, in double. The sums
-/// are of at most five numbers or products, off by less than 8u times the sum of magnitudes.
-ResidualBound quick_bound(const Case& c, const double* weights) {
-    constexpr double slack = 16 * 0x1p-53, tiny = 0x1p-1070;
+/// Where the weights belong to the point itself: sum w - 1 and sum w v - p, as they are defined, in double or in long
+/// double. The sums are of at most five numbers or products, off by less than 4 epsilon times the sum of magnitudes.
+template <class Real>
+ResidualBound plain_bound(const Case& c, const double* weights) {
+    constexpr Real slack = 8 * std::numeric_limits<Real>::epsilon(), tiny = 0x1p-1070;
     const int n = vertex_count(c.simplex);
-    double sum = -1, size = 1;
+    Real sum = -1, size = 1, reproduction = 0;
     for (int i = 0; i < n; ++i) {
         sum += weights[i];
         size += std::fabs(weights[i]);
     }
-    ResidualBound bound;
-    bound.partition = std::fabs(sum) + slack * size;
     // The sum of magnitudes of the components is no less than the length.
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
-        double r = -c.point[static_cast<std::size_t>(axis)], of = std::fabs(r);
+        Real r = -c.point[static_cast<std::size_t>(axis)], of = std::fabs(r);
         for (int i = 0; i < n; ++i) {
-            const double product = weights[i] * c.vertex(i, axis);
+            const Real product = static_cast<Real>(weights[i]) * c.vertex(i, axis);
             r += product;
             of += std::fabs(product);
         }
-        bound.reproduction += std::fabs(r) + slack * of + tiny;
+        reproduction += std::fabs(r) + slack * of + tiny;
     }
-    bound.reproduction *= 1 + slack;
-    return bound;
+    return {up(std::fabs(sum) + slack * size), up(reproduction * (1 + slack))};
 }
 
-/// The same, as close as can be, in long double.
+/// The same, as close as can be.
 ResidualBound direct_bound(const Case& c, const double* weights) {
     const int n = vertex_count(c.simplex);
     ResidualBound bound;
@@ -198,11 +165,12 @@ void add_residuals(KernelStatistics& s, const Case& c, const OracleAnswer& answe
     }
     const bool direct = c.simplex == Simplex::tetrahedron || c.simplex == Simplex::triangle;
     if (direct && !c.perspective) {  // ever closer, and slower
-        const ResidualBound quick = quick_bound(c, weights);
-        if (settled(quick.partition, s.partition_residual, index) &&
-            settled(quick.reproduction, s.reproduction_residual, index))
-            return;
-        if (below(c, weights, s.partition_residual.value, s.reproduction_residual.value)) return;
+        for (const auto bound_by : {plain_bound<double>, plain_bound<Long>}) {
+            const ResidualBound bound = bound_by(c, weights);
+            if (settled(bound.partition, s.partition_residual, index) &&
+                settled(bound.reproduction, s.reproduction_residual, index))
+                return;
+        }
     }
     const ResidualBound bound = direct ? direct_bound(c, weights) : projected_bound(c, answer, weights);
     const std::span<const double> w(weights, n);
@@ -224,14 +192,11 @@ void run_block(const Job& job, std::uint64_t first, std::uint64_t last, JobResul
     const auto count = static_cast<std::size_t>(last - first);
     for (std::size_t i = 0; i < count; ++i) {
         cases[i] = make_case(job.family, job.simplex, job.seed, first + i, job.meshes);
-        std::optional<Disagreement> disagreement;
-        answers[i] = job.judge.decide(cases[i], first + i, result.oracles, disagreement);
-        if (disagreement && (!result.quarrel || first + i < result.quarrel->index))
-            result.quarrel = Quarrel{first + i, *disagreement};
+        answers[i] = job.judge.decide(cases[i], first + i, result.oracles, result.disagreement);
         ++result.regions[static_cast<std::size_t>(answers[i].region)];
         kappa[i] = predicting_condition(cases[i], answers[i].region);
     }
-    if (result.quarrel) return;
+    if (result.disagreement) return;
     for (std::size_t k = 0; k < job.kernels.size(); ++k) {
         const Kernel& kernel = job.kernels[k];
         BlockResult& learnt = result.kernels[k];

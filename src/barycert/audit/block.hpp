@@ -33,12 +33,6 @@ struct Job {
     Judge judge;
 };
 
-/// Two oracles that disagree, and in which case.
-struct Quarrel {
-    std::uint64_t index = 0;
-    Disagreement disagreement;
-};
-
 /// What one thread has learnt in one job.
 struct JobResult {
     explicit JobResult(std::size_t count) : kernels(count) {}
@@ -46,10 +40,10 @@ struct JobResult {
     std::vector<BlockResult> kernels;
     std::array<std::uint64_t, 4> regions{};  ///< cases by exact region
     OracleCounts oracles;
-    std::optional<Quarrel> quarrel;  ///< the first
+    std::optional<Disagreement> disagreement;  ///< the first of two oracles
 };
 
-/// Adds cases [first, last). After a quarrel the kernels are not asked. Precondition: last - first <= block_size.
+/// Adds cases [first, last). After a disagreement the kernels are not asked. Precondition: last - first <= block_size.
 void run_block(const Job& job, std::uint64_t first, std::uint64_t last, JobResult& result);
 
 }  // namespace barycert::audit

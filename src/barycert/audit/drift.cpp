@@ -19,7 +19,7 @@ namespace {
 
 constexpr int min_size = 4, max_size = 4096;
 
-/// Exact: see families_raster.cpp.
+/// Exact: see families_window.cpp.
 double twice_area(const Case& c) {
     return std::fabs((c.vertex(1, 0) - c.vertex(0, 0)) * (c.vertex(2, 1) - c.vertex(0, 1)) -
                      (c.vertex(1, 1) - c.vertex(0, 1)) * (c.vertex(2, 0) - c.vertex(0, 0)));

@@ -20,7 +20,17 @@ struct CoordinateGrid {
     std::array<double, 2> p, q, r, apex;
 };
 
-void ulp_grid(Case& c, base::Random& random, std::uint64_t index, const CoordinateGrid& g) {
+constexpr std::array<CoordinateGrid, 3> grids{
+    {{{0.5, 0.5}, {12, 12}, {24, 24}, {24, 12}},
+     {{0.50000000000002531, 0.5000000000000171},
+      {17.300000000000001, 17.300000000000001},
+      {24.00000000000005, 24.0000000000000517765},
+      {24, 17.3}},
+     {{0.5, 0.5}, {8.8000000000000007, 8.8000000000000007}, {12.1, 12.1}, {12.1, 8.8}}}};
+
+template <std::size_t number>
+void ulp_grid(Case& c, base::Random& random, std::uint64_t index) {
+    const CoordinateGrid& g = grids[number - 1];
     const auto cell = index * 40503 % 65536;  // 256 x 256 points; an odd factor visits each once, well spread
     set_vertex(c, 0, {g.q[0], g.q[1], 0});
     set_vertex(c, 1, {g.r[0], g.r[1], 0});
@@ -28,22 +38,6 @@ void ulp_grid(Case& c, base::Random& random, std::uint64_t index, const Coordina
     const std::uint64_t column = cell % 256, row = cell / 256;
     c.point = {g.p[0] + static_cast<double>(column) * 0x1p-53, g.p[1] + static_cast<double>(row) * 0x1p-53, 0};
     random_values(c, random);
-}
-
-void ulp_grid_1(Case& c, base::Random& random, std::uint64_t index) {
-    ulp_grid(c, random, index, {{0.5, 0.5}, {12, 12}, {24, 24}, {24, 12}});
-}
-
-void ulp_grid_2(Case& c, base::Random& random, std::uint64_t index) {
-    ulp_grid(c, random, index,
-             {{0.50000000000002531, 0.5000000000000171},
-              {17.300000000000001, 17.300000000000001},
-              {24.00000000000005, 24.0000000000000517765},
-              {24, 17.3}});
-}
-
-void ulp_grid_3(Case& c, base::Random& random, std::uint64_t index) {
-    ulp_grid(c, random, index, {{0.5, 0.5}, {8.8000000000000007, 8.8000000000000007}, {12.1, 12.1}, {12.1, 8.8}});
 }
 
 // The diagonal x = y = z carries an edge and the point: the other weights are exactly zero.
@@ -94,20 +88,15 @@ void offset(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return o + random.unit(); });
 }
 
+template <int origin>
 void on_facet(Case& c, base::Random& random, std::uint64_t) {
-    fill(c, random, [&](int) { return random.unit(); });
-    c.point = random_point(c, random, vertex_count(c.simplex) - 1);
-}
-
-void on_facet_offset(Case& c, base::Random& random, std::uint64_t) {
-    fill(c, random, [&](int) { return 1000 + random.unit(); });
+    fill(c, random, [&](int) { return origin + random.unit(); });
     c.point = random_point(c, random, vertex_count(c.simplex) - 1);
 }
 
 // A good simplex and a point at height h over one of its facets.
-template <int Decimal>
+template <double h>
 void near_facet(Case& c, base::Random& random, std::uint64_t) {
-    constexpr double h = Decimal == 13 ? 1e-13 : Decimal == 14 ? 1e-14 : 1e-15;
     ordinary(c, random);
     const int n = vertex_count(c.simplex) - 1;
     const bool over = random.coin();
@@ -122,13 +111,13 @@ std::vector<Family> near_families() {
         built("random.inside", "random simplices, points inside", "U[-1,1), point fl(sum w_i v_i)", ordinary_inside,
               every),
         built("ulp-grid.1", "points on a grid of one ulp around an edge",
-              "p = (.5,.5) + 2^-53 (i,j), 256 x 256; edge (12,12)(24,24)", ulp_grid_1, triangle_only),
+              "p = (.5,.5) + 2^-53 (i,j), 256 x 256; edge (12,12)(24,24)", ulp_grid<1>, triangle_only),
         built("ulp-grid.2", "the same around a nearly diagonal edge",
               "p = (.50000000000002531,.5000000000000171) + 2^-53 (i,j); edge (17.3)^2 "
               "(24.00000000000005,24.0000000000000517765)",
-              ulp_grid_2, triangle_only),
+              ulp_grid<2>, triangle_only),
         built("ulp-grid.3", "the same around an edge of rounded decimals",
-              "p = (.5,.5) + 2^-53 (i,j); edge (8.8)^2 (12.1)^2", ulp_grid_3, triangle_only),
+              "p = (.5,.5) + 2^-53 (i,j); edge (8.8)^2 (12.1)^2", ulp_grid<3>, triangle_only),
         built("diagonal", "points on or near the diagonal through an edge",
               "edge (12)^n (24)^n, others U[0,48), point (.5 + 5e-14 U)^n", diagonal, solid),
         built("coplanar", "points computed in the plane of a facet", "a + s(b-a) + t(c-a), s,t U[-1,2)", coplanar,
@@ -139,13 +128,13 @@ std::vector<Family> near_families() {
               every),
         built("offset.2^20", "the same, farther out", "2^20 + U[0,1)", offset<20>, every),
         built("on-facet", "points computed on a facet, in the unit cube", "U[0,1), fl(sum w_i v_i) over n-1 vertices",
-              on_facet, sided),
-        built("on-facet.offset", "the same at 1000, where differences are exact", "1000 + U[0,1)", on_facet_offset,
+              on_facet<0>, sided),
+        built("on-facet.offset", "the same at 1000, where differences are exact", "1000 + U[0,1)", on_facet<1000>,
               sided),
         built("near-facet.1e-13", "points at height 1e-13 above or below a facet", "U[-1,1), h = +-1e-13",
-              near_facet<13>, sided),
-        built("near-facet.1e-14", "the same at 1e-14", "U[-1,1), h = +-1e-14", near_facet<14>, sided),
-        built("near-facet.1e-15", "the same at 1e-15", "U[-1,1), h = +-1e-15", near_facet<15>, sided),
+              near_facet<1e-13>, sided),
+        built("near-facet.1e-14", "the same at 1e-14", "U[-1,1), h = +-1e-14", near_facet<1e-14>, sided),
+        built("near-facet.1e-15", "the same at 1e-15", "U[-1,1), h = +-1e-15", near_facet<1e-15>, sided),
     };
 }
 

@@ -9,20 +9,13 @@
 namespace barycert::audit {
 namespace {
 
+template <int exponent>
+void scaled(Case& c, base::Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), exponent); });
+}
+
 void subnormal(Case& c, base::Random& random, std::uint64_t) {
     fill(c, random, [&](int) { return random.integer(-4096, 4096) * 0x1p-1074; });
-}
-
-void tiny(Case& c, base::Random& random, std::uint64_t) {
-    fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), -540); });
-}
-
-void small(Case& c, base::Random& random, std::uint64_t) {
-    fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), -400); });
-}
-
-void large(Case& c, base::Random& random, std::uint64_t) {
-    fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), 600); });
 }
 
 void huge(Case& c, base::Random& random, std::uint64_t) {
@@ -51,9 +44,9 @@ void filter_underflow(Case& c, base::Random& random, std::uint64_t) {
 std::vector<Family> range_families() {
     return {
         built("subnormal", "subnormal coordinates: every product is zero", "k 2^-1074, |k| <= 4096", subnormal, every),
-        built("small", "products of three coordinates underflow", "U[-1,1) 2^-400", small, every),
-        built("tiny", "products of two coordinates underflow", "U[-1,1) 2^-540", tiny, every),
-        built("large", "products overflow, differences do not", "U[-1,1) 2^600", large, every),
+        built("small", "products of three coordinates underflow", "U[-1,1) 2^-400", scaled<-400>, every),
+        built("tiny", "products of two coordinates underflow", "U[-1,1) 2^-540", scaled<-540>, every),
+        built("large", "products overflow, differences do not", "U[-1,1) 2^600", scaled<600>, every),
         built("huge", "differences and products overflow", "U[-1,1) 0.999 2^1024", huge, every),
         built("mixed-scale", "axes of very different scales", "axes times 2^512, 2^-512, 1", mixed_scale, every),
         built("filter-underflow", "filters whose error bound ignores underflow",

@@ -10,9 +10,8 @@ namespace barycert::audit {
 namespace {
 
 // A simplex of height h; the point is a rounded combination of its vertices.
-template <int Decimal>
+template <double h>
 void sliver(Case& c, base::Random& random, std::uint64_t) {
-    constexpr double h = Decimal == 12 ? 1e-12 : Decimal == 13 ? 1e-13 : Decimal == 14 ? 1e-14 : 1e-15;
     ordinary(c, random);
     const int n = vertex_count(c.simplex);
     set_vertex(c, n - 1, lifted(c, random, random_point(c, random, n - 1), h));
@@ -79,16 +78,9 @@ void midpoints(Case& c, base::Random& random, std::uint64_t) {
     for (int k = 0; k < n; ++k) c.values[static_cast<std::size_t>(k)] = 1 + random.unit();
 }
 
-void degenerate_point(Case& c, base::Random& random, std::uint64_t) {
-    flat(c, random, 0);
-}
-
-void degenerate_line(Case& c, base::Random& random, std::uint64_t) {
-    flat(c, random, 1);
-}
-
-void degenerate_plane(Case& c, base::Random& random, std::uint64_t) {
-    flat(c, random, 2);
+template <int dimension>
+void degenerate(Case& c, base::Random& random, std::uint64_t) {
+    flat(c, random, dimension);
 }
 
 // Flat, then scaled by 1/10 (rounded) and one coordinate moved by an ulp (of the largest on its axis if it is zero).
@@ -106,10 +98,10 @@ void nearly_degenerate(Case& c, base::Random& random, std::uint64_t) {
 std::vector<Family> shape_families() {
     return {
         built("sliver.1e-12", "flat cells: a small divisor magnifies every error",
-              "height 1e-12, point fl(sum w_i v_i)", sliver<12>, sided),
-        built("sliver.1e-13", "the same at 1e-13", "height 1e-13", sliver<13>, sided),
-        built("sliver.1e-14", "the same at 1e-14", "height 1e-14", sliver<14>, sided),
-        built("sliver.1e-15", "the same at 1e-15: the height is a few ulps", "height 1e-15", sliver<15>, sided),
+              "height 1e-12, point fl(sum w_i v_i)", sliver<1e-12>, sided),
+        built("sliver.1e-13", "the same at 1e-13", "height 1e-13", sliver<1e-13>, sided),
+        built("sliver.1e-14", "the same at 1e-14", "height 1e-14", sliver<1e-14>, sided),
+        built("sliver.1e-15", "the same at 1e-15: the height is a few ulps", "height 1e-15", sliver<1e-15>, sided),
         built("needle", "cells with one very short edge", "two vertices 2^-10 to 2^-40 apart", needle, every),
         built("cap", "cells with a vertex close to the opposite facet", "height 2^-10 to 2^-40", cap, sided),
         built("lattice.tenths", "ties in decimals that rounding breaks", "0.1 k, k in 0..4", lattice_tenths, every),
@@ -117,11 +109,11 @@ std::vector<Family> shape_families() {
         built("midpoints", "ties: values midway between two doubles",
               "k 2^-20, |k| <= 2^20; amid an edge; values U[1,2)", midpoints, every),
         built("degenerate.point", "degenerate cells: all vertices coincide", "small integers times 2^[-20,20]",
-              degenerate_point, every),
+              degenerate<0>, every),
         built("degenerate.line", "degenerate cells: all vertices on one line",
-              "a + s u, small integers times 2^[-20,20]", degenerate_line, sided),
+              "a + s u, small integers times 2^[-20,20]", degenerate<1>, sided),
         built("degenerate.plane", "degenerate cells: all vertices in one plane",
-              "a + s u + t v, small integers times 2^[-20,20]", degenerate_plane, tetrahedron_only),
+              "a + s u + t v, small integers times 2^[-20,20]", degenerate<2>, tetrahedron_only),
         built("nearly-degenerate", "cells one ulp away from degenerate",
               "a flat simplex times 0.1, one coordinate moved by one ulp", nearly_degenerate, every),
     };

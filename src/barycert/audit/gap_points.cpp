@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "barycert/audit/combine.hpp"
+#include "barycert/audit/recipes.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/mesh/adjacency.hpp"
 

@@ -1,22 +1,15 @@
 #include "barycert/audit_search.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
 #include <span>
-#include <thread>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/gap_points.hpp"
 #include "barycert/audit/judge.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/audit/threads.hpp"
 #include "barycert/kernels/channel.hpp"
 
 namespace barycert {
@@ -42,7 +35,7 @@ bool claims(ClaimRule rule, double tolerance, std::span<const double> weights) {
 struct Found {
     std::vector<ClaimResult> results;
     OracleCounts oracles;
-    std::optional<std::pair<std::uint64_t, Disagreement>> quarrel;
+    std::optional<Disagreement> disagreement;
 };
 
 /// Whether `a` comes first: faces, edges, vertices, in each by number.
@@ -76,10 +69,7 @@ public:
         std::vector<bool> holds;
         for (const Mesh::Index cell : p.cells) {
             cases.push_back(points_.case_of(cell, p.point));
-            std::optional<Disagreement> disagreement;
-            answers.push_back(judge_.decide(cases.back(), index, found.oracles, disagreement));
-            if (disagreement && (!found.quarrel || index < found.quarrel->first))
-                found.quarrel = {index, *disagreement};
+            answers.push_back(judge_.decide(cases.back(), index, found.oracles, found.disagreement));
             holds.push_back(answers.back().region == Region::interior || answers.back().region == Region::boundary);
         }
         ClaimWitness witness{claim_features[feature], index, p.nodes, p.point, numbers(p.cells, holds), {}};
@@ -234,32 +224,24 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
     report.seed = options.seed;
     report.count = options.count;
     report.tolerance = options.tolerance;
-    report.threads =
-        options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    Threads threads(options.threads);
+    report.threads = threads.count;
     for (const Claimant& c : *claimants)
         report.results.push_back({c.kernel == nullptr ? "" : c.kernel->name, c.rule, {}, 0, {}});
 
     const auto start = std::chrono::steady_clock::now();
     const Finder finder(options, mesh, *claimants);
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(report.threads));
-    tbb::task_arena arena(report.threads);
     tbb::enumerable_thread_specific<Found> found([&] { return Found{report.results, {}, {}}; });
     const std::size_t first = mesh.dimension == 2 ? 1 : 0;  // in the plane no cells share a face
-    arena.execute([&] {
-        for (std::size_t feature = first; feature < 3; ++feature) {
-            tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, options.count, 64), [&](const auto& range) {
-                const ExactEnvironment environment;
-                for (std::uint64_t i = range.begin(); i != range.end(); ++i) finder.run(feature, i, found.local());
-            });
-        }
-    });
-    const std::pair<std::uint64_t, Disagreement>* quarrel = nullptr;
+    for (std::size_t feature = first; feature < 3; ++feature)
+        threads.each(options.count, 64, [&](std::uint64_t i) { finder.run(feature, i, found.local()); });
+    std::optional<Disagreement> disagreement;
     for (const Found& local : found) {
         report.oracles.add(local.oracles);
         for (std::size_t k = 0; k < report.results.size(); ++k) merge(report.results[k], local.results[k]);
-        if (local.quarrel && (quarrel == nullptr || local.quarrel->first < quarrel->first)) quarrel = &*local.quarrel;
+        keep_first(disagreement, local.disagreement);
     }
-    if (quarrel != nullptr) return error_of(quarrel->second, "gaps", quarrel->first, options.seed);
+    if (disagreement) return error_of(*disagreement, "gaps", options.seed);
     for (ClaimResult& r : report.results)
         std::sort(r.witnesses.begin(), r.witnesses.end(),
                   [](const auto& a, const auto& b) { return a.first < b.first; });

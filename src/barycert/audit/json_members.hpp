@@ -1,5 +1,5 @@
-/// Members of JSON from files: each is there and of its type, or an Exception says where it is not, and what there is
-/// instead.
+/// JSON from files of ours. Members are there and of their type, or an Exception says where one is not, and what there
+/// is instead.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "barycert/result.hpp"
+#include "barycert/audit.hpp"
+#include "barycert/base/input_file.hpp"
 
 namespace barycert::audit {
 
@@ -44,6 +45,51 @@ inline const nlohmann::json& list_in(const nlohmann::json& object, const std::st
     const nlohmann::json& j = member(object, key, where);
     if (!j.is_array()) throw Exception({.what = where + ", " + key, .expected = "an array", .found = found_json(j)});
     return j;
+}
+
+/// A kind of file, in the words of errors.
+struct JsonFile {
+    const char *cannot_read, *is_none, *name, *remedy;
+    const char *how_made = "", *remedy_of_members = "";
+};
+
+/// What `make` makes of the file's JSON. Errors: it cannot be read, is no JSON or nested deeper than any file of ours,
+/// has another schema, or `make` throws an Exception.
+template <class Make>
+auto made_of_json(const std::string& path, const JsonFile& file, Make make)
+    -> Result<decltype(make(nlohmann::json()))> {
+    using nlohmann::json;
+    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::json);
+    if (!text) {
+        Error error = text.error();
+        error.what = file.cannot_read;
+        error.remedy += file.how_made;
+        return error;
+    }
+    // The parser itself needs no recursion, but copying and writing what it made do.
+    constexpr int deepest = 64;
+    bool too_deep = false;
+    const json::parser_callback_t watch = [&](int depth, json::parse_event_t, json&) {
+        too_deep = too_deep || depth > deepest;
+        return !too_deep;
+    };
+    const json all = json::parse(*text, watch, false);
+    if (too_deep || all.is_discarded())
+        return Error{
+            .what = file.is_none, .file = path, .expected = "JSON", .found = "something else", .remedy = file.remedy};
+    try {
+        if (const json& schema = member(all, "schema", file.name); schema != witness_schema)
+            return Error{.what = "unknown schema",
+                         .file = path,
+                         .expected = std::to_string(witness_schema),
+                         .found = found_json(schema)};
+        return make(all);
+    } catch (const Exception& e) {
+        Error error = e.error();
+        error.file = path;
+        error.remedy = file.remedy_of_members;
+        return error;
+    }
 }
 
 }  // namespace barycert::audit

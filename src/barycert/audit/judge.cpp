@@ -2,6 +2,8 @@
 
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/predicates.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -15,13 +17,36 @@ std::string told(const OracleAnswer& a, const Case& c) {
 
 }  // namespace
 
+std::optional<OracleAnswer> ask_core(const Case& c) {
+    if (c.perspective) return std::nullopt;
+    TierCounts tiers;
+    const WeightSigns signs = weight_signs(c.simplex, c.vertices.data(), c.point.data(), &tiers);
+    // That a simplex is degenerate is for the integers to say.
+    if (tiers.exact != 0 || signs.degenerate()) return std::nullopt;
+    const Result<Weights> weights = barycentric_weights(c.simplex, c.vertices.data(), c.point.data());
+    if (!weights || weights->tier == Tier::exact) return std::nullopt;
+    const Result<Value> value = interpolate(c.simplex, c.vertices.data(), c.point.data(), c.values.data());
+    if (!value || value->tier == Tier::exact) return std::nullopt;
+    OracleAnswer a;
+    a.region = signs.region();
+    a.feature = signs.feature(c.simplex);
+    for (int i = 0; i < vertex_count(c.simplex); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        a.signs[k] = static_cast<std::int8_t>(signs.sign(i));
+        if (a.signs[k] != 0) a.support = static_cast<std::uint8_t>(a.support | (1U << k));
+        a.weights[k] = weights->weights[k];
+    }
+    a.value = value->value;
+    return a;
+}
+
 OracleAnswer Judge::decide(const Case& c, std::uint64_t index, OracleCounts& counts,
                            std::optional<Disagreement>& disagreement) const {
     const auto confirm = [&](const char* first, const OracleAnswer& answer, const char* second, Oracle oracle,
                              std::uint64_t& agreed) {
         const OracleAnswer other = oracle(c);
         ++agreed;
-        if (!same_answer(answer, other)) disagreement = Disagreement{first, second, answer, other, c};
+        if (!same_answer(answer, other)) keep_first(disagreement, Disagreement{index, first, second, answer, other, c});
     };
     if (choice_ == OracleChoice::cgal) {
         ++counts.cgal;
@@ -46,18 +71,18 @@ OracleAnswer Judge::decide(const Case& c, std::uint64_t index, OracleCounts& cou
     return answer;
 }
 
-Error error_of(const Disagreement& d, const std::string& family, std::uint64_t index, std::uint64_t seed) {
+Error error_of(const Disagreement& d, const std::string& family, std::uint64_t seed) {
     std::string numbers;
-    const int count = vertex_count(d.c.simplex) * d.c.stride();
-    for (int i = 0; i < count; ++i) numbers += " " + base::hexadecimal(d.c.vertices[static_cast<std::size_t>(i)]);
+    const auto add = [&](const auto& list, int count) {
+        for (int i = 0; i < count; ++i) numbers += " " + base::hexadecimal(list[static_cast<std::size_t>(i)]);
+    };
+    add(d.c.vertices, vertex_count(d.c.simplex) * d.c.stride());
     numbers += ", point";
-    for (int i = 0; i < space_dimension(d.c.simplex); ++i)
-        numbers += " " + base::hexadecimal(d.c.point[static_cast<std::size_t>(i)]);
+    add(d.c.point, space_dimension(d.c.simplex));
     numbers += ", values";
-    for (int i = 0; i < vertex_count(d.c.simplex); ++i)
-        numbers += " " + base::hexadecimal(d.c.values[static_cast<std::size_t>(i)]);
+    add(d.c.values, vertex_count(d.c.simplex));
     return {.what = "two oracles disagree, so nothing is said of any kernel: family " + family + ", case " +
-                    std::to_string(index) + ", seed " + std::to_string(seed) + ", " + std::string(name(d.c.simplex)) +
+                    std::to_string(d.index) + ", seed " + std::to_string(seed) + ", " + std::string(name(d.c.simplex)) +
                     (d.c.perspective ? " in perspective" : "") + ", vertices" + numbers,
             .expected = d.first + ": " + told(d.first_answer, d.c),
             .found = d.second + ": " + told(d.second_answer, d.c),

@@ -17,10 +17,16 @@ std::optional<OracleAnswer> ask_core(const Case& c);
 
 /// Two oracles that do not say the same of a case.
 struct Disagreement {
+    std::uint64_t index = 0;    ///< of the case
     std::string first, second;  ///< "the core", "integers", "CGAL"
     OracleAnswer first_answer, second_answer;
     Case c;
 };
+
+/// Of two the one in the case of the lower index.
+inline void keep_first(std::optional<Disagreement>& first, const std::optional<Disagreement>& other) {
+    if (other && (!first || other->index < first->index)) first = other;
+}
 
 class Judge {
 public:
@@ -33,8 +39,8 @@ public:
     Judge(OracleChoice choice, bool core_may_decide, Oracle cgal = ask_cgal)
         : choice_(choice), core_(core_may_decide && choice == OracleChoice::automatic), cgal_(cgal) {}
 
-    /// The right answer to case `index`. Who decided and who agreed is added to `counts`; a disagreement is returned in
-    /// `disagreement`, and the answer is then the first oracle's.
+    /// The right answer to case `index`. Who decided and who agreed is added to `counts`; of disagreements the first is
+    /// kept, and the answer is then the first oracle's.
     OracleAnswer decide(const Case& c, std::uint64_t index, OracleCounts& counts,
                         std::optional<Disagreement>& disagreement) const;
 
@@ -45,6 +51,6 @@ private:
 };
 
 /// The disagreement as an error, with the witness in it.
-Error error_of(const Disagreement& d, const std::string& family, std::uint64_t index, std::uint64_t seed);
+Error error_of(const Disagreement& d, const std::string& family, std::uint64_t seed);
 
 }  // namespace barycert::audit

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "barycert/audit/asking.hpp"
-#include "barycert/audit/combine.hpp"
 #include "barycert/audit/comparison.hpp"
 #include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit/recipes.hpp"
 #include "barycert/audit_pictures.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/environment.hpp"
@@ -94,9 +94,7 @@ void set_size(Frame& f, const PreparedMesh& m) {
 void add_cases(const PreparedMesh& m, Mesh::Index cell, std::uint64_t seed, std::vector<Case>& cases) {
     base::Random random = base::Random::stream(seed, base::hash64("maps"), static_cast<std::uint64_t>(cell));
     const auto n = m.mesh.corners();
-    std::array<Mesh::Index, 4> nodes{};
-    for (std::size_t i = 0; i < n; ++i) nodes[i] = m.mesh.cells[static_cast<std::size_t>(cell) * n + i];
-    Case c = draw_of_nodes(m, cell, nodes, n == 3 ? Simplex::triangle : Simplex::tetrahedron, random).simplex;
+    Case c = draw_of_cell(m, cell, random).simplex;
     const int count = static_cast<int>(n);
     c.point = random_point(c, random, count);
     cases.push_back(c);

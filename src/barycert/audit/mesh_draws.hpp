@@ -43,4 +43,7 @@ Draw draw_at_hull(const MeshSource& meshes, Simplex s, base::Random& random);
 Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::Index, 4> nodes, Simplex s,
                    base::Random& random);
 
+/// The cell itself.
+Draw draw_of_cell(const PreparedMesh& from, Mesh::Index cell, base::Random& random);
+
 }  // namespace barycert::audit

@@ -25,6 +25,12 @@ const PreparedMesh& pick(const MeshSource& source, Simplex s, base::Random& rand
     return *meshes.front();  // not reached: supplies(s) holds
 }
 
+std::array<Mesh::Index, 4> nodes_of(const Mesh& mesh, std::size_t cell) {
+    std::array<Mesh::Index, 4> nodes{};
+    std::copy_n(&mesh.cells[cell * mesh.corners()], mesh.corners(), nodes.begin());
+    return nodes;
+}
+
 }  // namespace
 
 Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::Index, 4> nodes, Simplex s,
@@ -52,12 +58,15 @@ Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::
     return draw;
 }
 
+Draw draw_of_cell(const PreparedMesh& from, Mesh::Index cell, base::Random& random) {
+    const Simplex whole = from.mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    return draw_of_nodes(from, cell, nodes_of(from.mesh, static_cast<std::size_t>(cell)), whole, random);
+}
+
 Draw draw_any(const MeshSource& meshes, Simplex s, base::Random& random) {
     const PreparedMesh& from = pick(meshes, s, random);
-    const auto corners = from.mesh.corners();
     const auto cell = random.below(from.mesh.cell_count());
-    std::array<Mesh::Index, 4> nodes{};
-    for (std::size_t i = 0; i < corners; ++i) nodes[i] = from.mesh.cells[cell * corners + i];
+    std::array<Mesh::Index, 4> nodes = nodes_of(from.mesh, cell);
     // A face leaves out one corner, an edge another one: rotate what is left out to the end.
     if (s == Simplex::triangle3d || s == Simplex::segment) std::swap(nodes[random.below(4)], nodes[3]);
     if (s == Simplex::segment) std::swap(nodes[random.below(3)], nodes[2]);
@@ -70,8 +79,7 @@ Draw draw_at_hull(const MeshSource& meshes, Simplex s, base::Random& random) {
     if (from.hull_facets.empty()) return draw_any(meshes, s, random);
     const auto facet = static_cast<std::size_t>(from.hull_facets[random.below(from.hull_facets.size())]);
     const auto cell = facet / corners;
-    std::array<Mesh::Index, 4> nodes{};
-    for (std::size_t i = 0; i < corners; ++i) nodes[i] = from.mesh.cells[cell * corners + i];
+    std::array<Mesh::Index, 4> nodes = nodes_of(from.mesh, cell);
     std::swap(nodes[facet % corners], nodes[corners - 1]);
     return draw_of_nodes(from, static_cast<Mesh::Index>(cell), nodes, s, random);
 }

@@ -1,14 +1,101 @@
-/// What recipes share.
+/// What recipes share: points made from vertices, in plain rounded arithmetic.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "barycert/audit.hpp"
-#include "barycert/audit/combine.hpp"
 #include "barycert/base/random.hpp"
+#include "barycert/base/ulp.hpp"
 
 namespace barycert::audit {
+
+/// n weights >= 0 that sum to about 1, evenly spread over the simplex: the gaps between n - 1 sorted random cuts of [0,
+/// 1].
+inline std::array<double, 4> random_weights(base::Random& random, int n) {
+    std::array<double, 5> cuts{0, 1, 1, 1, 1};
+    for (int i = 1; i < n; ++i) cuts[static_cast<std::size_t>(i)] = random.unit();
+    for (int i = 1; i < n; ++i) {  // insertion sort of at most three cuts
+        for (int j = i; j > 1 && cuts[static_cast<std::size_t>(j)] < cuts[static_cast<std::size_t>(j - 1)]; --j) {
+            std::swap(cuts[static_cast<std::size_t>(j)], cuts[static_cast<std::size_t>(j - 1)]);
+        }
+    }
+    cuts[static_cast<std::size_t>(n)] = 1;
+    std::array<double, 4> w{};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) w[i] = cuts[i + 1] - cuts[i];
+    return w;
+}
+
+/// fl(sum of w_i v_i) over the first n vertices, from left to right.
+inline std::array<double, 3> combination(const Case& c, const std::array<double, 4>& w, int n) {
+    std::array<double, 3> p{};
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        double sum = 0;
+        for (int i = 0; i < n; ++i) sum += w[static_cast<std::size_t>(i)] * c.vertex(i, axis);
+        p[static_cast<std::size_t>(axis)] = sum;
+    }
+    return p;
+}
+
+/// A rounded point in the whole simplex, or in the face of its first n vertices.
+inline std::array<double, 3> random_point(const Case& c, base::Random& random, int n) {
+    return combination(c, random_weights(random, n), n);
+}
+
+inline void set_vertex(Case& c, int i, const std::array<double, 3>& p) {
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) c.vertex(i, axis) = p[static_cast<std::size_t>(axis)];
+}
+
+/// Kernels and oracles are asked of finite points alone: where the recipe of a point leaves the range of doubles, as in
+/// meshes as large as that, the end of the range, or zero if there is no telling which.
+inline void keep_finite(std::array<double, 3>& point) {
+    for (double& x : point) {
+        if (std::isinf(x)) x = std::copysign(std::numeric_limits<double>::max(), x);
+        if (std::isnan(x)) x = 0;
+    }
+}
+
+/// Moves a coordinate by one ulp, up or down. The neighbour of zero would be a subnormal, a test of underflow and not
+/// of sides: zero moves by an ulp of the largest coordinate on its axis, or of 1 if all are zero.
+inline void move_by_ulp(const Case& c, double& x, int axis, base::Random& random) {
+    const bool up = random.coin();
+    if (x != 0) {
+        x = up ? base::next_up(x) : base::next_down(x);
+        return;
+    }
+    double max = 0;
+    for (int i = 0; i < vertex_count(c.simplex); ++i) max = std::max(max, std::fabs(c.vertex(i, axis)));
+    const double ulp = std::ldexp(1, base::ulp_exponent(max == 0 ? 1.0 : max));
+    x = up ? ulp : -ulp;
+}
+
+inline void random_values(Case& c, base::Random& random) {
+    for (int i = 0; i < vertex_count(c.simplex); ++i) c.values[static_cast<std::size_t>(i)] = random.uniform(-1, 1);
+}
+
+/// A unit vector, up to rounding, along which the last vertex leaves the facet of the others: normal to that edge of a
+/// triangle or face of a tetrahedron; where there are many (an edge in 3-space, a point), a random one.
+inline std::array<double, 3> facet_normal(const Case& c, base::Random& random) {
+    const auto difference = [&](int i) {
+        std::array<double, 3> e{};
+        for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
+            e[static_cast<std::size_t>(axis)] = c.vertex(i, axis) - c.vertex(0, axis);
+        return e;
+    };
+    std::array<double, 3> a{0, 0, 1}, b{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    if (c.simplex != Simplex::segment) a = difference(1);
+    if (c.simplex == Simplex::triangle) b = {0, 0, 1};
+    if (c.simplex == Simplex::tetrahedron) b = difference(2);
+    std::array<double, 3> n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 0)) return {1, 0, 0};
+    for (double& x : n) x /= length;
+    return n;
+}
 
 /// The parts of all_families(): from meshes, and made.
 std::vector<Family> mesh_families();
@@ -41,7 +128,7 @@ inline std::array<double, 3> lifted(const Case& c, base::Random& random, std::ar
 
 /// Sets a triangle on the grid of 1/256 pixel, in a box of `size` pixels that starts somewhere in a window, and a pixel
 /// centre in it (a few have none), or, `on_edge`, exactly on one of its edges. Does not set values.
-/// (families_raster.cpp)
+/// (families_window.cpp)
 void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int window = 4096);
 
 inline Family built(const char* name, const char* tests, const char* parameters, Family::Recipe recipe,

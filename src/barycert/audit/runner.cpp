@@ -1,21 +1,14 @@
 #include "barycert/audit.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <thread>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/block.hpp"
 #include "barycert/audit/mesh_draws.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/audit/threads.hpp"
 
 namespace barycert {
 
@@ -112,8 +105,8 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     }
     report.seed = options.seed;
     report.count = options.count;
-    report.threads =
-        options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    Threads threads(options.threads);
+    report.threads = threads.count;
     report.oracle = options.oracle;
     report.families = options.families;
     for (const auto& m : meshes.meshes()) {
@@ -130,8 +123,6 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     std::atomic<std::uint64_t> done{0};
     std::mutex telling;
     const std::uint64_t total = options.count * parts.size();
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(report.threads));
-    tbb::task_arena arena(report.threads);
     for (const Part& part : parts) {
         const Family& family = options.families[part.family];
         std::vector<Kernel> kernels;
@@ -143,30 +134,25 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
                       meshes, kernels,      Judge(options.oracle, core_may_decide, options.cgal)};
         tbb::enumerable_thread_specific<JobResult> results([&] { return JobResult(kernels.size()); });
         const std::uint64_t blocks = (options.count + block_size - 1) / block_size;
-        arena.execute([&] {
-            tbb::parallel_for(tbb::blocked_range<std::uint64_t>(0, blocks, 1), [&](const auto& range) {
-                for (std::uint64_t b = range.begin(); b != range.end(); ++b) {
-                    const std::uint64_t first = b * block_size;
-                    const std::uint64_t last = std::min(first + block_size, options.count);
-                    // A kernel that waits for tasks of its own must not begin another block meanwhile: a thread has
-                    // room for one.
-                    tbb::this_task_arena::isolate([&] { run_block(job, first, last, results.local()); });
-                    const std::uint64_t now = done += last - first;
-                    const std::unique_lock turn(telling, std::try_to_lock);
-                    if (options.progress && turn) {
-                        options.progress({now, total, family.name});
-                        ExactEnvironment::renew();
-                    }
-                }
-            });
+        threads.each(blocks, 1, [&](std::uint64_t b) {
+            const std::uint64_t first = b * block_size, last = std::min(first + block_size, options.count);
+            // A kernel that waits for tasks of its own must not begin another block meanwhile: a thread has room for
+            // one.
+            tbb::this_task_arena::isolate([&] { run_block(job, first, last, results.local()); });
+            const std::uint64_t now = done += last - first;
+            const std::unique_lock turn(telling, std::try_to_lock);
+            if (options.progress && turn) {
+                options.progress({now, total, family.name});
+                ExactEnvironment::renew();
+            }
         });
-        const Quarrel* first = nullptr;
+        std::optional<Disagreement> first;
         for (const JobResult& local : results) {
-            if (local.quarrel && (first == nullptr || local.quarrel->index < first->index)) first = &*local.quarrel;
+            keep_first(first, local.disagreement);
             report.oracles.add(local.oracles);
             for (std::size_t r = 0; r < 4; ++r) report.regions[r] += local.regions[r];
         }
-        if (first != nullptr) return error_of(first->disagreement, family.name, first->index, options.seed);
+        if (first) return error_of(*first, family.name, options.seed);
         for (std::size_t k = 0; k < kernels.size(); ++k) {
             KernelResult& result = report.kernels[part.kernels[k]];
             result.families.push_back({part.family, {}});

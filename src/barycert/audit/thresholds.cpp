@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "barycert/audit/figures.hpp"
 #include "barycert/base/named_limit.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/environment.hpp"
@@ -30,22 +31,16 @@ const std::vector<Figure>& figures() {
         f.emplace_back("wrong_cases", wrong);
         // A kernel that gives no finite weight where there is one to give has no error to measure: it is worse than
         // any. (One that touched memory beside its arrays may have died of it.)
-        const auto size = [&](const char* name, double (*figure)(const KernelStatistics&)) {
-            f.emplace_back(name, [figure](const KernelStatistics& s) {
+        for (const audit::ErrorFigure& figure : audit::error_figures) {
+            f.emplace_back(figure.name, [figure](const KernelStatistics& s) {
                 const auto seen = [&](Finding x) { return s.counts[static_cast<std::size_t>(x)] != 0; };
-                const double value = figure(s);
+                const double value = figure.of(s);
                 const bool mute = value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration) ||
                                                 seen(Finding::crashed) || seen(Finding::raised) ||
                                                 seen(Finding::hung) || seen(Finding::out_of_bounds) || s.not_run != 0);
                 return mute ? std::numeric_limits<double>::infinity() : value;
             });
-        };
-        size("worst_weight_ulp", [](const KernelStatistics& s) { return s.weight_ulp.value; });
-        size("p999_weight_ulp", [](const KernelStatistics& s) { return s.p999_weight_ulp(); });
-        size("worst_value_ulp", [](const KernelStatistics& s) { return s.value_ulp.value; });
-        size("p999_value_ulp", [](const KernelStatistics& s) { return s.p999_value_ulp(); });
-        size("worst_partition_residual", [](const KernelStatistics& s) { return s.partition_residual.value; });
-        size("worst_reproduction_residual", [](const KernelStatistics& s) { return s.reproduction_residual.value; });
+        }
         return f;
     }();
     return all;
@@ -65,7 +60,7 @@ Result<Threshold> parse_threshold(std::string_view text) {
     Threshold rule{std::string(limit.name), 0};
     if (figure_named(rule.name) == nullptr) {
         std::string names;
-        for (const auto& [name, value] : figures()) names += (names.empty() ? "" : ", ") + name;
+        for (const std::string& name : threshold_names()) names += (names.empty() ? "" : ", ") + name;
         return Error{.what = "unknown rule",
                      .expected = "NAME or NAME>NUMBER with NAME one of " + names,
                      .found = '"' + std::string(text) + '"',

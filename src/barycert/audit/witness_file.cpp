@@ -1,24 +1,25 @@
-#include "barycert/audit.hpp"
-
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
-#include "barycert/audit/parsed_json.hpp"
+#include "barycert/audit/json_members.hpp"
 #include "barycert/audit/witness_json.hpp"
-#include "barycert/base/input_file.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
+
+using namespace audit;
+
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
+using Ordered = nlohmann::ordered_json;
 
 template <class Write>
-Json vector_of(int n, Write write) {
-    Json out = Json::array();
+Ordered vector_of(int n, Write write) {
+    Ordered out = Ordered::array();
     for (int i = 0; i < n; ++i) out.push_back(write(i));
     return out;
 }
@@ -29,19 +30,11 @@ double number(const Json& at, const std::string& where) {
                                     : at.is_number() ? std::optional<double>(at.get<double>())
                                                      : std::nullopt;
     if (!x || !std::isfinite(*x)) {
-        throw Exception(
-            {.what = where, .expected = "a finite number, best in hexadecimal as in \"0x1.8p+1\"", .found = at.dump()});
+        throw Exception({.what = where,
+                         .expected = "a finite number, best in hexadecimal as in \"0x1.8p+1\"",
+                         .found = found_json(at)});
     }
     return *x;
-}
-
-const Json& member(const Json& object, const char* key, const std::string& where) {
-    if (!object.is_object() || !object.contains(key)) {
-        throw Exception({.what = where,
-                         .expected = std::string("a member \"") + key + '"',
-                         .found = object.is_object() ? "none" : object.dump().substr(0, 40)});
-    }
-    return object.at(key);
 }
 
 const Json& array_of(const Json& object, const char* key, std::size_t n, const std::string& where) {
@@ -49,7 +42,7 @@ const Json& array_of(const Json& object, const char* key, std::size_t n, const s
     if (!a.is_array() || a.size() != n) {
         throw Exception({.what = where + ", " + key,
                          .expected = "an array of " + std::to_string(n),
-                         .found = a.is_array() ? std::to_string(a.size()) + " entries" : a.dump().substr(0, 40)});
+                         .found = a.is_array() ? std::to_string(a.size()) + " entries" : found_json(a)});
     }
     return a;
 }
@@ -70,8 +63,15 @@ bool is_perspective(const Json& j, Simplex simplex, const std::string& where) {
     if (!member.is_boolean() || (member.get<bool>() && simplex != Simplex::triangle))
         throw Exception({.what = where + ", perspective",
                          .expected = "false, or true for a triangle",
-                         .found = member.dump().substr(0, 40)});
+                         .found = found_json(member)});
     return member.get<bool>();
+}
+
+std::string text_of_witnesses(Ordered list) {
+    Ordered out;
+    out["schema"] = witness_schema;
+    out["witnesses"] = std::move(list);
+    return base::json_text(out, 1);
 }
 
 Witness witness_from(const Json& j, const std::string& where) {
@@ -81,7 +81,7 @@ Witness witness_from(const Json& j, const std::string& where) {
     if (!known)
         throw Exception({.what = where,
                          .expected = "segment, triangle, triangle3d or tetrahedron as simplex",
-                         .found = simplex.dump()});
+                         .found = found_json(simplex)});
     w.c.simplex = *known;
     w.c.perspective = is_perspective(j, *known, where);
     w.kernel = text_or(j, "kernel", "");
@@ -119,10 +119,10 @@ Witness witness_from(const Json& j, const std::string& where) {
 
 }  // namespace
 
-Json audit::witness_json(const Witness& w) {
+Ordered audit::witness_json(const Witness& w) {
     const int n = vertex_count(w.c.simplex), d = space_dimension(w.c.simplex), stride = w.c.stride();
-    const auto hex = [](double x) { return Json(base::hexadecimal(x)); };
-    Json j;
+    const auto hex = [](double x) { return Ordered(base::hexadecimal(x)); };
+    Ordered j;
     j["kernel"] = w.kernel;
     j["reason"] = w.reason;
     j["simplex"] = name(w.c.simplex);
@@ -130,7 +130,7 @@ Json audit::witness_json(const Witness& w) {
     j["family"] = w.family;
     j["seed"] = w.seed;
     j["case"] = w.index;
-    j["magnitude"] = std::isfinite(w.magnitude) ? Json(w.magnitude) : Json(nullptr);
+    j["magnitude"] = std::isfinite(w.magnitude) ? Ordered(w.magnitude) : Ordered(nullptr);
     if (w.cell >= 0) {
         j["mesh"] = w.mesh;
         j["cell"] = w.cell;
@@ -141,58 +141,41 @@ Json audit::witness_json(const Witness& w) {
     j["point"] = vector_of(d, [&](int k) { return hex(w.c.point[static_cast<std::size_t>(k)]); });
     j["values"] = vector_of(n, [&](int i) { return hex(w.c.values[static_cast<std::size_t>(i)]); });
     j["decimal"]["vertices"] = vector_of(
-        n, [&](int i) { return vector_of(stride, [&](int k) { return Json(base::shortest(w.c.vertex(i, k))); }); });
+        n, [&](int i) { return vector_of(stride, [&](int k) { return Ordered(base::shortest(w.c.vertex(i, k))); }); });
     j["decimal"]["point"] =
-        vector_of(d, [&](int k) { return Json(base::shortest(w.c.point[static_cast<std::size_t>(k)])); });
+        vector_of(d, [&](int k) { return Ordered(base::shortest(w.c.point[static_cast<std::size_t>(k)])); });
     return j;
 }
 
 std::string witnesses_json(const AuditReport& report) {
     const ExactEnvironment environment;
-    Json out;
-    out["schema"] = witness_schema;
-    out["witnesses"] = Json::array();
+    Ordered list = Ordered::array();
     for (const KernelResult& k : report.kernels) {
-        for (const Witness& w : k.witnesses) out["witnesses"].push_back(audit::witness_json(w));
+        for (const Witness& w : k.witnesses) list.push_back(witness_json(w));
     }
-    return base::json_text(out, 1);
+    return text_of_witnesses(std::move(list));
+}
+
+std::string witnesses_json(const SearchReport& report) {
+    const ExactEnvironment environment;
+    Ordered list = Ordered::array();
+    for (const SearchFind& f : report.finds) list.push_back(witness_json(f.plain));
+    return text_of_witnesses(std::move(list));
 }
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {
     const ExactEnvironment environment;
-    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::json);
-    if (!text) {
-        Error error = text.error();
-        error.what = "cannot read the witnesses";
-        error.remedy += "; witnesses are made with `barycert audit --witnesses FILE`";
-        return error;
-    }
-    const Json all = audit::parsed_json<Json>(*text);
-    if (all.is_discarded())
-        return Error{.what = "not a witness file",
-                     .file = path,
-                     .expected = "JSON",
-                     .found = "something else",
-                     .remedy = "make one with `barycert audit --witnesses FILE`"};
-    try {
-        if (const Json& schema = member(all, "schema", "witness file"); schema != witness_schema) {
-            return Error{.what = "unknown schema",
-                         .file = path,
-                         .expected = std::to_string(witness_schema),
-                         .found = schema.dump()};
-        }
+    const JsonFile file{"cannot read the witnesses", "not a witness file", "witness file",
+                        "make one with `barycert audit --witnesses FILE`",
+                        "; witnesses are made with `barycert audit --witnesses FILE`"};
+    return made_of_json(path, file, [](const Json& all) {
         const Json& list = member(all, "witnesses", "witness file");
-        if (!list.is_array())
-            return Error{.what = "witnesses", .file = path, .expected = "an array", .found = list.dump().substr(0, 40)};
+        if (!list.is_array()) throw Exception({.what = "witnesses", .expected = "an array", .found = found_json(list)});
         std::vector<Witness> witnesses;
         for (std::size_t i = 0; i < list.size(); ++i)
             witnesses.push_back(witness_from(list[i], "witness " + std::to_string(i)));
         return witnesses;
-    } catch (const Exception& e) {
-        Error error = e.error();
-        error.file = path;
-        return error;
-    }
+    });
 }
 
 }  // namespace barycert

@@ -1,5 +1,3 @@
-#include "barycert/check/boundary.hpp"
-
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <tuple>
 
 #include "barycert/base/disjoint_sets.hpp"
+#include "barycert/check/stages.hpp"
 
 namespace barycert::check {
 namespace {
@@ -167,9 +166,7 @@ private:
 
     Integer cone(std::uint32_t facet, const ExactVolumes& volumes) const {
         const double* p[3]{};
-        for (std::size_t i = 0; i < static_cast<std::size_t>(d_); ++i) {
-            p[i] = &mesh_.points[static_cast<std::size_t>(facets_[facet].nodes[i]) * static_cast<std::size_t>(d_)];
-        }
+        for (std::size_t i = 0; i < static_cast<std::size_t>(d_); ++i) p[i] = node_at(mesh_, facets_[facet].nodes[i]);
         return volumes.cone(p);
     }
 

@@ -1,13 +1,11 @@
-#include "barycert/check/cells.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/strict_math.hpp"
-#include "barycert/check/shape.hpp"
-#include "barycert/predicates.hpp"
+#include "barycert/check/stages.hpp"
 #include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 
@@ -54,6 +52,112 @@ const char* kind(int d, const double* const* p) {
     return "collinear";
 }
 
+// Shape measures in plain floating point, from the edges of a cell from its first corner, divided by a power of two so
+// that the largest component is in [1, 2), and its volume in the same unit, accurately: plain formulas lose all its
+// digits on slivers. In double where the volume is at least 2^-300, for then no length is below that and no product of
+// two underflows; else in long double, whose exponents are enough for any cell.
+
+struct Shape {
+    double radius_edge = 0, aspect = 0;     ///< see CellMeasures
+    double min_angle = 0, max_angle = 180;  ///< degrees
+};
+
+template <class Real>
+using Vector = std::array<Real, 3>;
+
+template <class Real>
+Real dot(const Vector<Real>& x, const Vector<Real>& y) {
+    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+}
+template <class Real>
+Vector<Real> cross(const Vector<Real>& x, const Vector<Real>& y) {
+    return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+}
+template <class Real>
+Vector<Real> minus(const Vector<Real>& x, const Vector<Real>& y) {
+    return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+}
+template <class Real>
+Real length(const Vector<Real>& x) {
+    return std::sqrt(dot(x, x));
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class Real>
+Shape rounded(Real radius_edge, Real aspect, Real min_angle, Real max_angle) {
+    const Real degrees = 180 / std::numbers::pi_v<Real>;
+    return {static_cast<double>(radius_edge), static_cast<double>(aspect), static_cast<double>(min_angle * degrees),
+            static_cast<double>(max_angle * degrees)};
+}
+
+/// The regular simplex has aspect 1: its longest edge is 2 sqrt(6) inradii, in 2D 2 sqrt(3).
+template <class Real>
+Real aspect(Real longest, Real inradius, int d) {
+    return longest / (2 * std::sqrt(static_cast<Real>(d == 2 ? 3 : 6)) * inradius);
+}
+
+template <class Real>
+Shape triangle(const Real* e, Real area) {
+    const Vector<Real> sides[] = {{e[0], e[1], 0}, {e[2], e[3], 0}, {e[2] - e[0], e[3] - e[1], 0}};
+    const Real l[] = {length(sides[0]), length(sides[1]), length(sides[2])};
+    // Angles from twice the area and a scalar product: accurate near 0 and 180 degrees, where a cosine is not.
+    const Real angles[] = {std::atan2(2 * area, dot(sides[0], sides[1])),
+                           std::atan2(2 * area, -dot(sides[0], sides[2])),
+                           std::atan2(2 * area, dot(sides[1], sides[2]))};
+    const auto [min, max] = std::minmax({angles[0], angles[1], angles[2]});
+    const Real radius = l[0] * l[1] * l[2] / (4 * area), inradius = 2 * area / (l[0] + l[1] + l[2]);
+    return rounded(radius / std::min({l[0], l[1], l[2]}), aspect(std::max({l[0], l[1], l[2]}), inradius, 2), min, max);
+}
+
+template <class Real>
+Shape tetrahedron(const Real* e, Real volume) {
+    const Vector<Real> a{e[0], e[1], e[2]}, b{e[3], e[4], e[5]}, c{e[6], e[7], e[8]};
+    const Vector<Real> ab = minus(b, a), ac = minus(c, a), bc = minus(c, b);
+    // Normals of the faces opposite to each corner, as long as twice the area, all inward or all outward.
+    const Vector<Real> normals[] = {cross(ab, ac), cross(c, b), cross(a, c), cross(b, a)};
+    Real area[4];
+    for (int i = 0; i < 4; ++i) area[i] = length(normals[i]) / 2;
+    const Real aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+    // The edge between the faces opposite to corners i and j joins the other two.
+    struct Edge {
+        int i, j;
+        Real squared;
+    };
+    const Edge edges[] = {{2, 3, aa},          {1, 3, bb},          {1, 2, cc},
+                          {0, 3, dot(ab, ab)}, {0, 2, dot(ac, ac)}, {0, 1, dot(bc, bc)}};
+    Real longest = 0, shortest = infinity, min = infinity, max = -infinity;
+    const Edge *sharpest = edges, *flattest = edges;
+    Real sharpest_dot = 0, flattest_dot = 0;
+    for (const Edge& edge : edges) {
+        longest = std::max(longest, edge.squared);
+        shortest = std::min(shortest, edge.squared);
+        // The angle grows with minus its cosine.
+        const Real product = dot(normals[edge.i], normals[edge.j]);
+        const Real order = product / (4 * area[edge.i] * area[edge.j]);
+        if (order < min) min = order, sharpest = &edge, sharpest_dot = product;
+        if (order > max) max = order, flattest = &edge, flattest_dot = product;
+    }
+    // |n_i x n_j| = 6 volume * |edge|: accurate near 0 and 180 degrees, where a cosine is not.
+    const auto angle = [&](const Edge& edge, Real product) {
+        return std::atan2(6 * volume * std::sqrt(edge.squared), -product);
+    };
+    const Vector<Real> x = cross(b, c), y = cross(c, a), z = cross(a, b);
+    const Vector<Real> centre{aa * x[0] + bb * y[0] + cc * z[0], aa * x[1] + bb * y[1] + cc * z[1],
+                              aa * x[2] + bb * y[2] + cc * z[2]};
+    const Real radius = length(centre) / (12 * volume);
+    const Real inradius = 3 * volume / (area[0] + area[1] + area[2] + area[3]);
+    return rounded(radius / std::sqrt(shortest), aspect(std::sqrt(longest), inradius, 3),
+                   angle(*sharpest, sharpest_dot), angle(*flattest, flattest_dot));
+}
+
+/// Corners 1, 2 (and 3) less corner 0, d numbers each; |volume|, 0 for a degenerate cell.
+template <class Real>
+Shape shape(int d, const Real* edges, Real volume) {
+    if (volume == 0) return {infinity, infinity, 0, 180};
+    return d == 2 ? triangle(edges, volume) : tetrahedron(edges, volume);
+}
+
 /// Edges from corner 0, divided by a power of two so that the largest component is in [1, 2); its exponent. If a
 /// difference overflows, some are infinite, and the exponent is above those of all doubles.
 template <class Real>
@@ -87,87 +191,71 @@ Shape shape_of(int d, const double* const* p, double volume, const Integer& exac
     return shape(d, wide, std::scalbn(near_one, d * (scale - wide_exponent)));
 }
 
-struct Part {
+/// The measures that are computed for shapes alone.
+std::array<std::vector<double>*, 6> shape_measures(CellMeasures& m) {
+    return {&m.volume, &m.condition, &m.radius_edge, &m.aspect, &m.min_angle, &m.max_angle};
+}
+
+struct CellPart {
     DefectList defects;
-    Integer total;
-    std::uint64_t positive = 0, negative = 0, degenerate = 0;
+    Cells cells;  ///< without `usable`, which is one for all
 };
 
-class CellChecker {
-public:
-    CellChecker(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes,
-                CellMeasures& measures, std::vector<std::uint8_t>& usable)
-        : mesh_(mesh), finite_(finite), volumes_(volumes), m_(measures), usable_(usable) {}
+struct CellChecker {
+    const Mesh& mesh;
+    const std::vector<std::uint8_t>& finite;
+    const ExactVolumes& volumes;
+    CellMeasures& m;
 
-    void operator()(std::size_t cell, Part& part) const {
-        if (!usable(cell, part)) {
-            for (auto* measure : {&m_.volume, &m_.condition, &m_.radius_edge, &m_.aspect, &m_.min_angle, &m_.max_angle})
-                if (!measure->empty()) (*measure)[cell] = std::numeric_limits<double>::quiet_NaN();
-            return;
-        }
-        usable_[cell] = 1;
-        const auto p = corner_points(mesh_, cell);
-        measure(cell, p.data(), part);
-    }
-
-private:
-    bool usable(std::size_t cell, Part& part) const {
-        const Mesh::Index* const nodes = &mesh_.cells[cell * mesh_.corners()];
-        const DefectPlace place{.cells = {static_cast<Mesh::Index>(cell), -1}};
+    bool usable(std::size_t cell, CellPart& part) const {
+        const std::span nodes = nodes_of(mesh, cell);
         bool is_finite = true, repeated = false;
-        for (std::size_t i = 0; i < mesh_.corners(); ++i) {
-            if (nodes[i] < 0 || static_cast<std::size_t>(nodes[i]) >= finite_.size()) {
-                note(DefectKind::index_out_of_range, cell, place, part);
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (nodes[i] < 0 || static_cast<std::size_t>(nodes[i]) >= finite.size()) {
+                note(DefectKind::index_out_of_range, cell, part);
                 return false;
             }
-            is_finite = is_finite && finite_[static_cast<std::size_t>(nodes[i])] != 0;
+            is_finite = is_finite && finite[static_cast<std::size_t>(nodes[i])] != 0;
             for (std::size_t j = 0; j < i; ++j) repeated = repeated || nodes[i] == nodes[j];
         }
-        if (!is_finite) m_.defects[cell] |= defect_bit(DefectKind::not_finite);
-        if (repeated) note(DefectKind::repeated_node, cell, place, part);
+        if (!is_finite) m.defects[cell] |= defect_bit(DefectKind::not_finite);
+        if (repeated) note(DefectKind::repeated_node, cell, part);
         return is_finite && !repeated;
     }
 
-    void measure(std::size_t cell, const double* const* p, Part& part) const {
-        const int d = mesh_.dimension;
-        const Integer volume = volumes_.cell(p);
+    void measure(std::size_t cell, CellPart& part) const {
+        const auto corners = corner_points(mesh, cell);
+        const double* const* const p = corners.data();
+        const int d = mesh.dimension;
+        const Integer volume = volumes.cell(p);
         const int sign = volume.sign();
-        m_.orientation[cell] = static_cast<std::int8_t>(sign);
-        const DefectPlace place{.cells = {static_cast<Mesh::Index>(cell), -1}};
+        m.orientation[cell] = static_cast<std::int8_t>(sign);
         if (sign == 0) {
-            ++part.degenerate;
-            DefectPlace degenerate = place;
-            degenerate.detail = kind(d, p);
-            note(DefectKind::degenerate_cell, cell, degenerate, part);
+            ++part.cells.degenerate;
+            note(DefectKind::degenerate_cell, cell, part, kind(d, p));
         } else {
-            ++(sign > 0 ? part.positive : part.negative);
-            part.total = sign > 0 ? part.total + volume : part.total - volume;
+            ++(sign > 0 ? part.cells.positive : part.cells.negative);
+            part.cells.total = sign > 0 ? part.cells.total + volume : part.cells.total - volume;
         }
-        if (plain_sign(d, p) != sign) note(DefectKind::plain_sign_wrong, cell, place, part);
-        if (m_.volume.empty()) return;  // shapes are not asked for
+        if (plain_sign(d, p) != sign) note(DefectKind::plain_sign_wrong, cell, part);
+        if (m.volume.empty()) return;  // shapes are not asked for
 
-        m_.volume[cell] = volumes_.rounded(volume);
-        const Shape s = shape_of(d, p, m_.volume[cell], volume, volumes_);
-        m_.radius_edge[cell] = s.radius_edge;
-        m_.aspect[cell] = s.aspect;
-        m_.min_angle[cell] = s.min_angle;
-        m_.max_angle[cell] = s.max_angle;
+        m.volume[cell] = volumes.rounded(volume);
+        const Shape s = shape_of(d, p, m.volume[cell], volume, volumes);
+        m.radius_edge[cell] = s.radius_edge;
+        m.aspect[cell] = s.aspect;
+        m.min_angle[cell] = s.min_angle;
+        m.max_angle[cell] = s.max_angle;
 
         double vertices[12];
         for (int i = 0; i <= d; ++i) std::copy_n(p[i], d, vertices + i * d);
-        m_.condition[cell] = condition_number(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices);
+        m.condition[cell] = condition_number(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices);
     }
 
-    void note(DefectKind problem, std::size_t cell, const DefectPlace& place, Part& part) const {
-        m_.defects[cell] |= defect_bit(problem);
-        part.defects.add(problem, place);
+    void note(DefectKind defect, std::size_t cell, CellPart& part, const char* detail = "") const {
+        m.defects[cell] |= defect_bit(defect);
+        part.defects.add(defect, {.cells = {static_cast<Mesh::Index>(cell), -1}, .detail = detail});
     }
-
-    const Mesh& mesh_;
-    const std::vector<std::uint8_t>& finite_;
-    const ExactVolumes& volumes_;
-    CellMeasures& m_;
-    std::vector<std::uint8_t>& usable_;
 };
 
 /// Cells in both orders: those of the rarer one are told.
@@ -190,24 +278,30 @@ Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, con
     cells.usable.assign(count, 0);
     measures.orientation.assign(count, 0);
     measures.defects.assign(count, 0);
-    for (auto* measure : {&measures.volume, &measures.condition, &measures.radius_edge, &measures.aspect,
-                          &measures.min_angle, &measures.max_angle})
-        barycert::base::resize_large(*measure, shapes ? count : 0);
-    const CellChecker check(mesh, finite, volumes, measures, cells.usable);
+    for (auto* measure : shape_measures(measures)) barycert::base::resize_large(*measure, shapes ? count : 0);
+    const CellChecker check{mesh, finite, volumes, measures};
     in_blocks(
         count, 8192,
         [&] {
-            return Part{DefectList(defects.examples()), Integer(), 0, 0, 0};
+            return CellPart{DefectList(defects.examples()), {}};
         },
-        [&](std::size_t first, std::size_t last, Part& part) {
-            for (std::size_t cell = first; cell < last; ++cell) check(cell, part);
+        [&](std::size_t first, std::size_t last, CellPart& part) {
+            for (std::size_t cell = first; cell < last; ++cell) {
+                if (check.usable(cell, part)) {
+                    cells.usable[cell] = 1;
+                    check.measure(cell, part);
+                } else if (shapes) {
+                    for (auto* measure : shape_measures(measures))
+                        (*measure)[cell] = std::numeric_limits<double>::quiet_NaN();
+                }
+            }
         },
-        [&](const Part& part) {
+        [&](const CellPart& part) {
             defects.append(part.defects);
-            cells.total = cells.total + part.total;
-            cells.positive += part.positive;
-            cells.negative += part.negative;
-            cells.degenerate += part.degenerate;
+            cells.total = cells.total + part.cells.total;
+            cells.positive += part.cells.positive;
+            cells.negative += part.cells.negative;
+            cells.degenerate += part.cells.degenerate;
         });
     find_mixed(cells, measures, defects);
     return cells;

@@ -1,28 +1,13 @@
-#include "barycert/check.hpp"
-#include "barycert/check/conformity.hpp"
-
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "barycert/base/disjoint_sets.hpp"
-#include "barycert/base/finite.hpp"
-#include "barycert/check/boundary.hpp"
-#include "barycert/check/cells.hpp"
-#include "barycert/check/common_part.hpp"
-#include "barycert/check/defect_list.hpp"
-#include "barycert/check/exact_volumes.hpp"
-#include "barycert/check/facets.hpp"
-#include "barycert/check/files.hpp"
-#include "barycert/check/local_delaunay.hpp"
-#include "barycert/check/near_nodes.hpp"
-#include "barycert/check/nodes.hpp"
-#include "barycert/check/pairs.hpp"
+#include "barycert/check/stages.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/consistency.hpp"
 
@@ -236,23 +221,6 @@ private:
 const Defect* CheckReport::find(DefectKind problem) const {
     const auto f = std::find_if(defects.begin(), defects.end(), [&](const Defect& g) { return g.kind == problem; });
     return f == defects.end() ? nullptr : &*f;
-}
-
-void count_not_finite(const Field& field, bool of_cells, std::vector<NotFinite>& to) {
-    if (base::all_finite(field.data)) return;
-    const bool known = std::any_of(to.begin(), to.end(), [&](const NotFinite& other) {
-        return other.field == field.name && other.of_cells == of_cells;
-    });
-    if (known) return;
-    const auto count = std::count_if(field.data.begin(), field.data.end(), [](double x) { return !std::isfinite(x); });
-    to.push_back({field.name, of_cells, static_cast<std::uint64_t>(count), field.data.size()});
-}
-
-std::vector<NotFinite> not_finite_values(const Mesh& mesh) {
-    std::vector<NotFinite> all;
-    for (const Field& field : mesh.point_fields) count_not_finite(field, false, all);
-    for (const Field& field : mesh.cell_fields) count_not_finite(field, true, all);
-    return all;
 }
 
 CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {

@@ -1,16 +1,11 @@
-#include "barycert/check/common_part.hpp"
-
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <utility>
-#include <vector>
 
+#include "barycert/check/stages.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
-#include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
 
 namespace barycert::check {

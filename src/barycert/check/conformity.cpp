@@ -1,24 +1,33 @@
-#include "barycert/check/conformity.hpp"
-
+// Does the mesh conform to the facets of the PLC that it was made from?
+//
+// A PLC facet is respected if it is a union of faces of cells. Faces that may be part of it have their three nodes
+// close to its plane and their centroid in its region. It is respected
+//   exactly        if all these nodes lie in its plane, no side of these faces crosses a side of its polygons, the
+//                  polygons' vertices are nodes, and the faces add up to its area, all exactly. In a certified mesh
+//                  then each of the faces lies in the region, for a side of a polygon that entered it would have to
+//                  end in a node inside it or cross one of its sides; faces do not overlap; so equal areas mean equal
+//                  sets;
+//   by rounding    if that fails by little: a mesher that puts new nodes on slanted facets has to round them. Nodes
+//                  within 2^-40 of the PLC's extent from the plane, crossings within that of an end, areas that agree
+//                  to 2^-30. How far the farthest node is off the plane is measured;
+// else it is violated. The share of it that is covered is then the area of what faces close to its plane, wherever
+// their centroids lie, have in common with it. Facets without area (single segments) are left out.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
-#include <span>
 
-#include "barycert/check/defect_list.hpp"
-#include "barycert/check/exact_volumes.hpp"
 #include "barycert/check/plc_facet.hpp"
+#include "barycert/check/stages.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/facets.hpp"
 
 namespace barycert::check {
 namespace {
 
-/// A face of a cell, by its nodes, that may be part of a facet.
+/// A face of a cell, by its nodes, close to the plane of a facet.
 struct Candidate {
     std::uint32_t facet;
+    bool beside;  ///< its centroid is not in the region
     std::array<const double*, 3> nodes;
 };
 
@@ -88,9 +97,9 @@ private:
 
 class ConformityChecker {
 public:
-    ConformityChecker(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc)
+    ConformityChecker(const Mesh& mesh, std::span<const std::uint8_t> usable, const Plc& plc)
         : mesh_(mesh),
-          use_(use),
+          usable_(usable),
           half_extent_(half_extent_of(plc)),
           exponent_(half_extent_ > 0 ? std::ilogb(half_extent_) + 1 : 0) {
         for (const PlcFacet& facet : plc.facets) regions_.emplace_back(plc, facet, exponent_);
@@ -102,8 +111,10 @@ public:
         ConformityReport out;
         auto at = candidates.begin();
         for (std::size_t i = 0; i < regions_.size(); ++i) {
-            const auto end = std::find_if(at, candidates.end(), [&](const Candidate& c) { return c.facet != i; });
-            if (regions_[i].proper()) judge(i, {at, end}, examples, out);
+            const auto beside =
+                std::find_if(at, candidates.end(), [&](const Candidate& c) { return c.facet != i || c.beside; });
+            const auto end = std::find_if(beside, candidates.end(), [&](const Candidate& c) { return c.facet != i; });
+            if (regions_[i].proper()) judge(i, {at, beside}, {beside, end}, examples, out);
             at = end;
         }
         out.max_distance = std::scalbn(out.relative_distance, exponent_);
@@ -115,7 +126,7 @@ public:
 private:
     static constexpr double slack = 0x1p-40;  ///< in the unit of the regions: the PLC's extent, or down to half of it
 
-    /// Faces close to the plane of a facet and over its polygons; by facet.
+    /// Faces close to the plane of a facet and about its polygons; by facet, those of the region first.
     std::vector<Candidate> find_candidates() const {
         std::vector<Box> boxes;
         std::vector<std::uint32_t> numbers;
@@ -125,7 +136,7 @@ private:
             numbers.push_back(static_cast<std::uint32_t>(i));
         }
         const BoxTree tree(std::move(boxes));
-        const mesh::FacetTable table(mesh_, use_);
+        const mesh::FacetTable table(mesh_, usable_);
         std::vector<Candidate> all;
         in_blocks(
             table.node_count(), 4096, [] { return std::vector<Candidate>(); },
@@ -133,39 +144,44 @@ private:
                 table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) {
                     const auto nodes = nodes_of(equal.front());
                     tree.for_each(box_of(3, nodes.data(), 3), [&](std::uint32_t i) {
-                        if (close(regions_[numbers[i]], nodes)) part.push_back({numbers[i], nodes});
+                        const PlcRegion& region = regions_[numbers[i]];
+                        if (close(region, nodes))
+                            part.push_back({numbers[i], !region.holds(centroid(region, nodes)), nodes});
                         return true;
                     });
                 });
             },
             [&](const std::vector<Candidate>& part) { all.insert(all.end(), part.begin(), part.end()); });
-        std::stable_sort(all.begin(), all.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.facet < b.facet; });
+        std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+            return std::tie(a.facet, a.beside) < std::tie(b.facet, b.beside);
+        });
         return all;
     }
 
     std::array<const double*, 3> nodes_of(const mesh::CellFacet& f) const {
         std::array<const double*, 3> nodes{};
-        std::size_t n = 0;
-        for (std::size_t i = 0; i < 4; ++i) {
-            if (static_cast<std::int32_t>(i) == f.corner) continue;
-            nodes[n++] =
-                &mesh_.points[static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(f.cell) * 4 + i]) * 3];
+        for (std::size_t i = 0, n = 0; i < 4; ++i) {
+            if (static_cast<std::int32_t>(i) != f.corner)
+                nodes[n++] = node_at(mesh_, mesh_.cells[static_cast<std::size_t>(f.cell) * 4 + i]);
         }
         return nodes;
     }
 
-    bool close(const PlcRegion& region, const std::array<const double*, 3>& nodes) const {
-        PlcRegion::PlcPosition centroid{};
-        for (const double* p : nodes) {
-            if (region.distance(p) > slack) return false;
-            const PlcRegion::PlcPosition at = region.place(p);
-            for (std::size_t k = 0; k < 2; ++k) centroid[k] += at[k] / 3;
-        }
-        return region.holds(centroid);
+    static bool close(const PlcRegion& region, const std::array<const double*, 3>& nodes) {
+        return std::all_of(nodes.begin(), nodes.end(), [&](const double* p) { return region.distance(p) <= slack; });
     }
 
-    void judge(std::size_t i, std::span<const Candidate> faces, std::size_t examples, ConformityReport& out) const {
+    static PlcRegion::PlcPosition centroid(const PlcRegion& region, const std::array<const double*, 3>& nodes) {
+        PlcRegion::PlcPosition c{};
+        for (const double* p : nodes) {
+            const PlcRegion::PlcPosition at = region.place(p);
+            for (std::size_t k = 0; k < 2; ++k) c[k] += at[k] / 3;
+        }
+        return c;
+    }
+
+    void judge(std::size_t i, std::span<const Candidate> faces, std::span<const Candidate> beside, std::size_t examples,
+               ConformityReport& out) const {
         const PlcRegion& region = regions_[i];
         const Areas areas(region, faces);
         if (areas.none()) return;
@@ -181,15 +197,19 @@ private:
                 crossing = std::max(crossing, region.crossing(p, face.nodes[(k + 1) % 3], slack));
             }
         }
-        const double share = areas.share();
         if (in_plane && crossing == PlcRegion::Crossing::none && areas.equal() && !misses_vertex(region)) {
             ++out.exact;
-        } else if (crossing != PlcRegion::Crossing::deep && std::fabs(share - 1) <= 0x1p-30) {
+        } else if (crossing != PlcRegion::Crossing::deep && std::fabs(areas.share() - 1) <= 0x1p-30) {
             ++out.rounded;
             out.relative_distance = std::max(out.relative_distance, farthest);
         } else {
             ++out.violated;
-            if (out.examples.size() < examples) out.examples.push_back({static_cast<std::int64_t>(i), share});
+            if (out.examples.size() >= examples) return;
+            double covered = 0;
+            for (const auto list : {faces, beside}) {
+                for (const Candidate& face : list) covered += region.covered_by(face.nodes);
+            }
+            out.examples.push_back({static_cast<std::int64_t>(i), covered});
         }
     }
 
@@ -227,7 +247,7 @@ private:
     }
 
     const Mesh& mesh_;
-    std::span<const std::uint8_t> use_;
+    std::span<const std::uint8_t> usable_;
     double half_extent_;
     int exponent_;  ///< of the unit of the regions, the largest power of two in the extent
     std::vector<PlcRegion> regions_;
@@ -236,10 +256,10 @@ private:
 
 }  // namespace
 
-ConformityReport check_conformity(const Mesh& mesh, std::span<const std::uint8_t> use, const Plc& plc,
+ConformityReport check_conformity(const Mesh& mesh, std::span<const std::uint8_t> usable, const Plc& plc,
                                   std::size_t examples) {
     const ExactEnvironment environment;
-    return ConformityChecker(mesh, use, plc).run(examples);
+    return ConformityChecker(mesh, usable, plc).run(examples);
 }
 
 }  // namespace barycert::check

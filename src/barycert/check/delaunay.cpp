@@ -1,15 +1,8 @@
-#include "barycert/check.hpp"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 
 #include "barycert/base/strict_math.hpp"
-#include "barycert/check/cells.hpp"
-#include "barycert/check/defect_list.hpp"
-#include "barycert/check/local_delaunay.hpp"
-#include "barycert/predicates.hpp"
+#include "barycert/check/stages.hpp"
 
 namespace barycert::check {
 namespace {
@@ -50,19 +43,18 @@ double depth(int d, const double* const* p, const double* apex) {
     return std::isfinite(value) ? std::max(value, 0.0) : 0;
 }
 
-class FacetTester {
-public:
-    FacetTester(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
-                const std::vector<std::int8_t>& orientation)
-        : mesh_(mesh), neighbours_(neighbours), orientation_(orientation) {}
+struct FacetTester {
+    const Mesh& mesh;
+    const std::vector<Mesh::Index>& neighbours;
+    const std::vector<std::int8_t>& orientation;
 
     /// The facets of `cell` to cells of higher number.
     void operator()(std::size_t cell, DelaunayReport& out) const {
-        if (orientation_[cell] == 0) return;
-        const auto p = corner_points(mesh_, cell);
-        for (std::size_t i = 0; i < mesh_.corners(); ++i) {
-            const Mesh::Index other = neighbours_[cell * mesh_.corners() + i];
-            if (other <= static_cast<Mesh::Index>(cell) || orientation_[static_cast<std::size_t>(other)] == 0) continue;
+        if (orientation[cell] == 0) return;
+        const auto p = corner_points(mesh, cell);
+        for (std::size_t i = 0; i < mesh.corners(); ++i) {
+            const Mesh::Index other = neighbours[cell * mesh.corners() + i];
+            if (other <= static_cast<Mesh::Index>(cell) || orientation[static_cast<std::size_t>(other)] == 0) continue;
             ++out.facets;
             const auto there = static_cast<std::size_t>(other);
             const Mesh::Index node = apex(there, static_cast<Mesh::Index>(cell));
@@ -70,8 +62,8 @@ public:
             // Where the cells lie on opposite sides, an apex is in the other's sphere if that one is in its own.
             const bool mutual = opposite(cell, p, i, node);
             if (mutual && one == Sign::negative) continue;
-            const auto q = corner_points(mesh_, there);
-            const Mesh::Index back = mesh_.cells[cell * mesh_.corners() + i];
+            const auto q = corner_points(mesh, there);
+            const Mesh::Index back = nodes_of(mesh, cell)[i];
             const Sign other_one = mutual ? one : side(there, q, back);
             if (one == Sign::positive || other_one == Sign::positive)
                 ++out.violations;
@@ -82,29 +74,22 @@ public:
         }
     }
 
-private:
-    const double* point(Mesh::Index node) const {
-        return &mesh_.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh_.dimension)];
-    }
-
     /// The node lies on the other side of the facet opposite to corner i than the cell.
     bool opposite(std::size_t cell, std::array<const double*, 4> p, std::size_t i, Mesh::Index node) const {
-        p[i] = point(node);
-        const int side =
-            static_cast<int>(mesh_.dimension == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
-        return side * orientation_[cell] < 0;
+        p[i] = node_at(mesh, node);
+        return exact_sign(mesh.dimension, p) * orientation[cell] < 0;
     }
 
     /// Positive if the node lies strictly in the cell's sphere, zero on it.
     Sign side(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node) const {
-        const double* const at = point(node);
-        const Sign s = mesh_.dimension == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at);
-        return static_cast<Sign>(static_cast<int>(s) * orientation_[cell]);
+        const double* const at = node_at(mesh, node);
+        const Sign s = mesh.dimension == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at);
+        return static_cast<Sign>(static_cast<int>(s) * orientation[cell]);
     }
 
     void note_depth(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node,
                     DelaunayReport& out) const {
-        const double in = depth(mesh_.dimension, p.data(), point(node));
+        const double in = depth(mesh.dimension, p.data(), node_at(mesh, node));
         if (out.worst_cell >= 0 && in <= out.worst_depth) return;
         out.worst_depth = in;
         out.worst_cell = static_cast<Mesh::Index>(cell);
@@ -113,15 +98,11 @@ private:
 
     /// The node of `cell` that is opposite to its facet to `to`.
     Mesh::Index apex(std::size_t cell, Mesh::Index to) const {
-        const std::size_t n = mesh_.corners();
+        const std::size_t n = mesh.corners();
         std::size_t i = 0;
-        while (i + 1 < n && neighbours_[cell * n + i] != to) ++i;
-        return mesh_.cells[cell * n + i];
+        while (i + 1 < n && neighbours[cell * n + i] != to) ++i;
+        return mesh.cells[cell * n + i];
     }
-
-    const Mesh& mesh_;
-    const std::vector<Mesh::Index>& neighbours_;
-    const std::vector<std::int8_t>& orientation_;
 };
 
 }  // namespace
@@ -129,7 +110,7 @@ private:
 DelaunayReport check_delaunay(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
                               const std::vector<std::int8_t>& orientation) {
     DelaunayReport all;
-    const FacetTester test(mesh, neighbours, orientation);
+    const FacetTester test{mesh, neighbours, orientation};
     in_blocks(
         mesh.cell_count(), 8192, [] { return DelaunayReport(); },
         [&](std::size_t first, std::size_t last, DelaunayReport& part) {

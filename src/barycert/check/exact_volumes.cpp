@@ -32,12 +32,19 @@ void load(const core::Unit (&units)[3], const double* p, T (&out)[d]) {
     for (int k = 0; k < d; ++k) out[k] = units[k].template multiple<T>(core::scaled(p[k]));
 }
 
-/// f.operator()<T>() with the narrowest integers that have room: with coordinates below 2^(64 N - 3) in N limbs a
-/// difference is below 2^(64 N - 2), a 2x2 minor below 2^(128 N - 3) and a determinant of three below 2^(192 N - 3),
-/// within the ranges 2^(64 N - 1), 2^(128 N - 1), 2^(192 N - 1) of N, 2 N and 3 N limbs.
-template <class F>
-Integer with_width(int bits, F f) {
-    return core::with_integers<3>(bits, f);
+/// Of the rows p[0], ..., p[d - 1], less `origin` if there is one.
+template <int d, class T>
+Integer determinant_of(const core::Unit (&units)[3], const double* const* p, const double* origin) {
+    T rows[d][d], less[d];
+    if (origin != nullptr) load(units, origin, less);
+    for (int i = 0; i < d; ++i) {
+        load(units, p[i], rows[i]);
+        for (int k = 0; k < d && origin != nullptr; ++k) rows[i][k] = rows[i][k] - less[k];
+    }
+    if constexpr (d == 2)
+        return determinant(rows[0], rows[1]);
+    else
+        return determinant(rows[0], rows[1], rows[2]);
 }
 
 }  // namespace
@@ -53,47 +60,13 @@ ExactVolumes::ExactVolumes(int d, std::span<const double> points) : d_(d) {
     }
 }
 
-template <class T>
-Integer ExactVolumes::cell_as(const double* const* p) const {
-    const auto edges = [&]<int d>(T(&edge)[d][d]) {
-        T origin[d];
-        load(units_, p[0], origin);
-        for (int i = 0; i < d; ++i) {
-            load(units_, p[i + 1], edge[i]);
-            for (int k = 0; k < d; ++k) edge[i][k] = edge[i][k] - origin[k];
-        }
-    };
-    if (d_ == 2) {
-        T edge[2][2];
-        edges(edge);
-        return determinant(edge[0], edge[1]);
-    }
-    T edge[3][3];
-    edges(edge);
-    return determinant(edge[0], edge[1], edge[2]);
-}
-
-template <class T>
-Integer ExactVolumes::cone_as(const double* const* p) const {
-    if (d_ == 2) {
-        T x[2], y[2];
-        load(units_, p[0], x);
-        load(units_, p[1], y);
-        return determinant(x, y);
-    }
-    T x[3], y[3], z[3];
-    load(units_, p[0], x);
-    load(units_, p[1], y);
-    load(units_, p[2], z);
-    return determinant(x, y, z);
-}
-
-Integer ExactVolumes::cell(const double* const* p) const {
-    return with_width(bits_, [&]<class T>() { return cell_as<T>(p); });
-}
-
-Integer ExactVolumes::cone(const double* const* p) const {
-    return with_width(bits_, [&]<class T>() { return cone_as<T>(p); });
+/// With the narrowest integers that have room: with coordinates below 2^(64 N - 3) in N limbs a difference is below
+/// 2^(64 N - 2), a 2x2 minor below 2^(128 N - 3) and a determinant of three below 2^(192 N - 3), within the ranges
+/// 2^(64 N - 1), 2^(128 N - 1), 2^(192 N - 1) of N, 2 N and 3 N limbs.
+Integer ExactVolumes::determinant_from(const double* const* p, const double* origin) const {
+    return core::with_integers<3>(bits_, [&]<class T>() {
+        return d_ == 2 ? determinant_of<2, T>(units_, p, origin) : determinant_of<3, T>(units_, p, origin);
+    });
 }
 
 int ExactVolumes::exponent(const Integer& n) const {

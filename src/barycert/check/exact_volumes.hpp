@@ -21,10 +21,10 @@ public:
     ExactVolumes(int d, std::span<const double> points);
 
     /// d! times the signed volume of the cell with d + 1 corners at p[0], p[1], ...: det(p1 - p0, p2 - p0, ...).
-    Integer cell(const double* const* p) const;
+    Integer cell(const double* const* p) const { return determinant_from(p + 1, p[0]); }
 
     /// d! times the signed volume of the cone from the origin over the facet with d corners: det(p0, p1, ...).
-    Integer cone(const double* const* p) const;
+    Integer cone(const double* const* p) const { return determinant_from(p, nullptr); }
 
     /// The integers from above count 2^unit().
     int unit() const { return exponent_; }
@@ -36,10 +36,7 @@ public:
     double rounded(const Integer& n, int scale = 0) const;
 
 private:
-    template <class T>
-    Integer cell_as(const double* const* p) const;
-    template <class T>
-    Integer cone_as(const double* const* p) const;
+    Integer determinant_from(const double* const* p, const double* origin) const;
 
     int d_;
     int bits_ = 0;  ///< of the widest coordinate

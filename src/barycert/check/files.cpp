@@ -1,18 +1,21 @@
-#include "barycert/check/files.hpp"
-
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
+#include "barycert/check/stages.hpp"
 #include "barycert/mesh/consistency.hpp"
 
 namespace barycert::check {
 namespace {
 
 using Triple = std::array<Mesh::Index, 3>;
+
+Triple nodes_of_face(const Mesh& mesh, std::size_t f) {
+    return {mesh.faces[3 * f], mesh.faces[3 * f + 1], mesh.faces[3 * f + 2]};
+}
+
+bool has_nodes(const Mesh& mesh, const Triple& face) {
+    return std::all_of(face.begin(), face.end(),
+                       [&](Mesh::Index n) { return n >= 0 && static_cast<std::size_t>(n) < mesh.point_count(); });
+}
 
 void check_neighbours(const Mesh& mesh, const Facets& facets, DefectList& defects) {
     if (mesh.neighbours.empty()) return;
@@ -27,59 +30,6 @@ void check_neighbours(const Mesh& mesh, const Facets& facets, DefectList& defect
     }
 }
 
-/// The given faces in lists by their lowest node, to look facets up in.
-class FaceTable {
-public:
-    FaceTable(const Mesh& mesh, DefectList& defects) : begin_(mesh.point_count() + 1, 0) {
-        const auto nodes = static_cast<Mesh::Index>(mesh.point_count());
-        for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-            Face face{{mesh.faces[3 * f], mesh.faces[3 * f + 1], mesh.faces[3 * f + 2]}, f};
-            std::sort(face.nodes.begin(), face.nodes.end());
-            if (face.nodes[0] < 0 || face.nodes[2] >= nodes) {
-                defects.add(DefectKind::wrong_face, {.nodes = nodes_of(mesh, f), .detail = "a corner is no node"});
-                continue;
-            }
-            faces_.push_back(face);
-            ++begin_[static_cast<std::size_t>(face.nodes[0]) + 1];
-        }
-        for (std::size_t n = 0; n + 1 < begin_.size(); ++n) begin_[n + 1] += begin_[n];
-        std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) {
-            return a.nodes != b.nodes ? a.nodes < b.nodes : a.index < b.index;
-        });
-        found_.assign(faces_.size(), 0);
-    }
-
-    /// Notes that a cell has the facet.
-    void meet(const Triple& sorted) {
-        const auto node = static_cast<std::size_t>(sorted[0]);
-        for (std::size_t i = begin_[node]; i < begin_[node + 1]; ++i) {
-            if (faces_[i].nodes == sorted) std::atomic_ref(found_[i]).store(1, std::memory_order_relaxed);
-        }
-    }
-
-    void tell_missing(const Mesh& mesh, DefectList& defects) const {
-        std::vector<std::size_t> missing;
-        for (std::size_t i = 0; i < faces_.size(); ++i) {
-            if (found_[i] == 0) missing.push_back(faces_[i].index);
-        }
-        std::sort(missing.begin(), missing.end());
-        for (const std::size_t f : missing) defects.add(DefectKind::wrong_face, {.nodes = nodes_of(mesh, f)});
-    }
-
-private:
-    struct Face {
-        Triple nodes;
-        std::size_t index;
-    };
-    static Triple nodes_of(const Mesh& mesh, std::size_t f) {
-        return {mesh.faces[3 * f], mesh.faces[3 * f + 1], mesh.faces[3 * f + 2]};
-    }
-
-    std::vector<std::size_t> begin_;
-    std::vector<Face> faces_;
-    std::vector<std::uint8_t> found_;
-};
-
 void check_faces(const Mesh& mesh, const std::vector<std::uint8_t>& usable, DefectList& defects) {
     if (mesh.faces.empty()) return;
     if (mesh.dimension == 2) {
@@ -87,23 +37,57 @@ void check_faces(const Mesh& mesh, const std::vector<std::uint8_t>& usable, Defe
         return;
     }
     if (mesh.faces.size() % 3 != 0) defects.add(DefectKind::wrong_face, {.detail = "the last one is not whole"});
-    FaceTable table(mesh, defects);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        const Triple nodes = nodes_of_face(mesh, f);
+        if (!has_nodes(mesh, nodes))
+            defects.add(DefectKind::wrong_face, {.nodes = nodes, .detail = "a corner is no node"});
+    }
+    const std::vector<std::uint8_t> found = faces_of_cells(mesh, usable);
+    for (std::size_t f = 0; f < found.size(); ++f) {
+        const Triple nodes = nodes_of_face(mesh, f);
+        if (found[f] == 0 && has_nodes(mesh, nodes)) defects.add(DefectKind::wrong_face, {.nodes = nodes});
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std::uint8_t>& usable) {
+    struct Face {
+        Triple nodes;
+        std::size_t index;
+    };
+    // Sorted, and where those of each lowest node begin.
+    std::vector<Face> faces;
+    std::vector<std::size_t> begin(mesh.point_count() + 1, 0);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        Face face{nodes_of_face(mesh, f), f};
+        if (!has_nodes(mesh, face.nodes)) continue;
+        std::sort(face.nodes.begin(), face.nodes.end());
+        ++begin[static_cast<std::size_t>(face.nodes[0]) + 1];
+        faces.push_back(face);
+    }
+    for (std::size_t n = 1; n < begin.size(); ++n) begin[n] += begin[n - 1];
+    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.nodes < b.nodes; });
+    std::vector<std::uint8_t> found(mesh.face_count(), 0);
+    const auto meet = [&](const Triple& sorted) {
+        const auto node = static_cast<std::size_t>(sorted[0]);
+        for (std::size_t i = begin[node]; i < begin[node + 1]; ++i) {
+            if (faces[i].nodes == sorted) std::atomic_ref(found[faces[i].index]).store(1, std::memory_order_relaxed);
+        }
+    };
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 4096), [&](const auto& range) {
         for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
             if (usable[cell] == 0) continue;
             std::array<Mesh::Index, 4> n{};
             std::copy_n(&mesh.cells[4 * cell], 4, n.begin());
             std::sort(n.begin(), n.end());
-            table.meet({n[0], n[1], n[2]});
-            table.meet({n[0], n[1], n[3]});
-            table.meet({n[0], n[2], n[3]});
-            table.meet({n[1], n[2], n[3]});
+            for (const Triple& facet :
+                 {Triple{n[0], n[1], n[2]}, {n[0], n[1], n[3]}, {n[0], n[2], n[3]}, {n[1], n[2], n[3]}})
+                meet(facet);
         }
     });
-    table.tell_missing(mesh, defects);
+    return found;
 }
-
-}  // namespace
 
 void check_files(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const Facets& facets, DefectList& defects) {
     check_neighbours(mesh, facets, defects);

@@ -2,24 +2,19 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 #include <variant>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/check.hpp"
-#include "barycert/check/cells.hpp"
-#include "barycert/check/near_nodes.hpp"
+#include "barycert/check/stages.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/mesh/part.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert {
 namespace {
@@ -175,10 +170,7 @@ private:
             twins.begin(), twins.end(), [&](const Twin& t) { return values[at(t.gone)] != values[at(t.kept)]; }));
     }
 
-    int sign(std::size_t cell) const {
-        const auto p = check::corner_points(mesh_, cell);
-        return static_cast<int>(mesh_.dimension == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
-    }
+    int sign(std::size_t cell) const { return check::exact_sign(mesh_.dimension, check::corner_points(mesh_, cell)); }
 
     Nodes sorted_nodes(std::size_t cell) const {
         Nodes nodes{-1, -1, -1, -1};
@@ -188,8 +180,8 @@ private:
     }
 
     bool has_merged_node(std::size_t cell) {
-        const Index* const nodes = &old_.cells[cell * mesh_.corners()];
-        return std::any_of(nodes, nodes + mesh_.corners(), [&](Index n) {
+        const std::span nodes = check::nodes_of(old_, cell);
+        return std::any_of(nodes.begin(), nodes.end(), [&](Index n) {
             const auto found = std::lower_bound(report_.merged.begin(), report_.merged.end(), n,
                                                 [](const MergedNode& m, Index node) { return m.node < node; });
             return found != report_.merged.end() && found->node == n;
@@ -246,18 +238,12 @@ private:
     void drop_faces() {
         using Triple = std::array<Index, 3>;
         if (mesh_.faces.empty()) return;
-        std::vector<Triple> facets;
-        for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
-            const Nodes n = sorted_nodes(cell);
-            facets.insert(facets.end(),
-                          {{n[0], n[1], n[2]}, {n[0], n[1], n[3]}, {n[0], n[2], n[3]}, {n[1], n[2], n[3]}});
-        }
-        std::sort(facets.begin(), facets.end());
+        const auto found = check::faces_of_cells(mesh_, std::vector<std::uint8_t>(mesh_.cell_count(), 1));
         std::vector<std::pair<Triple, Index>> faces;
         for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
             Triple face{mesh_.faces[3 * f], mesh_.faces[3 * f + 1], mesh_.faces[3 * f + 2]};
             std::sort(face.begin(), face.end());
-            if (std::binary_search(facets.begin(), facets.end(), face)) faces.emplace_back(face, static_cast<Index>(f));
+            if (found[f] != 0) faces.emplace_back(face, static_cast<Index>(f));
         }
         std::sort(faces.begin(), faces.end());
         std::vector<Index> kept;

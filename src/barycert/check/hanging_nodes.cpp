@@ -1,15 +1,7 @@
-#include "barycert/check/hanging_nodes.hpp"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 
-#include "barycert/check/cells.hpp"
-#include "barycert/check/names.hpp"
-#include "barycert/index/box_tree.hpp"
-#include "barycert/index/facet_contact.hpp"
-#include "barycert/predicates.hpp"
+#include "barycert/check/stages.hpp"
 
 namespace barycert::check {
 namespace {
@@ -109,9 +101,7 @@ public:
 
     /// It hangs, which is told as such.
     bool is_on(Index node, const BoundaryFacet& f) const {
-        PlacedFacet facet{f.nodes, {}};
-        for (std::size_t i = 0; i < d_; ++i) facet.at[i] = at(f.nodes[i]);
-        return face_around(mesh_.dimension, facet, at(node))[0] >= 0;
+        return face_around(mesh_.dimension, placed(mesh_, f), at(node))[0] >= 0;
     }
     /// The node is beyond the facet.
     bool is_beyond(Index node, const BoundaryFacet& f) const {
@@ -126,17 +116,14 @@ public:
 
 private:
     static std::size_t index(Index i) { return static_cast<std::size_t>(i); }
-    const double* at(Index node) const { return &mesh_.points[index(node) * d_]; }
+    const double* at(Index node) const { return node_at(mesh_, node); }
 
     /// Its sign: that of the node in the cell, at corner i.
     int weight(Index node, std::size_t cell, std::size_t i) const {
         auto corners = corner_points(mesh_, cell);
-        const int whole = sign(corners);
+        const int whole = exact_sign(mesh_.dimension, corners);
         corners[i] = at(node);
-        return whole * sign(corners);
-    }
-    int sign(const std::array<const double*, 4>& p) const {
-        return static_cast<int>(d_ == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
+        return whole * exact_sign(mesh_.dimension, corners);
     }
 
     /// In units of 2^unit.
@@ -163,7 +150,7 @@ void leave_out_right_ones(const Mesh& mesh, const std::vector<std::uint8_t>& usa
                           std::vector<HangingNode>& all) {
     std::sort(all.begin(), all.end(), [](const HangingNode& a, const HangingNode& b) { return a.face < b.face; });
     for (std::size_t cell = 0; cell < usable.size() && !all.empty(); ++cell) {
-        const std::span nodes = std::span(mesh.cells).subspan(cell * mesh.corners(), mesh.corners());
+        const std::span nodes = nodes_of(mesh, cell);
         const auto has = [&](Index n) { return n < 0 || std::find(nodes.begin(), nodes.end(), n) != nodes.end(); };
         for (const Index node : nodes) {
             if (usable[cell] == 0) break;
@@ -187,12 +174,8 @@ std::vector<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std:
                                         const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
                                         const std::vector<double>& radius, std::size_t limit, bool& complete) {
     std::vector<Box> boxes;
-    for (const BoundaryFacet& f : facets) {
-        std::array<const double*, 3> p{};
-        for (std::size_t i = 0; i < mesh.corners() - 1; ++i)
-            p[i] = &mesh.points[static_cast<std::size_t>(f.nodes[i]) * (mesh.corners() - 1)];
-        boxes.push_back(box_of(mesh.dimension, p.data(), mesh.dimension));
-    }
+    for (const BoundaryFacet& f : facets)
+        boxes.push_back(box_of(mesh.dimension, placed(mesh, f).at.data(), mesh.dimension));
     const BoxTree tree(std::move(boxes));
     const NearFaces faces(mesh, volumes, radius);
     std::vector<HangingNode> all;
@@ -201,11 +184,7 @@ std::vector<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std:
         [&](std::size_t first, std::size_t last, std::vector<HangingNode>& part) {
             for (std::size_t node = first; node < last && part.size() <= limit; ++node) {
                 if (radius[node] == 0) continue;
-                Box box{};
-                for (std::size_t k = 0; k < mesh.corners() - 1; ++k) {
-                    const double x = mesh.points[node * (mesh.corners() - 1) + k];
-                    box.low[k] = x - radius[node], box.high[k] = x + radius[node];
-                }
+                const Box box = box_around(mesh, static_cast<Index>(node), radius[node]);
                 tree.for_each(box, [&](std::uint32_t f) {
                     // A degenerate cell is told as such.
                     if (!facets[f].oriented || faces.is_far(static_cast<Index>(node), facets[f])) return true;

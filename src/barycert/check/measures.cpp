@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -36,6 +36,23 @@ std::vector<Field> measure_fields(const CellMeasures& measures) {
             {"min_angle", 1, measures.min_angle},
             {"max_angle", 1, measures.max_angle},
             {"problems", 1, {measures.defects.begin(), measures.defects.end()}}};
+}
+
+void count_not_finite(const Field& field, bool of_cells, std::vector<NotFinite>& to) {
+    if (base::all_finite(field.data)) return;
+    const bool known = std::any_of(to.begin(), to.end(), [&](const NotFinite& other) {
+        return other.field == field.name && other.of_cells == of_cells;
+    });
+    if (known) return;
+    const auto count = std::count_if(field.data.begin(), field.data.end(), [](double x) { return !std::isfinite(x); });
+    to.push_back({field.name, of_cells, static_cast<std::uint64_t>(count), field.data.size()});
+}
+
+std::vector<NotFinite> not_finite_values(const Mesh& mesh) {
+    std::vector<NotFinite> all;
+    for (const Field& field : mesh.point_fields) count_not_finite(field, false, all);
+    for (const Field& field : mesh.cell_fields) count_not_finite(field, true, all);
+    return all;
 }
 
 }  // namespace barycert

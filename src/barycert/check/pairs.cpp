@@ -1,17 +1,8 @@
-#include "barycert/check/pairs.hpp"
-
 #include <algorithm>
-#include <atomic>
-#include <cstddef>
-#include <numeric>
 #include <tuple>
 
-#include "barycert/check/cells.hpp"
-#include "barycert/check/names.hpp"
-#include "barycert/index/box_tree.hpp"
+#include "barycert/check/stages.hpp"
 #include "barycert/index/candidates.hpp"
-#include "barycert/index/facet_contact.hpp"
-#include "barycert/index/overlap.hpp"
 
 namespace barycert::check {
 namespace {
@@ -19,13 +10,6 @@ namespace {
 struct Pair {
     std::uint32_t first, second;
 };
-
-PlacedFacet placed(const Mesh& mesh, const BoundaryFacet& facet) {
-    PlacedFacet f{facet.nodes, {}};
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    for (std::size_t i = 0; i < d; ++i) f.at[i] = &mesh.points[static_cast<std::size_t>(f.nodes[i]) * d];
-    return f;
-}
 
 Item item_of(const PlacedFacet& f, int d) {
     Item item{.count = d};
@@ -78,10 +62,6 @@ unsigned common_outcode(const Mesh& mesh, const std::vector<std::uint8_t>& codes
     for (std::size_t i = 0; i < mesh.corners(); ++i)
         common &= codes[static_cast<std::size_t>(mesh.cells[cell * mesh.corners() + i])];
     return common;
-}
-
-void mark(CellMeasures& measures, Mesh::Index cell, DefectKind problem) {
-    measures.defects[static_cast<std::size_t>(cell)] |= defect_bit(problem);
 }
 
 /// The nodes of f within g, or within an edge of it: not those at the place of a node of g.

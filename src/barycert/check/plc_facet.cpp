@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "barycert/predicates.hpp"
-
 namespace barycert::check {
 namespace {
 
@@ -29,6 +27,26 @@ double distance_from(const PlcPosition& p, const PlcPosition& a, const PlcPositi
     const double x = b[0] - a[0], y = b[1] - a[1], square = x * x + y * y;
     const double t = square > 0 ? std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0) : 0;
     return std::hypot(a[0] + t * x - p[0], a[1] + t * y - p[1]);
+}
+
+/// Twice the area that a convex polygon has in common with a triangle; negative if this one turns clockwise. Sides of
+/// the triangle cut it, one after the other.
+double common_area(std::vector<PlcPosition> polygon, const std::array<PlcPosition, 3>& t) {
+    const double turn = cross(t[0], t[1], t[2]) < 0 ? -1 : 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<PlcPosition> left;
+        for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+            const PlcPosition &p = polygon[j], &q = polygon[i];
+            const double from = turn * cross(t[k], t[(k + 1) % 3], p), to = turn * cross(t[k], t[(k + 1) % 3], q);
+            const double s = from / (from - to);
+            if ((from > 0) != (to > 0)) left.push_back({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])});
+            if (to > 0) left.push_back(q);
+        }
+        polygon = std::move(left);
+    }
+    double twice = 0;
+    for (std::size_t i = 2; i < polygon.size(); ++i) twice += cross(polygon[0], polygon[i - 1], polygon[i]);
+    return turn * std::fabs(twice);
 }
 
 }  // namespace
@@ -184,6 +202,21 @@ PlcRegion::Crossing PlcRegion::crossing(const double* a, const double* b, double
         }
     }
     return worst;
+}
+
+double PlcRegion::covered_by(const std::array<const double*, 3>& triangle) const {
+    const std::vector<PlcPosition> face{place(triangle[0]), place(triangle[1]), place(triangle[2])};
+    double common = 0, whole = 0;
+    for (const Ring& ring : rings_) {
+        // A ring is a fan of triangles, those that turn the other way taken off.
+        double twice = 0;
+        const PlcPosition first = place(ring.points.front());
+        for (std::size_t i = 2; i < ring.points.size() && ring.counts != 0; ++i)
+            twice += common_area(face, {first, place(ring.points[i - 1]), place(ring.points[i])});
+        common += ring.counts * std::fabs(twice) / 2;
+        whole += ring.counts * ring.area;
+    }
+    return common / whole;
 }
 
 Box PlcRegion::box(double margin) const {

@@ -1,13 +1,7 @@
 /// A facet of a PLC as a region of its plane.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <vector>
-
-#include "barycert/check/names.hpp"
-#include "barycert/index/box_tree.hpp"
-#include "barycert/io.hpp"
+#include "barycert/check/stages.hpp"
 
 namespace barycert::check {
 
@@ -48,6 +42,9 @@ public:
     /// either, or else deeply. The first is exact.
     enum class Crossing : unsigned char { none, shallow, deep };
     Crossing crossing(const double* a, const double* b, double slack) const;
+
+    /// The part of the region's area that the triangle has in common with it, in plain double.
+    double covered_by(const std::array<const double*, 3>& triangle) const;
 
     Box box(double margin) const;
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
@@ -40,32 +39,39 @@ std::vector<Variant> available_variants() {
 
 }  // namespace
 
-ValueFunction weighted_sum(Simplex s) {
+Kernel make_kernel(Simplex s, const Formula& f) {
     const int n = vertex_count(s);
-    return n == 2 ? sum_of<2> : n == 3 ? sum_of<3> : sum_of<4>;
-}
-
-Kernel make_kernel(Simplex s, std::string_view formula_name, WeightsFunction weights, Declares declares, Text text) {
     Kernel k;
-    k.name = std::string(name(s)) + "." + std::string(formula_name);
+    k.name = std::string(name(s)) + "." + f.name;
     k.simplex = s;
-    k.formula = text.formula;
-    k.source = text.source;
-    k.fails = text.fails;
-    k.declares_degenerate = declares == Declares::yes;
-    k.weights = weights;
-    k.value = weighted_sum(s);
+    k.formula = f.formula;
+    k.source = f.source;
+    k.fails = f.fails;
+    k.declares_degenerate = f.declares == Declares::yes;
+    k.weights = f.weights;
+    k.value = f.more.sum != nullptr ? f.more.sum : n == 2 ? sum_of<2> : n == 3 ? sum_of<3> : sum_of<4>;
+    k.interpolate = f.more.value;
+    k.rule = f.more.tolerance > 0 ? RegionRule::tolerant : RegionRule::sign;
+    k.tolerance = f.more.tolerance;
     return k;
 }
 
-// By value: `base` may stand in the list that grows. NOLINTNEXTLINE(performance-unnecessary-value-param)
-void add_variants(std::vector<Kernel>& list, Kernel base, WeightsFunction Variants::*function) {
-    for (const Variant& variant : available_variants()) {
-        Kernel k = base;
-        k.name += std::string(".") + variant.suffix;
-        k.fails = variant.fails;
-        k.weights = variant.functions->*function;
-        list.push_back(std::move(k));
+void add_formulas(std::vector<Kernel>& list, Simplex s, std::span<const Formula> formulas) {
+    for (const Formula& f : formulas) {
+        const Kernel base = make_kernel(s, f);
+        list.push_back(base);
+        const auto add = [&](const char* suffix, const char* fails, WeightsFunction weights, CaseValueFunction value) {
+            Kernel& k = list.emplace_back(base);
+            k.name += std::string(".") + suffix;
+            k.fails = fails;
+            k.weights = weights;
+            k.interpolate = value;
+        };
+        if (f.more.variants != nullptr) {
+            for (const Variant& v : available_variants())
+                add(v.suffix, v.fails, v.functions->*f.more.variants, base.interpolate);
+        }
+        if (f.more.single != nullptr) add("float32", f.more.single_fails, f.more.single, f.more.single_value);
     }
 }
 

@@ -6,16 +6,31 @@
 /// When it dies, the program has the server fork another.
 #pragma once
 
+#include <sys/resource.h>
+#include <sys/types.h>
+
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <span>
 #include <string>
 
+#include "barycert/kernel.h"
 #include "barycert/kernels.hpp"
 #include "barycert/simplex.hpp"
 
 namespace barycert::kernels {
+
+/// Workers of one library at a time: more threads wait for each other.
+inline constexpr std::uint32_t max_workers = 64;
+
+/// Bytes of a file that a worker may write, so that a kernel that prints without end does not fill the memory.
+inline constexpr rlim_t output_limit = rlim_t{1} << 26;
+
+/// The time that loading the library may take, or the limit for a case if that is more.
+inline constexpr int min_loading_milliseconds = 10000;
 
 /// Cases in one batch.
 inline constexpr std::size_t batch_size = 256;
@@ -48,6 +63,26 @@ struct Description {
     char error[1024] = {};  ///< why it could not be loaded; then nothing else is set
     char missing[64] = {};  ///< the function that it has not
     char note[128] = {};    ///< what loading it did to the floating-point environment
+};
+
+/// The text, cut to its room.
+template <std::size_t n>
+void put(char (&to)[n], const char* text) {
+    std::snprintf(to, n, "%s", text == nullptr ? "" : text);
+}
+
+/// The functions of barycert/kernel.h in a library, null where it has none of the name.
+struct LibraryFunctions {
+    void (*describe)(barycert_kernel_info* info) = nullptr;
+    WeightsFunction weights = nullptr;
+    ClassifyFunction classify = nullptr;
+    CaseValueFunction value = nullptr;
+
+    LibraryFunctions() = default;
+    explicit LibraryFunctions(void* library);
+
+    /// What the library says of itself, or which function is missing.
+    Description described() const;
 };
 
 enum class Command : char { describe = 'd', run = 'r' };
@@ -91,5 +126,14 @@ struct ServerRequest {
     std::uint32_t channel = 0;
     int milliseconds = 0;  ///< for `end_worker`: time that it has to end by itself
 };
+
+// Bounds of these processes (host_limits.cpp).
+
+/// Limits this process in what it writes, in memory and in how many processes and threads it starts.
+void limit_worker();
+
+/// Kills the children of this process but those `kept` and waits for them, and for the orphans that come to it
+/// thereby if it adopts them (PR_SET_CHILD_SUBREAPER). True if there were any.
+bool end_children(std::span<const pid_t> kept);
 
 }  // namespace barycert::kernels

@@ -1,5 +1,3 @@
-#include "barycert/kernels/elf_file.hpp"
-
 #include <elf.h>
 #include <link.h>
 #include <unistd.h>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/kernels/registry.hpp"
 
 namespace barycert::kernels {
 namespace {

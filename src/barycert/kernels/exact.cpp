@@ -25,13 +25,12 @@ double exact_value(const double* vertices, const double* point, const double* va
 
 template <Simplex s>
 void add(std::vector<Kernel>& list) {
-    list.push_back(make_kernel(s, "exact", exact_weights<s>, Declares::yes,
-                               {"W_i = n_i / d, V = sum n_i f_i / d exactly, each rounded once, ties to even",
-                                "barycert/weights.hpp: double + correction with a proven bound, then integers",
-                                "on no finite input; costs more than a plain formula"}));
-    list.back().certifies = true;
-    list.back().core = true;
-    list.back().interpolate = exact_value<s>;
+    list.push_back(
+        make_kernel(s, {"exact", "W_i = n_i / d, V = sum n_i f_i / d exactly, each rounded once, ties to even",
+                        "barycert/weights.hpp: double + correction with a proven bound, then integers",
+                        "on no finite input; costs more than a plain formula", exact_weights<s>, Declares::yes,
+                        more(nullptr, nullptr, "", exact_value<s>)}));
+    list.back().certifies = list.back().core = true;
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 #include <new>
 
 #include "barycert/base/text.hpp"
-#include "barycert/kernels/host_limits.hpp"
 
 namespace barycert::kernels {
 namespace {

@@ -1,5 +1,5 @@
 // Limits of a worker, and the end of all that a kernel started.
-#include "barycert/kernels/host_limits.hpp"
+#include "barycert/kernels/channel.hpp"
 
 #include <fcntl.h>
 #include <sys/wait.h>

@@ -11,7 +11,6 @@
 #include <cstring>
 
 #include "barycert/kernels/channel.hpp"
-#include "barycert/kernels/host_limits.hpp"
 
 namespace barycert::kernels {
 namespace {

@@ -19,19 +19,10 @@
 #include <string>
 
 #include "barycert/environment.hpp"
-#include "barycert/kernel.h"
 #include "barycert/kernels/channel.hpp"
-#include "barycert/kernels/host_limits.hpp"
 
 namespace barycert::kernels {
 namespace {
-
-struct Functions {
-    void (*describe)(barycert_kernel_info*) = nullptr;
-    WeightsFunction weights = nullptr;
-    ClassifyFunction classify = nullptr;
-    CaseValueFunction value = nullptr;
-};
 
 [[noreturn]] void give_up() {
     _exit(127);
@@ -148,11 +139,6 @@ const char* changed_environment() {
     return "floating-point exceptions or precision changed";
 }
 
-template <std::size_t n>
-void put(char (&to)[n], const char* text) {
-    std::snprintf(to, n, "%s", text == nullptr ? "" : text);
-}
-
 /// What the system clears in every process made of this one, by whatever call.
 const volatile int* the_original = nullptr;
 
@@ -184,32 +170,17 @@ public:
     Description load(const char* path) {
         Description d;
         void* const library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-        if (const char* change = changed_environment()) put(d.note, change);
+        const char* const change = changed_environment();
         ExactEnvironment::renew();
         if (library == nullptr) {
             put(d.error, dlerror());
             return d;
         }
-        find(library, "barycert_kernel_describe", f_.describe);
-        find(library, "barycert_kernel_weights", f_.weights);
-        find(library, "barycert_kernel_classify", f_.classify);
-        find(library, "barycert_kernel_value", f_.value);
-        if (f_.describe == nullptr || f_.weights == nullptr) {
-            put(d.missing, f_.describe == nullptr ? "barycert_kernel_describe" : "barycert_kernel_weights");
-            return d;
-        }
-        barycert_kernel_info info{};
-        f_.describe(&info);
+        f_ = LibraryFunctions(library);
+        d = f_.described();
+        if (change != nullptr) put(d.note, change);
         ExactEnvironment::renew();
-        d.abi = info.abi;
-        d.declares_degenerate = info.declares_degenerate;
-        d.certifies = info.certifies;
-        d.classifies = f_.classify != nullptr;
-        d.interpolates = f_.value != nullptr;
-        put(d.name, info.name);
-        put(d.simplex, info.simplex);
-        put(d.formula, info.formula);
-        put(d.source, info.source);
+        if (d.missing[0] != '\0') return d;
         if (has_printed()) forget_printed();  // a greeting is not an answer's affair
         if (end_children({})) put(d.error, "it starts a process that goes on when it is loaded");
         return d;
@@ -239,11 +210,6 @@ public:
     const GuardedArrays& arrays() const { return arrays_; }
 
 private:
-    template <class Function>
-    static void find(void* library, const char* name, Function& function) {
-        function = reinterpret_cast<Function>(dlsym(library, name));
-    }
-
     void ask(std::uint32_t first, std::uint32_t count) {
         channel_.complete.store(first, std::memory_order_relaxed);
         for (std::uint32_t i = first; i < count; ++i) {
@@ -366,7 +332,7 @@ private:
     Channel& channel_;
     int printed_;
     GuardedArrays arrays_;
-    Functions f_;
+    LibraryFunctions f_;
     std::uint8_t seen_ = 0;  ///< what it has done outside of this process in answer to cases
     bool watches_ = true;    ///< looks around after each case: in the first batch, and once there was something
 };

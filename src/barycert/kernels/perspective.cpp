@@ -22,46 +22,46 @@ double exact_perspective_value(const double* vertices, const double* point, cons
     return v ? v->value : std::numeric_limits<double>::quiet_NaN();
 }
 
+constexpr Simplex in_window = Simplex::triangle;
+
+const Formula perspective_kernels[] = {
+    {"perspective-textbook",
+     "1/Z = alpha/Z_A + beta/Z_B + gamma/Z_C, I = Z (alpha I_A/Z_A + beta I_B/Z_B + gamma I_C/Z_C), Z the w of a "
+     "vertex; alpha, beta, gamma as in triangle.beta-gamma",
+     "perspective-correct rasterisation notes",
+     "alpha carries the rounding of both others, and where B and C are far and A is near its error is what is left of "
+     "the weights",
+     perspective_textbook<double>, Declares::no, more(nullptr, nullptr, "", textbook_value<double>)},
+    {"perspective-varying", "(sum alpha_i (I_i/w_i)) / (sum alpha_i (1/w_i)), alpha by signed areas",
+     "varying variables of a pipeline: v/w and 1/w are linear in the window",
+     "as triangle.signed-area: points within a few ulps of an edge get a wrong sign or a false zero",
+     perspective_varying<double>, Declares::yes,
+     more(nullptr, in_float<in_window, perspective_varying<float>, 3>,
+          "rounds coordinates to 24 bits first: points nearer to an edge than 2^-24 of their coordinates change sides",
+          varying_value<double>, value_in_float<in_window, varying_value<float>, 3>)},
+    {"perspective-affine", "W_a = (bc x bp)/(ab x ac) and cyclic in the window, w left out",
+     "texture mapping without division by w",
+     "right where all w are equal: with w = 1 and 3 at the ends, the middle of an edge gets 1/2 in place of 3/4 and "
+     "1/4",
+     perspective_affine<double>, Declares::yes},
+    {"perspective-projected-z",
+     "as perspective-textbook with z = far/(far-near) - (near far/(far-near))/w in place of w, near 2^-10, far 2^10",
+     "a common error: the z of the z-buffer taken for the depth",
+     "z is all but 1 everywhere, so that the weights are all but those of perspective-affine",
+     perspective_projected_z<double>, Declares::no},
+    {"perspective-exact",
+     "W_i = n_i w_j w_k / sum n_m w_k w_l, V = sum W_i f_i exactly, each rounded once, ties to even",
+     "barycert/perspective.hpp: integers", "on no finite input with w > 0; costs more than a plain formula",
+     exact_perspective, Declares::yes, more(nullptr, nullptr, "", exact_perspective_value)},
+};
+
 }  // namespace
 
 void add_perspective(std::vector<Kernel>& list) {
-    constexpr Simplex s = Simplex::triangle;
-    const auto add = [&](const char* name, WeightsFunction weights, Declares declares, Text text,
-                         CaseValueFunction value = nullptr) {
-        list.push_back(make_kernel(s, name, weights, declares, text));
-        list.back().perspective = true;
-        list.back().interpolate = value;
-    };
-    add("perspective-textbook", perspective_textbook<double>, Declares::no,
-        {"1/Z = alpha/Z_A + beta/Z_B + gamma/Z_C, I = Z (alpha I_A/Z_A + beta I_B/Z_B + gamma I_C/Z_C), Z the w of a "
-         "vertex; alpha, beta, gamma as in triangle.beta-gamma",
-         "perspective-correct rasterisation notes",
-         "alpha carries the rounding of both others, and where B and C are far and A is near its error is what is left "
-         "of the weights"},
-        textbook_value<double>);
-    const Text varying{"(sum alpha_i (I_i/w_i)) / (sum alpha_i (1/w_i)), alpha by signed areas",
-                       "varying variables of a pipeline: v/w and 1/w are linear in the window",
-                       "as triangle.signed-area: points within a few ulps of an edge get a wrong sign or a false zero"};
-    add("perspective-varying", perspective_varying<double>, Declares::yes, varying, varying_value<double>);
-    add("perspective-varying.float32", in_float<s, perspective_varying<float>, 3>, Declares::yes,
-        {varying.formula, varying.source,
-         "rounds coordinates to 24 bits first: points nearer to an edge than 2^-24 of their coordinates change sides"},
-        value_in_float<s, varying_value<float>, 3>);
-    add("perspective-affine", perspective_affine<double>, Declares::yes,
-        {"W_a = (bc x bp)/(ab x ac) and cyclic in the window, w left out", "texture mapping without division by w",
-         "right where all w are equal: with w = 1 and 3 at the ends, the middle of an edge gets 1/2 in place of 3/4 "
-         "and 1/4"});
-    add("perspective-projected-z", perspective_projected_z<double>, Declares::no,
-        {"as perspective-textbook with z = far/(far-near) - (near far/(far-near))/w in place of w, near 2^-10, far "
-         "2^10",
-         "a common error: the z of the z-buffer taken for the depth",
-         "z is all but 1 everywhere, so that the weights are all but those of perspective-affine"});
-    add("perspective-exact", exact_perspective, Declares::yes,
-        {"W_i = n_i w_j w_k / sum n_m w_k w_l, V = sum W_i f_i exactly, each rounded once, ties to even",
-         "barycert/perspective.hpp: integers", "on no finite input with w > 0; costs more than a plain formula"},
-        exact_perspective_value);
-    list.back().certifies = true;
-    list.back().core = true;
+    const std::size_t first = list.size();
+    add_formulas(list, in_window, perspective_kernels);
+    for (Kernel& k : std::span(list).subspan(first)) k.perspective = true;
+    list.back().certifies = list.back().core = true;
 }
 
 }  // namespace barycert::kernels

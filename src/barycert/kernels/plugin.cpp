@@ -7,20 +7,13 @@
 #include <utility>
 
 #include "barycert/environment.hpp"
-#include "barycert/kernel.h"
-#include "barycert/kernels.hpp"
-#include "barycert/kernels/elf_file.hpp"
 #include "barycert/kernels/host.hpp"
 #include "barycert/kernels/registry.hpp"
 
 namespace barycert {
 namespace {
 
-using DescribeFunction = void (*)(barycert_kernel_info*);
-
-std::string text_or_empty(const char* text) {
-    return text == nullptr ? "" : text;
-}
+using kernels::Description;
 
 /// Letters, digits, -, _ and ., so that a name survives shells, globs and file names.
 bool well_formed(std::string_view name) {
@@ -34,37 +27,35 @@ Error refused(const std::string& path, std::string what, std::string expected, s
     return {std::move(what), path, 0, std::move(expected), std::move(found), std::move(remedy)};
 }
 
-struct Promises {
-    bool declares_degenerate = false, certifies = false;
-};
-
-struct Texts {
-    std::string name, simplex, formula, source;
-};
-
 /// The kernel that a library describes, its functions aside.
-Result<Kernel> described(const std::string& path, int abi, const Texts& texts, const Promises& promises) {
-    if (abi != BARYCERT_KERNEL_ABI) {
+Result<Kernel> described(const std::string& path, const Description& d) {
+    if (d.missing[0] != '\0') {
+        return refused(path, "the library is not a kernel library", std::string("the function ") + d.missing, "none",
+                       "define it as barycert/kernel.h declares it, with C linkage and default visibility");
+    }
+    if (d.abi != BARYCERT_KERNEL_ABI) {
         return refused(path, "the kernel library has another interface version", std::to_string(BARYCERT_KERNEL_ABI),
-                       std::to_string(abi),
+                       std::to_string(d.abi),
                        "set info->abi = BARYCERT_KERNEL_ABI and rebuild it with this version's barycert/kernel.h");
     }
-    const bool perspective = texts.simplex == "triangle.perspective";
-    const auto simplex = perspective ? Simplex::triangle : simplex_named(texts.simplex);
+    const bool perspective = std::string_view(d.simplex) == "triangle.perspective";
+    const auto simplex = perspective ? Simplex::triangle : simplex_named(d.simplex);
     if (!simplex) {
         return refused(path, "the kernel library names an unknown simplex",
-                       "segment, triangle, triangle3d, tetrahedron or triangle.perspective", '"' + texts.simplex + '"',
-                       "set info->simplex to one of these");
+                       "segment, triangle, triangle3d, tetrahedron or triangle.perspective",
+                       std::string("\"") + d.simplex + '"', "set info->simplex to one of these");
     }
-    if (!well_formed(texts.name)) {
+    if (!well_formed(d.name)) {
         return refused(path, "the kernel library has an unusable name", "letters, digits, -, _ and .",
-                       '"' + texts.name + '"', "set info->name accordingly");
+                       std::string("\"") + d.name + '"', "set info->name accordingly");
     }
-    Kernel k = kernels::make_kernel(*simplex, (perspective ? "perspective-" : "") + texts.name, nullptr,
-                                    promises.declares_degenerate ? kernels::Declares::yes : kernels::Declares::no,
-                                    {texts.formula.c_str(), texts.source.c_str(), ""});
-    k.certifies = promises.certifies;
+    const std::string name = std::string(perspective ? "perspective-" : "") + d.name;
+    Kernel k =
+        kernels::make_kernel(*simplex, {name.c_str(), d.formula, d.source, "", nullptr,
+                                        d.declares_degenerate != 0 ? kernels::Declares::yes : kernels::Declares::no});
+    k.certifies = d.certifies != 0;
     k.perspective = perspective;
+    if (d.classifies) k.rule = RegionRule::own;
     const auto same_name = [&](const Kernel& other) { return other.name == k.name; };
     if (std::any_of(catalogue().begin(), catalogue().end(), same_name)) {
         return refused(path, "the kernel library takes the name of a kernel of the catalogue", "another name", k.name,
@@ -78,12 +69,37 @@ Error not_loaded(const std::string& path, std::string found) {
                    "give the path of a shared library for this machine, all of whose symbols can be resolved");
 }
 
-Error no_kernel_library(const std::string& path, const std::string& missing) {
-    return refused(path, "the library is not a kernel library", "the function " + missing, "none",
-                   "define it as barycert/kernel.h declares it, with C linkage and default visibility");
+}  // namespace
+
+kernels::LibraryFunctions::LibraryFunctions(void* library) {
+    const auto find = [&]<class Function>(const char* name, Function& function) {
+        function = reinterpret_cast<Function>(dlsym(library, name));
+    };
+    find("barycert_kernel_describe", describe);
+    find("barycert_kernel_weights", weights);
+    find("barycert_kernel_classify", classify);
+    find("barycert_kernel_value", value);
 }
 
-}  // namespace
+Description kernels::LibraryFunctions::described() const {
+    Description d;
+    if (describe == nullptr || weights == nullptr) {
+        put(d.missing, describe == nullptr ? "barycert_kernel_describe" : "barycert_kernel_weights");
+        return d;
+    }
+    barycert_kernel_info info{};
+    describe(&info);
+    d.abi = info.abi;
+    d.declares_degenerate = info.declares_degenerate;
+    d.certifies = info.certifies;
+    d.classifies = classify != nullptr;
+    d.interpolates = value != nullptr;
+    put(d.name, info.name);
+    put(d.simplex, info.simplex);
+    put(d.formula, info.formula);
+    put(d.source, info.source);
+    return d;
+}
 
 Result<Kernel> load_kernel_library(const std::string& path) {
     // Without a slash dlopen would search the system's library folders instead of the working directory.
@@ -94,28 +110,21 @@ Result<Kernel> load_kernel_library(const std::string& path) {
     std::fegetenv(&before);
     void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     std::fesetenv(&before);
-    if (library == nullptr) return not_loaded(path, text_or_empty(dlerror()));
-    const auto describe = reinterpret_cast<DescribeFunction>(dlsym(library, "barycert_kernel_describe"));
-    const auto weights = reinterpret_cast<WeightsFunction>(dlsym(library, "barycert_kernel_weights"));
-    if (describe == nullptr || weights == nullptr) {
-        dlclose(library);
-        return no_kernel_library(path, describe == nullptr ? "barycert_kernel_describe" : "barycert_kernel_weights");
+    if (library == nullptr) {
+        const char* const why = dlerror();
+        return not_loaded(path, why == nullptr ? "" : why);
     }
-    barycert_kernel_info info{};
-    describe(&info);
+    const kernels::LibraryFunctions functions(library);
+    const Description description = functions.described();
     std::fesetenv(&before);
-    Result<Kernel> kernel = described(path, info.abi,
-                                      {text_or_empty(info.name), text_or_empty(info.simplex),
-                                       text_or_empty(info.formula), text_or_empty(info.source)},
-                                      {info.declares_degenerate != 0, info.certifies != 0});
+    Result<Kernel> kernel = described(path, description);
     if (!kernel) {
         dlclose(library);
         return kernel;
     }
-    kernel->weights = weights;
-    kernel->classify = reinterpret_cast<ClassifyFunction>(dlsym(library, "barycert_kernel_classify"));
-    kernel->interpolate = reinterpret_cast<CaseValueFunction>(dlsym(library, "barycert_kernel_value"));
-    if (kernel->classify != nullptr) kernel->rule = RegionRule::own;
+    kernel->weights = functions.weights;
+    kernel->classify = functions.classify;
+    kernel->interpolate = functions.value;
     return kernel;
 }
 
@@ -124,13 +133,10 @@ Result<Kernel> load_contained_kernel(const std::string& path, double seconds) {
     if (Status whole = kernels::check_shared_library(path); !whole) return whole.error();
     Result<std::shared_ptr<kernels::Host>> host = kernels::Host::start(path, seconds);
     if (!host) return host.error();
-    const kernels::Description& d = (*host)->description();
+    const Description& d = (*host)->description();
     if (d.error[0] != '\0') return not_loaded(path, d.error);
-    if (d.missing[0] != '\0') return no_kernel_library(path, d.missing);
-    Result<Kernel> kernel = described(path, d.abi, {d.name, d.simplex, d.formula, d.source},
-                                      {d.declares_degenerate != 0, d.certifies != 0});
+    Result<Kernel> kernel = described(path, d);
     if (!kernel) return kernel;
-    if (d.classifies) kernel->rule = RegionRule::own;
     if (d.note[0] != '\0')
         kernel->note = std::string("loading it changes the floating-point environment: ") + d.note +
                        "; the audit sets it right again, a program that uses the library may not";

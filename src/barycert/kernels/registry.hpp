@@ -1,8 +1,7 @@
-/// How the file of each simplex adds its kernels to the catalogue.
+/// How the file of each simplex adds its kernels to the catalogue, from a table of formulas.
 #pragma once
 
-#include <string>
-#include <string_view>
+#include <span>
 #include <vector>
 
 #include "barycert/kernels.hpp"
@@ -16,25 +15,45 @@ void add_perspective(std::vector<Kernel>& list);
 void add_triangle3d(std::vector<Kernel>& list);
 void add_tetrahedron(std::vector<Kernel>& list);
 
-/// The default value function: sum of weight times value, left to right.
-ValueFunction weighted_sum(Simplex s);
-
 /// `<simplex>.exact`: the correctly rounded weights and values of weights.hpp.
 void add_exact(std::vector<Kernel>& list, Simplex s);
 
-struct Text {
-    const char* formula;
-    const char* source;
-    const char* fails;
-};
-
 enum class Declares : bool { no, yes };
 
-/// The kernel `<simplex>.<formula_name>` with the default value function.
-Kernel make_kernel(Simplex s, std::string_view formula_name, WeightsFunction weights, Declares declares, Text text);
+/// What else there is of a formula.
+struct More {
+    WeightsFunction Variants::*variants = nullptr;  ///< compiled under other flags
+    WeightsFunction single = nullptr;               ///< in single precision, `<name>.float32`
+    const char* single_fails = "";
+    CaseValueFunction value = nullptr, single_value = nullptr;  ///< straight from the case
+    ValueFunction sum = nullptr;                                ///< in place of the sum of weight times value
+    double tolerance = 0;                                       ///< above 0: RegionRule::tolerant
+};
 
-/// Adds copies of `base` (by value: the list grows) as `<name>.fast-math` and so on, those that this CPU can run.
-void add_variants(std::vector<Kernel>& list, Kernel base, WeightsFunction Variants::*function);
+constexpr More more(WeightsFunction Variants::*variants, WeightsFunction single = nullptr, const char* fails = "",
+                    CaseValueFunction value = nullptr, CaseValueFunction single_value = nullptr) {
+    return {variants, single, fails, value, single_value};
+}
+constexpr More summed_by(ValueFunction sum) {
+    return {.sum = sum};
+}
+constexpr More tolerant(double tolerance) {
+    return {.tolerance = tolerance};
+}
+
+/// A row of the catalogue.
+struct Formula {
+    const char *name, *formula, *source, *fails;
+    WeightsFunction weights;
+    Declares declares;
+    More more = {};
+};
+
+/// The kernel `<simplex>.<name>`, of what is in `more` without variants and single precision.
+Kernel make_kernel(Simplex s, const Formula& formula);
+
+/// Each formula, its variants that this CPU can run, `<name>.fast-math` and so on, and then in single precision.
+void add_formulas(std::vector<Kernel>& list, Simplex s, std::span<const Formula> formulas);
 
 /// A formula in single precision, its arguments rounded on the way in and its weights widened on the way out. `stride`
 /// is the count of numbers of a vertex.
@@ -60,5 +79,13 @@ double value_in_float(const double* vertices, const double* point, const double*
     for (int i = 0; i < n; ++i) f[i] = static_cast<float>(values[i]);
     return static_cast<double>(formula(v, p, f));
 }
+
+/// Is a file a whole shared library, as far as its headers tell?
+///
+/// dlopen maps what the headers of an ELF file announce, and touches it: where the file ends before that, the system
+/// ends the process (SIGBUS). So every part that a header names must lie within the file. Errors: the file cannot be
+/// read, is no regular file, is no shared library in ELF for this machine, or is truncated. What its code does, and
+/// whether headers that agree with the file's size are true, is not looked at.
+Status check_shared_library(const std::string& path);
 
 }  // namespace barycert::kernels

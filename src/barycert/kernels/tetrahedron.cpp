@@ -33,80 +33,62 @@ int kahan(const double* v, const double* p, double* w) {
     return 0;
 }
 
-constexpr const char* single_precision =
+constexpr const char* single_near_faces =
     "rounds coordinates to 24 bits first: points nearer to a face than 2^-24 of their coordinates change sides";
+
+const Formula tetrahedron_kernels[] = {
+    {"signed-volume", "W_a = V(p,b,c,d) / V(a,b,c,d) and cyclic, V(q0,q1,q2,q3) = det(q1-q0, q2-q0, q3-q0)",
+     "volume coordinates, any finite element textbook",
+     "differences and products are rounded: points on and near faces change sides; range is lost below 2^-358",
+     signed_volume<double>, Declares::yes,
+     more(&Variants::signed_volume, in_float<Simplex::tetrahedron, signed_volume<float>>, single_near_faces)},
+    {"two-cross-products", "relative to p: a x b and c x d give the four determinants, divided by their sum",
+     "ray-tetrahedron and interpolation loops tuned for speed",
+     "their sum cancels for a point 2^20 cell sizes away: no digit of a weight is right, and the sum 1 hides it",
+     two_cross_products<double>, Declares::yes, more(&Variants::two_cross_products)},
+    {"unsigned-volume", "W_a = |V(p,b,c,d)| / sum of all four", "volume ratios, common lecture notes",
+     "no weight is ever negative: every point outside looks like one inside", unsigned_volume<double>, Declares::no},
+    {"cramer", "Cramer's rule for (a-d | b-d | c-d) (W_a,W_b,W_c) = p-d; W_d = V(p,a,b,c)/V(d,a,b,c) by its own",
+     "Cramer 1750", "weights are relative to different origins: each sign errs on its own, and the sum need not be 1",
+     cramer<double>, Declares::yes,
+     more(&Variants::cramer, in_float<Simplex::tetrahedron, cramer<float>>, single_near_faces)},
+    {"one-minus-sum", "Cramer's rule for W_a, W_b, W_c; W_d = 1 - W_a - W_b - W_c", "finite element codes",
+     "W_d carries the rounding of the others: on face abc its sign is chance, and the sum 1 hides every error",
+     one_minus_sum<double>, Declares::yes},
+    {"homogeneous", "W_a = |1 p; 1 b; 1 c; 1 d| / |1 a; 1 b; 1 c; 1 d| and so on, 4x4 determinants",
+     "homogeneous coordinates",
+     "products of absolute coordinates cancel: at an offset of 2^17 cell sizes signs are chance", homogeneous4<double>,
+     Declares::yes,
+     more(nullptr, in_float<Simplex::tetrahedron, homogeneous4<float>>,
+          "as homogeneous, already at an offset of 2^8 cell sizes")},
+    {"inverse", "(W_b, W_c, W_d) = (b-a | c-a | d-a)^-1 (p-a), W_a = 1-W_b-W_c-W_d", "Eigen Matrix3d::inverse()",
+     "1/det is rounded before it is used and weights are differences of products: noise on every face",
+     by_inverse<double, 3>, Declares::no,
+     more(nullptr, in_float<Simplex::tetrahedron, by_inverse<float, 3>>, single_near_faces)},
+    {"partial-lu", "(1 1 1 1; a b c d) W = (1; p)", "Eigen PartialPivLU",
+     "backward stable only: on faces the zero weight comes out as rounding noise of either sign",
+     by_decomposition<double, 3, Eigen::PartialPivLU>, Declares::no},
+    {"full-lu", "(1 1 1 1; a b c d) W = (1; p)", "Eigen FullPivLU",
+     "a pivot below 4 eps of the largest counts as zero: flat, tiny and huge cells get finite wrong weights in silence",
+     by_decomposition<double, 3, Eigen::FullPivLU>, Declares::no},
+    {"trilinear",
+     "plane z = pz meets the edges, line y = py two sides of that section: weights on edges, sides, line in turn",
+     "scan conversion, one dimension up",
+     "0/0 where the section is a point or the line only touches it: highest and lowest vertices, some edges",
+     trilinear<double>, Declares::no},
+    {"kahan", "signed volumes with 2x2 minors by Kahan's ab-cd", "Jeannerod, Louvet & Muller 2013, Math. Comp. 82",
+     "the minors are right to 1.5 ulps, the differences before and the sum after are not: fewer wrong signs, not none",
+     kahan, Declares::yes},
+    {"vtk-tolerance", "Cramer's rule for W_b, W_c, W_d with origin a, W_a = 1 - sum; inside if every W >= -0.001",
+     "the lower bound of VTK's vtkTetra::EvaluatePosition, which also asks W <= 1.001",
+     "points outside by up to a thousandth of a height are accepted as inside; only det == 0 is degenerate",
+     parametric<double>, Declares::yes, tolerant(0.001)},
+};
 
 }  // namespace
 
 void add_tetrahedron(std::vector<Kernel>& list) {
-    constexpr Simplex s = Simplex::tetrahedron;
-    const auto add = [&](const char* name, WeightsFunction weights, Declares declares, Text text) {
-        list.push_back(make_kernel(s, name, weights, declares, text));
-    };
-
-    const Text volumes{
-        "W_a = V(p,b,c,d) / V(a,b,c,d) and cyclic, V(q0,q1,q2,q3) = det(q1-q0, q2-q0, q3-q0)",
-        "volume coordinates, any finite element textbook",
-        "differences and products are rounded: points on and near faces change sides; range is lost below 2^-358"};
-    add("signed-volume", signed_volume<double>, Declares::yes, volumes);
-    add_variants(list, list.back(), &Variants::signed_volume);
-    add("signed-volume.float32", in_float<s, signed_volume<float>>, Declares::yes,
-        {volumes.formula, volumes.source, single_precision});
-
-    add("two-cross-products", two_cross_products<double>, Declares::yes,
-        {"relative to p: a x b and c x d give the four determinants, divided by their sum",
-         "ray-tetrahedron and interpolation loops tuned for speed",
-         "their sum cancels for a point 2^20 cell sizes away: no digit of a weight is right, and the sum 1 hides it"});
-    add_variants(list, list.back(), &Variants::two_cross_products);
-
-    add("unsigned-volume", unsigned_volume<double>, Declares::no,
-        {"W_a = |V(p,b,c,d)| / sum of all four", "volume ratios, common lecture notes",
-         "no weight is ever negative: every point outside looks like one inside"});
-
-    const Text rule{"Cramer's rule for (a-d | b-d | c-d) (W_a,W_b,W_c) = p-d; W_d = V(p,a,b,c)/V(d,a,b,c) by its own",
-                    "Cramer 1750",
-                    "weights are relative to different origins: each sign errs on its own, and the sum need not be 1"};
-    add("cramer", cramer<double>, Declares::yes, rule);
-    add_variants(list, list.back(), &Variants::cramer);
-    add("cramer.float32", in_float<s, cramer<float>>, Declares::yes, {rule.formula, rule.source, single_precision});
-
-    add("one-minus-sum", one_minus_sum<double>, Declares::yes,
-        {"Cramer's rule for W_a, W_b, W_c; W_d = 1 - W_a - W_b - W_c", "finite element codes",
-         "W_d carries the rounding of the others: on face abc its sign is chance, and the sum 1 hides every error"});
-    const Text ones{"W_a = |1 p; 1 b; 1 c; 1 d| / |1 a; 1 b; 1 c; 1 d| and so on, 4x4 determinants",
-                    "homogeneous coordinates",
-                    "products of absolute coordinates cancel: at an offset of 2^17 cell sizes signs are chance"};
-    add("homogeneous", homogeneous4<double>, Declares::yes, ones);
-    add("homogeneous.float32", in_float<s, homogeneous4<float>>, Declares::yes,
-        {ones.formula, ones.source, "as homogeneous, already at an offset of 2^8 cell sizes"});
-
-    const Text inverted{
-        "(W_b, W_c, W_d) = (b-a | c-a | d-a)^-1 (p-a), W_a = 1-W_b-W_c-W_d", "Eigen Matrix3d::inverse()",
-        "1/det is rounded before it is used and weights are differences of products: noise on every face"};
-    add("inverse", by_inverse<double, 3>, Declares::no, inverted);
-    add("inverse.float32", in_float<s, by_inverse<float, 3>>, Declares::no,
-        {inverted.formula, inverted.source, single_precision});
-    add("partial-lu", by_decomposition<double, 3, Eigen::PartialPivLU>, Declares::no,
-        {"(1 1 1 1; a b c d) W = (1; p)", "Eigen PartialPivLU",
-         "backward stable only: on faces the zero weight comes out as rounding noise of either sign"});
-    add("full-lu", by_decomposition<double, 3, Eigen::FullPivLU>, Declares::no,
-        {"(1 1 1 1; a b c d) W = (1; p)", "Eigen FullPivLU",
-         "a pivot below 4 eps of the largest counts as zero: flat, tiny and huge cells get finite wrong weights in "
-         "silence"});
-    add("trilinear", trilinear<double>, Declares::no,
-        {"plane z = pz meets the edges, line y = py two sides of that section: weights on edges, sides, line in turn",
-         "scan conversion, one dimension up",
-         "0/0 where the section is a point or the line only touches it: highest and lowest vertices, some edges"});
-    add("kahan", kahan, Declares::yes,
-        {"signed volumes with 2x2 minors by Kahan's ab-cd", "Jeannerod, Louvet & Muller 2013, Math. Comp. 82",
-         "the minors are right to 1.5 ulps, the differences before and the sum after are not: fewer wrong signs, not "
-         "none"});
-    add("vtk-tolerance", parametric<double>, Declares::yes,
-        {"Cramer's rule for W_b, W_c, W_d with origin a, W_a = 1 - sum; inside if every W >= -0.001",
-         "the lower bound of VTK's vtkTetra::EvaluatePosition, which also asks W <= 1.001",
-         "points outside by up to a thousandth of a height are accepted as inside; only det == 0 is degenerate"});
-    list.back().rule = RegionRule::tolerant;
-    list.back().tolerance = 0.001;
+    add_formulas(list, Simplex::tetrahedron, tetrahedron_kernels);
 }
 
 }  // namespace barycert::kernels

@@ -6,82 +6,69 @@
 #include "barycert/kernels/registry.hpp"
 
 namespace barycert::kernels {
+namespace {
+
+constexpr const char* single_near_edges =
+    "rounds coordinates to 24 bits first: points nearer to an edge than 2^-24 of their coordinates change sides";
+
+const Formula triangle_kernels[] = {
+    {"signed-area", "W_a = (bc x bp)/(ab x ac) and cyclic",
+     "signed areas; Shirley & Marschner, Fundamentals of Computer Graphics",
+     "products are rounded: points within a few ulps of an edge get a wrong sign or a false zero", signed_area<double>,
+     Declares::yes, more(&Variants::signed_area, in_float<Simplex::triangle, signed_area<float>>, single_near_edges)},
+    {"relative-to-point", "W_a = (pb x pc) / (pb x pc + pc x pa + pa x pb) and cyclic",
+     "orientation tests with the query point as pivot; Kettner et al. 2008",
+     "one sign in six to one in three is wrong on the grids of neighbouring doubles along a line",
+     relative_to_point<double>, Declares::yes},
+    {"beta-gamma",
+     "beta = ((y-yA)(xC-xA)-(x-xA)(yC-yA)) / ((yB-yA)(xC-xA)-(xB-xA)(yC-yA)), gamma with B and C exchanged, alpha = "
+     "1-beta-gamma",
+     "perspective-correct rasterisation notes",
+     "alpha carries the rounding of both others: on edge BC its sign is chance, the sum 1 hides it", beta_gamma<double>,
+     Declares::no, more(nullptr, in_float<Simplex::triangle, beta_gamma<float>>, single_near_edges)},
+    {"alpha-beta",
+     "alpha = (-(x-xB)(yC-yB)+(y-yB)(xC-xB)) / (-(xA-xB)(yC-yB)+(yA-yB)(xC-xB)), beta cyclic, gamma = 1-alpha-beta",
+     "Shirley & Marschner, Fundamentals of Computer Graphics",
+     "gamma carries the rounding of both others: on edge AB its sign is chance; the two denominators may differ",
+     alpha_beta<double>, Declares::no},
+    {"unsigned-area", "W_a = |PBC| / (|PBC|+|PCA|+|PAB|) and cyclic", "area ratios, common lecture notes",
+     "no weight is ever negative: every point outside looks like one inside", unsigned_area<double>, Declares::no},
+    {"bilinear", "the line y = py meets two edges in l and r: weights on each edge, then p = (1-u) l + u r",
+     "Gouraud 1971, scan conversion",
+     "0/0 at the topmost and the lowest vertex, where l and r coincide; poor near them", bilinear<double>,
+     Declares::no},
+    {"scanline-increments",
+     "from the lowest vertex by constant steps: x and W along two sides for each unit of y, then W for each unit of x; "
+     "the last step a fraction",
+     "scanline rasterisation; the notes' sixth section",
+     "each step rounds: the error grows with the size in pixels; 0/0 at the topmost and the lowest vertex. More than "
+     "2^14 steps are jumped",
+     increments<double>, Declares::no,
+     more(nullptr, in_float<Simplex::triangle, increments<float>>,
+          "rounds coordinates to 24 bits first, and each step too: over 4096 pixels about 12 bits are left (barycert "
+          "render drift)",
+          incremented_value<double>, value_in_float<Simplex::triangle, incremented_value<float>>)},
+    {"homogeneous", "W_a = |1 p; 1 b; 1 c| / |1 a; 1 b; 1 c| and cyclic, 3x3 determinants", "homogeneous coordinates",
+     "products of absolute coordinates cancel: at an offset of 2^26 triangle sizes no digit is left",
+     homogeneous3<double>, Declares::yes,
+     more(nullptr, in_float<Simplex::triangle, homogeneous3<float>>,
+          "as homogeneous, from offsets of a hundred triangle sizes on; no digit is left at 2^12")},
+    {"inverse", "(W_b, W_c) = (b-a | c-a)^-1 (p-a), W_a = 1-W_b-W_c", "Eigen Matrix2d::inverse()",
+     "1/det is rounded before it is used and two weights are differences: zeros on edges turn into rounding noise",
+     by_inverse<double, 2>, Declares::no},
+    {"partial-lu", "(1 1 1; a b c) W = (1; p)", "Eigen PartialPivLU",
+     "backward stable only: on edges the zero weight comes out as rounding noise of either sign",
+     by_decomposition<double, 2, Eigen::PartialPivLU>, Declares::no},
+    {"full-lu", "(1 1 1; a b c) W = (1; p)", "Eigen FullPivLU",
+     "a pivot below 3 eps of the largest counts as zero: flat, tiny and huge triangles get finite wrong weights in "
+     "silence",
+     by_decomposition<double, 2, Eigen::FullPivLU>, Declares::no},
+};
+
+}  // namespace
 
 void add_triangle(std::vector<Kernel>& list) {
-    constexpr Simplex s = Simplex::triangle;
-    const auto add = [&](const char* name, WeightsFunction weights, Declares declares, Text text) {
-        list.push_back(make_kernel(s, name, weights, declares, text));
-    };
-    constexpr const char* single_precision =
-        "rounds coordinates to 24 bits first: points nearer to an edge than 2^-24 of their coordinates change sides";
-
-    const Text areas{"W_a = (bc x bp)/(ab x ac) and cyclic",
-                     "signed areas; Shirley & Marschner, Fundamentals of Computer Graphics",
-                     "products are rounded: points within a few ulps of an edge get a wrong sign or a false zero"};
-    add("signed-area", signed_area<double>, Declares::yes, areas);
-    add_variants(list, list.back(), &Variants::signed_area);
-    add("signed-area.float32", in_float<s, signed_area<float>>, Declares::yes,
-        {areas.formula, areas.source, single_precision});
-
-    add("relative-to-point", relative_to_point<double>, Declares::yes,
-        {"W_a = (pb x pc) / (pb x pc + pc x pa + pa x pb) and cyclic",
-         "orientation tests with the query point as pivot; Kettner et al. 2008",
-         "one sign in six to one in three is wrong on the grids of neighbouring doubles along a line"});
-
-    const Text closed{
-        "beta = ((y-yA)(xC-xA)-(x-xA)(yC-yA)) / ((yB-yA)(xC-xA)-(xB-xA)(yC-yA)), gamma with B and C "
-        "exchanged, alpha = 1-beta-gamma",
-        "perspective-correct rasterisation notes",
-        "alpha carries the rounding of both others: on edge BC its sign is chance, the sum 1 hides it"};
-    add("beta-gamma", beta_gamma<double>, Declares::no, closed);
-    add("beta-gamma.float32", in_float<s, beta_gamma<float>>, Declares::no,
-        {closed.formula, closed.source, single_precision});
-
-    add("alpha-beta", alpha_beta<double>, Declares::no,
-        {"alpha = (-(x-xB)(yC-yB)+(y-yB)(xC-xB)) / (-(xA-xB)(yC-yB)+(yA-yB)(xC-xB)), beta cyclic, gamma = 1-alpha-beta",
-         "Shirley & Marschner, Fundamentals of Computer Graphics",
-         "gamma carries the rounding of both others: on edge AB its sign is chance; the two denominators may differ"});
-    add("unsigned-area", unsigned_area<double>, Declares::no,
-        {"W_a = |PBC| / (|PBC|+|PCA|+|PAB|) and cyclic", "area ratios, common lecture notes",
-         "no weight is ever negative: every point outside looks like one inside"});
-    add("bilinear", bilinear<double>, Declares::no,
-        {"the line y = py meets two edges in l and r: weights on each edge, then p = (1-u) l + u r",
-         "Gouraud 1971, scan conversion",
-         "0/0 at the topmost and the lowest vertex, where l and r coincide; poor near them"});
-
-    const Text steps{
-        "from the lowest vertex by constant steps: x and W along two sides for each unit of y, then W for each unit of "
-        "x; the last step a fraction",
-        "scanline rasterisation; the notes' sixth section",
-        "each step rounds: the error grows with the size in pixels; 0/0 at the topmost and the lowest vertex. More "
-        "than "
-        "2^14 steps are jumped"};
-    add("scanline-increments", increments<double>, Declares::no, steps);
-    list.back().interpolate = incremented_value<double>;
-    add("scanline-increments.float32", in_float<s, increments<float>>, Declares::no,
-        {steps.formula, steps.source,
-         "rounds coordinates to 24 bits first, and each step too: over 4096 pixels about 12 bits are left (barycert "
-         "render drift)"});
-    list.back().interpolate = value_in_float<s, incremented_value<float>>;
-
-    const Text ones{"W_a = |1 p; 1 b; 1 c| / |1 a; 1 b; 1 c| and cyclic, 3x3 determinants", "homogeneous coordinates",
-                    "products of absolute coordinates cancel: at an offset of 2^26 triangle sizes no digit is left"};
-    add("homogeneous", homogeneous3<double>, Declares::yes, ones);
-    add("homogeneous.float32", in_float<s, homogeneous3<float>>, Declares::yes,
-        {ones.formula, ones.source,
-         "as homogeneous, from offsets of a hundred triangle sizes on; no digit is left at 2^12"});
-
-    add("inverse", by_inverse<double, 2>, Declares::no,
-        {"(W_b, W_c) = (b-a | c-a)^-1 (p-a), W_a = 1-W_b-W_c", "Eigen Matrix2d::inverse()",
-         "1/det is rounded before it is used and two weights are differences: zeros on edges turn into rounding "
-         "noise"});
-    add("partial-lu", by_decomposition<double, 2, Eigen::PartialPivLU>, Declares::no,
-        {"(1 1 1; a b c) W = (1; p)", "Eigen PartialPivLU",
-         "backward stable only: on edges the zero weight comes out as rounding noise of either sign"});
-    add("full-lu", by_decomposition<double, 2, Eigen::FullPivLU>, Declares::no,
-        {"(1 1 1; a b c) W = (1; p)", "Eigen FullPivLU",
-         "a pivot below 3 eps of the largest counts as zero: flat, tiny and huge triangles get finite wrong weights in "
-         "silence"});
+    add_formulas(list, Simplex::triangle, triangle_kernels);
 }
 
 }  // namespace barycert::kernels

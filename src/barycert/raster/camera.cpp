@@ -112,23 +112,12 @@ Result<Matrix4> perspective(double fovy, double aspect, double near, double far)
         return no_camera("the depth of sight", "0 < near < far, finite",
                          base::shortest(near) + " and " + base::shortest(far));
     const double scale = 1 / std::tan(fovy * (std::numbers::pi / 360));
-    Matrix4 m;
-    m.m = {scale / aspect,
-           0,
-           0,
-           0,
-           0,
-           scale,
-           0,
-           0,
-           0,
-           0,
-           (far + near) / (near - far),
-           2 * far * (near / (near - far)),
-           0,
-           0,
-           -1,
-           0};
+    Matrix4 m{{}};
+    m.m[0] = scale / aspect;
+    m.m[5] = scale;
+    m.m[10] = (far + near) / (near - far);
+    m.m[11] = 2 * far * (near / (near - far));
+    m.m[14] = -1;
     return finite_matrix(m, "the perspective");
 }
 
@@ -154,24 +143,13 @@ Result<Matrix4> rotation(const Vector3& axis, double degrees) {
         return no_camera("a rotation", "an axis that is not zero and an angle, finite",
                          text_of(axis) + " by " + base::shortest(degrees));
     const double angle = std::fmod(degrees, 360) * (std::numbers::pi / 180), c = std::cos(angle), s = std::sin(angle);
-    const auto [x, y, z] = *a;
+    // Of the axis the outer product times 1 - c, and the cross product times s.
+    const std::array<double, 9> turned{
+        c, -(*a)[2] * s, (*a)[1] * s, (*a)[2] * s, c, -(*a)[0] * s, -(*a)[1] * s, (*a)[0] * s, c};
     Matrix4 m;
-    m.m = {c + x * x * (1 - c),
-           x * y * (1 - c) - z * s,
-           x * z * (1 - c) + y * s,
-           0,
-           y * x * (1 - c) + z * s,
-           c + y * y * (1 - c),
-           y * z * (1 - c) - x * s,
-           0,
-           z * x * (1 - c) - y * s,
-           z * y * (1 - c) + x * s,
-           c + z * z * (1 - c),
-           0,
-           0,
-           0,
-           0,
-           1};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) m.m[4 * i + k] = (*a)[i] * (*a)[k] * (1 - c) + turned[3 * i + k];
+    }
     return m;
 }
 

@@ -138,11 +138,13 @@ Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, st
         for (const double x : {box.min[k], box.max[k]}) {
             if (std::isnan(x)) return raster::bad_bound("a bound of the box", "a number", x);
         }
-        const double ends[2] = {a[k], b[k]};
+        const auto end = [&](int i) { return i == 0 ? a[k] : b[k]; };
+        const auto min = [&](int) { return box.min[k]; };
+        const auto max = [&](int) { return box.max[k]; };
         // An infinite bound on the far side bounds nothing; on the near side nothing lies inside.
         if (box.min[k] == HUGE_VAL || box.max[k] == -HUGE_VAL) return ClippedSegment{};
-        if (std::isfinite(box.min[k])) clipper.clip(raster::difference_form(ends, box.min[k], 1, 2));
-        if (std::isfinite(box.max[k])) clipper.clip(raster::difference_form(box.max[k], ends, 1, 2));
+        if (std::isfinite(box.min[k])) clipper.clip(raster::difference_form(2, end, min));
+        if (std::isfinite(box.max[k])) clipper.clip(raster::difference_form(2, max, end));
     }
     return clipper.result();
 }

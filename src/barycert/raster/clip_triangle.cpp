@@ -16,9 +16,14 @@ namespace {
 
 constexpr int bounds = 6;  ///< x, y, z <= w, then -w <= x, y, z
 
-/// On which side of bound b a vertex lies; positive inside. Exact: doubles are compared, -x is exact.
+/// What bound b holds against w: x, y, z or -x, -y, -z.
+double beside(const double* vertex, int b) {
+    return b < 3 ? vertex[b] : -vertex[b - 3];
+}
+
+/// On which side of bound b a vertex lies; positive inside. Exact: doubles are compared.
 int side(const double* vertex, int b) {
-    const double x = b < 3 ? vertex[b] : -vertex[b - 3], w = vertex[3];
+    const double x = beside(vertex, b), w = vertex[3];
     return x < w ? 1 : x == w ? 0 : -1;
 }
 
@@ -53,14 +58,9 @@ Form TriangleClipper::form_of(int edge) const {
         form[static_cast<std::size_t>(edge)] = core::Integer(false, 1, 0);
         return form;
     }
-    const int b = edge - 3;
-    const double* const w = vertices_ + 3;
-    if (b < 3) return difference_form(w, vertices_ + b, stride_, 3);
-    double negative[3];  // w - (-x)
-    for (std::size_t i = 0; i < 3; ++i) negative[i] = -vertices_[stride_ * i + static_cast<std::size_t>(b - 3)];
-    double depth[3];
-    for (std::size_t i = 0; i < 3; ++i) depth[i] = w[stride_ * i];
-    return difference_form(depth, negative, 1, 3);
+    const auto vertex = [&](int i) { return vertices_ + stride_ * static_cast<std::size_t>(i); };
+    return difference_form(
+        3, [&](int i) { return vertex(i)[3]; }, [&](int i) { return beside(vertex(i), edge - 3); });
 }
 
 int TriangleClipper::sign(int vertex, int bound, const Form& form) const {

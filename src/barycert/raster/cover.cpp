@@ -6,7 +6,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/raster/edge.hpp"
-#include "barycert/raster/input.hpp"
 
 namespace barycert {
 namespace raster {

@@ -5,10 +5,7 @@
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/perspective.hpp"
-#include "barycert/raster/bytes.hpp"
-#include "barycert/raster/edge.hpp"
 #include "barycert/raster/fill_rows.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert::raster {
 namespace {
@@ -24,38 +21,26 @@ bool thick_enough(const std::array<double, 6>& v) {
     return std::abs(area) >= 0x1p-11 * wide * tall;
 }
 
-/// The centres of the pixels of a row, one after the other.
-std::vector<double>& centres(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& points) {
-    points.clear();
-    for (std::int32_t i = first; i < last; ++i) {
-        points.push_back(i + 0.5);
-        points.push_back(j + 0.5);
+/// What is linear in the window at each vertex: the depth, the scale if there is one, attributes times the scale.
+std::vector<double> linear_values(const WindowTriangle& t, const Shading& s) {
+    const std::size_t n = s.components();
+    std::array<double, 3> depth = t.w;
+    if (s.interpolation == Interpolation::projected_z) {
+        for (std::size_t i = 0; i < 3; ++i) depth[i] = (t.z[i] + 1) / 2;
     }
-    return points;
+    const double least = *std::min_element(depth.begin(), depth.end());
+    std::vector<double> values;
+    for (std::size_t i = 0; i < 3; ++i) {
+        values.push_back(t.z[i]);
+        double scale = 1;
+        if (s.interpolation != Interpolation::affine) {
+            scale = (s.interpolation == Interpolation::projected_z ? 1 : least) / depth[i];
+            values.push_back(scale);
+        }
+        for (std::size_t k = 0; k < n; ++k) values.push_back(scale * t.attributes[n * i + k]);
+    }
+    return values;
 }
-
-/// Correctly rounded values of numbers that are linear in the window, at the pixels of a row.
-class CorrectRows {
-public:
-    CorrectRows(std::span<const double> window, std::span<const double> values, std::size_t components)
-        : window_(window), values_(values), components_(static_cast<int>(components)) {}
-
-    void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) {
-        constexpr std::array<std::int32_t, 3> corners{0, 1, 2};
-        const auto count = static_cast<std::size_t>(last - first);
-        cells_.assign(count, 0);
-        const MeshQueries queries{Simplex::triangle, window_, corners, cells_, centres(j, first, last, points_)};
-        // No error can occur: sizes fit, and coordinates are finite.
-        (void)interpolate(queries, NodalValues<double>{values_, components_},
-                          {out, count * static_cast<std::size_t>(components_)});
-    }
-
-private:
-    std::span<const double> window_, values_;
-    int components_;
-    std::vector<double> points_;
-    std::vector<std::int32_t> cells_;
-};
 
 /// The depth and the attributes of the pixels of a row, as Shading asks for them: 1 + components numbers a pixel.
 ///
@@ -64,29 +49,6 @@ private:
 template <class Rows>
 class AttributeRows {
 public:
-    static constexpr std::size_t depth_at = 0, scale_at = 1;
-
-    /// What is linear in the window at each vertex: the depth, the scale if there is one, attributes times the scale.
-    static std::vector<double> linear(const WindowTriangle& t, const Shading& s) {
-        const std::size_t n = s.components();
-        std::array<double, 3> depth = t.w;
-        if (s.interpolation == Interpolation::projected_z) {
-            for (std::size_t i = 0; i < 3; ++i) depth[i] = (t.z[i] + 1) / 2;
-        }
-        const double least = *std::min_element(depth.begin(), depth.end());
-        std::vector<double> values;
-        for (std::size_t i = 0; i < 3; ++i) {
-            values.push_back(t.z[i]);
-            double scale = 1;
-            if (s.interpolation != Interpolation::affine) {
-                scale = (s.interpolation == Interpolation::projected_z ? 1 : least) / depth[i];
-                values.push_back(scale);
-            }
-            for (std::size_t k = 0; k < n; ++k) values.push_back(scale * t.attributes[n * i + k]);
-        }
-        return values;
-    }
-
     AttributeRows(Rows rows, const Shading& s) : rows_(std::move(rows)), shading_(s) {}
 
     void fill(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& out) {
@@ -99,7 +61,7 @@ public:
         for (std::size_t i = 0; i < count; ++i) {
             const double* const in = out.data() + from * i;
             double* const to = out.data() + (from - 1) * i;  // never ahead of what is still to be read
-            const double depth = in[depth_at], scale = in[scale_at];
+            const double depth = in[0], scale = in[1];
             to[0] = depth;
             for (std::size_t k = 0; k < n; ++k) to[1 + k] = in[2 + k] / scale;
         }
@@ -114,7 +76,10 @@ private:
 class CorrectAttributeRows {
 public:
     CorrectAttributeRows(const WindowTriangle& t, const Shading& s)
-        : triangle_(t), shading_(s), depth_(t.window, t.z, 1), linear_(t.window, t.attributes, s.components()) {
+        : triangle_(t),
+          shading_(s),
+          depth_(t.window.data(), t.z, 1),
+          linear_(t.window.data(), t.attributes, static_cast<int>(s.components())) {
         for (std::size_t i = 0; i < 3; ++i) {
             vertices_[3 * i] = t.window[2 * i];
             vertices_[3 * i + 1] = t.window[2 * i + 1];
@@ -131,8 +96,8 @@ public:
             linear_.fill(j, first, last, values_.data());
         } else if (n != 0) {
             // No error can occur: sizes fit, coordinates are finite, w > 0.
-            (void)perspective_values(vertices_.data(), centres(j, first, last, points_), triangle_.attributes,
-                                     static_cast<int>(n), values_);
+            set_centres(j, first, last, points_);
+            (void)perspective_values(vertices_.data(), points_, triangle_.attributes, static_cast<int>(n), values_);
         }
         out.resize((1 + n) * count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -192,20 +157,10 @@ PixelCounts draw_triangle(Canvas& canvas, const WindowTriangle& t) {
     const Shading& s = canvas.shading;
     const SortedTriangle sorted(t.window.data(), canvas.image.height);
     if (s.rounding == Rounding::correct) return draw_rows(canvas, sorted, CorrectAttributeRows(t, s));
-    using Any = AttributeRows<CorrectRows>;
-    const std::vector<double> values = Any::linear(t, s);
-    const std::size_t components = values.size() / 3;
-    const auto count = static_cast<int>(components);
+    const std::vector<double> values = linear_values(t, s);
     const auto draw = [&](auto rows) { return draw_rows(canvas, sorted, AttributeRows(std::move(rows), s)); };
-    if (!thick_enough(t.window)) return draw(CorrectRows(t.window, values, components));
-    switch (s.method) {
-        case FillMethod::scanline:
-            return draw(ScanlineRows(sorted, t.window.data(), values, count));
-        case FillMethod::bilinear:
-            return draw(BilinearRows(sorted, t.window.data(), values, count));
-        default:
-            return draw(BarycentricRows(t.window.data(), values, count));
-    }
+    return with_rows(sorted, t.window.data(), values, static_cast<int>(values.size() / 3), s.method,
+                     thick_enough(t.window) ? Rounding::plain : Rounding::correct, draw);
 }
 
 }  // namespace barycert::raster

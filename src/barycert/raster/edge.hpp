@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "barycert/predicates.hpp"
 
@@ -50,6 +51,9 @@ struct Edge {
     /// x(y) - 0.5, up to `error`.
     double position(double y) const { return (lower[0] + (y - lower[1]) * slope) - 0.5; }
 };
+
+/// An Error unless there are three vertices of two finite coordinates each.
+Status check_vertices(std::span<const double> vertices);
 
 /// Whether the centre of pixel (i, j) is not left of the side, exactly.
 bool not_left_of(const Edge& edge, std::int32_t i, std::int32_t j);

@@ -1,28 +1,11 @@
 #include "barycert/raster/exact_point.hpp"
 
 #include "barycert/core/quotient.hpp"
-#include "barycert/core/scaled_double.hpp"
 
 namespace barycert::raster {
 namespace {
 
 using core::Integer;
-
-/// x at each vertex less y, in one unit. `y(i)` is the number to take from that of vertex i.
-template <class X, class Y>
-Form difference(X x, Y y, int count) {
-    core::Unit unit;
-    for (int i = 0; i < count; ++i) {
-        unit.add(core::scaled(x(i)));
-        unit.add(core::scaled(y(i)));
-    }
-    Form form;
-    for (int i = 0; i < count; ++i) {
-        form[static_cast<std::size_t>(i)] =
-            unit.multiple<Integer>(core::scaled(x(i))) - unit.multiple<Integer>(core::scaled(y(i)));
-    }
-    return form;
-}
 
 /// With a positive denominator, their sum.
 ExactPoint normalised(const Form& n, int count) {
@@ -35,21 +18,6 @@ ExactPoint normalised(const Form& n, int count) {
 }
 
 }  // namespace
-
-Form difference_form(const double* x, const double* y, std::size_t stride, int count) {
-    const auto at = [&](const double* from) {
-        return [from, stride](int i) { return from[stride * static_cast<std::size_t>(i)]; };
-    };
-    return difference(at(x), at(y), count);
-}
-
-Form difference_form(const double* x, double y, std::size_t stride, int count) {
-    return difference([&](int i) { return x[stride * static_cast<std::size_t>(i)]; }, [&](int) { return y; }, count);
-}
-
-Form difference_form(double y, const double* x, std::size_t stride, int count) {
-    return difference([&](int) { return y; }, [&](int i) { return x[stride * static_cast<std::size_t>(i)]; }, count);
-}
 
 ExactPoint zero_on_segment(const Form& h) {
     // h_a W_a + h_b W_b = 0 for W_a : W_b = h_b : -h_a.

@@ -12,6 +12,7 @@
 #include <cstddef>
 
 #include "barycert/core/integer.hpp"
+#include "barycert/core/scaled_double.hpp"
 
 namespace barycert::raster {
 
@@ -23,12 +24,21 @@ struct ExactPoint {
     core::Integer denominator;  ///< the sum of the numerators; positive
 };
 
-/// x_i - y_i at each of `count` vertices. Numbers `stride` apart.
-Form difference_form(const double* x, const double* y, std::size_t stride, int count);
-
-/// The same from one number: x_i - y, and y - x_i.
-Form difference_form(const double* x, double y, std::size_t stride, int count);
-Form difference_form(double y, const double* x, std::size_t stride, int count);
+/// x(i) - y(i) at each of `count` vertices.
+template <class X, class Y>
+Form difference_form(int count, X x, Y y) {
+    core::Unit unit;
+    for (int i = 0; i < count; ++i) {
+        unit.add(core::scaled(x(i)));
+        unit.add(core::scaled(y(i)));
+    }
+    Form form;
+    for (int i = 0; i < count; ++i) {
+        form[static_cast<std::size_t>(i)] =
+            unit.multiple<core::Integer>(core::scaled(x(i))) - unit.multiple<core::Integer>(core::scaled(y(i)));
+    }
+    return form;
+}
 
 /// The point where h is zero on the segment. Precondition: h differs at its ends.
 ExactPoint zero_on_segment(const Form& h);

@@ -10,7 +10,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/raster/edge.hpp"
 #include "barycert/raster/fill_rows.hpp"
-#include "barycert/raster/input.hpp"
 
 namespace barycert {
 namespace raster {
@@ -39,39 +38,6 @@ Status check_fill(std::span<const double> vertices, std::span<const double> valu
     return Done{};
 }
 
-/// Correctly rounded values of all pixels of the triangle, row by row, by weights.hpp.
-Result<std::size_t> fill_correct(const SortedTriangle& t, std::span<const double> vertices,
-                                 std::span<const double> values, PixelValues& out) {
-    constexpr std::array<std::int32_t, 3> corners{0, 1, 2};
-    std::vector<double> points;
-    std::vector<std::int32_t> cells;
-    std::size_t count = 0;
-    Status status = Done{};
-    for_spans(t, out.size.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
-        if (!status) return;
-        points.clear();
-        for (std::int32_t i = first; i < last; ++i) points.insert(points.end(), {i + 0.5, j + 0.5});
-        cells.assign(static_cast<std::size_t>(last - first), 0);
-        const auto components = static_cast<std::size_t>(out.components);
-        const std::span<double> row(out.data.data() + row_offset(out, first, j), components * cells.size());
-        status = interpolate(MeshQueries{Simplex::triangle, vertices, corners, cells, points},
-                             NodalValues<double>{values, out.components}, row);
-        count += cells.size();
-    });
-    if (!status) return status.error();
-    return count;
-}
-
-template <class Rows>
-std::size_t fill_plain(const SortedTriangle& t, Rows rows, PixelValues& out) {
-    std::size_t count = 0;
-    for_spans(t, out.size.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
-        rows.fill(j, first, last, out.data.data() + row_offset(out, first, j));
-        count += static_cast<std::size_t>(last - first);
-    });
-    return count;
-}
-
 }  // namespace
 }  // namespace raster
 
@@ -93,15 +59,61 @@ Result<std::size_t> fill_triangle(std::span<const double> vertices, std::span<co
     const ExactEnvironment environment;
     if (Status s = raster::check_fill(vertices, values, out, options); !s) return s.error();
     const raster::SortedTriangle t(vertices.data(), out.size.height);
-    if (options.rounding == Rounding::correct) return raster::fill_correct(t, vertices, values, out);
-    switch (options.method) {
-        case FillMethod::scanline:
-            return raster::fill_plain(t, raster::ScanlineRows(t, vertices.data(), values, out.components), out);
-        case FillMethod::bilinear:
-            return raster::fill_plain(t, raster::BilinearRows(t, vertices.data(), values, out.components), out);
-        default:
-            return raster::fill_plain(t, raster::BarycentricRows(vertices.data(), values, out.components), out);
-    }
+    const auto fill = [&](auto rows) {
+        std::size_t count = 0;
+        raster::for_spans(t, out.size.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
+            rows.fill(j, first, last, out.data.data() + raster::row_offset(out, first, j));
+            count += static_cast<std::size_t>(last - first);
+        });
+        return count;
+    };
+    return raster::with_rows(t, vertices.data(), values, out.components, options.method, options.rounding, fill);
+}
+
+// Bounds on the errors of fill_rows.hpp.
+//
+// Notation. u = 2^-53; |coordinates| <= X, |values| <= F; W and H the extents of the triangle; D twice its signed area;
+// G = |df/dx| <= 2 F H / |D|, for D df/dx = sum f_i (y_{i+1} - y_{i+2}). Everything is below 2^100, so nothing
+// overflows; what underflows changes a result by 2^-1074 times a factor of at most 2^300, which `tiny` covers. A
+// sequence of n roundings is written as a factor (1 + t)^n, |t| <= u; second-order terms are covered by the factors'
+// being rounded up, as far as the number of steps is below 2^17.
+//
+// Barycentric. A centre that is covered lies in the triangle's box, so |x_i| <= W, |y_i| <= H, each with one rounding.
+//   A numerator of two products: |error| <= 2 W H (1 + t)^4 - ... <= 8.1 u W H; so is the error of the divisor D.
+//   |n_i / D - computed| <= (8.1 u W H + 8.1 u W H) / (|D| - 8.1 u W H) + u, as |n_i / D| <= 1.
+//   Three products and two sums: at most 3 F times that, and 3 * 3 u F.
+// Bilinear. With t = (y - a.y) / dy in [0, 1], three roundings: x on a side is off by at most 5.1 u 2 X + 1.1 u X <= 12
+// u X
+//   and f by 5.1 u 2 F + 1.1 u F <= 12 u F. So each end of the line deviates from the field by E = 12 u F + 12 u X G.
+//   Between the ends interpolation deviates by no more than E, and setting s to 0 or 1 moves the point by at most
+//   12 u X: 12 u X G. Rounding s (three times) and the last sum: 2 F (5.1 u) + 3 u F.
+// Scanline. Step n <= H + 1 rows and m <= W + 1 pixels. The value on the long side has the error of its start, 12 u F,
+//   that of its step, 3.1 u (2 F / dy) n <= 6.3 u F, as n <= dy, and n roundings of numbers up to F (1 + ...): together
+//   (n + 19) u F; x likewise (n + 19) u X, which costs G times that. df/dx has a numerator of two products, off by
+//   8.1 u (2 F) H, and a divisor that is off by 8.1 u W H: (16.2 F H + 8.1 W H G) u / (|D| - 8.1 u W H) + u G; it is
+//   multiplied by at most m + 1. The m + 1 roundings along the row are of numbers up to 3 F.
+double fill_error(std::span<const double> vertices, std::span<const double> values, FillMethod method) {
+    const ExactEnvironment environment;
+    constexpr double u = 0x1p-53, infinite = std::numeric_limits<double>::infinity(), tiny = 0x1p-700;
+    if (!raster::check_vertices(vertices) || values.size() != 3) return infinite;
+    const double* v = vertices.data();
+    double extent = 0, largest = 0;
+    for (const double x : vertices) extent = std::max(extent, std::fabs(x));
+    for (const double f : values) largest = std::max(largest, std::fabs(f));
+    if (!(extent <= 0x1p100) || !(largest <= 0x1p100)) return infinite;
+    const double width = std::max({v[0], v[2], v[4]}) - std::min({v[0], v[2], v[4]});
+    const double height = std::max({v[1], v[3], v[5]}) - std::min({v[1], v[3], v[5]});
+    const double area = std::fabs((v[2] - v[0]) * (v[5] - v[1]) - (v[4] - v[0]) * (v[3] - v[1]));
+    // 17, not 8.1 twice: `area` has an error itself.
+    const double least_area = area - 17 * u * width * height;
+    if (!(least_area > 0)) return infinite;
+    if (method == FillMethod::barycentric)
+        return u * largest * (3 * (17 * width * height / least_area + 1.1) + 9.1) + tiny;
+    const double slope = 2 * largest * height / least_area;
+    if (method == FillMethod::bilinear) return u * (26 * largest + 25 * extent * slope) + tiny;
+    const double rows = height + 1, columns = width + 2;
+    const double step = (17 * largest * height + 9 * width * height * slope) / least_area + 2 * slope;
+    return u * ((rows + 20) * (largest + extent * slope) + columns * step + 3.1 * columns * largest) + tiny;
 }
 
 }  // namespace barycert

@@ -65,4 +65,19 @@ void ScanlineRows::fill(std::int32_t j, std::int32_t first, std::int32_t last, d
     }
 }
 
+void CorrectRows::fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) {
+    constexpr std::array<std::int32_t, 3> corners{0, 1, 2};
+    const auto count = static_cast<std::size_t>(last - first);
+    cells_.assign(count, 0);
+    set_centres(j, first, last, points_);
+    // No error can occur: sizes fit, and coordinates are finite.
+    (void)interpolate(MeshQueries{Simplex::triangle, vertices_, corners, cells_, points_},
+                      NodalValues<double>{values_, components_}, {out, count * static_cast<std::size_t>(components_)});
+}
+
+void set_centres(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& points) {
+    points.clear();
+    for (std::int32_t i = first; i < last; ++i) points.insert(points.end(), {i + 0.5, j + 0.5});
+}
+
 }  // namespace barycert::raster

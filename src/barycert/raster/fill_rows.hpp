@@ -1,5 +1,6 @@
-/// The three ways to values at the pixels of a row, in plain double arithmetic. Coverage is not theirs: they are asked
-/// for pixels that the triangle covers, row after row upwards.
+/// Ways to values at the pixels of a row, of numbers that are linear in the window: three in plain double arithmetic,
+/// and one that rounds once. Coverage is not theirs: they are asked for pixels that the triangle covers, row after row
+/// upwards.
 #pragma once
 
 #include <cstdint>
@@ -91,5 +92,33 @@ private:
     std::vector<double> along_;  ///< d/dx
     std::vector<double> here_;   ///< values at a pixel
 };
+
+/// Each value the exact one at the centre, rounded once, by weights.hpp.
+class CorrectRows {
+public:
+    CorrectRows(const double* vertices, std::span<const double> values, int components)
+        : vertices_(vertices, 6), values_(values), components_(components) {}
+
+    void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out);
+
+private:
+    std::span<const double> vertices_, values_;
+    int components_;
+    std::vector<double> points_;
+    std::vector<std::int32_t> cells_;
+};
+
+/// The centres of the pixels of a row, one after the other, as `points`.
+void set_centres(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& points);
+
+/// use(rows) with the way that is asked for. With Rounding::correct there is one for all methods.
+template <class Use>
+auto with_rows(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components,
+               FillMethod method, Rounding rounding, Use use) {
+    if (rounding == Rounding::correct) return use(CorrectRows(vertices, values, components));
+    if (method == FillMethod::scanline) return use(ScanlineRows(t, vertices, values, components));
+    if (method == FillMethod::bilinear) return use(BilinearRows(t, vertices, values, components));
+    return use(BarycentricRows(vertices, values, components));
+}
 
 }  // namespace barycert::raster

@@ -8,7 +8,7 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/raster/bytes.hpp"
+#include "barycert/raster/draw.hpp"
 #include "barycert/raster/scene_json.hpp"
 #include "barycert/scene.hpp"
 
@@ -141,12 +141,8 @@ Texture texture(const SceneValue& value, const std::filesystem::path& folder) {
     value.allow_only({"image", "pattern", "cells", "texels", "wrap", "filter"});
     Texture t;
     t.image = picture(value, folder);
-    if (value.has("wrap"))
-        t.wrap = value.member("wrap").choice<Wrap>(
-            {{"clamp", Wrap::clamp}, {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}});
-    if (value.has("filter"))
-        t.filter =
-            value.member("filter").choice<Filter>({{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}});
+    value.choose("wrap", {{"clamp", Wrap::clamp}, {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}}, t.wrap);
+    value.choose("filter", {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}}, t.filter);
     return t;
 }
 
@@ -204,18 +200,17 @@ void read_attributes(const SceneValue& file, Scene& scene) {
 }
 
 void read_choices(const SceneValue& file, Scene& scene) {
-    if (file.has("method"))
-        scene.method = file.member("method").choice<FillMethod>({{"barycentric", FillMethod::barycentric},
-                                                                 {"scanline", FillMethod::scanline},
-                                                                 {"bilinear", FillMethod::bilinear}});
-    if (file.has("interpolation"))
-        scene.interpolation = file.member("interpolation")
-                                  .choice<Interpolation>({{"perspective", Interpolation::perspective},
-                                                          {"affine", Interpolation::affine},
-                                                          {"projected-z", Interpolation::projected_z}});
-    if (file.has("rounding"))
-        scene.rounding =
-            file.member("rounding").choice<Rounding>({{"plain", Rounding::plain}, {"correct", Rounding::correct}});
+    file.choose("method",
+                {{"barycentric", FillMethod::barycentric},
+                 {"scanline", FillMethod::scanline},
+                 {"bilinear", FillMethod::bilinear}},
+                scene.method);
+    file.choose("interpolation",
+                {{"perspective", Interpolation::perspective},
+                 {"affine", Interpolation::affine},
+                 {"projected-z", Interpolation::projected_z}},
+                scene.interpolation);
+    file.choose("rounding", {{"plain", Rounding::plain}, {"correct", Rounding::correct}}, scene.rounding);
 }
 
 Rgba background(const SceneValue& value) {

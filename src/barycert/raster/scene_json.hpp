@@ -51,6 +51,12 @@ public:
         fail("one of " + all);
     }
 
+    /// The same of a member, into `to`, if there is that member.
+    template <class T>
+    void choose(const char* name, const std::map<std::string, T>& words, T& to) const {
+        if (has(name)) to = member(name).choice(words);
+    }
+
     [[noreturn]] void fail(const std::string& expected) const;
 
     /// An Error of what was made of this value.

@@ -6,7 +6,7 @@
 #include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/raster/bytes.hpp"
+#include "barycert/raster/draw.hpp"
 
 namespace barycert {
 namespace {
@@ -43,12 +43,12 @@ std::int64_t wrapped(std::int64_t i, std::int64_t size, Wrap wrap) {
 }
 
 /// Along one axis: the two texels, and the part of the second. With Filter::nearest both are one.
-struct Place {
+struct TexelPair {
     std::int32_t low, high;
     double part;
 };
 
-Place place(double u, std::int32_t size, Wrap wrap, Filter filter) {
+TexelPair texels_at(double u, std::int32_t size, Wrap wrap, Filter filter) {
     const double r = reduced(u, wrap);
     if (filter == Filter::nearest) {
         const auto i = static_cast<std::int32_t>(wrapped(exact_floor(r, size), size, wrap));
@@ -66,8 +66,8 @@ Place place(double u, std::int32_t size, Wrap wrap, Filter filter) {
 Rgba texel(const Texture& texture, double u, double v) {
     const ExactEnvironment environment;
     const Image& image = texture.image;
-    const Place x = place(base::held(u), image.width, texture.wrap, texture.filter);
-    const Place y = place(base::held(v), image.height, texture.wrap, texture.filter);
+    const TexelPair x = texels_at(base::held(u), image.width, texture.wrap, texture.filter);
+    const TexelPair y = texels_at(base::held(v), image.height, texture.wrap, texture.filter);
     if (texture.filter == Filter::nearest) return image.pixel(x.low, y.low);
     const Rgba a = image.pixel(x.low, y.low), b = image.pixel(x.high, y.low);
     const Rgba c = image.pixel(x.low, y.high), d = image.pixel(x.high, y.high);

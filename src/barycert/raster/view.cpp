@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "barycert/base/strict_math.hpp"
@@ -12,7 +13,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
-#include "barycert/raster/view_camera.hpp"
 
 namespace barycert {
 namespace raster {
@@ -125,6 +125,103 @@ Texture colour_texture() {
     return t;
 }
 
+constexpr double part = 0.94;  ///< of the window that the surface may fill
+constexpr double fovy = 30;    ///< degrees
+
+/// The least and the greatest of numbers.
+struct Range {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+
+    void add(double x) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+    }
+    double middle() const { return 0.5 * low + 0.5 * high; }
+    double half() const { return 0.5 * high - 0.5 * low; }
+};
+
+/// The axes of a camera: to the right and up in the picture, and towards the viewer. Unit vectors.
+struct ViewAxes {
+    Vector3 right, up, towards;
+};
+
+double dot(const Vector3& a, const double* b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+ViewAxes view_axes(double azimuth, double elevation) {
+    constexpr double degree = std::numbers::pi / 180;
+    const double a = std::fmod(azimuth, 360) * degree, e = std::fmod(elevation, 360) * degree;
+    const double ca = std::cos(a), sa = std::sin(a), ce = std::cos(e), se = std::sin(e);
+    return {{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
+}
+
+/// Points moved and scaled so that the middle of their box is the origin and its longest side 2, with three coordinates
+/// each. Precondition: finite.
+std::vector<double> normalised_points(std::span<const double> points, int dimension) {
+    const auto d = static_cast<std::size_t>(dimension);
+    Range box[3];
+    for (std::size_t i = 0; i < points.size(); ++i) box[i % d].add(points[i]);
+    double half = 0;
+    for (std::size_t k = 0; k < d; ++k) half = std::max(half, box[k].half());
+    if (!(half > 0)) half = 1;  // no points, or one
+    std::vector<double> result;
+    result.reserve(points.size() / d * 3);
+    for (std::size_t i = 0; i < points.size(); i += d) {
+        // Halves, for the difference of two coordinates may be too large a number.
+        for (std::size_t k = 0; k < 3; ++k)
+            result.push_back(k < d ? 2 * ((0.5 * points[i + k] - 0.5 * box[k].middle()) / half) : 0);
+    }
+    return result;
+}
+
+/// The camera that sees all normalised points, in perspective, as near as the window allows.
+Result<Matrix4> fitting_camera(std::span<const double> points, const ViewAxes& axes, double aspect) {
+    Range x, y, z;
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+        x.add(dot(axes.right, points.data() + i));
+        y.add(dot(axes.up, points.data() + i));
+        z.add(dot(axes.towards, points.data() + i));
+    }
+    if (points.empty()) x = y = z = {0, 0};
+    const double tangent = part * std::tan(0.5 * fovy * (std::numbers::pi / 180));
+    // A point is in sight if its distance across is at most its distance along times the tangent.
+    double distance = z.high + 0.1;
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+        const double* const p = points.data() + i;
+        const double across =
+            std::max(std::abs(dot(axes.right, p) - x.middle()) / aspect, std::abs(dot(axes.up, p) - y.middle()));
+        distance = std::max(distance, dot(axes.towards, p) + across / tangent);
+    }
+    Matrix4 view;
+    for (std::size_t k = 0; k < 3; ++k) {
+        view.m[k] = axes.right[k];
+        view.m[4 + k] = axes.up[k];
+        view.m[8 + k] = axes.towards[k];
+    }
+    view.m[3] = -x.middle();
+    view.m[7] = -y.middle();
+    view.m[11] = -distance;
+    const double near = distance - z.high, far = distance - z.low;
+    const Result<Matrix4> projection = perspective(fovy, aspect, 0.9 * near, 1.1 * far);
+    if (!projection) return projection.error();
+    return *projection * view;
+}
+
+/// The same from above, without perspective.
+Result<Matrix4> fitting_map(std::span<const double> points, double aspect) {
+    Range x, y;
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+        x.add(points[i]);
+        y.add(points[i + 1]);
+    }
+    if (points.empty()) x = y = {0, 0};
+    double half = std::max(x.half() / aspect, y.half()) / part;
+    if (!(half > 0)) half = 1;
+    return orthographic(x.middle() - half * aspect, x.middle() + half * aspect, y.middle() - half, y.middle() + half,
+                        -1, 1);
+}
+
 /// How bright a triangle is: two-sided, from 0.35 to 1.
 double brightness(const double* a, const double* b, const double* c, const Vector3& light) {
     Vector3 u, v;
@@ -133,17 +230,16 @@ double brightness(const double* a, const double* b, const double* c, const Vecto
         v[k] = c[k] - a[k];
     }
     const Vector3 n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const double length = std::sqrt(dot(n, n.data()));
     if (!(length > 0)) return 1;
-    return ambient +
-           (1 - ambient) * std::min(1.0, std::abs(n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) / length);
+    return ambient + (1 - ambient) * std::min(1.0, std::abs(dot(n, light.data())) / length);
 }
 
 /// From the upper left behind the viewer.
 Vector3 light_of(const ViewAxes& axes) {
     Vector3 light;
     for (std::size_t k = 0; k < 3; ++k) light[k] = axes.towards[k] + 0.5 * axes.up[k] - 0.4 * axes.right[k];
-    const double length = std::sqrt(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
+    const double length = std::sqrt(dot(light, light.data()));
     for (double& x : light) x /= length;
     return light;
 }

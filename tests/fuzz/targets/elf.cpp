@@ -1,5 +1,5 @@
 // Shared libraries of kernels, looked at before the system loads them.
-#include "barycert/kernels/elf_file.hpp"
+#include "barycert/kernels/registry.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/target.hpp"
 

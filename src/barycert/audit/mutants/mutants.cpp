@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "barycert/audit/figures.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -39,10 +40,8 @@ Telling compare_figures(const KernelStatistics& sound, const KernelStatistics& m
     const auto error = [&](std::string_view figure, double s, double m) {
         if (m > 2 * std::max(s, 0.0)) consider(figure, s, m, std::log2(m) - std::log2(std::max(s, 0.5)));
     };
-    error("worst_weight_ulp", sound.weight_ulp.value, mutant.weight_ulp.value);
-    error("p999_weight_ulp", sound.p999_weight_ulp(), mutant.p999_weight_ulp());
-    error("worst_value_ulp", sound.value_ulp.value, mutant.value_ulp.value);
-    error("p999_value_ulp", sound.p999_value_ulp(), mutant.p999_value_ulp());
+    for (std::size_t i = 0; i < ulp_figures; ++i)
+        error(error_figures[i].name, error_figures[i].of(sound), error_figures[i].of(mutant));
     return best;
 }
 
@@ -77,7 +76,6 @@ const std::vector<Mutant>& all_mutants() {
     static const std::vector<Mutant> all = [] {
         std::vector<Mutant> list;
         add_plain_mutants(list);
-        add_filtered_mutants(list);
         add_certified_mutants(list);
         return list;
     }();

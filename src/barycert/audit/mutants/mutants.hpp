@@ -9,7 +9,6 @@
 namespace barycert::audit {
 
 void add_plain_mutants(std::vector<Mutant>& list);
-void add_filtered_mutants(std::vector<Mutant>& list);
 void add_certified_mutants(std::vector<Mutant>& list);
 
 /// A mutant of a kernel: the same but for its weights.

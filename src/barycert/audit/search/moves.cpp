@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "barycert/audit/combine.hpp"
+#include "barycert/audit/recipes.hpp"
 
 namespace barycert::audit {
 namespace {

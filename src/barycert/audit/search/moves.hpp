@@ -1,13 +1,104 @@
-/// The steps of a walk, and where walks start.
+/// The numbers of a case that a search changes, as one row; the steps of a walk, and where walks start.
 #pragma once
 
+#include <bit>
+#include <cmath>
 #include <functional>
+#include <limits>
 
-#include "barycert/audit/search/coordinates.hpp"
 #include "barycert/audit/search/evaluation.hpp"
 #include "barycert/base/random.hpp"
 
 namespace barycert::audit {
+
+/// Which exponents coordinates may have; zero always may be.
+struct ExponentRange {
+    int min = -1074, max = 1023;
+};
+
+inline int vertex_numbers(const Case& c) {
+    return c.stride() * vertex_count(c.simplex);
+}
+
+/// Numbers of vertices (depths included) and point.
+inline int coordinate_count(const Case& c) {
+    return vertex_numbers(c) + space_dimension(c.simplex);
+}
+
+inline double& coordinate(Case& c, int k) {
+    const int n = vertex_numbers(c);
+    return k < n ? c.vertices[static_cast<std::size_t>(k)] : c.point[static_cast<std::size_t>(k - n)];
+}
+inline double coordinate(const Case& c, int k) {
+    return coordinate(const_cast<Case&>(c), k);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+}
+
+inline int axis_of(const Case& c, int k) {
+    const int n = vertex_numbers(c);
+    return k < n ? k % c.stride() : k - n;
+}
+
+inline bool is_depth(const Case& c, int k) {
+    return c.perspective && k < vertex_numbers(c) && axis_of(c, k) == 2;
+}
+
+/// floor(log2 |x|). Precondition: finite, not zero.
+inline int exponent_of(double x) {
+    return std::ilogb(x);
+}
+
+inline bool admissible(const Case& c, const ExponentRange& range) {
+    for (int k = 0; k < coordinate_count(c); ++k) {
+        const double x = coordinate(c, k);
+        if (!std::isfinite(x) || (is_depth(c, k) && !(x > 0))) return false;
+        if (x != 0 && (exponent_of(x) < range.min || exponent_of(x) > range.max)) return false;
+    }
+    for (const double f : c.values) {
+        if (!std::isfinite(f)) return false;
+    }
+    return true;
+}
+
+/// The double `n` places above x in the order of doubles, in which zero is one place; infinite beyond the largest.
+/// Preconditions: x finite, |n| < 2^62.
+inline double places_above(double x, std::int64_t n) {
+    const auto bits = std::bit_cast<std::int64_t>(x);
+    const std::int64_t place = (bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits) + n;
+    constexpr std::int64_t infinite = 0x7ff0000000000000;
+    if (place >= infinite) return HUGE_VAL;
+    if (place <= -infinite) return -HUGE_VAL;
+    return std::bit_cast<double>(place >= 0 ? place : std::numeric_limits<std::int64_t>::min() - place);
+}
+
+/// Bits from the first to the last one of the significand; 0 of zero.
+inline int significant_bits(double x) {
+    if (x == 0) return 0;
+    int exponent = 0;
+    const auto integer = static_cast<std::uint64_t>(std::ldexp(std::frexp(std::fabs(x), &exponent), 53));
+    return static_cast<int>(std::bit_width(integer)) - std::countr_zero(integer);
+}
+
+/// How much there is to write down: bits, then the size of exponents, then signs.
+inline int plain_cost(double x) {
+    if (x == 0) return std::signbit(x) ? 1 : 0;
+    const auto exponent = static_cast<unsigned>(std::abs(exponent_of(x)));
+    return 8 * significant_bits(x) + 2 * static_cast<int>(std::bit_width(exponent)) + (x < 0 ? 1 : 0);
+}
+
+inline int plain_cost(const Case& c) {
+    int sum = 0;
+    for (int k = 0; k < coordinate_count(c); ++k) sum += plain_cost(coordinate(c, k));
+    for (const double f : c.values) sum += plain_cost(f);
+    return sum;
+}
+
+/// x rounded to `bits` significant bits, to nearest, plus `steps` units of the last of them. The significand may gain a
+/// bit by carrying over. Precondition: x finite, not zero, bits >= 1.
+inline double rounded_to(double x, int bits, int steps = 0) {
+    int exponent = 0;
+    const double m = std::frexp(x, &exponent);
+    return std::ldexp(std::nearbyint(std::ldexp(m, bits)) + steps, exponent - bits);
+}
 
 /// A case with a pattern of exponents: one for all, one an axis, one a vertex or one a number, in a band of random
 /// width; significands of full or of few bits; the point like the vertices, or between them. Admissible.

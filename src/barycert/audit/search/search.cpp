@@ -1,21 +1,15 @@
 #include "barycert/audit_search.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
-#include <thread>
 #include <utility>
 
 #include "barycert/audit/search/moves.hpp"
+#include "barycert/audit/threads.hpp"
 #include "barycert/base/random.hpp"
 
 namespace barycert {
@@ -235,7 +229,6 @@ bool make_plain(const SearchOptions& o, std::size_t reason, const Harvest& all, 
 }
 
 Shown shown(const SearchOptions& o, std::size_t reason, const Harvest& all) {
-    const ExactEnvironment environment;
     const Met& worst = all.worst[reason].front();
     Shown s;
     s.find.reason = search_reason_name(reason);
@@ -277,24 +270,18 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
     report.steps_asked = o.steps;
     report.min_exponent = o.min_exponent;
     report.max_exponent = o.max_exponent;
-    report.threads = o.threads > 0 ? o.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    Threads threads(o.threads);
+    report.threads = threads.count;
 
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(report.threads));
-    tbb::task_arena arena(report.threads);
     const Search search(o);
     Harvest all;
     // A round of tasks side by side, gathered in their order.
     const auto round = [&](std::size_t tasks, const auto& task) {
         std::vector<Harvest> harvests(tasks);
-        arena.execute([&] {
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tasks, 1), [&](const auto& part) {
-                const ExactEnvironment here;
-                for (std::size_t i = part.begin(); i != part.end(); ++i) harvests[i] = task(i);
-            });
-        });
+        threads.each(tasks, 1, [&](std::size_t i) { harvests[i] = task(i); });
         for (const Harvest& h : harvests) all.take(h);
         const double ulps = all.worst[finding_count].empty() ? -1 : all.worst[finding_count].front().height.shown;
         const bool go_on = !o.progress || o.progress({all.steps, o.steps, ulps, all.wrong_cases});
@@ -327,9 +314,7 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
     }
     report.given_up = all.given_up;
     std::vector<Shown> finds(reasons.size());
-    arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, reasons.size(), [&](std::size_t i) { finds[i] = shown(o, reasons[i], all); });
-    });
+    threads.each(reasons.size(), 1, [&](std::size_t i) { finds[i] = shown(o, reasons[i], all); });
     for (Shown& s : finds) {
         report.plain_steps += s.plain_steps;
         report.given_up = report.given_up || s.given_up;

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
+#include "barycert/audit/figures.hpp"
 #include "barycert/audit/json_members.hpp"
 #include "barycert/audit/mesh_draws.hpp"
-#include "barycert/audit/parsed_json.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -25,9 +23,10 @@ using Regions = std::array<std::uint64_t, 4>;
 std::vector<double> figures_of(const KernelStatistics& s) {
     std::vector<double> f{static_cast<double>(s.wrong_cases), static_cast<double>(s.not_run)};
     for (const std::uint64_t n : s.counts) f.push_back(static_cast<double>(n));
-    for (const double x : {s.weight_ulp.value, s.p999_weight_ulp(), s.value_ulp.value, s.p999_value_ulp(),
-                           s.partition_residual.value, s.reproduction_residual.value})
+    for (const ErrorFigure& figure : error_figures) {
+        const double x = figure.of(s);
         f.push_back(x >= 0 ? std::min(x, 0x1.fffffffffffffp+1023) : -1);
+    }
     return f;
 }
 
@@ -101,9 +100,7 @@ const std::vector<std::string>& baseline_figures() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> n{"wrong_cases", "not_run"};
         for (const FindingText& f : finding_texts) n.emplace_back(f.name);
-        for (const char* error : {"worst_weight_ulp", "p999_weight_ulp", "worst_value_ulp", "p999_value_ulp",
-                                  "worst_partition_residual", "worst_reproduction_residual"})
-            n.emplace_back(error);
+        for (const ErrorFigure& f : error_figures) n.emplace_back(f.name);
         return n;
     }();
     return names;
@@ -111,23 +108,9 @@ const std::vector<std::string>& baseline_figures() {
 
 Result<Baseline> read_baseline(const std::string& path) {
     const ExactEnvironment environment;
-    const char* const remedy = "make one with `barycert audit --json FILE`";
-    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::json);
-    if (!text) {
-        Error error = text.error();
-        error.what = "cannot read the baseline";
-        return error;
-    }
-    const Json all = parsed_json<Json>(*text);
-    if (all.is_discarded())
-        return Error{
-            .what = "not a baseline", .file = path, .expected = "JSON", .found = "something else", .remedy = remedy};
-    try {
-        if (const Json& schema = member(all, "schema", "the baseline"); schema != witness_schema)
-            return Error{.what = "unknown schema",
-                         .file = path,
-                         .expected = std::to_string(witness_schema),
-                         .found = schema.dump().substr(0, 40)};
+    constexpr const char* remedy = "make one with `barycert audit --json FILE`";
+    const JsonFile file{"cannot read the baseline", "not a baseline", "the baseline", remedy, "", remedy};
+    return made_of_json(path, file, [&](const Json& all) {
         Baseline b;
         b.path = path;
         b.seed = count_in(all, "seed", "the baseline");
@@ -139,12 +122,7 @@ Result<Baseline> read_baseline(const std::string& path) {
             for (const Json& family : list_in(kernel, "families", name)) b.entries.push_back(entry_from(family, name));
         }
         return b;
-    } catch (const Exception& e) {
-        Error error = e.error();
-        error.file = path;
-        error.remedy = remedy;
-        return error;
-    }
+    });
 }
 
 Status check_comparable(const Baseline& b, const AuditOptions& options, const MeshSource& meshes) {

@@ -1,14 +1,59 @@
-// Families of triangles in a window with a depth w at each vertex: what is left of a triangle in space after its
-// projection.
+// Families of triangles in window coordinates: those whose points are pixel centres and whose vertices lie on the grid
+// of 1/256 of a pixel that rasterisers round to, and those in perspective.
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "barycert/audit/recipes.hpp"
 #include "barycert/base/random.hpp"
 
 namespace barycert::audit {
 namespace {
+
+/// Exact: coordinates are multiples of 1/256 below 2^14, so that products are multiples of 2^-16 below 2^30.
+bool in_triangle(const Case& c) {
+    bool left = false, right = false;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const double area = (c.vertex(j, 0) - c.vertex(i, 0)) * (c.point[1] - c.vertex(i, 1)) -
+                            (c.vertex(j, 1) - c.vertex(i, 1)) * (c.point[0] - c.vertex(i, 0));
+        left |= area > 0;
+        right |= area < 0;
+    }
+    return !(left && right);
+}
+
+/// A pixel centre near a random point of the triangle, the first of a few that is in it.
+void set_inner_pixel(Case& c, base::Random& random) {
+    for (int attempt = 0; attempt < 32; ++attempt) {
+        c.point = random_point(c, random, 3);
+        for (std::size_t k = 0; k < 2; ++k) c.point[k] = std::floor(c.point[k]) + 0.5;
+        if (in_triangle(c)) return;
+    }
+}
+
+/// A pixel centre, and two vertices on a line through it, on either side.
+void set_edge_pixel(Case& c, base::Random& random, const double (&origin)[2], int size) {
+    const int before = random.integer(1, 4);
+    const int behind = random.integer(1, 4);
+    for (int axis = 0; axis < 2; ++axis) {
+        const double p = origin[axis] + random.integer(0, size - 1) + 0.5;
+        const double step = random.integer(-32 * size, 32 * size) * 0x1p-8;
+        c.point[static_cast<std::size_t>(axis)] = p;
+        c.vertex(0, axis) = p - before * step;
+        c.vertex(1, axis) = p + behind * step;
+    }
+}
+
+void pixels(Case& c, base::Random& random, std::uint64_t) {
+    const int size = 1 << random.integer(2, 12);
+    const bool on_edge = random.coin();
+    set_pixel_case(c, random, size, on_edge);
+    random_values(c, random);
+}
+
+// With a depth w at each vertex: what is left of a triangle in space after its projection.
 
 constexpr double window = 1024;
 
@@ -69,6 +114,29 @@ Family of_perspective(const char* name, const char* tests, const char* parameter
 }
 
 }  // namespace
+
+void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int window) {
+    double origin[2];
+    for (double& o : origin) o = random.integer(0, window - 1);
+    for (int i = 0; i < 3; ++i) {
+        for (int axis = 0; axis < 2; ++axis) c.vertex(i, axis) = origin[axis] + random.integer(0, 256 * size) * 0x1p-8;
+    }
+    if (!on_edge) {
+        set_inner_pixel(c, random);
+        return;
+    }
+    set_edge_pixel(c, random, origin, size);
+    const int last = random.integer(0, 2);  // the vertex that the edge leaves out
+    for (int axis = 0; axis < 2; ++axis) std::swap(c.vertex(last, axis), c.vertex(2, axis));
+}
+
+std::vector<Family> raster_families() {
+    return {
+        built("triangle.pixels", "pixel centres in and on the edges of triangles of 4 to 4096 pixels: steps add up",
+              "vertices k/256 in a box of 2^[2,12] pixels, point (i + 1/2, j + 1/2), half of them on an edge", pixels,
+              triangle_only),
+    };
+}
 
 std::vector<Family> perspective_families() {
     return {

@@ -1,28 +1,13 @@
-#include "barycert/check/near_nodes.hpp"
-
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <tuple>
 
 #include "barycert/base/disjoint_sets.hpp"
-#include "barycert/check/hanging_nodes.hpp"
-#include "barycert/check/names.hpp"
-#include "barycert/index/box_tree.hpp"
+#include "barycert/check/stages.hpp"
 
 namespace barycert::check {
 namespace {
-
-std::array<double, 3> node_place(const Mesh& mesh, Mesh::Index node) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    std::array<double, 3> at{0, 0, 0};
-    std::copy_n(&mesh.points[static_cast<std::size_t>(node) * d], d, at.begin());
-    return at;
-}
 
 /// The nodes of the boundary, those to be merged as one.
 class Cracks {
@@ -64,23 +49,24 @@ public:
         complete = for_each_near(mesh_, places_, radius, 100 * pair_limit, [&](const NearPair& p) {
             pairs.push_back({std::min(p.first, p.second), std::max(p.first, p.second), p.distance});
         });
+        const auto nodes_of_pair = [](const NearPair& p) { return std::tuple(p.first, p.second); };
         std::sort(pairs.begin(), pairs.end(),
-                  [](const NearPair& p, const NearPair& q) { return before(p, std::tuple(q.first, q.second)); });
-        std::vector<std::uint8_t> apart(pairs.size(), 1);
-        for (std::size_t i = 0; !pairs.empty() && i < mesh_.cells.size(); ++i) {
-            const std::size_t cell = i / mesh_.corners();
-            for (std::size_t j = i + 1; usable[cell] != 0 && j < (cell + 1) * mesh_.corners(); ++j) {
-                const auto [a, b] = std::minmax({of(mesh_.cells[i]), of(mesh_.cells[j])});
-                const auto pair = std::lower_bound(pairs.begin(), pairs.end(), std::tuple(a, b), before);
-                if (pair != pairs.end() && pair->first == a && pair->second == b)
-                    apart[static_cast<std::size_t>(pair - pairs.begin())] = 0;
+                  [&](const NearPair& p, const NearPair& q) { return nodes_of_pair(p) < nodes_of_pair(q); });
+        constexpr double of_one_cell = -1;
+        for (std::size_t cell = 0; !pairs.empty() && cell < usable.size(); ++cell) {
+            const std::span nodes = nodes_of(mesh_, cell);
+            for (std::size_t i = 0; usable[cell] != 0 && i < nodes.size(); ++i) {
+                for (std::size_t j = i + 1; j < nodes.size(); ++j) {
+                    const std::tuple<Mesh::Index, Mesh::Index> two = std::minmax({of(nodes[i]), of(nodes[j])});
+                    const auto pair =
+                        std::lower_bound(pairs.begin(), pairs.end(), two,
+                                         [&](const NearPair& p, const auto& q) { return nodes_of_pair(p) < q; });
+                    if (pair != pairs.end() && nodes_of_pair(*pair) == two) pair->distance = of_one_cell;
+                }
             }
         }
-        std::vector<NearPair> near;
-        for (std::size_t i = 0; i < pairs.size(); ++i) {
-            if (apart[i] != 0) near.push_back(pairs[i]);
-        }
-        return near;
+        std::erase_if(pairs, [](const NearPair& p) { return p.distance == of_one_cell; });
+        return pairs;
     }
 
     /// At most so far from a node of the boundary what is near lies.
@@ -135,9 +121,6 @@ private:
     static constexpr double no_edge = std::numeric_limits<double>::infinity();
 
     static std::size_t index(Mesh::Index node) { return static_cast<std::size_t>(node); }
-    static bool before(const NearPair& p, const std::tuple<Mesh::Index, Mesh::Index>& q) {
-        return std::tuple(p.first, p.second) < q;
-    }
 
     void add_edge(Mesh::Index a, Mesh::Index b) {
         const double length = node_distance(mesh_, a, b);
@@ -157,89 +140,10 @@ private:
 
 }  // namespace
 
-double node_distance(const Mesh& mesh, Mesh::Index a, Mesh::Index b) {
-    const auto p = node_place(mesh, a), q = node_place(mesh, b);
-    return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
-}
-
-std::vector<std::array<Mesh::Index, 2>> coincident_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
-    struct PlacedNode {
-        std::array<double, 3> at;
-        Mesh::Index node;
-    };
-    std::vector<PlacedNode> placed;
-    placed.reserve(nodes.size());
-    for (const Mesh::Index n : nodes) placed.push_back({node_place(mesh, n), n});
-    tbb::parallel_sort(placed.begin(), placed.end(), [](const PlacedNode& a, const PlacedNode& b) {
-        return a.at != b.at ? a.at < b.at : a.node < b.node;
-    });
-    std::vector<std::array<Mesh::Index, 2>> pairs;
-    for (std::size_t i = 1, first = 0; i < placed.size(); ++i) {
-        if (placed[i].at != placed[first].at) {
-            first = i;
-        } else {
-            pairs.push_back({placed[first].node, placed[i].node});
-        }
-    }
-    std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
-    return pairs;
-}
-
-bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, const std::vector<double>& radius,
-                   std::size_t limit, const std::function<void(const NearPair&)>& found) {
-    std::vector<Box> boxes(nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const auto at = node_place(mesh, nodes[i]);
-        // Rounding keeps the order: no double within the radius is left out.
-        for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k)
-            boxes[i].low[k] = at[k] - radius[i], boxes[i].high[k] = at[k] + radius[i];
-    }
-    const BoxTree tree(std::move(boxes));
-    const auto near_after = [&](std::size_t i, auto&& use) {
-        const auto at = node_place(mesh, nodes[i]);
-        return tree.for_each(Box{at, at}, [&](std::uint32_t j) {
-            if (j <= i) return true;
-            const double apart = node_distance(mesh, nodes[i], nodes[j]);
-            return apart > std::min(radius[i], radius[j]) || use(NearPair{nodes[i], nodes[j], apart});
-        });
-    };
-    // The pairs of one wave are kept at a time, and of these no more than anybody wants.
-    constexpr std::size_t wave = 1 << 16;
-    for (std::size_t begin = 0; begin < nodes.size(); begin += wave) {
-        const std::size_t end = std::min(nodes.size(), begin + wave), room = std::min(limit, 64 * wave);
-        std::atomic<std::size_t> count = 0;
-        in_blocks(
-            end - begin, 1024, [] { return std::vector<NearPair>(); },
-            [&](std::size_t first, std::size_t last, std::vector<NearPair>& part) {
-                const auto keep = [&](const NearPair& p) {
-                    part.push_back(p);
-                    return ++count <= room;
-                };
-                for (std::size_t i = begin + first; i < begin + last && near_after(i, keep); ++i) {
-                }
-            },
-            [&](const std::vector<NearPair>& part) {
-                if (count <= room) std::for_each(part.begin(), part.end(), found);
-            });
-        if (count > room) {
-            // Which of them were found first depends on threads: the first in order are found once more.
-            std::size_t left = room;
-            const auto tell = [&](const NearPair& p) { return left > 0 && (found(p), --left > 0); };
-            for (std::size_t i = begin; i < end && left > 0; ++i) near_after(i, tell);
-            return false;
-        }
-        limit -= count;
-    }
-    return true;
-}
-
 void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const std::vector<BoundaryFacet>& facets,
                  const ExactVolumes& volumes, double near, const BoundaryContacts& touching,
                  const std::vector<CellPair>& meeting, CellMeasures& measures, DefectList& defects) {
     Cracks cracks(mesh, facets, near);
-    const auto mark = [&](Mesh::Index cell, DefectKind kind) {
-        measures.defects[static_cast<std::size_t>(cell)] |= defect_bit(kind);
-    };
     if (near > 0) {
         bool complete = true;
         for (const NearPair& p : cracks.find_near(usable, complete)) {
@@ -254,11 +158,15 @@ void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, cons
     }
     std::vector<HangingNode> hanging = touching.hanging, nearly;
     std::erase_if(hanging, [&](const HangingNode& h) { return cracks.nearly_coincides(h); });
-    for (const HangingNode& h : hanging) {
-        mark(h.cell, DefectKind::hanging_node);
-        defects.add(DefectKind::hanging_node,
-                    {.cells = {h.cell, -1}, .nodes = {h.node, -1, -1}, .other_nodes = h.face});
-    }
+    const auto tell = [&](const HangingNode& h, DefectKind kind) {
+        mark(measures, h.cell, kind);
+        defects.add(kind, {.cells = {h.cell, -1},
+                           .nodes = {h.node, -1, -1},
+                           .other_nodes = h.face,
+                           .distance = h.distance,
+                           .relative = h.distance / cracks.shortest_edge(h.node, h.node)});
+    };
+    for (const HangingNode& h : hanging) tell(h, DefectKind::hanging_node);
     if (!touching.complete) defects.add_at_least(DefectKind::hanging_node);
     if (near > 0) {
         bool complete = true;
@@ -267,24 +175,14 @@ void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, cons
             return cracks.nearly_coincides(h) ||
                    std::any_of(hanging.begin(), hanging.end(), [&](const HangingNode& g) { return g.node == h.node; });
         });
-        for (const HangingNode& h : nearly) {
-            mark(h.cell, DefectKind::near_hanging);
-            defects.add(DefectKind::near_hanging, {.cells = {h.cell, -1},
-                                                   .nodes = {h.node, -1, -1},
-                                                   .other_nodes = h.face,
-                                                   .distance = h.distance,
-                                                   .relative = h.distance / cracks.shortest_edge(h.node, h.node)});
-        }
+        for (const HangingNode& h : nearly) tell(h, DefectKind::near_hanging);
         if (!complete) defects.add_at_least(DefectKind::near_hanging);
     }
     // Of cells that meet where they must not, one with a node and one with its twin, or with what it hangs on.
     std::vector<std::uint8_t> twin(mesh.point_count(), 0);
     const auto find_cause = [&](Mesh::Index cell, Mesh::Index other) {
-        const auto nodes_of = [&](Mesh::Index c) {
-            return std::span(mesh.cells).subspan(static_cast<std::size_t>(c) * mesh.corners(), mesh.corners());
-        };
-        const auto others = nodes_of(other);
-        for (const Mesh::Index a : nodes_of(cell)) {
+        const std::span others = nodes_of(mesh, static_cast<std::size_t>(other));
+        for (const Mesh::Index a : nodes_of(mesh, static_cast<std::size_t>(cell))) {
             for (const Mesh::Index b : others) {
                 if (a == b || cracks.of(a) != cracks.of(b)) continue;
                 twin[static_cast<std::size_t>(a)] = twin[static_cast<std::size_t>(b)] = 1;
@@ -301,7 +199,7 @@ void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, cons
     for (const CellPair& p : meeting) find_cause(p[0], p[1]), find_cause(p[1], p[0]);
     const auto is_twin = [&](Mesh::Index n) { return n >= 0 && twin[static_cast<std::size_t>(n)] != 0; };
     cracks.for_each_crack([&](const BoundaryFacet& f, const BoundaryFacet& g) {
-        mark(f.cell, DefectKind::crack), mark(g.cell, DefectKind::crack);
+        for (const Mesh::Index cell : {f.cell, g.cell}) mark(measures, cell, DefectKind::crack);
         defects.add(DefectKind::crack, {.cells = {f.cell, g.cell}, .nodes = f.nodes, .other_nodes = g.nodes});
         if (std::any_of(f.nodes.begin(), f.nodes.end(), is_twin) ||
             std::any_of(g.nodes.begin(), g.nodes.end(), is_twin))

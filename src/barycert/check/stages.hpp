@@ -1,0 +1,212 @@
+/// The stages of a check, in their order. Each adds what it finds to `defects`, and the kinds of defects that a cell is
+/// part of to `measures`. `usable`, an entry a cell: 1 if it has d + 1 different nodes with finite coordinates.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "barycert/check/defect_list.hpp"
+#include "barycert/check/exact_volumes.hpp"
+#include "barycert/index/box_tree.hpp"
+#include "barycert/index/facet_contact.hpp"
+#include "barycert/index/overlap.hpp"
+#include "barycert/io.hpp"
+#include "barycert/predicates.hpp"
+
+namespace barycert::check {
+
+using namespace index;  // what meets what
+
+inline const double* node_at(const Mesh& mesh, Mesh::Index node) {
+    return &mesh.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh.dimension)];
+}
+
+inline std::span<const Mesh::Index> nodes_of(const Mesh& mesh, std::size_t cell) {
+    return std::span(mesh.cells).subspan(cell * mesh.corners(), mesh.corners());
+}
+
+/// Where the corners of a cell stand. Precondition: it is usable.
+inline std::array<const double*, 4> corner_points(const Mesh& mesh, std::size_t cell) {
+    std::array<const double*, 4> p{};
+    for (std::size_t i = 0; i < mesh.corners(); ++i) p[i] = node_at(mesh, mesh.cells[cell * mesh.corners() + i]);
+    return p;
+}
+
+inline int exact_sign(int d, const std::array<const double*, 4>& p) {
+    return static_cast<int>(d == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
+}
+
+/// Notes that the cell is part of a defect, from any thread.
+inline void mark(CellMeasures& measures, Mesh::Index cell, DefectKind kind) {
+    std::atomic_ref(measures.defects[static_cast<std::size_t>(cell)])
+        .fetch_or(defect_bit(kind), std::memory_order_relaxed);
+}
+
+// Nodes by themselves (nodes.cpp).
+
+/// 1 for each node whose coordinates are all finite. Finds not_finite, coincident_nodes, unused_node.
+std::vector<std::uint8_t> check_nodes(const Mesh& mesh, DefectList& defects);
+
+/// Those of `nodes` at the place of another one, second, each with the lowest that is there, first; by the second. 0
+/// and -0 are one place. Precondition: their coordinates are finite.
+std::vector<std::array<Mesh::Index, 2>> coincident_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& nodes);
+
+/// Around a node. Rounding keeps the order: no double within the radius is left out.
+Box box_around(const Mesh& mesh, Mesh::Index node, double radius);
+
+/// Of two nodes, rounded.
+double node_distance(const Mesh& mesh, Mesh::Index a, Mesh::Index b);
+
+struct NearPair {
+    Mesh::Index first = -1, second = -1;
+    double distance = 0;
+};
+
+/// found(pair) for the pairs of `nodes` that lie no farther apart than `radius` of both, an entry a node; in an order
+/// that does not depend on threads. False if there are more than `limit` of them, or on average more than 64 a node
+/// over many nodes: those beyond are not found. Memory is bounded by that.
+bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, const std::vector<double>& radius,
+                   std::size_t limit, const std::function<void(const NearPair&)>& found);
+
+// Cells by themselves: exact orientation and volume, shape, condition (cells.cpp).
+
+struct Cells {
+    std::vector<std::uint8_t> usable;
+    Integer total;  ///< d! times the sum of all |volume|, in the unit of ExactVolumes
+    std::uint64_t positive = 0, negative = 0, degenerate = 0;  ///< of the usable ones
+};
+
+/// Fills `measures`, without `shapes` their orientations and defects alone. Finds index_out_of_range, repeated_node,
+/// degenerate_cell, plain_sign_wrong, mixed_orientation.
+Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes, bool shapes,
+                  CellMeasures& measures, DefectList& defects);
+
+// How cells meet at their facets, and which facets are the boundary (facets.cpp).
+
+/// A facet of exactly one cell.
+struct BoundaryFacet {
+    Mesh::Index cell = -1;
+    std::int32_t corner = 0;  ///< opposite to it
+    /// In the order that turns its normal outward (2D: two, the cell to their left).
+    std::array<Mesh::Index, 3> nodes{};
+    bool oriented = true;  ///< false if the cell is degenerate, and the order of the nodes by chance
+};
+
+inline PlacedFacet placed(const Mesh& mesh, const BoundaryFacet& facet) {
+    PlacedFacet f{facet.nodes, {}};
+    for (std::size_t i = 0; i < mesh.corners() - 1; ++i) f.at[i] = node_at(mesh, f.nodes[i]);
+    return f;
+}
+
+struct Facets {
+    std::vector<Mesh::Index> neighbours;  ///< as compute_neighbours gives them, of usable cells
+    std::vector<BoundaryFacet> boundary;  ///< ordered by their nodes
+};
+
+/// Finds duplicate_cell, overfull_facet, same_side.
+Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, CellMeasures& measures,
+                    DefectList& defects);
+
+/// The facets of a mesh whose cells partition a domain, proved by the index (index/proof.hpp) in less time than
+/// check_facets takes; nothing if that is not proved. Preconditions: indices in range, coordinates finite;
+/// `orientation`: the exact sign of each cell.
+std::optional<Facets> facets_of_partition(const Mesh& mesh, const std::vector<std::int8_t>& orientation);
+
+// The boundary as a complex: ridges, pieces, cavities, tunnels (boundary.cpp).
+
+struct BoundaryPieces {
+    BoundaryReport summary;
+    std::vector<std::uint32_t> facets;  ///< for each piece one of its facets: an index into Facets::boundary
+    Integer enclosed;                   ///< d! times the volume that the boundary encloses, in the unit of ExactVolumes
+};
+
+/// Finds open_boundary, pinched_ridge, pinched_node, missing_cell.
+BoundaryPieces check_boundary(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
+                              DefectList& defects);
+
+// Facets and cells that meet where they must not (pairs.cpp).
+
+/// A search is given up after so many pairs: a mesh that is wrong throughout has as many as the square of its cells.
+inline constexpr std::size_t pair_limit = 1000;
+
+using CellPair = std::array<Mesh::Index, 2>;
+
+struct HangingNode {
+    Mesh::Index node = -1;
+    std::array<Mesh::Index, 3> face{-1, -1, -1};  ///< that it lies within, or nearly; ascending
+    Mesh::Index cell = -1;                        ///< of the face
+    double distance = 0;                          ///< from it, rounded
+};
+
+/// By node and face; of those with the same the first cell's.
+void sort_hanging(std::vector<HangingNode>& all);
+
+struct BoundaryContacts {
+    std::vector<CellPair> cells;       ///< of the facets of each
+    std::vector<HangingNode> hanging;  ///< at these facets
+    bool complete = true;              ///< there are no more
+};
+
+/// P3: finds boundary_contact, up to `limit` of them.
+BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, std::size_t limit,
+                                        CellMeasures& measures, DefectList& defects);
+
+/// P4: finds nested_part, up to `limit` of them, each with the lowest cell that overlaps. `pieces`: one of the `facets`
+/// of each piece of the boundary.
+std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
+                                        const std::vector<std::uint32_t>& pieces, std::size_t limit,
+                                        CellMeasures& measures, DefectList& defects);
+
+/// Finds overlapping_cells among all that are not degenerate.
+std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, CellMeasures& measures, DefectList& defects);
+
+// Neighbours and faces that came with the mesh (files.cpp).
+
+/// P5: finds wrong_neighbour and wrong_face. Nothing where the mesh has none.
+void check_files(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const Facets& facets, DefectList& defects);
+
+/// 1 for each of Mesh::faces that a usable cell has.
+std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std::uint8_t>& usable);
+
+// Nodes of the boundary that are near each other, or near what is between others (cracks.cpp, hanging_nodes.cpp).
+
+/// Finds near_nodes and near_hanging, as CheckOptions::near has them, crack, and of touching.hanging those that are no
+/// near nodes. `meeting`: cells that meet where they must not; what two of them have of these is the cause.
+void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const std::vector<BoundaryFacet>& facets,
+                 const ExactVolumes& volumes, double near, const BoundaryContacts& touching,
+                 const std::vector<CellPair>& meeting, CellMeasures& measures, DefectList& defects);
+
+/// The nodes no farther from an edge or a facet than the radius of the node and of each node of the facet, and farther
+/// from these nodes; of no cell that has the node, too. `radius`: of each node, 0 of those that are not of the
+/// boundary. Ascending; `complete` is false if there are more than `limit`.
+std::vector<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
+                                        const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
+                                        const std::vector<double>& radius, std::size_t limit, bool& complete);
+
+// What else can be asked of a mesh (common_part.cpp, delaunay.cpp, conformity.cpp).
+
+/// The intersection of two closed cells: its dimension (-1: empty) and a point in its relative interior, computed in
+/// integers. If the interiors meet, that point lies in both. Precondition: coordinates finite. Slow: tens of
+/// microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
+struct CommonPart {
+    int dimension = -1;
+    CommonPoint point;
+};
+CommonPart common_part(int d, const Corners& a, const Corners& b);
+
+/// `neighbours` as compute_neighbours gives them for the cells that have a place in space, `orientation` their exact
+/// signs, 0 for all others. On all threads of the calling arena.
+DelaunayReport check_delaunay(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
+                              const std::vector<std::int8_t>& orientation);
+
+/// Areas mean little where the mesh is not certified. Precondition: tetrahedra. On all threads of the calling arena.
+ConformityReport check_conformity(const Mesh& mesh, std::span<const std::uint8_t> usable, const Plc& plc,
+                                  std::size_t examples);
+
+}  // namespace barycert::check
