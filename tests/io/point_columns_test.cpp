@@ -159,6 +159,30 @@ TEST(PointColumns, types_are_those_of_all_values) {
         << "not UTF-8";
 }
 
+// Who prints a double with 17 digits or more means that double; other digits are lost, and that is told.
+TEST(PointColumns, decimals_that_no_double_holds_are_told) {
+    const TemporaryFolder folder;
+    const auto told = [&](const std::string& value) {
+        put(folder / "p.csv", "x,y,c\n1,2,0.5\n1,2," + value + "\n");
+        const auto source = open_points(folder / "p.csv", 2, {.columns = {}, .keep = {"c"}, .typed = true});
+        EXPECT_TRUE(source) << source.error().message();
+        std::string text;
+        for (const Note& note : source ? (*source)->notes() : Notes{}) {
+            if (note.kind == Note::Kind::converted) text += note.text;
+        }
+        return text;
+    };
+    const std::string rounded = "numbers of column c that no double holds to the nearest doubles";
+    for (const char* held :
+         {"0.1", "-1.50", "1e300", "0.10000000000000001", "0.1000000000000000055511151231257827",
+          "4.9406564584124654e-324", "5e-324", "123456789012345", "9007199254740992.0", "nan", "0e5"})
+        EXPECT_EQ(told(held), "") << held;
+    for (const char* lost : {"0.1000000000000000001", "-0.1234567890123456789", "9007199254740993.0", "5.1e-324"})
+        EXPECT_EQ(told(lost), rounded) << lost;
+    EXPECT_EQ(told("0." + std::string(800, '1')), rounded);
+    EXPECT_EQ(told("1e-400"), "numbers of column c that are too small for a double to 0");
+}
+
 TEST(PointColumns, a_type_that_shows_late_is_that_of_all) {
     std::string text = "x,y,c\n";
     for (int i = 0; i < 100000; ++i) text += "1,2," + std::to_string(i) + "\n";

@@ -14,4 +14,9 @@ std::string Error::message() const {
     return base::printable(text);
 }
 
+std::string message(const Note& note) {
+    const std::string file = note.file.empty() ? "" : note.file + ": ";
+    return base::printable(file + std::string(name(note.kind)) + ": " + note.text);
+}
+
 }  // namespace barycert

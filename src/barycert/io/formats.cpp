@@ -54,11 +54,9 @@ Result<FileFormat> format_of(const std::string& path) {
     }
     const std::size_t dot = path.find_last_of("./");
     const bool has_suffix = dot != std::string::npos && path[dot] == '.';
-    return Error{.what = "unknown file suffix",
-                 .file = path,
-                 .expected = ".csv, .npy, .node or .vtu, or - for CSV from standard input or on standard output",
-                 .found = has_suffix ? '"' + path.substr(dot) + '"' : "no suffix",
-                 .remedy = "rename the file, or convert it"};
+    return file_error(path, "unknown file suffix",
+                      ".csv, .npy, .node or .vtu, or - for CSV from standard input or on standard output",
+                      has_suffix ? '"' + path.substr(dot) + '"' : "no suffix", "rename the file, or convert it");
 }
 
 Result<FileFormat> format_of_points(const std::string& path) {

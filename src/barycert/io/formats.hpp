@@ -1,10 +1,13 @@
 /// The sources and sinks by format.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "barycert/io.hpp"
 
@@ -18,6 +21,17 @@ Result<FileFormat> format_of(const std::string& path);
 /// The same for points: .txt .dat .xyz .tsv are CSV, and so is a pipe or device of any name; a file without a suffix is
 /// told by its first bytes.
 Result<FileFormat> format_of_points(const std::string& path);
+
+/// file_error of a line.
+inline Error line_error(std::string file, std::size_t line, std::string what, std::string expected = {},
+                        std::string found = {}, std::string remedy = {}) {
+    return {std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)};
+}
+
+/// The line of a text in which `at` lies, from 1.
+inline std::size_t line_of(std::string_view text, const char* at) {
+    return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;
+}
 
 /// The path without .gz at its end: readers unpack such files, and no writer makes one.
 std::string_view without_gz(std::string_view path);

@@ -1,5 +1,6 @@
 #include "barycert/io/mesh_format.hpp"
 
+#include <tbb/task_arena.h>
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -11,9 +12,12 @@
 #include "barycert/base/folder.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/converted/read_converted.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
+#include "barycert/io/medit/read_medit.hpp"
 #include "barycert/io/other_formats.hpp"
+#include "barycert/io/vtk/collection.hpp"
 
 namespace barycert::io {
 namespace {
@@ -58,10 +62,8 @@ std::string with_another_suffix(const std::string& path) {
 
 Error folder_error(const std::string& path) {
     if (exists(path + "/constant/polyMesh")) return other_format_error(*other_format_by_suffix("case.foam"), path);
-    return {.what = "this is a folder",
-            .file = path,
-            .expected = formats_read,
-            .remedy = "name the file of the mesh in it, or the stem of TetGen's files"};
+    return file_error(path, "this is a folder", formats_read, {},
+                      "name the file of the mesh in it, or the stem of TetGen's files");
 }
 
 Error missing(const std::string& path) {
@@ -123,10 +125,7 @@ Result<MeshFormat> mesh_format(const std::string& path) {
     std::error_code code;
     const fs::file_status status = fs::status(path, code);
     if (code == std::errc::permission_denied)
-        return Error{.what = "cannot read the file",
-                     .file = path,
-                     .found = "permission denied",
-                     .remedy = "check the permissions of its folder"};
+        return file_error(path, "cannot read the file", {}, "permission denied", "check the permissions of its folder");
     const bool stem = !is_tetgen_file(path) && exists(plain_or_packed(path + ".node"));
     if (stem && (!format_by_suffix(path) || !fs::exists(status))) return MeshFormat::tetgen;
     if (fs::is_directory(status)) return folder_error(path);
@@ -149,11 +148,9 @@ Result<MeshFormat> mesh_output_format(const std::string& path) {
     // part.1 is a stem: only what others use as a suffix is refused.
     const bool digits = suffix.find_first_not_of("0123456789", 1) == std::string::npos;
     if (digits || suffix == ".node" || suffix == ".ele") return MeshFormat::tetgen;
-    return Error{.what = "unknown format of a mesh to be written",
-                 .file = path,
-                 .expected = ".vtu, .vtk, .msh, .node, or a stem of TetGen's files",
-                 .found = '"' + suffix + '"',
-                 .remedy = "name a file with one of these suffixes"};
+    return file_error(path, "unknown format of a mesh to be written",
+                      ".vtu, .vtk, .msh, .node, or a stem of TetGen's files", '"' + suffix + '"',
+                      "name a file with one of these suffixes");
 }
 
 Notes left_out_by(MeshFormat format, const Mesh& mesh) {
@@ -190,3 +187,60 @@ void note_lost_names(const std::vector<std::string>& columns, const char* file, 
 }
 
 }  // namespace barycert::io
+
+namespace barycert {
+namespace {
+
+template <class Read>
+Result<Mesh> on_threads(int threads, const Read& read) {
+    return threads <= 0 ? read() : tbb::task_arena(threads).execute(read);
+}
+
+}  // namespace
+
+Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
+    const Result<io::MeshFormat> format = io::mesh_format(path);
+    if (!format) return format.error();
+    if (options.step.made() && *format != io::MeshFormat::vtk) return io::no_series(path);
+    switch (*format) {
+        case io::MeshFormat::gmsh:
+            return read_gmsh(path, {.step = {}, .threads = options.threads});
+        case io::MeshFormat::vtk:
+            return on_threads(options.threads, [&] { return read_vtk(path, options.step); });
+        case io::MeshFormat::medit:
+            return on_threads(options.threads, [&] { return io::read_medit(path, options); });
+        case io::MeshFormat::by_meshio:
+            return io::read_converted(path, io::meshio_format(path));
+        default:
+            return read_tetgen(path, options);
+    }
+}
+
+std::vector<std::string> mesh_files(const std::string& path) {
+    const Result<io::MeshFormat> format = io::mesh_format(path);
+    if (format && *format == io::MeshFormat::vtk) return vtk_mesh_files(path);
+    if (format && *format == io::MeshFormat::by_meshio) return io::converted_files(path);
+    if (format && *format != io::MeshFormat::tetgen) return {path};
+    return tetgen_files(path);
+}
+
+Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
+    const Result<io::MeshFormat> format = io::mesh_output_format(path);
+    if (!format) return format.error();
+    switch (*format) {
+        case io::MeshFormat::gmsh:
+            return write_gmsh(mesh, path);
+        case io::MeshFormat::vtk:
+            return write_vtk(mesh, path, options.data);
+        default:
+            return write_tetgen(mesh, tetgen_stem(path), options);
+    }
+}
+
+Result<std::vector<std::string>> written_mesh_files(const std::string& path) {
+    const Result<io::MeshFormat> format = io::mesh_output_format(path);
+    if (!format) return format.error();
+    return *format == io::MeshFormat::tetgen ? tetgen_files(path) : std::vector<std::string>{path};
+}
+
+}  // namespace barycert

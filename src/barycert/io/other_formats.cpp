@@ -256,10 +256,8 @@ Error other_format_error(const OtherFormat& format, const std::string& path) {
             break;
     }
     const bool mesh = std::string_view(format.what).find("not a mesh") == std::string_view::npos;
-    return {.what = std::string("this is ") + format.what + (mesh ? ", which is not read" : ""),
-            .file = path,
-            .expected = formats_read,
-            .remedy = std::move(remedy)};
+    return file_error(path, std::string("this is ") + format.what + (mesh ? ", which is not read" : ""), formats_read,
+                      {}, std::move(remedy));
 }
 
 }  // namespace barycert::io

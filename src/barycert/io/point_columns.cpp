@@ -9,6 +9,7 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -40,12 +41,7 @@ std::string example(const TableColumns& all, int dimension, std::size_t first) {
 }
 
 Error fault(const TableColumns& all, std::string what, std::string expected, std::string found, std::string remedy) {
-    return {.what = std::move(what),
-            .file = all.file,
-            .line = all.line,
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = std::move(remedy)};
+    return line_error(all.file, all.line, std::move(what), std::move(expected), std::move(found), std::move(remedy));
 }
 
 /// The column of exactly that name; names.size() if there is none.
@@ -277,12 +273,8 @@ Result<PointColumns> choose_columns(const TableColumns& all, int dimension, cons
 }
 
 Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
-    return {.what = "a point off the plane z = 0" + (row.empty() ? row : ": " + row),
-            .file = file,
-            .line = line,
-            .expected = "z = 0, for the mesh is 2D",
-            .found = found,
-            .remedy = "--columns x,y leaves z out of account"};
+    return line_error(file, line, "a point off the plane z = 0" + (row.empty() ? row : ": " + row),
+                      "z = 0, for the mesh is 2D", found, "--columns x,y leaves z out of account");
 }
 
 }  // namespace barycert::io

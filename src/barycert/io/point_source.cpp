@@ -8,39 +8,8 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_table.hpp"
-#include "barycert/io/vtk_points.hpp"
 
 namespace barycert {
-namespace {
-
-class MemorySource final : public PointSource {
-public:
-    MemorySource(std::vector<double> points, int dimension)
-        : points_(std::move(points)),
-          dimension_(dimension),
-          count_(points_.size() / static_cast<std::size_t>(dimension)) {}
-
-    int dimension() const override { return dimension_; }
-    std::optional<std::uint64_t> count() const override { return count_; }
-
-    Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) override {
-        const std::size_t taken = std::min(max_points, count_ - next_);
-        const auto size = static_cast<std::size_t>(dimension_);
-        const double* const first = points_.data() + next_ * size;
-        out.insert(out.end(), first, first + taken * size);
-        next_ += taken;
-        return taken;
-    }
-
-private:
-    std::vector<double> points_;
-    int dimension_;
-    std::size_t count_;
-    std::size_t next_ = 0;
-};
-
-}  // namespace
-
 PointSource::~PointSource() = default;
 
 namespace io {
@@ -58,7 +27,9 @@ bool names_a_mesh(const std::string& path) {
 Result<std::unique_ptr<PointSource>> open_nodes(const std::string& path, int dimension, const PointOptions& options) {
     Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false});
     if (!mesh) return mesh.error();
-    PointTable table{.dimension = mesh->dimension, .points = std::move(mesh->points)};
+    PointTable table;
+    table.dimension = mesh->dimension;
+    table.points = std::move(mesh->points);
     table.fields = std::move(mesh->point_fields);
     if (!mesh->point_markers.empty()) table.labels.push_back({"marker", std::move(mesh->point_markers)});
     table.notes = std::move(mesh->notes);
@@ -71,11 +42,7 @@ Result<std::unique_ptr<PointSource>> open_nodes(const std::string& path, int dim
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension, const PointOptions& options) {
     const ExactEnvironment environment;
     if (dimension != 2 && dimension != 3) {
-        return Error{.what = "points can have 2 or 3 coordinates",
-                     .file = path,
-                     .expected = "2 or 3",
-                     .found = std::to_string(dimension),
-                     .remedy = {}};
+        return file_error(path, "points can have 2 or 3 coordinates", "2 or 3", std::to_string(dimension));
     }
     if (io::is_vtk_points_file(path)) return io::open_vtk_points(path, dimension, options);
     const Result<io::FileFormat> format = io::format_of_points(path);
@@ -97,10 +64,6 @@ Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int di
         default:
             return io::open_node_source(path, dimension, options);
     }
-}
-
-std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimension) {
-    return std::make_unique<MemorySource>(std::move(points), dimension);
 }
 
 }  // namespace barycert

@@ -2,50 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "barycert/base/finite.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/io/column_source.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
-#include "barycert/mesh/columns.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert::io {
 namespace {
 
-class TableSource final : public PointSource {
+class TableSource final : public ColumnSource {
 public:
-    TableSource(std::vector<double> points, int dimension, std::vector<Column> columns, Notes notes)
-        : points_(std::move(points)),
-          dimension_(static_cast<std::size_t>(dimension)),
+    TableSource(std::vector<double> points, int dimension, std::vector<Column> columns = {}, Notes notes = {})
+        : ColumnSource(dimension),
+          points_(std::move(points)),
           count_(points_.size() / dimension_),
-          columns_(std::move(columns)),
-          notes_(std::move(notes)) {
+          columns_(std::move(columns)) {
+        notes_ = std::move(notes);
         for (const Column& column : columns_) formats_.push_back(mesh::format_of(column));
     }
 
-    int dimension() const override { return static_cast<int>(dimension_); }
     std::optional<std::uint64_t> count() const override { return count_; }
-    Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) override {
+
+private:
+    Result<std::size_t> next(std::size_t max_points, std::vector<double>& out) override {
         const std::size_t taken = std::min(max_points, count_ - next_);
         const double* const first = points_.data() + next_ * dimension_;
         out.insert(out.end(), first, first + taken * dimension_);
-        mesh::begin_columns(formats_, carried_);
         for (std::size_t k = 0; k < columns_.size(); ++k) mesh::move_values(columns_[k], next_, taken, carried_[k]);
         next_ += taken;
         return taken;
     }
-    std::vector<ColumnFormat> carried() const override { return formats_; }
-    void take_carried(std::vector<Column>& columns) override { std::swap(columns, carried_); }
-    Notes notes() const override { return notes_; }
 
-private:
     std::vector<double> points_;
-    std::size_t dimension_, count_, next_ = 0;
+    std::size_t count_, next_ = 0;
     std::vector<Column> columns_;
-    std::vector<ColumnFormat> formats_;
-    std::vector<Column> carried_;  // of the last points given
-    Notes notes_;
 };
 
 /// Where the values of a column stand.
@@ -117,18 +114,14 @@ private:
         return {std::move(name), std::move(values)};
     }
     Error no_number(std::size_t column) const {
-        return {.what = "a column of texts or large integers cannot be a coordinate",
-                .file = all_.file,
-                .found = base::quoted(all_.names[column]),
-                .remedy = "name a column of numbers in --columns"};
+        return file_error(all_.file, "a column of texts or large integers cannot be a coordinate", {},
+                          base::quoted(all_.names[column]), "name a column of numbers in --columns");
     }
     Error not_finite(std::size_t column, std::size_t point) const {
-        return {.what = "a point that is not finite",
-                .file = all_.file,
-                .expected = "finite coordinates",
-                .found = base::shortest(number(places_[column], point)) + " in " + base::quoted(all_.names[column]) +
-                         " of point " + std::to_string(point) + ", counted from 0",
-                .remedy = std::string("remove the point, give it coordinates") + or_nan_for_it};
+        return file_error(all_.file, "a point that is not finite", "finite coordinates",
+                          base::shortest(number(places_[column], point)) + " in " + base::quoted(all_.names[column]) +
+                              " of point " + std::to_string(point) + ", counted from 0",
+                          std::string("remove the point, give it coordinates") + or_nan_for_it);
     }
 
     PointTable& table_;
@@ -137,6 +130,39 @@ private:
     std::vector<Place> places_;
 };
 
+/// Integers as such, where int64 holds them.
+void make_integers(RawArray& array) {
+    if (!array.is_whole() || !array.fault.empty() || array.has_labels() || array.components != 1) return;
+    const std::vector<double>& numbers = array.numbers();
+    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return x >= -0x1p63 && x < 0x1p63; })) return;
+    std::vector<std::int64_t> integers;
+    integers.reserve(numbers.size());
+    for (const double x : numbers) integers.push_back(static_cast<std::int64_t>(x));
+    array.values = std::move(integers);
+}
+
+Result<PointTable> read_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
+    // A legacy file has no list of its arrays.
+    const bool listed_only = !arrays && !has_suffix(path, ".vtk");
+    Result<RawGrid> grid = read_grid(path, listed_only ? Part::points : Part::point_arrays);
+    if (!grid) return grid.error();
+    PointTable table;
+    table.notes = std::move(grid->notes);
+    Result<std::vector<double>> points =
+        nonfinite == NonfinitePoints::nan ? std::move(grid->points) : to_points(std::move(grid->points), 3, path);
+    if (!points) {
+        Error error = points.error();
+        error.remedy += or_nan_for_it;
+        return error;
+    }
+    table.points = std::move(*points);
+    for (RawArray& array : grid->point_arrays) make_integers(array);
+    take_fields(grid->point_arrays, "point array", path, table.fields, &table.labels, table.notes);
+    table.unread = std::move(grid->unread_arrays);
+    note_narrow_points(*grid, path, table.notes);
+    return table;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<PointSource>> points_of_table(PointTable table, const std::string& file, int dimension,
@@ -144,4 +170,28 @@ Result<std::unique_ptr<PointSource>> points_of_table(PointTable table, const std
     return Choice(table, file).source(dimension, options);
 }
 
+Result<PointTable> read_vtk_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
+    try {
+        return read_table(path, arrays, nonfinite);
+    } catch (const std::bad_alloc&) {
+        return base::too_little_memory(path);
+    }
+}
+
+Result<std::unique_ptr<PointSource>> open_vtk_points(const std::string& path, int dimension,
+                                                     const PointOptions& options) {
+    Result<PointTable> table =
+        read_vtk_table(path, !options.keep.empty() || !options.columns.empty(), options.nonfinite_points);
+    if (!table) return table.error();
+    return points_of_table(std::move(*table), path, dimension, options);
+}
+
 }  // namespace barycert::io
+
+namespace barycert {
+
+std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimension) {
+    return std::make_unique<io::TableSource>(std::move(points), dimension);
+}
+
+}  // namespace barycert

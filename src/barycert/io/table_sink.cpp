@@ -1,11 +1,14 @@
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/row_sink.hpp"
 #include "barycert/io/vtk/out_file.hpp"
+#include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert {
 namespace io {
@@ -23,24 +26,52 @@ Status check_rows(const TableView& rows, const TableFormat& format, const std::s
                       rows.distances.size() == (format.distances ? count : 0);
     const auto degenerate = std::find(rows.features.begin(), rows.features.end(), Feature::degenerate);
     if (good && degenerate != rows.features.end()) {
-        return Error{
-            .what = "a row in a degenerate cell",
-            .file = path,
-            .expected = "interior, face, edge, vertex or outside",
-            .found = "degenerate, in row " + std::to_string(degenerate - rows.features.begin()) + " of a block",
-            .remedy = "degenerate cells contain no points: mark the row as outside"};
+        return file_error(path, "a row in a degenerate cell", "interior, face, edge, vertex or outside",
+                          "degenerate, in row " + std::to_string(degenerate - rows.features.begin()) + " of a block",
+                          "degenerate cells contain no points: mark the row as outside");
     }
     if (good) return Done{};
-    return Error{.what = "the parts of a block of rows have different sizes",
-                 .file = path,
-                 .expected = "for each cell " + std::to_string(format.dimension) + " coordinates, a feature, " +
-                             std::to_string(columns) + " values" + (format.distances ? ", a distance" : "") + ", " +
-                             std::to_string(format.carried.size()) + " carried values of the types that were told",
-                 .found = std::to_string(count) + " cells, " + std::to_string(rows.points.size()) + " coordinates, " +
+    return file_error(path, "the parts of a block of rows have different sizes",
+                      "for each cell " + std::to_string(format.dimension) + " coordinates, a feature, " +
+                          std::to_string(columns) + " values" + (format.distances ? ", a distance" : "") + ", " +
+                          std::to_string(format.carried.size()) + " carried values of the types that were told",
+                      std::to_string(count) + " cells, " + std::to_string(rows.points.size()) + " coordinates, " +
                           std::to_string(rows.features.size()) + " features, " + std::to_string(rows.values.size()) +
                           " values, " + std::to_string(rows.distances.size()) + " distances" +
                           (carried ? "" : ", other carried columns"),
-                 .remedy = "pass whole rows in the format of the sink"};
+                      "pass whole rows in the format of the sink");
+}
+
+RowSink::RowSink(const std::string& path, TableFormat format)
+    : path_(path == "-" ? "standard output" : path),
+      format_(std::move(format)),
+      columns_(format_.columns().size()),
+      file_(path == "-" ? base::OutputFile::standard_output() : base::OutputFile(path)) {}
+
+Status RowSink::write(const TableView& rows) {
+    // What one thread lays out at a time: large enough that handing it over costs nothing.
+    constexpr std::size_t piece_size = std::size_t{1} << 18, pieces_at_once = 16;
+    const ExactEnvironment environment;
+    if (!error_.what.empty()) return error_;
+    Status fits = check_rows(rows, format_, path_);
+    if (fits) fits = check(rows);
+    if (!fits) return error_ = fits.error();
+    const std::size_t count = rows.cells.size(), longest = longest_row(rows);
+    const std::size_t rows_a_piece = std::max<std::size_t>(1, piece_size / longest);
+    // Pieces are laid out side by side and written in order: the bytes do not depend on the threads.
+    for (std::size_t row = 0; row < count && file_.status();) {
+        const std::size_t pieces = std::min(pieces_at_once, (count - row + rows_a_piece - 1) / rows_a_piece);
+        if (pieces_.size() < pieces) pieces_.resize(pieces);
+        std::array<std::size_t, pieces_at_once> sizes{};
+        in_parallel(pieces, [&](std::size_t i) {
+            const std::size_t first = row + i * rows_a_piece, last = std::min(first + rows_a_piece, count);
+            if (pieces_[i].size() < (last - first) * longest) pieces_[i].resize((last - first) * longest);
+            sizes[i] = static_cast<std::size_t>(put_rows(rows, first, last, pieces_[i].data()) - pieces_[i].data());
+        });
+        for (std::size_t i = 0; i < pieces; ++i) file_.write({pieces_[i].data(), sizes[i]});
+        row = std::min(count, row + pieces * rows_a_piece);
+    }
+    return file_.status();
 }
 
 }  // namespace io
@@ -50,30 +81,23 @@ TableSink::~TableSink() = default;
 Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format) {
     const ExactEnvironment environment;
     if (format.dimension != 2 && format.dimension != 3) {
-        return Error{.what = "points of rows can have 2 or 3 coordinates",
-                     .file = path,
-                     .expected = "2 or 3",
-                     .found = std::to_string(format.dimension),
-                     .remedy = {}};
+        return file_error(path, "points of rows can have 2 or 3 coordinates", "2 or 3",
+                          std::to_string(format.dimension));
     }
     std::set<std::string> names;
     for (const std::string& name : format.columns()) {
         if (names.insert(name).second) continue;
-        return Error{.what = "two columns of the rows would have the same name",
-                     .file = path,
-                     .expected = "fields whose columns differ (components are NAME.0, NAME.1, ...)",
-                     .found = base::quoted(name) + " twice",
-                     .remedy = "rename a field, or leave it out"};
+        return file_error(path, "two columns of the rows would have the same name",
+                          "fields whose columns differ (components are NAME.0, NAME.1, ...)",
+                          base::quoted(name) + " twice", "rename a field, or leave it out");
     }
     const Result<io::FileFormat> kind = io::format_of(path);
     if (kind && *kind == io::FileFormat::csv) return io::open_csv_sink(path, format);
     if (kind && *kind == io::FileFormat::npy) return io::open_npy_sink(path, format);
     if (kind && *kind == io::FileFormat::vtu) return io::open_vtu_sink(path, format);
-    return Error{.what = "cannot write rows in the format of that suffix",
-                 .file = path,
-                 .expected = ".csv, .npy or .vtu, or - for CSV on the standard output",
-                 .found = kind ? "a format for points alone" : kind.error().found,
-                 .remedy = "name a .csv, .npy or .vtu file"};
+    return file_error(path, "cannot write rows in the format of that suffix",
+                      ".csv, .npy or .vtu, or - for CSV on the standard output",
+                      kind ? "a format for points alone" : kind.error().found, "name a .csv, .npy or .vtu file");
 }
 
 }  // namespace barycert

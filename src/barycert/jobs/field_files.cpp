@@ -13,7 +13,7 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/read_medit.hpp"
 #include "barycert/io/mesh_format.hpp"
-#include "barycert/io/vtk_points.hpp"
+#include "barycert/io/point_table.hpp"
 #include "barycert/sample/quantity/expression.hpp"
 
 namespace barycert::jobs {

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "barycert/io/png/png_reader.hpp"
-#include "barycert/io/png/png_rows.hpp"
+#include "barycert/io/png/png_file.hpp"
 #include "barycert/raster.hpp"
 
 namespace barycert {

@@ -8,6 +8,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_fields.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 
@@ -81,14 +82,9 @@ bool holds_fields(std::string_view line, char separator) {
 }
 
 Result<CsvLine> cut_first_line(std::string_view line, const LinePlace& place) {
-    if (line.find('\r') != std::string_view::npos) {
-        return Error{.what = "lines end with CR alone",
-                     .file = place.file,
-                     .line = place.line,
-                     .expected = "LF or CR LF",
-                     .found = "CR alone",
-                     .remedy = "save the file with LF or CR LF as line ends"};
-    }
+    if (line.find('\r') != std::string_view::npos)
+        return line_error(place.file, place.line, "lines end with CR alone", "LF or CR LF", "CR alone",
+                          "save the file with LF or CR LF as line ends");
     CsvLine out{.separator = separator_of(line)};
     FieldCutter cutter(line, out.separator);
     for (std::string_view field; cutter.next(field);) out.fields.push_back(cutter.name(field));

@@ -1,16 +1,12 @@
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
-#include "barycert/base/output_file.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/io/column_source.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/row_sink.hpp"
 
 namespace barycert::io {
 namespace {
@@ -22,10 +18,6 @@ constexpr std::size_t longest_double = 24 + 1;
 constexpr std::size_t longest_cell = 11 + 1;
 constexpr std::size_t longest_integer = 20 + 1;
 constexpr std::size_t longest_feature = 10 + 1;
-
-// What one thread formats at a time: large enough that handing it over costs nothing.
-constexpr std::size_t piece_size = std::size_t{1} << 18;
-constexpr std::size_t pieces_at_once = 16;
 
 char* put(char* at, double x) {
     if (std::isnan(x)) [[unlikely]] {  // its sign bit says nothing
@@ -86,45 +78,29 @@ std::size_t longest_carried(const TableView& rows) {
     return size;
 }
 
-class CsvSink final : public TableSink {
+class CsvSink final : public RowSink {
 public:
-    CsvSink(const std::string& path, TableFormat format)
-        : path_(path == "-" ? "standard output" : path),
-          format_(std::move(format)),
-          columns_(format_.columns().size()),
-          file_(path == "-" ? base::OutputFile::standard_output() : base::OutputFile(path)) {
-        const std::size_t numbers =
-            static_cast<std::size_t>(format_.dimension) + columns_ + (format_.distances ? 1 : 0);
-        longest_row_ = numbers * longest_double + longest_cell + longest_feature + 1;
+    using RowSink::RowSink;
+
+    Status begin() {
+        std::string header = format_.dimension == 2 ? "x,y,cell,feature" : "x,y,z,cell,feature";
+        for (const std::string& column : format_.columns()) header += ',' + as_field(column);
+        if (format_.distances) header += ",distance";
+        for (const ColumnFormat& column : format_.carried) header += ',' + as_field(column.name);
+        file_.write(header + '\n');
+        return file_.status();
     }
 
-    Status begin();
-    Status write(const TableView& rows) override;
-    Status commit() override { return error_.what.empty() ? file_.commit() : Status(error_); }
-
 private:
-    /// The rows [first, last) as text; the place after it.
-    char* format(const TableView& rows, std::size_t first, std::size_t last, char* at) const;
-
-    std::string path_;
-    TableFormat format_;
-    std::size_t columns_;
-    base::OutputFile file_;
-    std::size_t longest_row_ = 0;  // without carried columns
-    std::vector<std::vector<char>> pieces_;
-    Error error_;  // rows that do not fit
+    std::size_t longest_row(const TableView& rows) const override {
+        const auto dimension = static_cast<std::size_t>(format_.dimension);
+        const std::size_t numbers = dimension + columns_ + (format_.distances ? 1 : 0);
+        return numbers * longest_double + longest_cell + longest_feature + 1 + longest_carried(rows);
+    }
+    char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override;
 };
 
-Status CsvSink::begin() {
-    std::string header = format_.dimension == 2 ? "x,y,cell,feature" : "x,y,z,cell,feature";
-    for (const std::string& column : format_.columns()) header += ',' + as_field(column);
-    if (format_.distances) header += ",distance";
-    for (const ColumnFormat& column : format_.carried) header += ',' + as_field(column.name);
-    file_.write(header + '\n');
-    return file_.status();
-}
-
-char* CsvSink::format(const TableView& rows, std::size_t first, std::size_t last, char* at) const {
+char* CsvSink::put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const {
     const auto dimension = static_cast<std::size_t>(format_.dimension);
     for (std::size_t row = first; row < last; ++row) {
         for (const double x : rows.points.subspan(row * dimension, dimension)) {
@@ -151,44 +127,10 @@ char* CsvSink::format(const TableView& rows, std::size_t first, std::size_t last
     return at;
 }
 
-Status CsvSink::write(const TableView& rows) {
-    const ExactEnvironment environment;
-    if (!error_.what.empty()) return error_;
-    if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
-    const std::size_t count = rows.cells.size();
-    const std::size_t longest_row = longest_row_ + longest_carried(rows);
-    const std::size_t rows_a_piece = std::max<std::size_t>(1, piece_size / longest_row);
-    // Pieces are formatted side by side and written in order: the bytes do not depend on the threads.
-    for (std::size_t row = 0; row < count && file_.status();) {
-        const std::size_t pieces = std::min(pieces_at_once, (count - row + rows_a_piece - 1) / rows_a_piece);
-        if (pieces_.size() < pieces) pieces_.resize(pieces);
-        for (std::size_t i = 0; i < pieces; ++i) {
-            const std::size_t most = std::min(rows_a_piece, count - row) * longest_row;
-            if (pieces_[i].size() < most) pieces_[i].resize(most);
-        }
-        std::array<std::size_t, pieces_at_once> sizes{};
-        // Whoever waits here must not begin other work of the caller: its stages wait for this one.
-        tbb::this_task_arena::isolate([&] {
-            tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t i) {
-                const ExactEnvironment of_task;  // the arena is the caller's
-                const std::size_t first = row + i * rows_a_piece;
-                char* const begin = pieces_[i].data();
-                sizes[i] =
-                    static_cast<std::size_t>(format(rows, first, std::min(first + rows_a_piece, count), begin) - begin);
-            });
-        });
-        for (std::size_t i = 0; i < pieces; ++i) file_.write({pieces_[i].data(), sizes[i]});
-        row = std::min(count, row + pieces * rows_a_piece);
-    }
-    return file_.status();
-}
-
 }  // namespace
 
 Result<std::unique_ptr<TableSink>> open_csv_sink(const std::string& path, const TableFormat& format) {
-    auto sink = std::make_unique<CsvSink>(path, format);
-    if (Status begun = sink->begin(); !begun) return begun.error();
-    return std::unique_ptr<TableSink>(std::move(sink));
+    return begun<TableSink>(std::make_unique<CsvSink>(path, format));
 }
 
 }  // namespace barycert::io

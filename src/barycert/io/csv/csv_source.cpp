@@ -1,23 +1,18 @@
 // Points from CSV: lines are read by the megabyte, cut into pieces at line ends and parsed on all threads. Pieces are
 // looked at in their order, so points and errors do not depend on the number of threads.
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/io/column_source.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
-#include "barycert/io/csv/csv_piece.hpp"
 #include "barycert/io/csv/csv_types.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/mesh/columns.hpp"
+#include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
 namespace {
@@ -25,59 +20,53 @@ namespace {
 /// Text that one thread parses at a time: some hundred microseconds of work.
 constexpr std::size_t text_a_piece = std::size_t{1} << 16;
 
-class CsvSource final : public PointSource {
+class CsvSource final : public ColumnSource {
 public:
-    CsvSource(LineReader lines, int dimension) : lines_(std::move(lines)), dimension_(dimension) {}
+    CsvSource(LineReader lines, int dimension) : ColumnSource(dimension), lines_(std::move(lines)) {}
 
     /// Reads up to the header or over the first point. `kept`: the formats of the carried columns, where they are
     /// known.
     Status begin(const PointOptions& options, const std::vector<ColumnFormat>* kept);
 
-    int dimension() const override { return dimension_; }
     std::optional<std::uint64_t> count() const override { return std::nullopt; }
-    Result<std::size_t> read(std::size_t max, std::vector<double>& out) override;
-    std::vector<ColumnFormat> carried() const override { return layout_.kept; }
-    void take_carried(std::vector<Column>& columns) override { std::swap(columns, carried_); }
-    Notes notes() const override { return layout_.notes; }
-    void add_notes(const Notes& more) { layout_.notes.insert(layout_.notes.end(), more.begin(), more.end()); }
+    void add_notes(const Notes& more) { notes_.insert(notes_.end(), more.begin(), more.end()); }
 
 private:
+    Result<std::size_t> next(std::size_t max, std::vector<double>& out) override;
     bool parse_more();
     Error row_error(const CsvPiece& piece) const;
     LinePlace place() const { return {lines_.name(), lines_.number()}; }
 
     LineReader lines_;
-    int dimension_;
     CsvLayout layout_;
     std::vector<std::string_view> texts_;
     std::vector<CsvPiece> pieces_;  // those from `piece_` on have points to give, the first of them from `given_` on
     std::size_t piece_ = 0, piece_count_ = 0, given_ = 0;
-    std::vector<Column> carried_;  // of the last points given
-    Error error_;
+    Error pending_;  // behind the points that are left
 };
 
 Status CsvSource::begin(const PointOptions& options, const std::vector<ColumnFormat>* kept) {
     for (std::string_view line; lines_.next(line);) {
         if (!holds_fields(line, ' ')) continue;
-        Result<CsvLayout> layout = settle_csv_layout(line, dimension_, options, place());
+        Result<CsvLayout> layout = settle_csv_layout(line, dimension(), options, place());
         if (!layout) return layout.error();
         layout_ = std::move(*layout);
         if (kept != nullptr && kept->size() == layout_.kept.size()) layout_.kept = *kept;
+        formats_ = layout_.kept;
+        notes_ = layout_.notes;
         if (layout_.header) return Done{};
         // The first point; it is given like all others.
         const std::string text = std::string(line) + (lines_.line_ended() ? "\n" : "");
         pieces_.resize(1);
-        parse_csv(text, layout_, dimension_, pieces_.front());
+        parse_csv(text, layout_, dimension(), pieces_.front());
         if (pieces_.front().failed) return row_error(pieces_.front());
         piece_count_ = 1;
         return Done{};
     }
     if (lines_.failed()) return lines_.error();
-    return Error{.what = "the file is empty",
-                 .file = lines_.name(),
-                 .expected = "a header line or a point",
-                 .found = lines_.number() == 0 ? "nothing" : "blank lines and comments",
-                 .remedy = "write the file again; a file with a header only is a file without points"};
+    return file_error(lines_.name(), "the file is empty", "a header line or a point",
+                      lines_.number() == 0 ? "nothing" : "blank lines and comments",
+                      "write the file again; a file with a header only is a file without points");
 }
 
 /// The bad line has been counted.
@@ -93,7 +82,7 @@ bool CsvSource::parse_more() {
     piece_ = piece_count_ = given_ = 0;
     std::string_view text;
     if (!lines_.next_lines(text)) {
-        if (lines_.failed()) error_ = lines_.error();
+        if (lines_.failed()) pending_ = lines_.error();
         return false;
     }
     texts_.clear();
@@ -105,31 +94,23 @@ bool CsvSource::parse_more() {
     }
     piece_count_ = texts_.size();
     if (pieces_.size() < piece_count_) pieces_.resize(piece_count_);
-    // Whoever waits here must not begin other work of the caller: its stages wait for this one.
-    tbb::this_task_arena::isolate([&] {
-        tbb::parallel_for(std::size_t{0}, piece_count_, [&](std::size_t i) {
-            const ExactEnvironment of_task;  // the arena is the caller's
-            parse_csv(texts_[i], layout_, dimension_, pieces_[i]);
-        });
-    });
+    in_parallel(piece_count_, [&](std::size_t i) { parse_csv(texts_[i], layout_, dimension(), pieces_[i]); });
     for (std::size_t i = 0; i < piece_count_; ++i) {
         lines_.count(pieces_[i].lines);
         if (!pieces_[i].failed) continue;
-        error_ = row_error(pieces_[i]);
+        pending_ = row_error(pieces_[i]);
         piece_count_ = i + 1;
     }
     return true;
 }
 
-Result<std::size_t> CsvSource::read(std::size_t max, std::vector<double>& out) {
-    const ExactEnvironment environment;
-    mesh::begin_columns(layout_.kept, carried_);
-    const auto size = static_cast<std::size_t>(dimension_);
+Result<std::size_t> CsvSource::next(std::size_t max, std::vector<double>& out) {
+    const std::size_t size = dimension_;
     std::size_t taken = 0;
     while (taken != max) {
         if (piece_ == piece_count_) {
-            if (error_.what.empty() && parse_more()) continue;
-            if (!error_.what.empty()) return error_;
+            if (pending_.what.empty() && parse_more()) continue;
+            if (!pending_.what.empty()) return pending_;
             break;
         }
         const std::vector<double>& points = pieces_[piece_].points;
@@ -181,21 +162,20 @@ Result<std::vector<ColumnFormat>> formats_of_all(CsvSource& source, const std::s
         formats[k].type = types[k].type();
         if (!utf8[k]) formats[k].max_characters = 0;
         if (formats[k].type != Column::Type::text) formats[k] = {formats[k].name, formats[k].type};
-        if (types[k].has_missing_numbers())
-            notes.push_back({Note::Kind::converted, "empty fields of column " + formats[k].name + " to NaN", path});
-        if (types[k].has_lost_numbers())
-            notes.push_back({Note::Kind::converted,
-                             "numbers of column " + formats[k].name + " that are too small for a double to 0", path});
+        const auto note = [&](bool told, const std::string& what, const char* to) {
+            if (told) notes.push_back({Note::Kind::converted, what + " of column " + formats[k].name + to, path});
+        };
+        note(types[k].has_missing_numbers(), "empty fields", " to NaN");
+        note(types[k].has_lost_numbers(), "numbers", " that are too small for a double to 0");
+        note(types[k].has_rounded_numbers(), "numbers", " that no double holds to the nearest doubles");
     }
     return formats;
 }
 
 Error cannot_be_read_twice(const std::string& path) {
-    return {.what = "the types of columns cannot be found in a stream",
-            .file = path == "-" ? "standard input" : path,
-            .expected = "a regular file, which can be read twice",
-            .found = "a pipe or device",
-            .remedy = "write CSV, which carries columns as they are, or save the points to a file first"};
+    return file_error(path == "-" ? "standard input" : path, "the types of columns cannot be found in a stream",
+                      "a regular file, which can be read twice", "a pipe or device",
+                      "write CSV, which carries columns as they are, or save the points to a file first");
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <string>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
@@ -42,6 +44,27 @@ bool is_inexact(std::string_view text, double value) {
     return std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())) != text;
 }
 
+bool is_rounded(std::string_view text, double value) {
+    // A double holds 15 digits, unless it is subnormal, and has 767 at most.
+    constexpr std::size_t held = 15, most = 767;
+    const bool normal = std::fabs(value) >= std::numeric_limits<double>::min();
+    if (normal && text.size() <= held) return false;
+    const auto digits_of = [](std::string_view number) {
+        number = number.substr(0, number.find_first_of("eE"));
+        std::string digits;
+        std::copy_if(number.begin(), number.end(), std::back_inserter(digits), is_digit);
+        digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+        return digits.substr(0, digits.find_last_not_of('0') + 1);
+    };
+    const std::string digits = digits_of(text);
+    if (digits.empty() || (normal && digits.size() <= held)) return false;
+    if (digits.size() > most) return true;
+    std::array<char, 800> nearest{};
+    const auto [end, error] = std::to_chars(nearest.data(), nearest.data() + nearest.size(), value,
+                                            std::chars_format::scientific, static_cast<int>(digits.size()) - 1);
+    return digits_of({nearest.data(), static_cast<std::size_t>(end - nearest.data())}) != digits;
+}
+
 void TypeOfTexts::see(std::string_view text) {
     if (text.empty()) {
         empty_ = true;
@@ -52,9 +75,9 @@ void TypeOfTexts::see(std::string_view text) {
     if (integers_ && !integer_of(text)) integers_ = false;
     if (!numbers_) return;
     const std::optional<double> value = number_of(text);
-    if (!value) numbers_ = false;
-    lost_ = lost_ || (value == 0.0 &&
-                      text.substr(0, text.find_first_of("eE")).find_first_of("123456789") != std::string_view::npos);
+    numbers_ = value.has_value();
+    if (!numbers_ || !is_rounded(text, *value)) return;
+    (*value == 0 ? lost_ : rounded_) = true;
 }
 
 Column::Type TypeOfTexts::type() const {

@@ -13,9 +13,11 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/run_files.hpp"
 #include "barycert/base/unpack.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
+
 Result<LineReader> LineReader::open(const std::string& path) {
     LineReader reader(path == "-" ? "standard input" : path);
     reader.owned_ = path != "-";
@@ -60,19 +62,12 @@ bool LineReader::skip_mark() {
     }
     const std::string_view head(buffer_.data(), end_);
     if (head.starts_with("\xEF\xBB\xBF")) begin_ = searched_ = 3;
-    if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
-        error_ = {.what = "the text is not in UTF-8",
-                  .file = name_,
-                  .line = 1,
-                  .expected = "UTF-8 or ASCII",
-                  .found = "a byte-order mark of UTF-16",
-                  .remedy = "save the file as UTF-8"};
-    }
+    if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF"))
+        error_ = line_error(name_, 1, "the text is not in UTF-8", "UTF-8 or ASCII", "a byte-order mark of UTF-16",
+                            "save the file as UTF-8");
     if (head.starts_with("\x93NU")) {
-        error_ = {.what = "this is an NPY file",
-                  .file = name_,
-                  .expected = "text: a point a line",
-                  .remedy = "name a file that ends in .npy: a stream or a file of another name is read as CSV"};
+        error_ = file_error(name_, "this is an NPY file", "text: a point a line", {},
+                            "name a file that ends in .npy: a stream or a file of another name is read as CSV");
         return false;
     }
     // A smaller part of the file, as a pipe gives, is decided line by line.
@@ -91,12 +86,9 @@ bool LineReader::refill() {
         begin_ = 0;
     }
     if (end_ == longest_line) {
-        error_ = {.what = "a line is too long",
-                  .file = name_,
-                  .line = number_ + 1,
-                  .expected = "at most " + std::to_string(longest_line) + " bytes",
-                  .found = "more",
-                  .remedy = "check that this is a text file, with a line end after each point"};
+        error_ =
+            line_error(name_, number_ + 1, "a line is too long", "at most " + std::to_string(longest_line) + " bytes",
+                       "more", "check that this is a text file, with a line end after each point");
         return false;
     }
     if (end_ + 1 == buffer_.size()) buffer_.resize(longest_line + 1);  // the file has grown meanwhile

@@ -1,6 +1,8 @@
 #include "barycert/io/fields/field_file.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -9,15 +11,106 @@
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/csv_types.hpp"
-#include "barycert/io/fields/csv_column.hpp"
+#include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy_file.hpp"
 #include "barycert/io/point_columns.hpp"
 
 namespace barycert::io {
 namespace {
+
+/// The places of `name` among the names, or of NAME.0, NAME.1, ...; empty if there are none.
+std::vector<std::size_t> columns_of_field(const std::vector<std::string>& names, const std::string& name) {
+    const auto place = [&](const std::string& one) {
+        return static_cast<std::size_t>(std::find(names.begin(), names.end(), one) - names.begin());
+    };
+    if (const std::size_t at = place(name); at != names.size()) return {at};
+    std::vector<std::size_t> all;
+    for (std::size_t at = 0; (at = place(name + "." + std::to_string(all.size()))) != names.size();) all.push_back(at);
+    return all;
+}
+
+/// Which fields of a line are the components.
+struct FieldLayout {
+    CsvLayout lines;                   ///< no coordinates: role first_kept + c for the component c
+    std::vector<std::size_t> columns;  ///< of each component
+};
+
+Result<FieldLayout> settle(std::string_view line, const std::string& column, const LinePlace& place) {
+    const Result<CsvLine> cut = cut_first_line(line, place);
+    if (!cut) return cut.error();
+    FieldLayout out;
+    out.lines.separator = cut->separator;
+    out.lines.role_of.assign(cut->fields.size(), CsvLayout::passed_over);
+    out.lines.header = true;
+    if (are_places({column})) {
+        std::size_t number = 0;
+        std::from_chars(column.data(), column.data() + column.size(), number);
+        if (number <= cut->fields.size()) {
+            out.columns = {number - 1};
+            out.lines.header = !looks_numeric(cut->fields[number - 1]);
+        }
+    } else {
+        out.columns = columns_of_field(cut->fields, column);
+    }
+    if (!out.columns.empty()) return out;
+    return line_error(
+        place.file, place.line, "no such column", base::quoted(column), listed(cut->fields),
+        base::did_you_mean(column, cut->fields, "name a column of the first line, or say its place, from 1"));
+}
+
+/// Appends the values of the line.
+Status take_line(std::string_view line, bool whole, const FieldLayout& layout, const LinePlace& place, Field& field) {
+    FieldCutter cutter(line, layout.lines.separator);
+    std::size_t count = 0;
+    bool cut = false;
+    const std::size_t before = field.data.size();
+    field.data.resize(before + layout.columns.size());
+    for (std::string_view text; cutter.next(text); ++count) {
+        for (std::size_t c = 0; c < layout.columns.size(); ++c) {
+            if (layout.columns[c] != count) continue;
+            const auto x = base::parse_double(text);
+            if (!x || is_inexact(text, *x))
+                return line_error(place.file, place.line, "a value of field \"" + field.name + '"',
+                                  x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
+                                  x ? "write it with a decimal point to round it" : "mend or remove the line");
+            field.data[before + c] = *x;
+            cut = !whole && text.data() + text.size() == line.data() + line.size();
+        }
+    }
+    if (cutter.malformed() || count != layout.lines.role_of.size()) return csv_row_error(line, layout.lines, place);
+    if (cut) return base::unended_number(place.file, place.line);
+    return Done{};
+}
+
+/// Adds the data of the column of that name or number (from 1), or of the columns NAME.0, NAME.1, ... The first line
+/// settles the separator as in files of points. Errors: no such column; a value that is no number, an integer that no
+/// double represents, a line with more or fewer fields than the first.
+Result<Field> read_csv_column(Field field, const std::string& path, const std::string& column) {
+    Result<LineReader> lines = LineReader::open(path);
+    if (!lines) return lines.error();
+    std::optional<FieldLayout> layout;
+    for (std::string_view line; lines->next(line);) {
+        if (!holds_fields(line, layout ? layout->lines.separator : ' ')) continue;
+        const LinePlace place{lines->name(), lines->number()};
+        if (!layout) {
+            Result<FieldLayout> settled = settle(line, column, place);
+            if (!settled) return settled.error();
+            layout = std::move(*settled);
+            if (layout->lines.header) continue;
+        }
+        if (Status taken = take_line(line, lines->line_ended(), *layout, place, field); !taken) {
+            const Status same = lines->unchanged();
+            return same ? taken.error() : same.error();
+        }
+    }
+    if (lines->failed()) return lines->error();
+    if (layout) field.components = static_cast<int>(layout->columns.size());
+    return field;
+}
 
 /// The words of a line.
 class Words {
@@ -68,31 +161,22 @@ Result<Field> read_text(Field field, const std::string& path, std::string_view b
             const std::string_view word = words.next();
             const auto x = base::parse_double(word);
             if (!x)
-                return Error{.what = "a row of field \"" + field.name + '"',
-                             .file = path,
-                             .line = line_number,
-                             .expected = "numbers",
-                             .found = base::quoted(word),
-                             .remedy = "write one row of numbers per node or cell; start header lines with #"};
+                return line_error(path, line_number, "a row of field \"" + field.name + '"', "numbers",
+                                  base::quoted(word),
+                                  "write one row of numbers per node or cell; start header lines with #");
             if (is_inexact(word, *x))
-                return Error{.what = "a row of field \"" + field.name + '"',
-                             .file = path,
-                             .line = line_number,
-                             .expected = "an integer that a double holds exactly",
-                             .found = base::quoted(word),
-                             .remedy = "write it with a decimal point to round it"};
+                return line_error(path, line_number, "a row of field \"" + field.name + '"',
+                                  "an integer that a double holds exactly", base::quoted(word),
+                                  "write it with a decimal point to round it");
             if (word.data() + word.size() == file_end) return base::unended_number(path, line_number);
             field.data.push_back(*x);
         } while (!words.at_end() || words.separated());
         const std::size_t found = field.data.size() - before;
         if (components == 0) components = found;
         if (found != components)
-            return Error{.what = "a row of field \"" + field.name + '"',
-                         .file = path,
-                         .line = line_number,
-                         .expected = std::to_string(components) + " numbers, as in the first row",
-                         .found = std::to_string(found),
-                         .remedy = "rows have one number for each component of the field"};
+            return line_error(path, line_number, "a row of field \"" + field.name + '"',
+                              std::to_string(components) + " numbers, as in the first row", std::to_string(found),
+                              "rows have one number for each component of the field");
     }
     field.components = static_cast<int>(std::max<std::size_t>(components, 1));
     return field;
@@ -111,12 +195,11 @@ Result<std::vector<std::size_t>> components_of(const NpyTable& table, const Fiel
     if (!column.empty())
         columns = columns_of_field(names, are_places({column}) && !table.structured ? "column" + column : column);
     if (!columns.empty()) return columns;
-    return Error{
-        .what = column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
-        .file = path,
-        .expected = column.empty() ? "an array of numbers" : base::quoted(column),
-        .found = table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
-        .remedy = base::did_you_mean(column, names, "name one of them: --field " + field.name + "=" + path + ":NAME")};
+    return file_error(
+        path, column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
+        column.empty() ? "an array of numbers" : base::quoted(column),
+        table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
+        base::did_you_mean(column, names, "name one of them: --field " + field.name + "=" + path + ":NAME"));
 }
 
 Result<Field> read_npy(Field field, const std::string& path, const std::string& column, Notes& notes) {
@@ -126,11 +209,8 @@ Result<Field> read_npy(Field field, const std::string& path, const std::string& 
     constexpr std::uint64_t max_components = 1U << 16;
     if (!file->header().structured &&
         (shape.empty() || shape.size() > 2 || (shape.size() == 2 && (shape[1] < 1 || shape[1] > max_components))))
-        return Error{.what = "the shape of field \"" + field.name + '"',
-                     .file = path,
-                     .expected = "(rows,) or (rows, components)",
-                     .found = as_tuple(shape),
-                     .remedy = "save a.reshape(len(a), -1)"};
+        return file_error(path, "the shape of field \"" + field.name + '"', "(rows,) or (rows, components)",
+                          as_tuple(shape), "save a.reshape(len(a), -1)");
     const Result<NpyTable> table = file->table();
     if (!table) return table.error();
     const auto columns = components_of(*table, field, path, column);
@@ -138,11 +218,8 @@ Result<Field> read_npy(Field field, const std::string& path, const std::string& 
     for (const std::size_t c : *columns) {
         const NpyType& type = table->columns[c].type;
         if (!type.is_number())
-            return Error{.what = "the type of field \"" + field.name + '"',
-                         .file = path,
-                         .expected = "floats of 2, 4 or 8 bytes, or integers",
-                         .found = base::quoted(type.text),
-                         .remedy = "save a.astype('f8')"};
+            return file_error(path, "the type of field \"" + field.name + '"', "floats of 2, 4 or 8 bytes, or integers",
+                              base::quoted(type.text), "save a.astype('f8')");
     }
     const NpyType& type = table->columns[columns->front()].type;
     if (type.kind != 'f' || type.size != 8)

@@ -11,7 +11,8 @@ namespace barycert::io {
 /// One field of any number of rows, all of as many components.
 ///
 /// Text: a row a line, numbers between blanks, tabs, commas or semicolons, rounded to nearest; nan and inf are taken as
-/// they are. Blank lines, and what follows a #, are passed over. With `column`, CSV: see csv_column.hpp. NPY (by the
+/// they are. Blank lines, and what follows a #, are passed over. With `column`, CSV, whose first line settles the
+/// separator as in files of points: the column of that name or number (from 1), or NAME.0, NAME.1, ... NPY (by the
 /// suffix): an array of shape (rows,) or (rows, components) of floats or integers, of either byte order and either
 /// order of axes; with `column` a field of a structured array, or the number of a column from 1. Errors: it cannot be
 /// read; a word that is no number; rows of different lengths; an integer that is no double; no such column; another

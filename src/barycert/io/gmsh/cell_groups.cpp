@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "barycert/base/text.hpp"
+#include "barycert/io.hpp"
 
 namespace barycert::io {
 namespace {
@@ -111,11 +112,9 @@ Result<CellGroups> group_cells(const Mesh& mesh, bool by_entity, const std::stri
         if (group == 0 || name.empty()) continue;
         if (groups.names.emplace(group, name).first->second != name ||
             name.find_first_of("\r\n") != std::string::npos) {
-            return Error{.what = "a name of physical group " + std::to_string(group) + " that cannot be written",
-                         .file = path,
-                         .expected = "one name for all of its cells, on one line",
-                         .found = base::quoted(name),
-                         .remedy = "correct the cell labels gmsh:physical_name"};
+            return file_error(path, "a name of physical group " + std::to_string(group) + " that cannot be written",
+                              "one name for all of its cells, on one line", base::quoted(name),
+                              "correct the cell labels gmsh:physical_name");
         }
     }
     return groups;

@@ -1,9 +1,9 @@
-#include "barycert/io/gmsh/msh_cells.hpp"
-
 #include <atomic>
 #include <string>
 
 #include "barycert/base/large_pages.hpp"
+#include "barycert/io.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
@@ -13,14 +13,6 @@ namespace {
 std::string order_remedy(const MshFile& file) {
     return "make them cells of order 2 (or 1): `echo 'SetOrder 2;' > order2.geo`, then " +
            gmsh_command(file.path(), " order2.geo");
-}
-
-Error no_cells(const MshFile& file, std::string what, std::string expected, std::string found, std::string remedy) {
-    return {.what = std::move(what),
-            .file = file.path(),
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = std::move(remedy)};
 }
 
 /// The type of the cells.
@@ -43,23 +35,19 @@ Result<const ElementType*> choose(const MshFile& file, const TypeCounts& counts)
         simplices = simplices && (type.family == ElementFamily::tetrahedron || type.family == ElementFamily::triangle);
     }
     const std::string found = counted_types(counts, dimension, dimension);
-    if (dimension < 2) {
-        return no_cells(file, "the file contains no mesh", "tetrahedra, or triangles in the plane z = 0",
-                        found.empty() ? "no elements" : found,
+    const auto no_cells = [&](const char* what, const char* expected, const std::string& remedy) {
+        return file_error(file.path(), what, expected, found.empty() ? "no elements" : found, remedy);
+    };
+    if (dimension < 2)
+        return no_cells("the file contains no mesh", "tetrahedra, or triangles in the plane z = 0",
                         "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the "
                         "volume one, or add -save_all");
-    }
     const char* const expected = dimension == 3 ? "tetrahedra of order 1 or 2" : "triangles of order 1 or 2";
-    if (!simplices) {
-        return no_cells(file, dimension == 3 ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
-                        found, to_simplices(file.path()));
-    }
-    if (max_order > 2) {
-        return no_cells(file, "cells of a higher order", expected, found, order_remedy(file));
-    }
-    if (kinds > 1) {
-        return no_cells(file, "cells of both orders in one mesh", "cells of one order", found, order_remedy(file));
-    }
+    if (!simplices)
+        return no_cells(dimension == 3 ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
+                        to_simplices(file.path()));
+    if (max_order > 2) return no_cells("cells of a higher order", expected, order_remedy(file));
+    if (kinds > 1) return no_cells("cells of both orders in one mesh", "cells of one order", order_remedy(file));
     return chosen;
 }
 
@@ -93,18 +81,12 @@ bool take_head(Row& row, int version, const ElementBlock& block, Head& head) {
                            .number = head.tag});
     }
     if (version != 22) return true;
-    std::int64_t tags = static_cast<std::int64_t>(block.tags);
-    if constexpr (Row::text) {
-        std::int64_t type = 0;
-        if (!row.integer(type, "the type of an element") || !row.integer(tags, "the number of tags")) return false;
+    std::int64_t value = 0;
+    for (int i = 0; Row::text && i < 2; ++i) {  // the type and the number of tags, which are known
+        if (!row.integer(value, "a number")) return false;
     }
-    if (tags < 0) {
-        return row.refuse(
-            {.what = "bad number", .expected = "the number of tags of an element", .has_number = true, .number = tags});
-    }
-    head.more = tags > 2;
-    for (std::int64_t k = 0; k < tags; ++k) {
-        std::int64_t value = 0;
+    head.more = block.tags > 2;
+    for (std::size_t k = 0; k < block.tags; ++k) {
         if (!row.integer(value, "a tag of an element")) return false;
         if (k == 0) head.physical = value;
         if (k == 1) head.entity = value;
@@ -133,28 +115,24 @@ Status read_chosen(const Target& to, std::span<const Run> runs) {
     Status status =
         parse_runs(to.file, "Elements", runs, [&, mids = to.mids](auto& row, const Run& run, std::size_t i) {
             const char* const start = row.at();
-            std::array<std::uint32_t, Corners + 1> plain{};
-            if (version != 22 && mids == 0 && row.plain(plain)) {
+            // A row of small integers, of which so many stand before the corners.
+            const auto take_plain = [&]<std::size_t Before>() {
+                std::array<std::uint32_t, Before + Corners> plain{};
+                if (!row.plain(plain)) return false;
                 tags[i] = plain[0];
-                bool good = true;
-                for (std::size_t k = 0; k < Corners; ++k) {
-                    good &= (corners[i * Corners + k] = to.nodes.find(plain[k + 1])) >= 0;
+                bool good = Before == 1 || plain[2] == 2;
+                for (std::size_t k = 0; k < Corners; ++k)
+                    good &= (corners[i * Corners + k] = to.nodes.find(plain[Before + k])) >= 0;
+                if constexpr (Before != 1) {
+                    physical[i] = plain[3];
+                    geometrical[i] = plain[4];
                 }
-                if (good) return true;
-                row.back(start);
-            }
-            std::array<std::uint32_t, Corners + 5> plain2{};
-            if (version == 22 && mids == 0 && row.plain(plain2)) {
-                bool good = plain2[2] == 2;
-                tags[i] = plain2[0];
-                physical[i] = plain2[3];
-                geometrical[i] = plain2[4];
-                for (std::size_t k = 0; k < Corners && good; ++k) {
-                    good = (corners[i * Corners + k] = to.nodes.find(plain2[k + 5])) >= 0;
-                }
-                if (good) return true;
-                row.back(start);
-            }
+                if (!good) row.back(start);
+                return good;
+            };
+            if (mids == 0 &&
+                (version == 22 ? take_plain.template operator()<5>() : take_plain.template operator()<1>()))
+                return true;
             Head head;
             if (!take_head(row, version, to.elements.blocks[run.id], head)) return false;
             tags[i] = head.tag;
@@ -169,7 +147,7 @@ Status read_chosen(const Target& to, std::span<const Run> runs) {
             for (std::size_t k = 0; k < mids; ++k) {
                 if (!take_node(row, to.nodes, mid_nodes[i * mids + k])) return false;
             }
-            return row.end();
+            return true;
         });
     to.cells.partitioned = more;
     return status;
@@ -193,23 +171,22 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
     for (std::size_t i = 0; i < count; ++i) {
         if (i == 0 || !repeats(i)) kept.push_back(i);
     }
-    const bool numbered = !cells.numbers.empty();
-    if (!numbered) cells.numbers.resize(kept.size());
-    for (std::size_t to = 0; to < kept.size(); ++to) {
-        const std::size_t from = kept[to];
-        std::copy_n(&cells.corners[from * corners], corners, &cells.corners[to * corners]);
-        if (mids != 0) std::copy_n(&cells.mid_nodes[from * mids], mids, &cells.mid_nodes[to * mids]);
-        cells.tags[to] = cells.tags[from];
-        cells.physical[to] = cells.physical[from];
-        cells.geometrical[to] = cells.geometrical[from];
-        cells.numbers[to] = numbered ? cells.numbers[from] : static_cast<Mesh::Index>(from);
+    const auto keep = [&](auto& values, std::size_t width) {
+        const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i * width); };
+        for (std::size_t to = 0; to < kept.size(); ++to) std::copy_n(at(kept[to]), width, at(to));
+        values.resize(kept.size() * width);
+    };
+    if (cells.numbers.empty()) {
+        for (const std::size_t i : kept) cells.numbers.push_back(static_cast<Mesh::Index>(i));
+    } else {
+        keep(cells.numbers, 1);
     }
     cells.repeated = count - kept.size();
-    cells.corners.resize(kept.size() * corners);
-    cells.mid_nodes.resize(kept.size() * mids);
-    for (std::vector<double>* values : {&cells.physical, &cells.geometrical}) values->resize(kept.size());
-    cells.tags.resize(kept.size());
-    cells.numbers.resize(kept.size());
+    keep(cells.corners, corners);
+    keep(cells.mid_nodes, mids);
+    keep(cells.tags, 1);
+    keep(cells.physical, 1);
+    keep(cells.geometrical, 1);
 }
 
 /// Marks the nodes of cells; counts the others.
@@ -243,7 +220,7 @@ Status look_at_others(const Target& to, std::span<const Run> runs, const std::ve
             if (!take_node(row, to.nodes, node)) return false;
             if (used[static_cast<std::size_t>(node)] == 0) apart = true;
         }
-        return row.end();
+        return true;
     });
     to.cells.apart = apart;
     return status;

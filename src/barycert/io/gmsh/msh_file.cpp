@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
@@ -66,14 +67,9 @@ std::string word_at(const char* at, const char* end) {
 
 Error MshFile::error_at(const char* at, std::string what, std::string expected, std::string found,
                         std::string remedy) const {
-    const char* const begin = bytes_.data();
-    const bool text = layout_ != MshLayout::binary || at < after_format_;
-    return {.what = std::move(what),
-            .file = path_,
-            .line = text ? static_cast<std::size_t>(std::count(begin, at, '\n')) + 1 : 0,
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = std::move(remedy)};
+    const bool text = !binary_ || at < after_format_;
+    return line_error(path_, text ? line_of(bytes_, at) : 0, std::move(what), std::move(expected), std::move(found),
+                      std::move(remedy));
 }
 
 Status MshFile::read_format() {
@@ -124,7 +120,7 @@ Status MshFile::read_format() {
         return error_at(line, "a binary file of version 4.0", "version 4.1 or 2.2", base::quoted(words[0]),
                         save_remedy);
     }
-    layout_ = MshLayout::binary;
+    binary_ = true;
     std::int32_t one = 0;
     if (end - at >= 4) std::memcpy(&one, at, 4);
     swapped_ = one == 0x01000000;
@@ -151,7 +147,7 @@ Status MshFile::add_section(const char* at, const char* end) {
 Status MshFile::list_text_sections() {
     const char* const file_end = bytes_.data() + bytes_.size();
     const auto name_of = [&](const char* at) { return trimmed(take_line(at, file_end)).substr(1); };
-    const std::vector<const char*>& marks = lines_.marked();
+    const std::vector<const char*>& marks = words_.marked();
     const char* from = bytes_.data() + byte_order_mark(bytes_);
     const auto stray = [&](const char* end) -> Status {
         while (from != end && is_space(*from)) ++from;
@@ -224,10 +220,10 @@ Result<MshFile> MshFile::open(const std::string& path, int threads) {
     file.data_ = std::move(*mapped);
     file.bytes_ = file.data_.bytes();
     Status status = file.read_format();
-    if (status && file.layout_ == MshLayout::binary) {
+    if (status && file.binary_) {
         status = file.list_binary_sections();
     } else if (status) {
-        file.lines_ = LineIndex(file.bytes_.substr(byte_order_mark(file.bytes_)), threads);
+        file.words_ = WordIndex(file.bytes_.substr(byte_order_mark(file.bytes_)), threads);
         status = file.list_text_sections();
     }
     if (status) status = file.check_sections();

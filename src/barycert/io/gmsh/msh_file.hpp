@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "barycert/base/mapped_file.hpp"
-#include "barycert/io/gmsh/line_index.hpp"
+#include "barycert/io/gmsh/word_index.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
@@ -19,12 +19,6 @@ struct MshSection {
     std::string_view body;
 };
 
-/// How numbers stand in the file. Gmsh takes any white space between them, and so does `free`, which reads them one
-/// after the other. `lines` expects what all programs write, one row a line: then rows can be found without reading
-/// those before them, and read on all threads. What fails as `lines` is read again as `free`, which knows the first
-/// error; so results and errors depend neither on the layout nor on the threads.
-enum class MshLayout : std::uint8_t { lines, free, binary };
-
 class MshFile {
 public:
     /// Error: it cannot be read, is of another format or version, or a section has no end.
@@ -32,12 +26,11 @@ public:
 
     const std::string& path() const { return path_; }
     int version() const { return version_; }  ///< 22 (all of 2.x), 40 or 41
-    MshLayout layout() const { return layout_; }
-    void set_free_layout() { layout_ = MshLayout::free; }
+    bool binary() const { return binary_; }
     bool swapped() const { return swapped_; }  ///< binary, of the other byte order
     int threads() const { return threads_; }
-    const LineIndex& lines() const { return lines_; }
-    const base::MappedFile& data() const { return data_; }
+    const WordIndex& words() const { return words_; }  ///< of text
+    std::string_view bytes() const { return bytes_; }
 
     const std::vector<MshSection>& sections() const { return sections_; }
     /// The only section of that name; nullptr if there is none.
@@ -59,9 +52,8 @@ private:
     base::MappedFile data_;
     std::string_view bytes_;  // of data_
     int version_ = 41, threads_ = 0;
-    MshLayout layout_ = MshLayout::lines;
-    bool swapped_ = false;
-    LineIndex lines_;
+    bool binary_ = false, swapped_ = false;
+    WordIndex words_;
     const char* after_format_ = nullptr;
     std::vector<MshSection> sections_;
 };

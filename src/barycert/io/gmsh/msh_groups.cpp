@@ -5,13 +5,10 @@
 //     but for points also: boundaries count, boundary...
 // $PartitionedEntities, 4.1: partitions count, ghosts count, rows: ghost partition; four counts; rows as above, with
 //     parent-dimension parent-tag, partitions count, partition... after the tag.
-#include "barycert/io/gmsh/msh_groups.hpp"
-
 #include <array>
 #include <string_view>
 
-#include "barycert/io/gmsh/rows.hpp"
-#include "barycert/io/gmsh/walk.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 
 namespace barycert::io {
 namespace {
@@ -19,24 +16,21 @@ namespace {
 constexpr const char* name_line = "a line: dimension tag \"name\"";
 
 Status read_names(const MshFile& file, const MshSection& section, MshGroups& groups) {
-    const char* const end = section.body.data() + section.body.size();
-    TextRow<true> head(section.body.data(), end);
+    Walk walk(file, section, true);
     std::int64_t count = 0;
-    const auto bad = [&](const char* at) {
-        return file.error_at(at, "bad line in $PhysicalNames", name_line, word_at(at, end));
+    const char* start = walk.at();
+    const auto bad = [&] {
+        return file.error_at(start, "bad line in $PhysicalNames", name_line, word_at(start, walk.end()));
     };
-    if (!head.integer(count, "") || count < 0) return bad(section.body.data());
-    const char* at = head.at();
-    take_line(at, end);
+    if (!walk.size(count, "")) return bad();
+    walk.line();
     for (std::int64_t i = 0; i < count; ++i) {
-        const char* const start = at;
-        TextRow<true> row(at, end);
+        start = walk.at();
         std::int64_t dimension = 0, tag = 0;
-        if (at == end || !row.integer(dimension, "") || !row.integer(tag, "")) return bad(start);
-        at = row.at();
-        std::string_view rest = take_line(at, end);
+        if (!walk.integer(dimension, "") || !walk.integer(tag, "")) return bad();
+        const std::string_view rest = walk.line();
         const std::size_t first = rest.find('"'), last = rest.rfind('"');
-        if (first == std::string_view::npos || first == last) return bad(start);
+        if (first == std::string_view::npos || first == last) return bad();
         groups.names[{dimension, tag}] = std::string(rest.substr(first + 1, last - first - 1));
     }
     return Done{};
@@ -110,14 +104,12 @@ Result<MshGroups> read_msh_groups(const MshFile& file) {
     if (const MshSection* const names = file.find("PhysicalNames"); names != nullptr) {
         if (Status s = read_names(file, *names, groups); !s) return s.error();
     }
-    // A few lines among many: read as they come.
-    const MshLayout layout = file.layout() == MshLayout::binary ? MshLayout::binary : MshLayout::free;
     if (const MshSection* const entities = file.find("Entities"); entities != nullptr && file.version() != 22) {
-        Walk walk(file, *entities, layout);
+        Walk walk(file, *entities);
         if (!take_entities(walk, file.version(), false, groups)) return walk.error();
     }
     if (const MshSection* const parts = file.find("PartitionedEntities"); parts != nullptr && file.version() == 41) {
-        Walk walk(file, *parts, layout);
+        Walk walk(file, *parts);
         if (!take_parts(walk, file.version(), groups)) return walk.error();
         groups.partitioned = true;
     }

@@ -1,10 +1,8 @@
-#include "barycert/io/gmsh/msh_labels.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "barycert/base/text.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 
 namespace barycert::io {
 namespace {

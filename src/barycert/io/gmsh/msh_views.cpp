@@ -1,14 +1,68 @@
-#include "barycert/io/gmsh/msh_views.hpp"
-
+// Of a section: strings count, a line each: the name, perhaps an interpolation scheme. Reals count, reals: the time.
+// Integers count, integers: step, components, rows, perhaps a partition. All this is text. Rows: tag value...
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "barycert/base/text.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 
 namespace barycert::io {
 namespace {
+
+/// What a line says, without quotes.
+std::string string_of(std::string_view line) {
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+    while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+    if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
+    return std::string(line);
+}
+
+Status read_header(const MshFile& file, MshView& view) {
+    constexpr std::int64_t max_components = 100;
+    Walk walk(file, *view.section, true, "bad header of");
+    const auto bad = [&](const char* expected, std::string found) {
+        walk.refuse_word(expected, std::move(found));
+        return walk.error();
+    };
+    const char* const end = walk.end();
+    std::int64_t count = 0;
+    if (!walk.integer(count, "the number of strings")) return walk.error();
+    walk.line();
+    for (std::int64_t i = 0; i < count; ++i) {
+        if (walk.at() == end) return bad("a string", word_at(end, end));
+        std::string text = string_of(walk.line());
+        if (i == 0) view.name = std::move(text);
+        if (i == 1) view.interpolated = true;
+    }
+    if (!walk.integer(count, "the number of real numbers")) return walk.error();
+    for (std::int64_t i = 0; i < count; ++i) {
+        double value = 0;
+        if (!walk.value(value, "a real number")) return walk.error();
+        if (i == 0) view.time = value;
+    }
+    if (!walk.integer(count, "the number of integers")) return walk.error();
+    std::array<std::int64_t, 3> values{0, 0, -1};
+    for (std::int64_t i = 0, ignored = 0; i < count; ++i) {
+        if (!walk.integer(i < 3 ? values[static_cast<std::size_t>(i)] : ignored, "an integer")) return walk.error();
+    }
+    view.step = values[0];
+    if (values[1] < 1 || values[1] > max_components)
+        return bad("the number of components, 1 to 100", std::to_string(values[1]));
+    if (values[2] < 0 || values[2] > INT32_MAX) return bad("the number of values", std::to_string(values[2]));
+    view.components = static_cast<int>(values[1]);
+    if (walk.line().find_first_not_of(" \t") != std::string_view::npos)
+        return bad("a line end", word_at(walk.at(), end));
+    if (view.of == MshView::Of::element_nodes) return Done{};
+    Walk rows(file, *view.section);
+    rows.move_to(walk.at());
+    const std::size_t numbers = 1 + static_cast<std::size_t>(values[1]), bytes = 8 * numbers - 4;
+    view.rows = {rows.at(), static_cast<std::size_t>(values[2]), 0, numbers, bytes, 0};
+    if (!rows.skip_rows(values[2], numbers, bytes, "values") || !rows.at_end()) return rows.error();
+    return Done{};
+}
 
 /// The rows of one section.
 struct ViewRows {
@@ -28,7 +82,7 @@ Result<ViewRows> read_rows(const MshFile& file, const MshView& view) {
                                          for (std::size_t c = 0; c < components; ++c) {
                                              if (!row.value(rows.values[i * components + c], "a number")) return false;
                                          }
-                                         return row.end();
+                                         return true;
                                      });
     if (!status) return status.error();
     return rows;
@@ -154,6 +208,19 @@ std::optional<std::int64_t> choose_step(const std::vector<const MshView*>& views
 }
 
 }  // namespace
+
+Result<std::vector<MshView>> find_msh_views(const MshFile& file) {
+    constexpr std::array<std::string_view, 3> names{"NodeData", "ElementData", "ElementNodeData"};
+    std::vector<MshView> views;
+    for (const MshSection& section : file.sections()) {
+        const auto* const name = std::find(names.begin(), names.end(), section.name);
+        if (name == names.end()) continue;
+        MshView view{.of = static_cast<MshView::Of>(name - names.begin()), .section = &section};
+        if (Status s = read_header(file, view); !s) return s.error();
+        views.push_back(std::move(view));
+    }
+    return views;
+}
 
 Status read_msh_fields(const MshFile& file, const std::vector<MshView>& views, MshView::Of of,
                        const ViewTargets& targets, std::optional<std::int64_t> step, std::vector<Field>& fields,

@@ -9,13 +9,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/gmsh/msh_cells.hpp"
-#include "barycert/io/gmsh/msh_elements.hpp"
-#include "barycert/io/gmsh/msh_file.hpp"
-#include "barycert/io/gmsh/msh_groups.hpp"
-#include "barycert/io/gmsh/msh_labels.hpp"
-#include "barycert/io/gmsh/msh_nodes.hpp"
-#include "barycert/io/gmsh/msh_views.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/other_formats.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
@@ -28,11 +22,9 @@ Status flatten(std::vector<double>& points, const std::string& path, const std::
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         if (points[i + 2] != 0) {
-            return Error{.what = "z of node " + std::to_string(i / 3) + " (from 0)",
-                         .file = path,
-                         .expected = "0, as the mesh is of triangles",
-                         .found = base::shortest(points[i + 2]),
-                         .remedy = plane_remedy(i == 0 ? points : std::vector<double>(), triangles)};
+            return file_error(path, "z of node " + std::to_string(i / 3) + " (from 0)",
+                              "0, as the mesh is of triangles", base::shortest(points[i + 2]),
+                              plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
         }
         points[to++] = points[i];
         points[to++] = points[i + 1];
@@ -116,14 +108,11 @@ Result<Mesh> read_whole(const MshFile& file, const GmshReadOptions& options) {
 }
 
 template <class T>
-Result<T> guarded(const std::string& path, const std::function<Result<T>(MshFile&)>& read, int threads) {
+Result<T> guarded(const std::string& path, const std::function<Result<T>(const MshFile&)>& read, int threads) {
     const ExactEnvironment environment;
     try {
-        Result<MshFile> file = MshFile::open(path, threads);
+        const Result<MshFile> file = MshFile::open(path, threads);
         if (!file) return file.error();
-        Result<T> result = read(*file);
-        if (result || file->layout() != MshLayout::lines) return result;
-        file->set_free_layout();
         return read(*file);
     } catch (const std::bad_alloc&) {
         return base::too_little_memory(path);
@@ -135,13 +124,13 @@ Result<T> guarded(const std::string& path, const std::function<Result<T>(MshFile
 
 Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options) {
     return io::guarded<Mesh>(
-        path, [&](io::MshFile& file) { return io::read_whole(file, options); }, options.threads);
+        path, [&](const io::MshFile& file) { return io::read_whole(file, options); }, options.threads);
 }
 
 Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
     return io::guarded<std::vector<GmshStep>>(
         path,
-        [](io::MshFile& file) -> Result<std::vector<GmshStep>> {
+        [](const io::MshFile& file) -> Result<std::vector<GmshStep>> {
             const Result<std::vector<io::MshView>> views = io::find_msh_views(file);
             if (!views) return views.error();
             std::vector<GmshStep> steps;
@@ -156,12 +145,11 @@ Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
 
 Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimension, int threads) {
     if (dimension != 2 && dimension != 3) {
-        return Error{
-            .what = "the dimension of points", .file = path, .expected = "2 or 3", .found = std::to_string(dimension)};
+        return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
     }
     return io::guarded<std::vector<double>>(
         path,
-        [&](io::MshFile& file) -> Result<std::vector<double>> {
+        [&](const io::MshFile& file) -> Result<std::vector<double>> {
             Result<io::MshNodes> nodes = io::read_msh_nodes(file);
             if (!nodes) return nodes.error();
             if (dimension == 2) {

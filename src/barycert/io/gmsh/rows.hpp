@@ -1,11 +1,12 @@
-/// Rows of numbers: of text, one a line or as they come, and binary. One parser of a row serves them all.
+/// Numbers of headers and rows, text or binary. Rows are read on all threads, and one parser of a row serves both.
 ///
-/// A parser takes numbers one after the other, says what each is (for the error), and ends the row:
-///     [&](auto& row, std::size_t i) { return row.tag(tags[i], "a node's tag") && row.end(); }
+/// A parser takes numbers one after the other and says what each is (for the error):
+///     [&](auto& row, std::size_t i) { return row.tag(tags[i], "a node's tag"); }
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -13,6 +14,8 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "barycert/base/workers.hpp"
@@ -33,15 +36,11 @@ struct RowFault {
 
 /// A number that may be infinite or NaN, if it is written so: too large a number is none.
 inline const char* scan_any_real(const char* at, const char* end, double& value) {
-    if (*at == '+' && at[1] != '-') ++at;
-    const auto [after, error] = fast_float::from_chars(at, end, value);
-    if (error == std::errc::invalid_argument) return nullptr;
-    const char first = static_cast<char>((*at == '-' ? at[1] : *at) | 0x20);
-    return std::isfinite(value) || first == 'i' || first == 'n' ? after : nullptr;
+    const char* const finite = scan_real(at, end, value);
+    return finite != nullptr ? finite : scan_nonfinite(at, end, value);
 }
 
-/// Of text. With `Free`, lines do not matter.
-template <bool Free>
+/// Of text: as many words as the row has numbers.
 class TextRow {
 public:
     static constexpr bool text = true;
@@ -50,8 +49,7 @@ public:
 
     bool integer(std::int64_t& value, const char* name) {
         skip();
-        const char* const after = scan_integer(at_, value);
-        return take(after, name);
+        return take(scan_integer(at_, value), name);
     }
     bool tag(std::int64_t& value, const char* name) { return integer(value, name); }
     bool real(double& value, const char* name) {
@@ -63,10 +61,10 @@ public:
         return take(scan_any_real(at_, end_, value), name);
     }
 
-    /// A whole row of small integers and its end; false if it is none, and then nothing has moved.
+    /// A whole row of small integers on a line of its own; false if it is none, and then nothing has moved.
     template <std::size_t Count>
     bool plain(std::array<std::uint32_t, Count>& values) {
-        if constexpr (Free) return false;
+        skip();
         const char* const after = scan_plain_row(at_, values);
         if (after != nullptr) at_ = after;
         return after != nullptr;
@@ -74,15 +72,8 @@ public:
     /// Back to where plain() began.
     void back(const char* at) { at_ = at; }
 
-    bool end() {
-        if constexpr (Free) return true;
-        skip();
-        if (*at_ == '\r') ++at_;
-        return *at_++ == '\n';
-    }
-
     bool refuse(const RowFault& fault) {
-        if constexpr (Free) fault_ = fault;
+        fault_ = fault;
         return false;
     }
 
@@ -91,13 +82,10 @@ public:
 
 private:
     void skip() {
-        while (is_blank(*at_) || (Free && (*at_ == '\n' || *at_ == '\r'))) ++at_;
+        while (is_blank(*at_) || *at_ == '\n' || *at_ == '\r') ++at_;
     }
     bool take(const char* after, const char* name) {
-        if (after == nullptr || static_cast<unsigned char>(*after) > ' ') {
-            if constexpr (Free) fault_ = {.expected = name};
-            return false;
-        }
+        if (after == nullptr || static_cast<unsigned char>(*after) > ' ') return refuse({.expected = name});
         at_ = after;
         return true;
     }
@@ -106,6 +94,15 @@ private:
     const char* end_;
     RowFault fault_;
 };
+
+/// The word at `at`, which must be there.
+template <class Word>
+Word word_in(const char* at, bool swapped) {
+    Word word = 0;
+    std::memcpy(&word, at, sizeof(Word));
+    if constexpr (sizeof(Word) == 8) return swapped ? __builtin_bswap64(word) : word;
+    return static_cast<Word>(swapped ? __builtin_bswap32(static_cast<std::uint32_t>(word)) : word);
+}
 
 /// Binary. The bytes of the row must be there.
 class BinaryRow {
@@ -137,7 +134,6 @@ public:
         return false;
     }
     void back(const char* at) { at_ = at; }
-    bool end() { return true; }
     bool refuse(const RowFault& fault) {
         fault_ = fault;
         return false;
@@ -149,11 +145,8 @@ public:
 private:
     template <class Word>
     Word take() {
-        Word word = 0;
-        std::memcpy(&word, at_, sizeof(Word));
         at_ += sizeof(Word);
-        if constexpr (sizeof(Word) == 8) return swapped_ ? __builtin_bswap64(word) : word;
-        return static_cast<Word>(swapped_ ? __builtin_bswap32(static_cast<std::uint32_t>(word)) : word);
+        return word_in<Word>(at_ - sizeof(Word), swapped_);
     }
 
     const char* at_;
@@ -161,13 +154,13 @@ private:
     RowFault fault_;
 };
 
-/// Rows alike, one after the other.
+/// Rows of as many numbers each, one after the other.
 struct Run {
-    Place place;  ///< of the first
+    const char* at = nullptr;  ///< the first, perhaps after blanks
     std::size_t count = 0;
-    std::size_t first = 0;      ///< its first row among those of all runs
-    std::size_t row_bytes = 0;  ///< in a binary file
-    std::size_t id = 0;         ///< for the parser
+    std::size_t first = 0;               ///< its first row among those of all runs
+    std::size_t numbers = 1, bytes = 1;  ///< of a row: of text, of a binary file
+    std::size_t id = 0;                  ///< for the parser
 };
 
 /// Some rows of a run, to be read by one thread.
@@ -181,43 +174,130 @@ std::vector<RunPart> cut_runs(const MshFile& file, std::span<const Run> runs);
 /// The Error of a row of $`section`, which stopped at `at`; `row` counts from 0 among those of all runs.
 Error row_error(const MshFile& file, const char* section, const char* at, const RowFault& fault, std::size_t row);
 
-/// Calls parse(row, run, i) for each row i of all runs, and tells the first that it refuses. If the layout is `lines`,
-/// that Error says no more than that there is one.
+/// Calls parse(row, run, i) for each row i of all runs, and tells the first that it refuses.
 template <class Parse>
 Status parse_runs(const MshFile& file, const char* section, std::span<const Run> runs, const Parse& parse) {
-    const char* const end = file.data().bytes().data() + file.data().bytes().size();
-    const bool wide = file.version() == 41;
-    if (file.layout() == MshLayout::free) {
-        for (const Run& run : runs) {
-            TextRow<true> row(run.place.at, end);
-            for (std::size_t i = run.first; i < run.first + run.count; ++i) {
-                if (!parse(row, run, i)) return row_error(file, section, row.at(), row.fault(), i);
-            }
-        }
-        return Done{};
-    }
+    struct Stop {
+        const char* at;
+        RowFault fault;
+        std::size_t row;
+    };
     const std::vector<RunPart> parts = cut_runs(file, runs);
-    const bool good = base::share_work(file.threads(), parts.size(), [&](std::size_t p) {
-        const RunPart part = parts[p];
+    // The only place that calls the parser, so that it becomes part of the loop.
+    const auto read = [&](const RunPart part, Stop* stop) {
         const auto all = [&](auto row) {  // a copy, whose address is not known elsewhere
-            for (std::size_t i = part.first; i < part.last; ++i) {
-                if (!parse(row, *part.run, part.run->first + i)) return false;
+            for (std::size_t i = part.run->first + part.first; i < part.run->first + part.last; ++i) {
+                if (parse(row, *part.run, i)) continue;
+                if (stop != nullptr) *stop = {row.at(), row.fault(), i};
+                return false;
             }
             return true;
         };
-        return file.layout() == MshLayout::lines ? all(TextRow<false>(part.at, end))
-                                                 : all(BinaryRow(part.at, wide, file.swapped()));
-    });
-    if (good) return Done{};
-    if (file.layout() == MshLayout::lines) return Error{.what = "not one row a line"};
-    for (const RunPart& part : parts) {
-        BinaryRow row(part.at, wide, file.swapped());
-        for (std::size_t i = part.first; i < part.last; ++i) {
-            if (!parse(row, *part.run, part.run->first + i))
-                return row_error(file, section, row.at(), row.fault(), part.run->first + i);
-        }
-    }
-    return Error{.what = "a row is refused once and not again", .file = file.path()};
+        return file.binary() ? all(BinaryRow(part.at, file.version() == 41, file.swapped()))
+                             : all(TextRow(part.at, file.bytes().data() + file.bytes().size()));
+    };
+    if (base::share_work(file.threads(), parts.size(), [&](std::size_t p) { return read(parts[p], nullptr); }))
+        return Done{};
+    // Again in their order: the first one is told, whatever the threads did.
+    Stop stop{};
+    const auto bad = std::find_if(parts.begin(), parts.end(), [&](const RunPart& part) { return !read(part, &stop); });
+    if (bad == parts.end()) return Error{.what = "a row is refused once and not again", .file = file.path()};
+    return row_error(file, section, stop.at, stop.fault, stop.row);
 }
+
+/// How many rows of text of `words` words from `at` on are whole and like the first one, `most` at most: same(row)
+/// looks at the beginning of each. The text of the section ends at `end`.
+template <class Same>
+std::size_t rows_alike(const MshFile& file, const char* at, const char* end, std::size_t words, std::size_t most,
+                       const Same& same) {
+    std::size_t alike = 0;
+    for (std::size_t few = std::min<std::size_t>(most, 16); alike < few; ++alike) {
+        std::size_t skipped = words;
+        const char* const next = skip_words(at, end, skipped);
+        if (skipped != words || (alike != 0 && !same(TextRow(at, end)))) return alike;
+        at = next;
+    }
+    const WordIndex& index = file.words();
+    const std::size_t base = alike == most ? 0 : index.before(at), first = alike;
+    if (alike != most) most = std::min(most, alike + (index.before(end) - base) / words);
+    // Twice as far each time, so that little is looked at for nothing.
+    for (std::size_t look = 64; alike < most; look *= 2) {
+        const std::size_t count = std::min(look, most - alike);
+        const auto parts = index.cut(index.find(base + (alike - first) * words), count, words);
+        std::atomic<std::size_t> found{count};
+        base::share_work(file.threads(), parts.size(), [&](std::size_t p) {
+            const char* next = parts[p].at;
+            for (std::size_t i = parts[p].first; i < parts[p].last && i < found; ++i) {
+                if (!same(TextRow(next, end))) {
+                    for (std::size_t other = found; i < other && !found.compare_exchange_weak(other, i);) {
+                    }
+                }
+                std::size_t skipped = words;
+                const char* const plain = plain_row_end(next, words);
+                next = plain != nullptr ? plain : skip_words(next, end, skipped);
+            }
+            return true;
+        });
+        alike += found;
+        if (found != count) break;
+    }
+    return alike;
+}
+
+/// A section from its beginning: headers number by number, rows passed over.
+///
+/// Each step is false if what it wants is not there; error() then says so. Nothing may follow a failed step.
+class Walk {
+public:
+    /// `text`: the numbers are text, as those of some headers are in binary files too. `bad`: what errors call a word
+    /// that is no number.
+    Walk(const MshFile& file, const MshSection& section, bool text, const char* bad = "bad number in");
+    Walk(const MshFile& file, const MshSection& section) : Walk(file, section, !file.binary()) {}
+
+    bool integer(std::int64_t& value, const char* name) { return number(value, 4, name); }  ///< int
+    bool size(std::int64_t& value, const char* name);                                       ///< size_t; not negative
+    bool real(double& value, const char* name);
+    /// A number that may be infinite or NaN, in text.
+    bool value(double& value, const char* name);
+    /// A number on a line of its own, which is text in binary files too; not negative.
+    bool count_line(std::int64_t& value, const char* name);
+    /// The rest of the line, which is text in any file, without its end.
+    std::string_view line() { return take_line(at_, end_); }
+
+    bool text() const { return text_; }
+    const char* at() const { return at_; }
+    const char* end() const { return end_; }
+    /// How many words of text are left.
+    std::size_t words_left() const { return file_->words().before(end_) - file_->words().before(at_); }
+    /// Moves over rows: so many numbers or bytes each.
+    bool skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name);
+    /// White space and nothing else is left.
+    bool at_end();
+
+    const Error& error() const { return error_; }
+    bool refuse(const std::string& what, std::string expected, std::string found, std::string remedy = {}) {
+        return fail(what + " in", std::move(expected), std::move(found), std::move(remedy));
+    }
+    /// Refuses what stands here as a word that is no number.
+    bool refuse_word(std::string expected, std::string found) {
+        return fail(bad_, std::move(expected), std::move(found), {});
+    }
+    /// Goes on at another place.
+    void move_to(const char* at) { at_ = at; }
+
+private:
+    bool fail(const std::string& what, std::string expected, std::string found, std::string remedy);
+    bool take(const char* after, const char* name);
+    void skip();
+    bool number(std::int64_t& value, std::size_t bytes, const char* name);
+
+    const MshFile* file_;
+    std::string_view name_;
+    bool text_;
+    const char* bad_;
+    const char* at_;
+    const char* end_;  // of the section
+    Error error_;
+};
 
 }  // namespace barycert::io

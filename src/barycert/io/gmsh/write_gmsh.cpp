@@ -8,7 +8,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/gmsh/cell_groups.hpp"
-#include "barycert/io/gmsh/msh_output.hpp"
+#include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
@@ -21,11 +21,9 @@ Status check_names(const Mesh& mesh, const CellGroups& groups, const std::string
     const auto check = [&](std::set<std::string>& names, const std::string& name) -> Status {
         const bool fits = !name.empty() && name.find_first_of("\"\r\n") == std::string::npos;
         if (fits && names.insert(name).second) return Done{};
-        return Error{.what = "a name of a field that cannot be written",
-                     .file = path,
-                     .expected = "names that differ, without quotes and line breaks",
-                     .found = name.empty() ? "no name" : base::quoted(name) + (fits ? " twice" : ""),
-                     .remedy = "rename the field"};
+        return file_error(path, "a name of a field that cannot be written",
+                          "names that differ, without quotes and line breaks",
+                          name.empty() ? "no name" : base::quoted(name) + (fits ? " twice" : ""), "rename the field");
     };
     std::set<std::string> of_nodes, of_cells;
     if (!mesh.point_markers.empty()) of_nodes.insert("marker");
@@ -53,10 +51,10 @@ public:
         if (new_) write_entities();
         out_.text("$Nodes\n");
         new_ ? write_nodes_41(dimension) : write_nodes_22(dimension);
-        out_.end_section("Nodes");
+        end_section("Nodes");
         out_.text("$Elements\n");
         new_ ? write_elements_41() : write_elements_22();
-        out_.end_section("Elements");
+        end_section("Elements");
         for (const Field& field : mesh_.point_fields)
             write_data("NodeData", field.name, field.components, field.data, {});
         if (!mesh_.point_markers.empty()) write_data("NodeData", "marker", 1, mesh_.point_markers, {});
@@ -67,11 +65,19 @@ public:
 
 private:
     void line(std::uint64_t number) { out_.text(std::to_string(number) + "\n"); }
+    void integer(std::int64_t value) {  // int
+        out_.binary() ? out_.number(static_cast<std::int32_t>(value)) : out_.number(value);
+    }
+    void wide(std::uint64_t value) { out_.number(value); }  // size_t
+    /// "$EndName", after binary data on a line of its own.
+    void end_section(std::string_view name) {
+        out_.text((out_.binary() ? "\n$End" : "$End") + std::string(name) + "\n");
+    }
 
     void write_format() {
         out_.text(std::string("$MeshFormat\n") + (new_ ? "4.1 " : "2.2 ") + (out_.binary() ? "1" : "0") + " 8\n");
-        if (out_.binary()) out_.integer(1);
-        out_.end_section("MeshFormat");
+        if (out_.binary()) integer(1);
+        end_section("MeshFormat");
     }
 
     void write_names() {
@@ -104,39 +110,37 @@ private:
             }
         }
         out_.text("$Entities\n");
-        for (int d = 0; d < 4; ++d) out_.size(d == mesh_.dimension ? groups_.physical_of.size() : 0);
+        for (int d = 0; d < 4; ++d) wide(d == mesh_.dimension ? groups_.physical_of.size() : 0);
         out_.end_row();
         for (const auto& [entity, physical] : groups_.physical_of) {
-            out_.integer(entity);
-            for (const double x : boxes[entity].low) out_.real(x);
-            for (const double x : boxes[entity].high) out_.real(x);
-            out_.size(physical != 0 ? 1 : 0);
-            if (physical != 0) out_.integer(physical);
-            out_.size(0);
+            integer(entity);
+            for (const double x : boxes[entity].low) out_.number(x);
+            for (const double x : boxes[entity].high) out_.number(x);
+            wide(physical != 0 ? 1 : 0);
+            if (physical != 0) integer(physical);
+            wide(0);
             out_.end_row();
         }
-        out_.end_section("Entities");
+        end_section("Entities");
     }
 
     void write_point(std::size_t node, std::size_t dimension) {
         for (std::size_t axis = 0; axis < 3; ++axis)
-            out_.real(axis < dimension ? mesh_.points[node * dimension + axis] : 0);
+            out_.number(axis < dimension ? mesh_.points[node * dimension + axis] : 0);
         out_.end_row();
     }
 
     void write_nodes_41(std::size_t dimension) {
         const std::size_t count = mesh_.point_count();
-        for (const std::uint64_t number :
-             {std::uint64_t{1}, std::uint64_t{count}, std::uint64_t{1}, std::uint64_t{count}})
-            out_.size(number);
+        for (const std::size_t number : {std::size_t{1}, count, std::size_t{1}, count}) wide(number);
         out_.end_row();
-        out_.integer(mesh_.dimension);
-        out_.integer(groups_.physical_of.begin()->first);
-        out_.integer(0);
-        out_.size(count);
+        integer(mesh_.dimension);
+        integer(groups_.physical_of.begin()->first);
+        integer(0);
+        wide(count);
         out_.end_row();
         for (std::size_t node = 0; node < count; ++node) {
-            out_.size(node + 1);
+            wide(node + 1);
             out_.end_row();
         }
         for (std::size_t node = 0; node < count; ++node) write_point(node, dimension);
@@ -145,7 +149,7 @@ private:
     void write_nodes_22(std::size_t dimension) {
         line(mesh_.point_count());
         for (std::size_t node = 0; node < mesh_.point_count(); ++node) {
-            out_.integer(static_cast<std::int64_t>(node) + 1);
+            integer(static_cast<std::int64_t>(node) + 1);
             write_point(node, dimension);
         }
     }
@@ -174,21 +178,21 @@ private:
             if (cell == 0 || groups_.entity_of(cell) != groups_.entity_of(cell - 1)) starts.push_back(cell);
         }
         const auto [low, high] = std::minmax_element(groups_.tags.begin(), groups_.tags.end());
-        out_.size(starts.size());
-        out_.size(count);
-        out_.size(count == 0 ? 0 : static_cast<std::uint64_t>(*low));
-        out_.size(count == 0 ? 0 : static_cast<std::uint64_t>(*high));
+        wide(starts.size());
+        wide(count);
+        wide(count == 0 ? 0 : static_cast<std::uint64_t>(*low));
+        wide(count == 0 ? 0 : static_cast<std::uint64_t>(*high));
         out_.end_row();
         for (std::size_t b = 0; b < starts.size(); ++b) {
             const std::size_t last = b + 1 < starts.size() ? starts[b + 1] : count;
-            out_.integer(mesh_.dimension);
-            out_.integer(groups_.entity_of(starts[b]));
-            out_.integer(type());
-            out_.size(last - starts[b]);
+            integer(mesh_.dimension);
+            integer(groups_.entity_of(starts[b]));
+            integer(type());
+            wide(last - starts[b]);
             out_.end_row();
             for (std::size_t cell = starts[b]; cell < last; ++cell) {
-                out_.size(static_cast<std::uint64_t>(groups_.tags[cell]));
-                put_nodes(cell, [&](std::int64_t tag) { out_.size(static_cast<std::uint64_t>(tag)); });
+                wide(static_cast<std::uint64_t>(groups_.tags[cell]));
+                put_nodes(cell, [&](std::int64_t tag) { wide(static_cast<std::uint64_t>(tag)); });
                 out_.end_row();
             }
         }
@@ -197,19 +201,19 @@ private:
     void write_elements_22() {
         line(mesh_.cell_count());
         if (out_.binary() && mesh_.cell_count() != 0) {
-            out_.integer(type());
-            out_.integer(static_cast<std::int64_t>(mesh_.cell_count()));
-            out_.integer(2);
+            integer(type());
+            integer(static_cast<std::int64_t>(mesh_.cell_count()));
+            integer(2);
         }
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
-            out_.integer(groups_.tags[cell]);
+            integer(groups_.tags[cell]);
             if (!out_.binary()) {
-                out_.integer(type());
-                out_.integer(2);
+                integer(type());
+                integer(2);
             }
-            out_.integer(groups_.group_of(cell));
-            out_.integer(groups_.entity_of(cell));
-            put_nodes(cell, [&](std::int64_t tag) { out_.integer(tag); });
+            integer(groups_.group_of(cell));
+            integer(groups_.entity_of(cell));
+            put_nodes(cell, [&](std::int64_t tag) { integer(tag); });
             out_.end_row();
         }
     }
@@ -224,16 +228,16 @@ private:
         line(width);
         line(count);
         for (std::size_t row = 0; row < count; ++row) {
-            out_.integer(tags.empty() ? static_cast<std::int64_t>(row) + 1 : tags[row]);
-            for (std::size_t c = 0; c < width; ++c) out_.real(static_cast<double>(values[row * width + c]));
+            integer(tags.empty() ? static_cast<std::int64_t>(row) + 1 : tags[row]);
+            for (std::size_t c = 0; c < width; ++c) out_.number(static_cast<double>(values[row * width + c]));
             out_.end_row();
         }
-        out_.end_section(section);
+        end_section(section);
     }
 
     const Mesh& mesh_;
     const CellGroups& groups_;
-    MshOutput out_;
+    RowOutput out_;
     bool new_;  ///< 4.1
 };
 
@@ -242,11 +246,8 @@ private:
 
 Status write_gmsh(const Mesh& mesh, const std::string& path, const GmshWriteOptions& options) {
     const ExactEnvironment environment;
-    if (const char* const fault = mesh::inconsistency(mesh, mesh::FieldValues::any); fault != nullptr) {
-        return Error{.what = std::string("cannot write the mesh: ") + fault,
-                     .file = path,
-                     .remedy = "correct the mesh in memory"};
-    }
+    if (const char* const fault = mesh::inconsistency(mesh, mesh::FieldValues::any); fault != nullptr)
+        return file_error(path, std::string("cannot write the mesh: ") + fault, {}, {}, "correct the mesh in memory");
     const Result<io::CellGroups> groups =
         io::group_cells(mesh, options.version == GmshWriteOptions::Version::v41, path);
     if (!groups) return groups.error();

@@ -8,6 +8,7 @@
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/other_formats.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 #include "barycert/io/vtk/parallel.hpp"
@@ -100,12 +101,10 @@ Result<MeditFile> MeditFile::open(const std::string& path) {
     const std::string_view word = first_word(begin, '#');
     file.binary_ = is_medit(begin.substr(0, 12)) && begin[1] == 0;
     if (!file.binary_ && !same(word, "MeshVersionFormatted")) {
-        return Error{.what = "not a file of Medit",
-                     .file = path,
-                     .line = 1,
-                     .expected = "\"MeshVersionFormatted\", or in a binary file the numbers 1, 1 to 4, 3",
-                     .found = head.empty() ? "an empty file" : base::quoted(word),
-                     .remedy = "check the path: other programs have files of this suffix, too"};
+        return line_error(path, 1, "not a file of Medit",
+                          "\"MeshVersionFormatted\", or in a binary file the numbers 1, 1 to 4, 3",
+                          head.empty() ? "an empty file" : base::quoted(word),
+                          "check the path: other programs have files of this suffix, too");
     }
     Result<base::MappedFile> data = base::MappedFile::open(path);
     if (!data) return data.error();
@@ -121,13 +120,8 @@ Result<MeditFile> MeditFile::open(const std::string& path) {
 Error MeditFile::error_at(const char* at, std::string what, std::string expected, std::string found,
                           std::string remedy) const {
     if (binary_) what += ", at byte " + std::to_string(at - bytes_.data());
-    const auto line = binary_ ? 0 : static_cast<std::size_t>(std::count(bytes_.data(), at, '\n')) + 1;
-    return {.what = std::move(what),
-            .file = path_,
-            .line = line,
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = std::move(remedy)};
+    return line_error(path_, binary_ ? 0 : line_of(bytes_, at), std::move(what), std::move(expected), std::move(found),
+                      std::move(remedy));
 }
 
 Error MeditFile::error_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,

@@ -15,10 +15,28 @@
 #include <vector>
 
 #include "barycert/base/mapped_file.hpp"
-#include "barycert/io/medit/medit_keywords.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
+
+enum class MeditKind : std::uint8_t {
+    other,
+    vertices,
+    cells,
+    solution,  ///< fields of nodes (dimension 0), triangles (2) or tetrahedra (3)
+};
+
+struct MeditKeyword {
+    int code;  ///< in binary files
+    std::string_view name;
+    MeditKind kind = MeditKind::other;
+    int dimension = 0;
+    std::size_t nodes = 0;  ///< of a cell
+};
+
+/// nullptr if it is not known. Names are in any case.
+const MeditKeyword* medit_keyword(std::string_view name);
+const MeditKeyword* medit_keyword(std::int64_t code);
 
 struct MeditSection {
     MeditKeyword keyword;

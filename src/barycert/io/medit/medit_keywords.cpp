@@ -1,4 +1,4 @@
-#include "barycert/io/medit/medit_keywords.hpp"
+#include "barycert/io/medit/medit_file.hpp"
 
 #include <strings.h>
 

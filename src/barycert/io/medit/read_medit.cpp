@@ -13,7 +13,6 @@
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io/medit/medit_fields.hpp"
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/io/other_formats.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
@@ -21,6 +20,53 @@
 
 namespace barycert::io {
 namespace {
+
+/// Numbers a value of a field has: 1 is a scalar, 2 a vector, 3 a symmetric matrix, 4 any matrix.
+std::size_t components_of(std::int64_t type, std::size_t dimension) {
+    return type == 1 ? 1 : type == 2 ? dimension : type == 3 ? dimension * (dimension + 1) / 2 : dimension * dimension;
+}
+
+Status add_fields_of(const MeditFile& file, const MeditSection& section, std::vector<Field>& fields) {
+    const auto dimension = static_cast<std::size_t>(file.dimension());
+    std::size_t width = 0;
+    for (const std::int64_t type : section.types) width += components_of(type, dimension);
+    const Result<MeditRows> rows = file.rows(section, width, 0);
+    if (!rows) return rows.error();
+    for (std::size_t i = 0, begin = 0; i < section.types.size(); ++i) {
+        const std::size_t components = components_of(section.types[i], dimension);
+        Field field{"solution" + std::to_string(i), static_cast<int>(components), {}};
+        field.data.resize(section.count * components);
+        for (std::size_t row = 0; row < section.count; ++row)
+            std::copy_n(&rows->reals[row * width + begin], components, &field.data[row * components]);
+        fields.push_back(std::move(field));
+        begin += components;
+    }
+    return Done{};
+}
+
+/// Appends those of nodes and of cells of the mesh's dimension to its fields; others are noted.
+Status add_medit_fields(const MeditFile& file, Mesh& mesh) {
+    for (const MeditSection& section : file.sections()) {
+        if (section.keyword.kind != MeditKind::solution) continue;
+        const int of = section.keyword.dimension;
+        if (of != 0 && of != mesh.dimension) {
+            mesh.notes.push_back({Note::Kind::left_out, section.name + ": they are no cells of the mesh", file.path()});
+            continue;
+        }
+        if (Status s = add_fields_of(file, section, of == 0 ? mesh.point_fields : mesh.cell_fields); !s) return s;
+    }
+    return Done{};
+}
+
+/// Notes the sections that nobody reads, under the name of all they are: "sections".
+void note_medit_sections(const MeditFile& file, Notes& notes) {
+    std::vector<std::string> names;
+    for (const MeditSection& section : file.sections()) {
+        const bool new_one = std::find(names.begin(), names.end(), section.name) == names.end();
+        if (section.keyword.kind == MeditKind::other && new_one) names.push_back(section.name);
+    }
+    if (!names.empty()) notes.push_back({Note::Kind::left_out, "sections " + list_of(names), file.path()});
+}
 
 /// "12 Edges, 1 Triangles"
 std::string counted_sections(const std::vector<const MeditSection*>& sections) {
@@ -55,11 +101,7 @@ public:
 
 private:
     Error error(std::string what, std::string expected, std::string found, std::string remedy) const {
-        return {.what = std::move(what),
-                .file = file_.path(),
-                .expected = std::move(expected),
-                .found = std::move(found),
-                .remedy = std::move(remedy)};
+        return file_error(file_.path(), std::move(what), std::move(expected), std::move(found), std::move(remedy));
     }
 
     /// Which section has the cells.
@@ -253,17 +295,33 @@ private:
     Mesh mesh_;
 };
 
-}  // namespace
-
-Result<Mesh> read_medit(const std::string& path, const ReadOptions& options) {
+/// read(file) of the open file.
+template <class Read>
+Result<Mesh> read_open(const std::string& path, const Read& read) {
     const ExactEnvironment environment;
     try {
         const Result<MeditFile> file = MeditFile::open(path);
         if (!file) return file.error();
-        return MeditReader(*file, options).read();
+        return read(*file);
     } catch (const std::bad_alloc&) {
         return base::too_little_memory(path);
     }
+}
+
+}  // namespace
+
+Result<Mesh> read_medit(const std::string& path, const ReadOptions& options) {
+    return read_open(path, [&](const MeditFile& file) { return MeditReader(file, options).read(); });
+}
+
+Result<Mesh> read_medit_fields(const std::string& path, int dimension) {
+    return read_open(path, [&](const MeditFile& file) -> Result<Mesh> {
+        Mesh mesh;
+        mesh.dimension = dimension;
+        if (Status s = add_medit_fields(file, mesh); !s) return s.error();
+        note_medit_sections(file, mesh.notes);
+        return mesh;
+    });
 }
 
 }  // namespace barycert::io

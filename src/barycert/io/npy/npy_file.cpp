@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "barycert/io.hpp"
 #include "barycert/io/npy/npy_types.hpp"
 
 namespace barycert::io {
@@ -14,11 +15,7 @@ namespace {
 constexpr std::size_t bytes_at_once = std::size_t{1} << 18;
 
 Error too_short(const std::string& path, std::string expected, std::string found, const char* remedy) {
-    return {.what = "the file ends too early",
-            .file = path,
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = remedy};
+    return file_error(path, "the file ends too early", std::move(expected), std::move(found), remedy);
 }
 
 }  // namespace
@@ -48,8 +45,7 @@ Result<NpyFile> NpyFile::open(const std::string& path) {
                          std::to_string(size), "the file may be cut short: write it again");
     bytes.resize(text->size);
     if (Status read = out.read(text->offset, bytes); !read) return read.error();
-    const std::string_view words(bytes.data(), bytes.size());
-    auto header = parse_npy_text(text->latin1 ? utf8_of_latin1(words) : std::string(words), path);
+    auto header = parse_npy_text({bytes.data(), bytes.size()}, text->latin1, path);
     if (!header) return header.error();
     out.header_ = std::move(*header);
     out.data_ = text->offset + text->size;
@@ -98,11 +94,7 @@ Status NpyFile::for_items(const NpyColumn& column, Take take) {
 }
 
 Error NpyFile::value_error(const std::string& what, std::size_t row, const char* expected, const char* remedy) const {
-    return {.what = "row " + std::to_string(first_ + row) + " of " + what,
-            .file = path_,
-            .expected = expected,
-            .found = "another value",
-            .remedy = remedy};
+    return file_error(path_, "row " + std::to_string(first_ + row) + " of " + what, expected, "another value", remedy);
 }
 
 Status NpyFile::numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride) {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/io/npy/npy_columns.hpp"
 #include "barycert/io/npy/npy_header.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"

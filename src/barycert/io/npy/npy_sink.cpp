@@ -1,20 +1,19 @@
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <set>
+#include <string_view>
 #include <utility>
 
-#include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/io/column_source.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/npy/npy_fields.hpp"
 #include "barycert/io/npy/npy_header.hpp"
 #include "barycert/io/npy/npy_types.hpp"
+#include "barycert/io/row_sink.hpp"
+#include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {
@@ -24,12 +23,49 @@ constexpr std::size_t alignment = 64;
 
 constexpr std::size_t feature_count = static_cast<std::size_t>(Feature::degenerate) + 1;
 
-/// What one thread lays out at a time, and how many of these go to the file together.
-constexpr std::size_t piece_bytes = std::size_t{1} << 18;
-constexpr std::size_t pieces_at_once = 16;
+/// The longest feature of a row: interior.
+constexpr std::size_t feature_size = 8;
 
-std::size_t rows_a_piece(std::size_t row_size) {
-    return std::max<std::size_t>(1, piece_bytes / row_size);
+/// As a string of Python.
+std::string as_literal(std::string_view name) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string text = "'";
+    for (const char c : name) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '\'' || c == '\\') {
+            text += {'\\', c};
+        } else if (code < 32 || code == 127) {
+            text += {'\\', 'x', digits[code >> 4], digits[code & 15]};
+        } else {
+            text += c;
+        }
+    }
+    return text + "'";
+}
+
+/// NumPy has no texts of length zero that every function takes.
+std::size_t length_of(const ColumnFormat& text) {
+    return std::max<std::size_t>(1, text.max_characters != 0 ? text.max_characters : text.max_bytes);
+}
+
+std::string type_of(const ColumnFormat& column) {
+    if (column.type == Column::Type::integer) return "<i8";
+    if (column.type == Column::Type::number) return "<f8";
+    return (column.max_characters != 0 ? "<U" : "|S") + std::to_string(length_of(column));
+}
+
+/// How many bytes a carried column takes in a row.
+std::size_t size_of(const ColumnFormat& column) {
+    if (column.type != Column::Type::text) return 8;
+    return length_of(column) * (column.max_characters != 0 ? 4 : 1);
+}
+
+const char* fault_of(const std::string& name, std::set<std::string>& seen) {
+    if (name.empty()) return "a name";
+    if (mesh::count_characters(name) < 0) return "a name in UTF-8";
+    if (!seen.insert(name).second)
+        return "a name that differs from the others and from x, y, z, cell, feature, distance";
+    return nullptr;
 }
 
 char* put(char* at, std::uint64_t bits) {
@@ -38,24 +74,39 @@ char* put(char* at, std::uint64_t bits) {
     return at + sizeof bits;
 }
 
-class NpySink final : public TableSink {
+class NpySink final : public RowSink {
 public:
-    NpySink(const std::string& path, TableFormat format)
-        : path_(path), format_(std::move(format)), columns_(format_.columns().size()), file_(path) {}
+    using RowSink::RowSink;
 
     Status begin();
-    Status write(const TableView& rows) override;
-    Status commit() override;
+    Status commit() override {
+        file_.replace(head_size_, padded_header(count_));
+        return RowSink::commit();
+    }
+    Status write(const TableView& rows) override {
+        Status written = RowSink::write(rows);
+        if (written) count_ += rows.cells.size();
+        return written;
+    }
 
 private:
-    std::string header(std::uint64_t count) const;
-    void put_row(const TableView& rows, std::size_t row, char* at) const;
-    Status check_texts(const TableView& rows) const;
+    Status settle_types();
+    std::string header(std::uint64_t count) const {
+        return "{'descr': " + types_ + ", 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
+    }
+    std::string padded_header(std::uint64_t count) const {
+        std::string text = header(count);
+        text.resize(text_size_ - 1, ' ');
+        return text + '\n';
+    }
+    Status check(const TableView& rows) const override;
+    std::size_t longest_row(const TableView&) const override { return row_size_; }
+    char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override {
+        for (; first != last; ++first) at = put_row(rows, first, at);
+        return at;
+    }
+    char* put_row(const TableView& rows, std::size_t row, char* at) const;
 
-    std::string path_;
-    TableFormat format_;
-    std::size_t columns_;
-    base::OutputFile file_;
     std::string types_;          // the descr of the header
     std::size_t text_size_ = 0;  // of the header, with room for any count
     std::size_t head_size_ = 0;
@@ -63,27 +114,48 @@ private:
     std::size_t row_size_ = 0;
     std::vector<std::size_t> carried_;  // bytes of each carried column
     std::uint64_t count_ = 0;
-    std::vector<char> buffer_;
     std::array<std::uint64_t, feature_count> features_{};  // as they stand in the file, in the memory of this machine
-    Error error_;                                          // rows that do not fit
 };
+
+/// Error: an empty name, one that is not UTF-8, two that are alike.
+Status NpySink::settle_types() {
+    struct Field {
+        std::string name;
+        std::string type = "<f8";
+    };
+    std::vector<Field> fields{{"x"}, {"y"}};
+    if (format_.dimension == 3) fields.push_back({"z"});
+    fields.push_back({"cell", "<i8"});
+    fields.push_back({"feature", "|S8"});
+    for (const std::string& column : format_.columns()) fields.push_back({column});
+    if (format_.distances) fields.push_back({"distance"});
+    row_size_ = 8 * fields.size();  // each has 8 bytes
+    for (const ColumnFormat& column : format_.carried) {
+        fields.push_back({column.name, type_of(column)});
+        carried_.push_back(size_of(column));
+        row_size_ += carried_.back();
+    }
+    std::set<std::string> seen;
+    for (const Field& field : fields) {
+        if (const char* const expected = fault_of(field.name, seen); expected != nullptr)
+            return file_error(path_, "a column name is not allowed in an NPY file", expected, base::quoted(field.name),
+                              "rename the field, leave it out, or write CSV");
+        types_ += (types_.empty() ? "[(" : ", (") + as_literal(field.name) + ", '" + field.type + "')";
+    }
+    types_ += "]";
+    return Done{};
+}
 
 Status NpySink::begin() {
     if (!file_.status()) return file_.status();
     if (!file_.can_replace()) {
-        return Error{.what = "cannot write NPY to a pipe or device",
-                     .file = path_,
-                     .expected = "a regular file: the number of rows is written into its header at the end",
-                     .found = {},
-                     .remedy = "name a regular file, or write CSV"};
+        return file_error(path_, "cannot write NPY to a pipe or device",
+                          "a regular file: the number of rows is written into its header at the end", {},
+                          "name a regular file, or write CSV");
     }
-    Result<NpyFields> fields = npy_fields(format_, path_);
-    if (!fields) return fields.error();
-    types_ = std::move(fields->descr);
-    row_size_ = fields->row_size;
-    carried_ = std::move(fields->carried);
+    if (Status settled = settle_types(); !settled) return settled;
     for (std::size_t f = 0; f < features_.size(); ++f) {
-        std::array<char, npy_feature_size> text{};
+        std::array<char, feature_size> text{};
         const std::string_view word = name(static_cast<Feature>(f));
         std::copy_n(word.begin(), std::min(word.size(), text.size()), text.begin());
         std::memcpy(&features_[f], text.data(), text.size());
@@ -99,33 +171,25 @@ Status NpySink::begin() {
     const std::size_t whole = (head_size_ + header(UINT64_MAX).size() + 1 + alignment - 1) / alignment * alignment;
     text_size_ = whole - head_size_;
     if (text_size_ > longest_npy_text) {
-        return Error{.what = "too many columns for an NPY file",
-                     .file = path_,
-                     .expected = "a header of at most " + std::to_string(longest_npy_text) + " bytes",
-                     .found = std::to_string(text_size_),
-                     .remedy = "choose fewer fields, or write CSV"};
+        return file_error(path_, "too many columns for an NPY file",
+                          "a header of at most " + std::to_string(longest_npy_text) + " bytes",
+                          std::to_string(text_size_), "choose fewer fields, or write CSV");
     }
     std::string head(npy_magic);
     head += {version_, '\0'};
     for (std::size_t i = 8; i < head_size_; ++i) head += static_cast<char>(text_size_ >> 8 * (i - 8) & 0xFFU);
     file_.write(head);
-    std::string text = header(0);
-    text.resize(text_size_ - 1, ' ');
-    file_.write(text + '\n');
+    file_.write(padded_header(0));
     return file_.status();
 }
 
-std::string NpySink::header(std::uint64_t count) const {
-    return "{'descr': " + types_ + ", 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
-}
-
-void NpySink::put_row(const TableView& rows, std::size_t row, char* at) const {
+char* NpySink::put_row(const TableView& rows, std::size_t row, char* at) const {
     const auto dimension = static_cast<std::size_t>(format_.dimension);
     for (const double x : rows.points.subspan(row * dimension, dimension))
         at = put(at, std::bit_cast<std::uint64_t>(x));
     at = put(at, static_cast<std::uint64_t>(static_cast<std::int64_t>(rows.cells[row])));
-    std::memcpy(at, &features_[static_cast<std::size_t>(rows.features[row])], npy_feature_size);
-    at += npy_feature_size;
+    std::memcpy(at, &features_[static_cast<std::size_t>(rows.features[row])], feature_size);
+    at += feature_size;
     for (const double x : rows.values.subspan(row * columns_, columns_)) at = put(at, std::bit_cast<std::uint64_t>(x));
     if (format_.distances) at = put(at, std::bit_cast<std::uint64_t>(rows.distances[row]));
     for (std::size_t k = 0; k < carried_.size(); ++k) {
@@ -140,65 +204,31 @@ void NpySink::put_row(const TableView& rows, std::size_t row, char* at) const {
         }
         at += carried_[k];
     }
+    return at;
 }
 
 /// What the types of the file cannot hold.
-Status NpySink::check_texts(const TableView& rows) const {
+Status NpySink::check(const TableView& rows) const {
     for (std::size_t k = 0; k < carried_.size(); ++k) {
         const auto* const texts = std::get_if<std::vector<std::string>>(&rows.carried[k].values);
         if (texts == nullptr) continue;
         const bool characters = format_.carried[k].max_characters != 0;
         for (const std::string& text : *texts) {
             if (fits_npy_text(text, carried_[k], characters)) continue;
-            return Error{.what = "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
-                         .file = path_,
-                         .expected = std::to_string(carried_[k] / (characters ? 4 : 1)) +
-                                     (characters ? " characters of UTF-8" : " bytes") +
-                                     " at most, as the column was told, and no zero byte at its end",
-                         .found = base::quoted(text),
-                         .remedy = "write CSV"};
+            return file_error(
+                path_, "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
+                std::to_string(carried_[k] / (characters ? 4 : 1)) + (characters ? " characters of UTF-8" : " bytes") +
+                    " at most, as the column was told, and no zero byte at its end",
+                base::quoted(text), "write CSV");
         }
     }
     return Done{};
 }
 
-Status NpySink::write(const TableView& rows) {
-    const ExactEnvironment environment;
-    if (!error_.what.empty()) return error_;
-    if (Status fits = check_rows(rows, format_, path_); !fits) return error_ = fits.error();
-    if (Status fits = check_texts(rows); !fits) return error_ = fits.error();
-    const std::size_t count = rows.cells.size();
-    const std::size_t piece = rows_a_piece(row_size_), at_once = pieces_at_once * piece;
-    buffer_.resize(std::max(buffer_.size(), std::min(count, at_once) * row_size_));
-    for (std::size_t row = 0; row < count && file_.status(); row += at_once) {
-        const std::size_t size = std::min(at_once, count - row);
-        // Whoever waits here must not begin other work of the caller: its stages wait for this one.
-        tbb::this_task_arena::isolate([&] {
-            tbb::parallel_for(std::size_t{0}, (size + piece - 1) / piece, [&](std::size_t p) {
-                for (std::size_t i = p * piece; i < std::min(size, (p + 1) * piece); ++i)
-                    put_row(rows, row + i, buffer_.data() + i * row_size_);
-            });
-        });
-        file_.write({buffer_.data(), size * row_size_});
-    }
-    count_ += count;
-    return file_.status();
-}
-
-Status NpySink::commit() {
-    if (!error_.what.empty()) return error_;
-    std::string text = header(count_);
-    text.resize(text_size_ - 1, ' ');
-    file_.replace(head_size_, text);
-    return file_.commit();
-}
-
 }  // namespace
 
 Result<std::unique_ptr<TableSink>> open_npy_sink(const std::string& path, const TableFormat& format) {
-    auto sink = std::make_unique<NpySink>(path, format);
-    if (Status begun = sink->begin(); !begun) return begun.error();
-    return std::unique_ptr<TableSink>(std::move(sink));
+    return begun<TableSink>(std::make_unique<NpySink>(path, format));
 }
 
 }  // namespace barycert::io

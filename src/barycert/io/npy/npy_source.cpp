@@ -6,38 +6,24 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/io/column_source.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy_file.hpp"
 #include "barycert/io/point_columns.hpp"
-#include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {
 
-class NpySource final : public PointSource {
+class NpySource final : public ColumnSource {
 public:
-    NpySource(std::string path, int dimension)
-        : path_(std::move(path)), dimension_(static_cast<std::size_t>(dimension)) {}
+    NpySource(std::string path, int dimension) : ColumnSource(dimension), path_(std::move(path)) {}
 
     Status begin(const PointOptions& options);
 
-    int dimension() const override { return static_cast<int>(dimension_); }
     std::optional<std::uint64_t> count() const override { return table_.rows; }
-    Result<std::size_t> read(std::size_t max, std::vector<double>& out) override;
-    std::vector<ColumnFormat> carried() const override { return formats_; }
-    void take_carried(std::vector<Column>& columns) override { std::swap(columns, carried_); }
-    Notes notes() const override { return notes_; }
 
 private:
-    Error failure(std::string what, std::string expected, std::string found, std::string remedy) const {
-        return {.what = std::move(what),
-                .file = path_,
-                .line = 0,
-                .expected = std::move(expected),
-                .found = std::move(found),
-                .remedy = std::move(remedy)};
-    }
+    Result<std::size_t> next(std::size_t max, std::vector<double>& out) override;
     Status choose(const PointOptions& options);
     Status keep(const NpyColumn& column, std::string name);
     Error shape_error(const std::vector<std::uint64_t>& shape) const;
@@ -45,19 +31,14 @@ private:
     Status read_rows(std::size_t taken, double* points);
 
     std::string path_;
-    std::size_t dimension_;
     NpyFile file_;
     NpyTable table_;
     bool as_in_memory_ = false;    // the array is what is asked for, number by number
     std::vector<NpyColumn> axes_;  // and perhaps a z that must be 0
     std::vector<NpyColumn> kept_;
-    std::vector<ColumnFormat> formats_;  // of these
-    std::vector<Column> carried_;        // of the last points given
     std::vector<double> heights_;
     bool any_point_ = false;  // those that are not finite, too
-    Notes notes_;
     std::uint64_t next_ = 0;
-    Error error_;
 };
 
 Error NpySource::shape_error(const std::vector<std::uint64_t>& shape) const {
@@ -69,8 +50,8 @@ Error NpySource::shape_error(const std::vector<std::uint64_t>& shape) const {
             "say which columns are the coordinates, such as --columns 1,2" + std::string(dimension_ == 3 ? ",3" : "");
     if (shape.size() == 2 && shape[0] == dimension_ && shape[1] != dimension_ + 1)
         remedy = "if it has a column for each point, save a.T";
-    return failure("an array of another shape", "(n, " + d + "), for the mesh is " + d + "-dimensional",
-                   as_tuple(shape), std::move(remedy));
+    return file_error(path_, "an array of another shape", "(n, " + d + "), for the mesh is " + d + "-dimensional",
+                      as_tuple(shape), std::move(remedy));
 }
 
 Status NpySource::begin(const PointOptions& options) {
@@ -91,7 +72,7 @@ Status NpySource::begin(const PointOptions& options) {
 Status NpySource::choose(const PointOptions& options) {
     TableColumns all{.names = {}, .named = table_.structured, .file = path_};
     for (const NpyColumn& column : table_.columns) all.names.push_back(column.name);
-    Result<PointColumns> columns = choose_columns(all, static_cast<int>(dimension_), options);
+    Result<PointColumns> columns = choose_columns(all, dimension(), options);
     if (!columns) return columns.error();
     notes_ = std::move(columns->notes);
     std::vector<std::size_t> places = columns->axes;
@@ -100,8 +81,9 @@ Status NpySource::choose(const PointOptions& options) {
     for (const std::size_t place : places) {
         const NpyColumn& column = table_.columns[place];
         if (!column.type.is_number())
-            return failure("cannot read points of that type", "integers or floating-point numbers of at most 64 bits",
-                           base::quoted(column.type.text), "save a.astype('f8')");
+            return file_error(path_, "cannot read points of that type",
+                              "integers or floating-point numbers of at most 64 bits", base::quoted(column.type.text),
+                              "save a.astype('f8')");
         if (column.type.kind != 'f' || column.type.size != 8) widened = column.type.text;
         axes_.push_back(column);
     }
@@ -130,9 +112,9 @@ Status NpySource::keep(const NpyColumn& column, std::string name) {
     if (type.is_text()) format.max_bytes = type.size;
     if (type.kind == 'U') format.max_characters = std::max<std::size_t>(1, type.size / 4);
     if (!type.is_number() && !type.is_text())
-        return failure("column " + base::quoted(column.name) + " cannot be carried through",
-                       "integers, floating-point numbers or texts", base::quoted(type.text),
-                       "leave it out of --keep, or save it as another type");
+        return file_error(path_, "column " + base::quoted(column.name) + " cannot be carried through",
+                          "integers, floating-point numbers or texts", base::quoted(type.text),
+                          "leave it out of --keep, or save it as another type");
     kept_.push_back(column);
     formats_.push_back(std::move(format));
     return Done{};
@@ -170,10 +152,7 @@ Status NpySource::read_rows(std::size_t taken, double* points) {
     return Done{};
 }
 
-Result<std::size_t> NpySource::read(std::size_t max, std::vector<double>& out) {
-    const ExactEnvironment environment;
-    if (!error_.what.empty()) return error_;
-    mesh::begin_columns(formats_, carried_);
+Result<std::size_t> NpySource::next(std::size_t max, std::vector<double>& out) {
     const std::size_t taken = std::min<std::uint64_t>(max, table_.rows - next_);
     const std::size_t before = out.size();
     out.resize(before + taken * dimension_);
@@ -188,14 +167,14 @@ Result<std::size_t> NpySource::read(std::size_t max, std::vector<double>& out) {
     const bool finite = any_point_ || (read && base::all_finite({points, taken * dimension_}));
     for (std::size_t i = 0; i < taken * dimension_ && read && !finite; ++i) {
         if (std::isfinite(points[i])) continue;
-        read = failure("a point that is not finite", "finite coordinates",
-                       base::shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
-                           std::to_string(i % dimension_) + "]",
-                       std::string("remove the point: a[numpy.isfinite(a).all(axis=1)]") + or_nan_for_it);
+        read = file_error(path_, "a point that is not finite", "finite coordinates",
+                          base::shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
+                              std::to_string(i % dimension_) + "]",
+                          std::string("remove the point: a[numpy.isfinite(a).all(axis=1)]") + or_nan_for_it);
     }
     if (!read) {
         out.resize(before);
-        return error_ = read.error();
+        return read.error();
     }
     next_ += taken;
     return taken;
@@ -205,9 +184,7 @@ Result<std::size_t> NpySource::read(std::size_t max, std::vector<double>& out) {
 
 Result<std::unique_ptr<PointSource>> open_npy_source(const std::string& path, int dimension,
                                                      const PointOptions& options) {
-    auto source = std::make_unique<NpySource>(path, dimension);
-    if (Status begun = source->begin(options); !begun) return begun.error();
-    return std::unique_ptr<PointSource>(std::move(source));
+    return begun<PointSource>(std::make_unique<NpySource>(path, dimension), options);
 }
 
 }  // namespace barycert::io

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "barycert/base/utf8.hpp"
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
@@ -47,16 +48,6 @@ double half(std::uint64_t bits) {
 std::int64_t signed_value(std::uint64_t word, std::size_t size) {
     const auto unused = static_cast<int>(64 - 8 * size);
     return static_cast<std::int64_t>(word << unused) >> unused;
-}
-
-/// The first character of well-formed UTF-8, which is removed.
-std::uint32_t take_character(std::string_view& text) {
-    const auto lead = static_cast<unsigned char>(text.front());
-    const std::size_t size = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-    std::uint32_t code = size == 1 ? lead : lead & (0xFFU >> (size + 1));
-    for (std::size_t i = 1; i < size; ++i) code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3FU);
-    text.remove_prefix(size);
-    return code;
 }
 
 }  // namespace
@@ -162,7 +153,8 @@ void put_npy_text(char* at, std::size_t size, std::string_view text, bool charac
         return;
     }
     for (; !text.empty(); at += 4) {
-        const std::uint32_t code = take_character(text);
+        const auto [code, bytes] = base::first_character(text);
+        text.remove_prefix(bytes);
         for (std::size_t i = 0; i < 4; ++i) at[i] = static_cast<char>(code >> 8 * i & 0xFFU);
     }
 }

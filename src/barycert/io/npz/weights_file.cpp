@@ -1,12 +1,120 @@
+// Format of NPZ: a ZIP archive of NPY files, as numpy.savez writes it. Format of ZIP: APPNOTE.TXT 6.3 of PKWARE.
 #include "barycert/io/npz/weights_file.hpp"
 
+#include <libdeflate.h>
 #include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "barycert/base/output_file.hpp"
+#include "barycert/io.hpp"
+#include "barycert/io/npy/npy_header.hpp"
+#include "barycert/result.hpp"
+
 namespace barycert::io {
+
+/// Arrays one after the other, stored without compression; of any size, by ZIP64 where it takes that. The file appears
+/// whole at commit(), or not at all.
+class NpzWriter {
+public:
+    /// Error: the file cannot be written, or is a pipe or device: sizes are known only at the end of an array.
+    static Result<std::unique_ptr<NpzWriter>> open(const std::string& path);
+
+    /// Begins the array NAME.npy. `descr`: NumPy's name of the type, such as <f8.
+    void begin(const std::string& name, const std::string& descr);
+    void write(std::string_view bytes);
+    /// `shape`: as many numbers as were written.
+    void end(const std::vector<std::uint64_t>& shape);
+
+    Status commit();
+
+private:
+    struct Member {
+        std::string name, descr;
+        std::uint64_t offset = 0, size = 0;
+        std::uint32_t checksum = 0;
+    };
+    explicit NpzWriter(const std::string& path) : file_(path) {}
+    void put(std::string_view bytes);
+    std::string local_header(const Member& member) const;
+    std::string central_header(const Member& member) const;
+
+    base::OutputFile file_;
+    std::uint64_t size_ = 0;
+    std::vector<Member> members_;
+    std::uint32_t numbers_ = 0;  ///< CRC-32 of the numbers of the array that was begun
+};
+
 namespace {
+
+// The header of an array has one size whatever the shape, for that is known last: NumPy reads past the blanks.
+constexpr std::size_t npz_npy_header = 192;
+constexpr std::uint64_t zip_limit = 0xffffffff;  // sizes and offsets from here on stand in a ZIP64 field
+constexpr unsigned zip_version = 20, zip64_version = 45;
+constexpr unsigned zip64_field = 0x0001, padding_field = 0xd935;  // the latter: data that readers pass over
+constexpr unsigned zip_date = 0x21;                               // 1 January 1980: files depend on their content alone
+
+/// Little-endian numbers in a row.
+class Bytes {
+public:
+    Bytes& two(std::uint64_t x) { return put(x, 2); }
+    Bytes& four(std::uint64_t x) { return put(x, 4); }
+    Bytes& eight(std::uint64_t x) { return put(x, 8); }
+    Bytes& text(std::string_view text) {
+        bytes_ += text;
+        return *this;
+    }
+    const std::string& all() const { return bytes_; }
+
+private:
+    Bytes& put(std::uint64_t x, int size) {
+        for (int i = 0; i < size; ++i) bytes_ += static_cast<char>(x >> 8 * i & 0xff);
+        return *this;
+    }
+    std::string bytes_;
+};
+
+std::uint64_t or_limit(std::uint64_t x) {
+    return x < zip_limit ? x : zip_limit;
+}
+
+std::string npy_header_of(const std::string& descr, const std::vector<std::uint64_t>& shape) {
+    std::string text = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': (";
+    for (const std::uint64_t n : shape) text += std::to_string(n) + (shape.size() == 1 ? "," : ", ");
+    if (shape.size() > 1) text.resize(text.size() - 2);
+    text += "), }";
+    constexpr std::size_t head = 10;
+    text.resize(npz_npy_header - head - 1, ' ');
+    text += '\n';
+    return Bytes().text(npy_magic).text({"\1\0", 2}).two(text.size()).text(text).all();
+}
+
+/// The product of two polynomials over bits modulo that of CRC-32; the top bit is the constant term.
+std::uint32_t product(std::uint32_t a, std::uint32_t b) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t bit = 1U << 31; bit != 0; bit >>= 1) {
+        if ((a & bit) != 0) sum ^= b;
+        b = (b >> 1) ^ ((b & 1U) != 0 ? 0xedb88320U : 0U);
+    }
+    return sum;
+}
+
+/// The checksum of two texts in a row, of which the second has so many bytes: the first is moved over these, that is
+/// multiplied by x to the power of 8 * size.
+std::uint32_t joined(std::uint32_t first, std::uint32_t second, std::uint64_t size) {
+    std::uint32_t power = 1U << 23;  // x^8
+    for (; size != 0; size >>= 1) {
+        if ((size & 1U) != 0) first = product(first, power);
+        power = product(power, power);
+    }
+    return first ^ second;
+}
 
 static_assert(std::endian::native == std::endian::little, "NPY files are written as numbers stand in memory");
 
@@ -45,6 +153,85 @@ void write_pattern(NpzWriter& file, std::span<const std::uint8_t> counts, std::s
 }
 
 }  // namespace
+
+Result<std::unique_ptr<NpzWriter>> NpzWriter::open(const std::string& path) {
+    std::unique_ptr<NpzWriter> writer(new NpzWriter(path));
+    if (Status opened = writer->file_.status(); !opened) return opened.error();
+    if (!writer->file_.can_replace())
+        return file_error(path, "cannot write NPZ to a pipe or device",
+                          "a regular file: sizes are written into its headers at the end", {}, "name a regular file");
+    return writer;
+}
+
+void NpzWriter::put(std::string_view bytes) {
+    file_.write(bytes);
+    size_ += bytes.size();
+}
+
+/// With room for the sizes in 8 bytes, which is used only where it is needed.
+std::string NpzWriter::local_header(const Member& m) const {
+    const bool large = m.size >= zip_limit;
+    Bytes b;
+    b.four(0x04034b50).two(large ? zip64_version : zip_version).two(0).two(0).two(0).two(zip_date);
+    b.four(m.checksum).four(or_limit(m.size)).four(or_limit(m.size)).two(m.name.size()).two(20).text(m.name);
+    b.two(large ? zip64_field : padding_field).two(16).eight(large ? m.size : 0).eight(large ? m.size : 0);
+    return b.all();
+}
+
+std::string NpzWriter::central_header(const Member& m) const {
+    Bytes field;
+    if (m.size >= zip_limit) field.eight(m.size).eight(m.size);
+    if (m.offset >= zip_limit) field.eight(m.offset);
+    const std::size_t extra = field.all().empty() ? 0 : 4 + field.all().size();
+    const unsigned version = extra == 0 ? zip_version : zip64_version;
+    Bytes b;
+    b.four(0x02014b50).two(3U << 8 | version).two(version).two(0).two(0).two(0).two(zip_date);
+    b.four(m.checksum).four(or_limit(m.size)).four(or_limit(m.size)).two(m.name.size()).two(extra).two(0).two(0).two(0);
+    b.four(0100644ULL << 16).four(or_limit(m.offset)).text(m.name);
+    if (extra != 0) b.two(zip64_field).two(field.all().size()).text(field.all());
+    return b.all();
+}
+
+void NpzWriter::begin(const std::string& name, const std::string& descr) {
+    members_.push_back({name + ".npy", descr, size_});
+    put(local_header(members_.back()));
+    put(npy_header_of(descr, {}));
+    numbers_ = 0;
+}
+
+void NpzWriter::write(std::string_view bytes) {
+    numbers_ = libdeflate_crc32(numbers_, bytes.data(), bytes.size());
+    members_.back().size += bytes.size();
+    put(bytes);
+}
+
+void NpzWriter::end(const std::vector<std::uint64_t>& shape) {
+    Member& m = members_.back();
+    const std::string header = npy_header_of(m.descr, shape);
+    m.checksum = joined(libdeflate_crc32(0, header.data(), header.size()), numbers_, m.size);
+    m.size += header.size();
+    file_.replace(m.offset, local_header(m) + header);
+}
+
+Status NpzWriter::commit() {
+    const std::uint64_t begin = size_;
+    for (const Member& m : members_) put(central_header(m));
+    const std::uint64_t end = size_, count = members_.size();
+    Bytes b;
+    if (begin >= zip_limit || end - begin >= zip_limit) {
+        b.four(0x06064b50).eight(44).two(3U << 8 | zip64_version).two(zip64_version).four(0).four(0);
+        b.eight(count).eight(count).eight(end - begin).eight(begin);
+        b.four(0x07064b50).four(0).eight(end).four(1);
+    }
+    b.four(0x06054b50).two(0).two(0).two(count).two(count).four(or_limit(end - begin)).four(or_limit(begin)).two(0);
+    put(b.all());
+    return file_.commit();
+}
+
+WeightsFile::WeightsFile(std::unique_ptr<NpzWriter> file, const std::string& path, std::uint64_t nodes)
+    : file_(std::move(file)), counts_(path), indices_(path), cells_(path), nodes_(nodes) {}
+
+WeightsFile::~WeightsFile() = default;
 
 Result<std::unique_ptr<WeightsFile>> WeightsFile::open(const std::string& path, std::uint64_t nodes) {
     auto file = NpzWriter::open(path);

@@ -6,20 +6,22 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 
 #include "barycert/base/spool.hpp"
-#include "barycert/io/npz/npz_writer.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
+
+class NpzWriter;
 
 /// A matrix of a row a point and a column a node, in compressed rows: `data` float64, `indices` and `indptr` int32, or
 /// int64 where there are 2^31 entries or more, `shape` int64, `format` "csr"; besides, `cell` int64, an entry a row.
 /// Memory does not grow with the number of rows: what has to wait for its place in the file waits on disk beside it.
 class WeightsFile {
 public:
+    ~WeightsFile();
+
     static Result<std::unique_ptr<WeightsFile>> open(const std::string& path, std::uint64_t nodes);
 
     /// Appends rows: as many entries each as `counts` tells, nodes ascending, and the cell, -1 for none.
@@ -29,8 +31,7 @@ public:
     Status commit();
 
 private:
-    WeightsFile(std::unique_ptr<NpzWriter> file, const std::string& path, std::uint64_t nodes)
-        : file_(std::move(file)), counts_(path), indices_(path), cells_(path), nodes_(nodes) {}
+    WeightsFile(std::unique_ptr<NpzWriter> file, const std::string& path, std::uint64_t nodes);
 
     std::unique_ptr<NpzWriter> file_;
     base::Spool counts_, indices_, cells_;

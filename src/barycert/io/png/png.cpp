@@ -10,21 +10,12 @@
 #include "barycert/io/png/caption.hpp"
 #include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
-#include "barycert/io/png/png_rows.hpp"
+#include "barycert/io/png/png_file.hpp"
 
 namespace barycert {
 namespace {
 
 using namespace io;
-
-Error refusal(const std::string& path, const char* what, std::string expected, std::string found, const char* remedy) {
-    return {.what = what,
-            .file = path,
-            .line = 0,
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = remedy};
-}
 
 std::string by(std::size_t width, std::size_t height) {
     return std::to_string(width) + " by " + std::to_string(height);
@@ -33,28 +24,28 @@ std::string by(std::size_t width, std::size_t height) {
 Status check(const std::string& path, const Slice& s) {
     const std::string max = std::to_string(longest_png_side);
     if (s.width < 1 || s.height < 1 || s.width > longest_png_side || s.height > longest_png_side) {
-        return refusal(path, "a slice of that size cannot be a picture", "1 to " + max + " values a side",
-                       by(s.width, s.height), "choose fewer points, or at least one, on each axis");
+        return file_error(path, "a slice of that size cannot be a picture", "1 to " + max + " values a side",
+                          by(s.width, s.height), "choose fewer points, or at least one, on each axis");
     }
     if (s.values.size() != s.width * s.height || (!s.valid.empty() && s.valid.size() != s.values.size())) {
-        return refusal(path, "the arrays of the slice do not fit together", by(s.width, s.height) + " values",
-                       std::to_string(s.values.size()) + " values and " + std::to_string(s.valid.size()) +
-                           " marks of which are valid",
-                       "give one value, and one mark or none, for each point");
+        return file_error(path, "the arrays of the slice do not fit together", by(s.width, s.height) + " values",
+                          std::to_string(s.values.size()) + " values and " + std::to_string(s.valid.size()) +
+                              " marks of which are valid",
+                          "give one value, and one mark or none, for each point");
     }
     if (!(s.aspect > 0) || !std::isfinite(s.aspect)) {
-        return refusal(path, "the aspect of a slice is none", "a positive number", base::shortest(s.aspect),
-                       "divide the spacing along a line by the spacing of lines");
+        return file_error(path, "the aspect of a slice is none", "a positive number", base::shortest(s.aspect),
+                          "divide the spacing along a line by the spacing of lines");
     }
     if (!(s.pixel_length >= 0) || !std::isfinite(s.pixel_length)) {
-        return refusal(path, "the length of a pixel is none", "a finite number, 0 or more",
-                       base::shortest(s.pixel_length), "leave it at 0 for a picture without a scale");
+        return file_error(path, "the length of a pixel is none", "a finite number, 0 or more",
+                          base::shortest(s.pixel_length), "leave it at 0 for a picture without a scale");
     }
     if (s.range &&
         (!std::isfinite(s.range->first) || !std::isfinite(s.range->second) || s.range->first > s.range->second)) {
-        return refusal(path, "the range of colours is none", "two finite numbers, the lower one first",
-                       base::shortest(s.range->first) + " and " + base::shortest(s.range->second),
-                       "choose another range");
+        return file_error(path, "the range of colours is none", "two finite numbers, the lower one first",
+                          base::shortest(s.range->first) + " and " + base::shortest(s.range->second),
+                          "choose another range");
     }
     return Done{};
 }
@@ -111,9 +102,9 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     const double tall = s.aspect < 1 ? std::round(static_cast<double>(s.height) / s.aspect) : 0;
     const auto limit = static_cast<double>(longest_png_side);
     if (wide > limit || tall > limit) {
-        return refusal(path, "a slice of that aspect cannot be a picture",
-                       "at most " + std::to_string(longest_png_side) + " pixels a side",
-                       base::shortest(std::max(wide, tall)), "choose spacings that differ less");
+        return file_error(path, "a slice of that aspect cannot be a picture",
+                          "at most " + std::to_string(longest_png_side) + " pixels a side",
+                          base::shortest(std::max(wide, tall)), "choose spacings that differ less");
     }
     const std::size_t columns = wide != 0 ? static_cast<std::size_t>(wide) : s.width;
     const std::size_t lines = tall != 0 ? static_cast<std::size_t>(tall) : s.height;
@@ -125,16 +116,16 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     const ColourBar bar(told.low, told.high, std::max(height, min_bar_height));
     const std::size_t width = columns + (with_bar ? bar.width() : 0);
     if (width > longest_png_side) {
-        return refusal(path, "there is no room for the colour bar",
-                       "at most " + std::to_string(longest_png_side) + " pixels a side", std::to_string(width),
-                       "leave out the bar, or choose fewer points");
+        return file_error(path, "there is no room for the colour bar",
+                          "at most " + std::to_string(longest_png_side) + " pixels a side", std::to_string(width),
+                          "leave out the bar, or choose fewer points");
     }
     const double column_length = wide != 0 ? s.pixel_length / s.aspect : s.pixel_length;
     const Caption caption(s.title, column_length, columns, width, bar.scale());
     if (height + caption.height() > longest_png_side) {
-        return refusal(path, "there is no room for the caption",
-                       "at most " + std::to_string(longest_png_side) + " pixels a side",
-                       std::to_string(height + caption.height()), "leave it out, or choose fewer points");
+        return file_error(path, "there is no room for the caption",
+                          "at most " + std::to_string(longest_png_side) + " pixels a side",
+                          std::to_string(height + caption.height()), "leave it out, or choose fewer points");
     }
     const auto row = [&](std::size_t r, std::uint8_t* pixels) {
         if (r >= height) return caption.row(r - height, pixels);

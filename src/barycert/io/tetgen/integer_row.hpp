@@ -73,7 +73,23 @@ const char* scan_plain_row(const char* at, std::array<std::uint32_t, Count>& val
     return at + lowest_bit(masks.feeds) + 1;
 }
 
+/// The place after the LF of a row of that many numbers from 0 on, separated by spaces and ended within 64 bytes;
+/// nullptr for any other row. Precondition: 72 bytes can be read.
+inline const char* plain_row_end(const char* at, std::size_t count) {
+    const ByteMasks masks(at);
+    if (masks.feeds == 0) return nullptr;
+    const std::uint64_t row = (masks.feeds & (~masks.feeds + 1)) - 1;
+    const std::uint64_t digits = masks.digits & row;
+    if (((digits | masks.spaces) & row) != row) return nullptr;
+    for (std::uint64_t starts = digits & ~(digits << 1); starts != 0; starts &= starts - 1) --count;
+    return count == 0 ? at + lowest_bit(masks.feeds) + 1 : nullptr;
+}
+
 #else
+
+inline const char* plain_row_end(const char*, std::size_t) {
+    return nullptr;
+}
 
 template <std::size_t Count>
 const char* scan_plain_row(const char*, std::array<std::uint32_t, Count>&) {

@@ -1,8 +1,10 @@
 #include "barycert/io/tetgen/row_errors.hpp"
-#include "barycert/base/text.hpp"
 
 #include <algorithm>
 #include <cctype>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -11,13 +13,8 @@ constexpr const char* separators_remedy = "separate the columns by spaces, tabs 
 
 Error error_at(const TextTable& table, const char* at, std::string what, std::string expected, std::string found,
                std::string remedy) {
-    const auto line = static_cast<std::size_t>(std::count(table.begin(), at, '\n')) + 1;
-    return {.what = std::move(what),
-            .file = table.file,
-            .line = line,
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = std::move(remedy)};
+    return line_error(table.file, line_of(table.bytes, at), std::move(what), std::move(expected), std::move(found),
+                      std::move(remedy));
 }
 
 std::string plural(std::size_t count, const std::string& name) {

@@ -89,7 +89,7 @@ inline const char* scan_real(const char* at, const char* end, double& value) {
 
 /// The same for nan, inf and infinity as they are written, in any case: not for what is too large.
 inline const char* scan_nonfinite(const char* at, const char* end, double& value) {
-    if (const char* const after = scan_real(at, end, value); after != nullptr) return nullptr;
+    if (scan_real(at, end, value) != nullptr || (*at == '+' && at[1] == '-')) return nullptr;
     const char* const first = at + (*at == '+' ? 1 : 0);
     if (is_digit(*first) || *first == '.' || (*first == '-' && (is_digit(first[1]) || first[1] == '.'))) return nullptr;
     const auto [after, error] = fast_float::from_chars(first, end, value);
@@ -158,6 +158,13 @@ struct Scanner {
 
     bool real(double& value) {
         const char* const after = scan_real(at, end, value);
+        if (after == nullptr) return false;
+        at = after;
+        return true;
+    }
+
+    bool nonfinite(double& value) {
+        const char* const after = scan_nonfinite(at, end, value);
         if (after == nullptr) return false;
         at = after;
         return true;

@@ -13,41 +13,221 @@
 // without gaps. A row has as many columns as the header tells, and the file as many rows.
 //
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
-#include "barycert/io/tetgen/tetgen_reader.hpp"
-
 #include <array>
 #include <filesystem>
+#include <initializer_list>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
+#include "barycert/base/large_pages.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/tetgen/row_errors.hpp"
+#include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
 namespace io {
+namespace {
 
-Result<Mesh> TetgenReader::read() {
-    Status status = prepare_nodes();
-    if (status) status = prepare_cells();
-    if (status && options_.faces && exists(".face")) status = prepare_faces();
-    if (status && options_.neighbours && exists(".neigh")) status = prepare_neighbours();
-    if (!status) return status.error();
-
-    std::vector<TextTable*> tables{&nodes_, &cells_};
-    if (faces_) tables.push_back(faces_.get());
-    if (neighbours_) tables.push_back(neighbours_.get());
-    status = parse_tables(tables, options_.threads);
-    if (status) status = settle_mid_edge_order();
-    if (!status) return status.error();
-    return std::move(mesh_);
+/// The numbers of a header, in quotes.
+std::string header_text(std::initializer_list<std::int64_t> numbers) {
+    std::string text;
+    for (const std::int64_t number : numbers) text += (text.empty() ? "\"" : " ") + std::to_string(number);
+    return text + '"';
 }
 
-bool TetgenReader::exists(const char* suffix) const {
-    std::error_code ignored;
-    return std::filesystem::exists(plain_or_packed(stem_ + suffix), ignored);
+Error cannot_mean(const TextTable& table, const std::string& what, std::string expected, std::int64_t found,
+                  std::string remedy) {
+    return header_error(table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
+}
+
+/// One read, step by step. Each preparation reads a header, takes the memory and says where the columns go.
+class TetgenReader {
+public:
+    TetgenReader(std::string stem, const ReadOptions& options) : stem_(std::move(stem)), options_(options) {}
+
+    Result<Mesh> read() {
+        Status status = prepare_nodes();
+        if (status) status = prepare_cells();
+        if (status && options_.faces && exists(".face")) status = prepare_faces();
+        if (status && options_.neighbours && exists(".neigh")) status = prepare_neighbours();
+        if (!status) return status.error();
+
+        std::vector<TextTable*> tables{&nodes_, &cells_};
+        if (faces_) tables.push_back(faces_.get());
+        if (neighbours_) tables.push_back(neighbours_.get());
+        status = parse_tables(tables, options_.threads);
+        if (status) status = settle_mid_edge_order();
+        if (!status) return status.error();
+        return std::move(mesh_);
+    }
+
+private:
+    bool exists(const char* suffix) const {
+        std::error_code ignored;
+        return std::filesystem::exists(plain_or_packed(stem_ + suffix), ignored);
+    }
+
+    /// A table beside the nodes, which have told the base.
+    Status open(const char* suffix, std::span<const char* const> header_names, TextTable& table) {
+        Result<TextTable> opened = open_table(stem_ + suffix, header_names, options_.threads);
+        if (!opened) return opened.error();
+        table = std::move(*opened);
+        table.base = mesh_.index_base;
+        table.base_is_given = true;
+        return Done{};
+    }
+
+    /// Makes the fields of the attributes, which are the columns.
+    void make_attributes(std::vector<Field>& fields, std::vector<double*>& to, TextTable& table) {
+        if (table.rows == 0) return;  // a count that no row bears out may be anything
+        Columns& columns = table.columns[2];
+        fields.resize(columns.count);
+        for (std::size_t i = 0; i < columns.count; ++i) {
+            fields[i].name = "attribute" + std::to_string(i);
+            base::resize_large(fields[i].data, table.rows);
+            to.push_back(fields[i].data.data());
+        }
+        columns.fields = to.data();
+    }
+
+    template <class T>
+    T* room(std::vector<T>& values, Columns& columns, std::size_t rows) {
+        base::resize_large(values, rows * (columns.step == 0 ? columns.step = columns.count : columns.step));
+        return values.data();
+    }
+
+    Status prepare_nodes();
+    Status prepare_cells();
+    Status prepare_faces();
+    Status prepare_neighbours();
+    Status settle_mid_edge_order();
+
+    std::string stem_;
+    ReadOptions options_;
+    Mesh mesh_;
+    TextTable nodes_, cells_;
+    std::unique_ptr<TextTable> faces_, neighbours_;  // where there is such a file
+    std::vector<double*> point_attributes_, cell_attributes_;
+};
+
+Status TetgenReader::prepare_nodes() {
+    constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
+    if (Status opened = open(".node", names, nodes_); !opened) return opened;
+    TextTable& table = nodes_;
+    table.base_is_given = false;
+
+    const std::int64_t dimension = table.header_field(1, 3);
+    if (dimension != 2 && dimension != 3)
+        return cannot_mean(table, "bad dimension", "2 or 3", dimension,
+                           "the header is: nodes, dimension, attributes, markers");
+    const std::int64_t count = table.header[0], attributes = table.header_field(2, 0),
+                       markers = table.header_field(3, 0);
+    const std::string more = header_text({count, dimension, attributes + 1, markers});
+    table.surplus_remedy = markers == 0
+                               ? "if the last column is a marker, make the header " +
+                                     header_text({count, dimension, attributes, 1}) + "; if it is an attribute, " + more
+                               : "if there is one attribute more, make the header " + more;
+    if (Status settled = settle_node_columns(table, dimension); !settled) return settled;
+
+    mesh_.index_base = table.base;
+    mesh_.dimension = static_cast<int>(dimension);
+    Columns &coordinates = table.columns[1], &marks = table.columns[3];
+    coordinates.reals = room(mesh_.points, coordinates, table.rows);
+    make_attributes(mesh_.point_fields, point_attributes_, table);
+    marks.integers = room(mesh_.point_markers, marks, table.rows);
+    return Done{};
+}
+
+Status TetgenReader::prepare_cells() {
+    constexpr std::array names{"cells", "corners", "attributes"};
+    if (!exists(".ele"))
+        return file_error(stem_ + ".ele", "there are nodes but no cells", "an .ele file beside " + nodes_.file,
+                          "no such file", "mesh the nodes first, or put the .ele file there");
+    if (Status opened = open(".ele", names, cells_); !opened) return opened;
+    TextTable& table = cells_;
+
+    const bool flat = mesh_.dimension == 2;
+    const std::int64_t corners = table.header_field(1, flat ? 3 : 4);
+    const std::int64_t attributes = table.header_field(2, 0);
+    if (flat ? corners != 3 && corners != 6 : corners != 4 && corners != 10)
+        return cannot_mean(
+            table, "bad number of corners",
+            flat ? "3 or 6, for the .node file has 2 dimensions" : "4 or 10, for the .node file has 3 dimensions",
+            corners, "check that the files belong together and hold triangles (2D) or tetrahedra (3D)");
+    table.columns = {{ColumnKind::id, 1, "id"},
+                     {ColumnKind::index, static_cast<std::size_t>(corners), "corner", nodes_.limit(), "nodes"},
+                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"}};
+    table.surplus_remedy =
+        "if there is one attribute more, make the header " + header_text({table.header[0], corners, attributes + 1});
+    if (Status room = check_room(table); !room) return room;
+
+    Columns& nodes = table.columns[1];
+    nodes.step = mesh_.corners();
+    nodes.indices = room(mesh_.cells, nodes, table.rows);
+    base::resize_large(mesh_.mid_nodes, table.rows * (nodes.count - nodes.step));
+    nodes.more_indices = mesh_.mid_nodes.data();
+    make_attributes(mesh_.cell_fields, cell_attributes_, table);
+    return Done{};
+}
+
+Status TetgenReader::prepare_faces() {
+    constexpr std::array names{"faces", "markers"};
+    faces_ = std::make_unique<TextTable>();
+    TextTable& table = *faces_;
+    if (Status opened = open(".face", names, table); !opened) return opened;
+    if (mesh_.dimension == 2)
+        return header_error(table, "a mesh of triangles has no faces", {}, {},
+                            "remove the .face file or do not ask for faces");
+    const std::int64_t markers = table.header_field(1, 0);
+    if (markers > 1) return cannot_mean(table, "bad number of markers", "0 or 1", markers, {});
+    const auto marker_columns = static_cast<std::size_t>(markers);
+    const std::size_t found = table.first_row().size();
+    const std::size_t linear = 4 + marker_columns;  // id, corners, marker
+    const bool mids = found == linear + 3 || found == linear + 5;
+    const bool adjacent = found == linear + 2 || found == linear + 5;  // checked, and told again by the neighbours
+    table.columns = {{ColumnKind::id, 1, "id"},
+                     {ColumnKind::index, mids ? 6U : 3U, "corner", nodes_.limit(), "nodes"},
+                     {ColumnKind::integer, marker_columns, "marker"},
+                     {ColumnKind::neighbour, adjacent ? 2U : 0U, "cell", cells_.limit(), "cells"}};
+    table.surplus_remedy = markers == 0
+                               ? "if the last column is a marker, make the header " + header_text({table.header[0], 1})
+                               : "let all rows have as many columns as the first";
+    if (Status room = check_room(table); !room) return room;
+
+    Columns &nodes = table.columns[1], &marks = table.columns[2];
+    nodes.step = 3;
+    nodes.indices = room(mesh_.faces, nodes, table.rows);
+    base::resize_large(mesh_.face_mid_nodes, table.rows * (nodes.count - nodes.step));
+    nodes.more_indices = mesh_.face_mid_nodes.data();
+    marks.integers = room(mesh_.face_markers, marks, table.rows);
+    return Done{};
+}
+
+Status TetgenReader::prepare_neighbours() {
+    constexpr std::array names{"cells", "neighbours"};
+    neighbours_ = std::make_unique<TextTable>();
+    TextTable& table = *neighbours_;
+    if (Status opened = open(".neigh", names, table); !opened) return opened;
+    const std::size_t sides = mesh_.corners();
+    const char* const remedy = "check that the files belong together, or remove the .neigh file";
+    if (table.rows != cells_.rows)
+        return header_error(table, "the number of cells differs from that of the .ele file",
+                            std::to_string(cells_.rows), std::to_string(table.rows), remedy);
+    const std::int64_t declared = table.header_field(1, static_cast<std::int64_t>(sides));
+    if (declared != static_cast<std::int64_t>(sides))
+        return cannot_mean(table, "bad number of neighbours", std::to_string(sides), declared, remedy);
+    table.columns = {{ColumnKind::id, 1, "id"}, {ColumnKind::neighbour, sides, "neighbour", cells_.limit(), "cells"}};
+    table.surplus_remedy = "let each row have an id and " + std::to_string(sides) + " neighbours";
+    if (Status room = check_room(table); !room) return room;
+    table.columns[1].indices = room(mesh_.neighbours, table.columns[1], table.rows);
+    return Done{};
 }
 
 Status TetgenReader::settle_mid_edge_order() {
@@ -70,16 +250,7 @@ Status TetgenReader::settle_mid_edge_order() {
     return Done{};
 }
 
-std::string header_text(std::initializer_list<std::int64_t> numbers) {
-    std::string text = "\"";
-    for (const std::int64_t number : numbers) {
-        if (text.size() > 1) text += ' ';
-        text += std::to_string(number);
-    }
-    text += '"';
-    return text;
-}
-
+}  // namespace
 }  // namespace io
 
 namespace {

@@ -2,70 +2,29 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <memory>
 #include <span>
 #include <string_view>
 
-#include "barycert/base/output_file.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
 namespace {
 
-/// Fields of a row, separated by spaces, in a buffer on the way to a file.
-class RowWriter {
-public:
-    explicit RowWriter(std::string target) : file_(std::move(target)) {}
+using io::RowOutput;
 
-    template <class Number>
-    void number(Number value) {
-        if (size_ + longest > buffer_.size()) flush();
-        if (!at_line_start_) buffer_[size_++] = ' ';
-        at_line_start_ = false;
-        char* const start = buffer_.data() + size_;
-        size_ += static_cast<std::size_t>(std::to_chars(start, buffer_.data() + buffer_.size(), value).ptr - start);
+void write_comment(RowOutput& out, std::string_view text) {
+    while (!text.empty()) {  // a line break in the comment must not begin a row
+        const std::size_t stop = std::min(text.find_first_of("\r\n"), text.size());
+        for (const std::string_view part : {std::string_view("# "), text.substr(0, stop), std::string_view("\n")})
+            out.text(part);
+        text.remove_prefix(std::min(stop + 1, text.size()));
     }
-
-    void end_row() {
-        if (size_ == buffer_.size()) flush();
-        buffer_[size_++] = '\n';
-        at_line_start_ = true;
-    }
-
-    void comment(std::string_view text) {
-        flush();
-        while (!text.empty()) {  // a line break in the comment must not begin a row
-            const std::size_t stop = std::min(text.find_first_of("\r\n"), text.size());
-            file_.write("# ");
-            file_.write(text.substr(0, stop));
-            file_.write("\n");
-            text.remove_prefix(std::min(stop + 1, text.size()));
-        }
-    }
-
-    Status close() {
-        flush();
-        return file_.close();
-    }
-    Status commit() { return file_.commit(); }
-
-private:
-    void flush() {
-        file_.write({buffer_.data(), size_});
-        size_ = 0;
-    }
-
-    static constexpr std::size_t longest = 32;  // a space and a number: at most 24 characters of a double
-    base::OutputFile file_;
-    std::array<char, 4096> buffer_{};
-    std::size_t size_ = 0;
-    bool at_line_start_ = true;
-};
+}
 
 std::size_t component_count(const std::vector<Field>& fields) {
     std::size_t count = 0;
@@ -73,14 +32,14 @@ std::size_t component_count(const std::vector<Field>& fields) {
     return count;
 }
 
-void write_fields(RowWriter& out, const std::vector<Field>& fields, std::size_t row) {
+void write_fields(RowOutput& out, const std::vector<Field>& fields, std::size_t row) {
     for (const Field& field : fields) {
         const auto components = static_cast<std::size_t>(field.components);
         for (std::size_t c = 0; c < components; ++c) out.number(field.data[row * components + c]);
     }
 }
 
-void write_nodes(RowWriter& out, const Mesh& mesh) {
+void write_nodes(RowOutput& out, const Mesh& mesh) {
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     const bool markers = !mesh.point_markers.empty();
     out.number(mesh.point_count());
@@ -97,7 +56,7 @@ void write_nodes(RowWriter& out, const Mesh& mesh) {
     }
 }
 
-void write_cells(RowWriter& out, const Mesh& mesh) {
+void write_cells(RowOutput& out, const Mesh& mesh) {
     const std::size_t corners = mesh.corners();
     const std::size_t mids = mesh.mid_nodes.empty() ? 0 : mesh::edges_of(mesh.dimension).size();
     const std::span<const std::size_t> sequence = mesh::edge_sequence(mesh.mid_edge_order, mesh.dimension);
@@ -117,7 +76,7 @@ void write_cells(RowWriter& out, const Mesh& mesh) {
     }
 }
 
-void write_faces(RowWriter& out, const Mesh& mesh) {
+void write_faces(RowOutput& out, const Mesh& mesh) {
     const bool markers = !mesh.face_markers.empty();
     out.number(mesh.face_count());
     out.number(markers ? 1 : 0);
@@ -133,7 +92,7 @@ void write_faces(RowWriter& out, const Mesh& mesh) {
     }
 }
 
-void write_neighbours(RowWriter& out, const Mesh& mesh) {
+void write_neighbours(RowOutput& out, const Mesh& mesh) {
     const std::size_t sides = mesh.corners();
     out.number(mesh.cell_count());
     out.number(sides);
@@ -154,39 +113,30 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
     const ExactEnvironment environment;
     if (const char* const fault = mesh::inconsistency(mesh); fault != nullptr) {
         const bool values_alone = mesh::inconsistency(mesh, mesh::FieldValues::any) == nullptr;
-        return Error{
-            .what = std::string("cannot write the mesh: ") + fault,
-            .file = stem,
-            .line = 0,
-            .expected = {},
-            .found = {},
-            .remedy = values_alone ? "choose .vtu, .vtk or .msh, which hold it" : "correct the mesh in memory"};
+        return file_error(stem, std::string("cannot write the mesh: ") + fault, {}, {},
+                          values_alone ? "choose .vtu, .vtk or .msh, which hold it" : "correct the mesh in memory");
     }
     struct Part {
         const char* suffix;
         bool present;
-        void (*write)(RowWriter&, const Mesh&);
+        void (*write)(RowOutput&, const Mesh&);
     };
     const std::array<Part, 4> parts{{{".node", true, write_nodes},
                                      {".ele", true, write_cells},
                                      {".face", !mesh.faces.empty(), write_faces},
                                      {".neigh", !mesh.neighbours.empty(), write_neighbours}}};
-    std::vector<std::unique_ptr<RowWriter>> files;
+    std::vector<std::unique_ptr<RowOutput>> files;
     for (const Part& part : parts) {
         const std::string target = stem + part.suffix;
         struct stat old {};
-        if (!part.present && ::stat(target.c_str(), &old) == 0) {
-            return Error{.what = "a file of another mesh exists",
-                         .file = target,
-                         .line = 0,
-                         .expected = "no such file: the mesh to be written has no data for it",
-                         .found = {},
-                         .remedy = "remove it, or choose another name"};
-        }
+        if (!part.present && ::stat(target.c_str(), &old) == 0)
+            return file_error(target, "a file of another mesh exists",
+                              "no such file: the mesh to be written has no data for it", {},
+                              "remove it, or choose another name");
         if (!part.present) continue;
-        files.push_back(std::make_unique<RowWriter>(target));
+        files.push_back(std::make_unique<RowOutput>(target));
         part.write(*files.back(), mesh);
-        if (!options.comment.empty()) files.back()->comment(options.comment);
+        write_comment(*files.back(), options.comment);
         if (Status status = files.back()->close(); !status) return status;
     }
     for (const auto& file : files) {

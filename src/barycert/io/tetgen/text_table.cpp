@@ -1,11 +1,13 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/other_formats.hpp"
+#include "barycert/io/tetgen/integer_row.hpp"
 #include "barycert/io/tetgen/row_errors.hpp"
 
 namespace barycert::io {
@@ -47,13 +49,54 @@ bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
     return blocks.size() != begin || table.rows == 0;
 }
 
+/// The commonest row of all: an id and the corners of a linear cell. False: the scanner has not moved, and nothing is
+/// known.
+template <std::size_t Corners>
+bool parse_plain_cell(const TextTable& table, Scanner& scanner, std::size_t row) {
+    std::array<std::uint32_t, Corners + 1> values{};
+    const char* const after = scan_plain_row(scanner.at, values);
+    const auto base = static_cast<std::uint32_t>(table.base);
+    if (after == nullptr || values[0] != row + base) return false;
+    bool good = true;
+    for (std::size_t i = 0; i < Corners; ++i) {
+        const std::uint32_t index = values[i + 1] - base;
+        good = good && index < static_cast<std::uint64_t>(table.columns[1].limit);
+        table.columns[1].indices[row * Corners + i] = static_cast<Mesh::Index>(index);
+    }
+    if (good) scanner.at = after;
+    return good;
+}
+
+/// The corners of a row that is nothing but an id and these; else 0.
+std::size_t plain_corners(const TextTable& table) {
+    const std::size_t count = table.column_count();
+    if (count < 4 || table.columns[1].kind != ColumnKind::index) return 0;
+    return table.columns[1].count == count - 1 && table.columns[1].step == count - 1 ? count - 1 : 0;
+}
+
+/// Parses the rows [row, last) that stand before `stop`. On failure `row` and the scanner tell where.
+bool parse_rows(const TextTable& table, Scanner& scanner, const char* stop, std::size_t& row, std::size_t last) {
+    Scanner local = scanner;  // its address is not known elsewhere, so it may stay in registers
+    const std::size_t corners = plain_corners(table);
+    std::size_t r = row;
+    bool good = true;
+    while (good && local.next_row(stop)) {
+        good = r != last && ((corners == 4 && parse_plain_cell<4>(table, local, r)) ||
+                             (corners == 3 && parse_plain_cell<3>(table, local, r)) || parse_row(table, local, r));
+        if (good) ++r;
+    }
+    scanner = local;
+    row = r;
+    return good && r == last;
+}
+
 /// Parses the blocks on several threads; true if every one is as it should be.
 bool parse_blocks(const std::vector<Block>& blocks, int threads) {
     return base::share_work(threads, blocks.size(), [&](std::size_t i) {
         const Block& block = blocks[i];
         Scanner scanner{block.start, block.table->end()};
         std::size_t row = block.first_row;
-        return block.table->parse(scanner, block.stop, row, block.last_row);
+        return parse_rows(*block.table, scanner, block.stop, row, block.last_row);
     });
 }
 
@@ -61,7 +104,7 @@ bool parse_blocks(const std::vector<Block>& blocks, int threads) {
 Status parse_in_order(const TextTable& table) {
     Scanner scanner{table.body, table.end()};
     std::size_t row = 0;
-    if (table.parse(scanner, table.end(), row, table.rows)) return Done{};
+    if (parse_rows(table, scanner, table.end(), row, table.rows)) return Done{};
     if (row == table.rows) return surplus_text(table, scanner.at);
     // A row parser stops inside the row; only the search for the next row reaches the end with no row begun.
     if (scanner.at == table.end() && fields_of_line(table, scanner.at).empty()) return too_few_rows(table, row);
@@ -101,6 +144,53 @@ Status read_header(TextTable& table, std::span<const char* const> header_names) 
 }
 
 }  // namespace
+
+bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row) {
+    for (const Columns& c : table.columns) {
+        for (std::size_t k = 0; k < c.count; ++k) {
+            if (c.kind != ColumnKind::id && !scanner.separator()) return false;
+            if (c.kind == ColumnKind::real) {
+                double value = 0;
+                if (!scanner.real(value) && !(table.any_real && scanner.nonfinite(value))) return false;
+                (c.fields != nullptr ? c.fields[k][row] : c.reals[row * c.step + k]) = value;
+                continue;
+            }
+            std::int64_t value = 0;
+            if (!scanner.integer(value)) return false;
+            if (c.kind == ColumnKind::integer) {
+                c.integers[row * c.step + k] = value;
+                continue;
+            }
+            const bool none = c.kind == ColumnKind::neighbour && value == -1;
+            value -= none ? 0 : table.base;
+            if (c.kind == ColumnKind::id) {
+                if (value != static_cast<std::int64_t>(row)) return false;
+                continue;
+            }
+            if (!none && static_cast<std::uint64_t>(value) >= static_cast<std::uint64_t>(c.limit)) return false;
+            if (c.indices == nullptr) continue;
+            Mesh::Index& to =
+                k < c.step ? c.indices[row * c.step + k] : c.more_indices[row * (c.count - c.step) + k - c.step];
+            to = static_cast<Mesh::Index>(value);
+        }
+    }
+    return scanner.end_row();
+}
+
+Status settle_node_columns(TextTable& table, std::int64_t dimension) {
+    const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
+    if (markers > 1)
+        return header_error(table, "bad number of markers in the header", "0 or 1", std::to_string(markers),
+                            "declare further columns as attributes");
+    table.columns = {{ColumnKind::id, 1, "id"},
+                     {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate"},
+                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
+                     {ColumnKind::integer, static_cast<std::size_t>(markers), "marker"}};
+    const std::vector<std::string_view> first = table.first_row();
+    std::int64_t id = 0;
+    table.base = !first.empty() && scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
+    return check_room(table);
+}
 
 std::size_t TextTable::column_count() const {
     std::size_t count = 0;

@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +15,7 @@
 
 #include "barycert/base/mapped_file.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
@@ -31,17 +31,22 @@ enum class ColumnKind : std::uint8_t {
     real,
 };
 
-/// Some columns alike.
+/// Some columns alike, and where their values go: those of row r to numbers r * step, r * step + 1, ... of an array.
+/// Without one they are checked alone.
 struct Columns {
     ColumnKind kind = ColumnKind::id;
     std::size_t count = 0;
     std::string name;         ///< of one of them, in messages
     std::int64_t limit = 0;   ///< of an index
     std::string refers_to{};  ///< of an index: what it counts
-};
 
-/// Parses the rows [row, last) that stand before `stop`. On failure `row` and the scanner tell where.
-using ParseBlock = std::function<bool(Scanner& scanner, const char* stop, std::size_t& row, std::size_t last)>;
+    std::size_t step = 0;
+    double* reals = nullptr;
+    double* const* fields = nullptr;  ///< in place of it: an array for each column, with a step of 1
+    std::int64_t* integers = nullptr;
+    Mesh::Index* indices = nullptr;
+    Mesh::Index* more_indices = nullptr;  ///< of the columns from number `step` on: count - step in a row
+};
 
 struct TextTable {
     std::string file;
@@ -57,11 +62,17 @@ struct TextTable {
     std::vector<Columns> columns;
     std::string surplus_remedy;  ///< what to mend if rows have more columns than the header tells
     std::string finite_remedy = "give every node and cell finite numbers";
-    ParseBlock parse;
+    bool any_real = false;  ///< numbers may be nan and inf
 
     const char* begin() const { return bytes.data(); }
     const char* end() const { return begin() + bytes.size(); }
     std::size_t column_count() const;
+
+    /// The header's number i, or what stands for it if the header is shorter.
+    std::int64_t header_field(std::size_t i, std::int64_t otherwise) const {
+        return i < header.size() ? header[i] : otherwise;
+    }
+    std::int64_t limit() const { return static_cast<std::int64_t>(rows); }
 
     /// The first row's fields; empty if there is no row.
     std::vector<std::string_view> first_row() const;
@@ -74,24 +85,15 @@ Result<TextTable> open_table(const std::string& path, std::span<const char* cons
 /// Needs the columns and the base.
 Status check_room(const TextTable& table);
 
+/// Sets the columns and the base of a .node file of that dimension, by its header and its first row. Error: another
+/// number of markers; as check_room.
+Status settle_node_columns(TextTable& table, std::int64_t dimension);
+
+/// Moves from the first field of row number `row` over its end, and puts the values where they belong. False: the row
+/// is not as it should be.
+bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row);
+
 /// Parses the rows of all tables; the error of the first table that has one.
 Status parse_tables(std::span<TextTable* const> tables, int threads);
-
-/// The ParseBlock of a row parser: bool(Scanner&, std::size_t row), which moves from the first field over the row end.
-template <class ParseRow>
-ParseBlock parse_block_by(ParseRow parse_row) {
-    return [parse_row](Scanner& scanner, const char* stop, std::size_t& row, std::size_t last) {
-        Scanner local = scanner;  // its address is not known elsewhere, so it may stay in registers
-        std::size_t r = row;
-        bool good = true;
-        while (good && local.next_row(stop)) {
-            good = r != last && parse_row(local, r);
-            if (good) ++r;
-        }
-        scanner = local;
-        row = r;
-        return good && r == last;
-    };
-}
 
 }  // namespace barycert::io

@@ -1,10 +1,11 @@
-/// Rows of pixels into a PNG file, by libpng.
+/// PNG files into memory, and out of rows of pixels, by libpng.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "barycert/result.hpp"
 
@@ -24,5 +25,15 @@ enum class PngContent : std::uint8_t {
 Status write_png_rows(const std::string& path, std::size_t width, std::size_t height,
                       const std::function<void(std::size_t, std::uint8_t*)>& row,
                       PngContent content = PngContent::few_colours);
+
+struct PngPixels {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> rows;  ///< 8-bit RGBA, 4 * width bytes a row, from the top
+};
+
+/// Reads a PNG file of any kind, see read_png in raster.hpp. Memory is 4 bytes a pixel, of which there are at most
+/// max_pixels, and libpng's own, which limits keep below a few MiB. Errors: missing, unreadable, no PNG, damaged, cut
+/// short, too many pixels.
+Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels);
 
 }  // namespace barycert::io

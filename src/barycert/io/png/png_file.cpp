@@ -1,0 +1,223 @@
+#include "barycert/io/png/png_file.hpp"
+
+#include <png.h>
+
+#include <array>
+#include <csetjmp>
+#include <cstdio>
+#include <new>
+#include <string_view>
+
+#include "barycert/base/input_file.hpp"
+#include "barycert/base/output_file.hpp"
+#include "barycert/io.hpp"
+#include "barycert/io/png/indexed_png.hpp"
+
+namespace barycert::io {
+namespace {
+
+/// All that outlives a jump: libpng leaves by longjmp, past which no object with a destructor may be.
+struct Session {
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    std::array<char, 200> message{};
+    bool no_memory = false;
+
+    Session() = default;
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+};
+
+struct Decoder : Session {
+    const base::InputFile& file;
+    const std::string& path;
+    std::uint64_t at = 0;  ///< of the next byte
+    PngPixels pixels = {};
+    std::uint64_t bits = 0;              ///< of a pixel in the file
+    std::vector<png_bytep> places = {};  ///< of the rows
+    Error unreadable = {};               ///< what the system said, if it was the system
+    bool cut_short = false;
+
+    Decoder(const base::InputFile& f, const std::string& p) : file(f), path(p) {}
+    ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+struct Encoder : Session {
+    base::OutputFile& file;
+    const std::function<void(std::size_t, std::uint8_t*)>& row;
+    std::vector<std::uint8_t> pixels;
+    png_uint_32 width = 0, height = 0;
+    PngContent content = PngContent::few_colours;
+
+    Encoder(base::OutputFile& f, const std::function<void(std::size_t, std::uint8_t*)>& r) : file(f), row(r) {}
+    ~Encoder() { png_destroy_write_struct(&png, &info); }
+};
+
+extern "C" {
+
+void on_png_error(png_structp png, png_const_charp text) {
+    auto& message = static_cast<Session*>(png_get_error_ptr(png))->message;
+    std::snprintf(message.data(), message.size(), "%s", text);
+    png_longjmp(png, 1);
+}
+
+void on_png_warning(png_structp, png_const_charp) {}  // libpng's own would print
+
+void read_png_bytes(png_structp png, png_bytep bytes, std::size_t count) {
+    auto* const decoder = static_cast<Decoder*>(png_get_io_ptr(png));
+    bool failed = true;
+    try {
+        const auto read = decoder->file.read_at(decoder->at, {reinterpret_cast<char*>(bytes), count}, decoder->path);
+        decoder->cut_short = read && *read != count;
+        if (!read) decoder->unreadable = read.error();
+        failed = !read || decoder->cut_short;
+    } catch (const std::bad_alloc&) {  // may not pass through C
+        decoder->no_memory = true;
+    }
+    if (failed) png_error(png, "cannot read");
+    decoder->at += count;
+}
+
+void write_png_bytes(png_structp png, png_bytep bytes, std::size_t count) {
+    auto* const encoder = static_cast<Encoder*>(png_get_io_ptr(png));
+    try {
+        encoder->file.write({reinterpret_cast<const char*>(bytes), count});
+    } catch (const std::bad_alloc&) {  // may not pass through C
+        encoder->no_memory = true;
+    }
+    if (encoder->no_memory || !encoder->file.status()) png_error(png, "cannot write");
+}
+
+void flush_png(png_structp) {}
+
+}  // extern "C"
+
+/// The size, and how pixels will come. False if libpng gave up.
+bool decode_header(Decoder& d) {
+    if (setjmp(png_jmpbuf(d.png)) != 0) return false;
+    png_set_read_fn(d.png, &d, read_png_bytes);
+    png_set_user_limits(d.png, static_cast<png_uint_32>(longest_png_side), static_cast<png_uint_32>(longest_png_side));
+    // Skips all but IHDR, PLTE, tRNS, IDAT and IEND: for others libpng takes as much memory as they say they are long.
+    png_set_keep_unknown_chunks(d.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    png_read_info(d.png, d.info);
+    d.bits = std::uint64_t{png_get_bit_depth(d.png, d.info)} * png_get_channels(d.png, d.info);
+    png_set_expand(d.png);    // palettes, less than 8 bits, a transparent colour
+    png_set_scale_16(d.png);  // rounded, not cut
+    png_set_gray_to_rgb(d.png);
+    png_set_add_alpha(d.png, 0xff, PNG_FILLER_AFTER);
+    png_set_interlace_handling(d.png);
+    png_read_update_info(d.png, d.info);
+    d.pixels.width = png_get_image_width(d.png, d.info);
+    d.pixels.height = png_get_image_height(d.png, d.info);
+    return true;
+}
+
+/// Precondition: there are places for the rows. False if libpng gave up.
+bool decode_rows(Decoder& d) {
+    if (setjmp(png_jmpbuf(d.png)) != 0) return false;
+    if (png_get_rowbytes(d.png, d.info) != 4 * std::size_t{d.pixels.width}) png_error(d.png, "pixels of another size");
+    png_read_image(d.png, d.places.data());
+    png_read_end(d.png, nullptr);
+    return true;
+}
+
+Error failure(const Decoder& d) {
+    if (d.no_memory) throw std::bad_alloc();
+    if (!d.unreadable.what.empty()) return d.unreadable;
+    const bool no_struct = d.png == nullptr || d.info == nullptr;
+    return file_error(d.path, "cannot read the PNG file", d.at == 0 && !no_struct ? "a PNG file" : "",
+                      no_struct     ? "libpng does not start"
+                      : d.cut_short ? "the end of the file"
+                                    : std::string(d.message.data()),
+                      d.cut_short ? "get or make the file again: it is cut short" : "get or make the file again");
+}
+
+/// False if libpng gave up.
+bool encode(Encoder& e) {
+    if (setjmp(png_jmpbuf(e.png)) != 0) return false;
+    png_set_write_fn(e.png, &e, write_png_bytes, flush_png);
+    png_set_IHDR(e.png, e.info, e.width, e.height, 8, PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB_gAMA_and_cHRM(e.png, e.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_set_filter(e.png, PNG_FILTER_TYPE_BASE,
+                   e.content == PngContent::few_colours ? PNG_FILTER_NONE : PNG_ALL_FILTERS);
+    png_write_info(e.png, e.info);
+    for (png_uint_32 r = 0; r < e.height; ++r) {
+        e.row(r, e.pixels.data());
+        png_write_row(e.png, e.pixels.data());
+    }
+    png_write_end(e.png, e.info);
+    return true;
+}
+
+}  // namespace
+
+Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels) {
+    const Result<base::InputFile> file = base::InputFile::open(path);
+    if (!file) return file.error();
+    Decoder decoder(*file, path);
+    decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, on_png_error, on_png_warning);
+    if (decoder.png != nullptr) decoder.info = png_create_info_struct(decoder.png);
+    if (decoder.info == nullptr || !decode_header(decoder)) return failure(decoder);
+    PngPixels& pixels = decoder.pixels;
+    if (std::uint64_t{pixels.width} * pixels.height > max_pixels) {
+        return file_error(path, "the PNG file is too large", "at most " + std::to_string(max_pixels) + " pixels",
+                          std::to_string(pixels.width) + " by " + std::to_string(pixels.height), "scale it down");
+    }
+    // Deflate makes a byte of 1032 at most: where the file cannot hold so many pixels, no memory is taken for them.
+    constexpr std::uint64_t most_of_a_byte = 1032;
+    if (std::uint64_t{pixels.width} * pixels.height * decoder.bits / 8 > most_of_a_byte * file->size()) {
+        decoder.cut_short = true;
+        return failure(decoder);
+    }
+    const std::size_t row = 4 * std::size_t{pixels.width};
+    pixels.rows.resize(row * pixels.height);
+    decoder.places.resize(pixels.height);
+    for (std::size_t r = 0; r < pixels.height; ++r) decoder.places[r] = pixels.rows.data() + r * row;
+    if (!decode_rows(decoder)) return failure(decoder);
+    return std::move(decoder.pixels);
+}
+
+Status write_png_rows(const std::string& path, std::size_t width, std::size_t height,
+                      const std::function<void(std::size_t, std::uint8_t*)>& row, PngContent content) {
+    base::OutputFile file(path);
+    if (Status opened = file.status(); !opened) return opened;
+    Encoder encoder(file, row);
+    encoder.pixels.resize(4 * width);
+    encoder.width = static_cast<png_uint_32>(width);
+    encoder.height = static_cast<png_uint_32>(height);
+    encoder.content = content;
+    encoder.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, on_png_error, on_png_warning);
+    if (encoder.png != nullptr) encoder.info = png_create_info_struct(encoder.png);
+    const bool made = encoder.info != nullptr;
+    const bool done = made && encode(encoder);
+    if (encoder.no_memory) throw std::bad_alloc();
+    if (Status written = file.status(); !written) return written;
+    if (done) return file.commit();
+    return file_error(path, "cannot make the PNG file", {},
+                      made ? std::string(encoder.message.data()) : "libpng does not start",
+                      "make sure that memory suffices and that the libpng installed is the one built with");
+}
+
+Result<std::string> indexed_png(std::size_t width, std::span<const std::uint8_t> pixels,
+                                std::span<const Colour> colours) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(pixels.size() / width);
+    image.format = PNG_FORMAT_RGB_COLORMAP;
+    image.colormap_entries = static_cast<png_uint_32>(colours.size());
+    std::vector<std::uint8_t> map;
+    for (const Colour& c : colours) map.insert(map.end(), c.begin(), c.end());
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string bytes(size, '\0');
+    const auto stride = static_cast<png_int_32>(width);
+    const int done = png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), stride, map.data());
+    const std::string message = image.message;
+    png_image_free(&image);
+    if (done == 0) return Error{.what = "cannot make a picture", .found = message};
+    bytes.resize(size);
+    return bytes;
+}
+
+}  // namespace barycert::io
