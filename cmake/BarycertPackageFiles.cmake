@@ -45,7 +45,7 @@ foreach(line IN LISTS lines)
   file(COPY_FILE ${doc}/${package}.spdx.json ${CPACK_PACKAGE_DIRECTORY}/${package}.spdx.json)
   if(component STREQUAL "cli")
     # With the pages that these, the help and the manual pages name.
-    file(COPY ${source}/README.md ${source}/SECURITY.md ${source}/doc ${source}/src/barycert/report/SCHEMA.md DESTINATION ${doc})
+    file(COPY ${source}/README.md ${source}/SECURITY.md ${source}/doc DESTINATION ${doc})
   endif()
   file(GLOB packed ${root}/usr/share/man/man1/*.1 ${doc}/changelog ${doc}/changelog.Debian)
   foreach(file IN LISTS packed)

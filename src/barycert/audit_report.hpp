@@ -95,7 +95,7 @@ struct AuditPage {
 /// Well-formed XML, too. Errors: a picture cannot be made.
 Result<std::string> audit_html(const AuditReport& report, const AuditPage& page);
 
-// Reports as JSON. Every member is documented in SCHEMA.md beside this file.
+// Reports as JSON. Every member is documented in doc/json.md.
 
 /// One number for reports and witness files: `barycert replay` reads both.
 inline constexpr int audit_schema = witness_schema;

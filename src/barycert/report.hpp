@@ -49,7 +49,7 @@ std::string check_text(const CheckReport& report, const Mesh& mesh, const std::s
 /// What was done, the verdict on the copy, and what remains.
 std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style);
 
-// The report on a mesh as JSON. Every member is documented in SCHEMA.md beside this file.
+// The report on a mesh as JSON. Every member is documented in doc/json.md.
 
 inline constexpr int check_schema = 1;
 
@@ -73,13 +73,13 @@ std::string check_html(const CheckReport& report, const Mesh& mesh, const std::s
 /// A few lines of at most 120 columns, names of files aside.
 std::string sample_text(const SampleReport& summary, bool colour);
 
-// What a run of sampling did, as JSON. Every member is documented in SCHEMA.md beside this file.
+// What a run of sampling did, as JSON. Every member is documented in doc/json.md.
 
 inline constexpr int sample_schema = 1;
 
 std::string sample_json(const SampleReport& summary, const Environment& environment);
 
-// What a verification of results found, for people and as JSON and HTML. JSON is documented in SCHEMA.md.
+// What a verification of results found, for people and as JSON and HTML. JSON is documented in doc/json.md.
 
 inline constexpr int verify_schema = 1;
 
@@ -99,7 +99,7 @@ inline constexpr int contour_schema = 1;
 
 std::string contour_json(const ContourReport& summary, const Environment& environment);
 
-// What a picture shows, for people; and as JSON, whose members are documented in SCHEMA.md beside this file.
+// What a picture shows, for people; and as JSON, whose members are documented in doc/json.md.
 
 /// A few lines of at most 120 columns, names aside.
 std::string render_text(const RenderReport& summary, bool colour);

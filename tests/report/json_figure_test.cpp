@@ -1,6 +1,6 @@
 // Figures that JSON cannot say, and text that is no UTF-8.
 
-#include "barycert/report/common/json_figure.hpp"
+#include "barycert/report/common/json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,6 +23,12 @@ TEST(json_figure, no_figure_is_null_and_infinity_is_not) {
     EXPECT_TRUE(magnitude(-infinity).is_null());
     EXPECT_EQ(magnitude(0), 0.0);
     EXPECT_EQ(magnitude(infinity), max);
+}
+
+TEST(json_record, keys_and_values_in_turn) {
+    const std::optional<int> some = 3, none;
+    EXPECT_EQ(record("b", 1, "a", infinity, "c", some, "d", none, "e", "text").dump(),
+              R"({"b":1,"a":1.7976931348623157e+308,"c":3,"d":null,"e":"text"})");
 }
 
 TEST(json_text, is_utf8_and_ends_with_a_line_break) {

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "barycert/audit_report.hpp"
-#include "barycert/report/common/svg.hpp"
+#include "barycert/report/common/html.hpp"
+#include "barycert/report/common/picture.hpp"
 #include "small_audit.hpp"
 
 namespace barycert::report_test {
@@ -33,17 +34,17 @@ struct Text {
 /// Texts that are read from left to right, with the room they take: letters are at most 0.6 of their size wide on
 /// average in the fonts named.
 std::vector<Text> texts(const std::string& svg) {
-    const std::regex text(
-        "<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" font-size=\"(\\d+)\"[^>]*text-anchor=\"(\\w+)\"([^>]*)>"
-        "([^<]*)</text>");
+    const std::regex text("<text class=\"([^\"]*)\" x=\"([-0-9.]+)\" y=\"([-0-9.]+)\"([^>]*)>([^<]*)</text>");
     std::vector<Text> out;
     for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it) {
-        const double x = std::stod((*it)[1]), y = std::stod((*it)[2]), size = std::stod((*it)[3]);
-        const std::string anchor = (*it)[4], words = (*it)[6];
-        if ((*it)[5].str().find("rotate") != std::string::npos) continue;
+        const std::string style = " " + (*it)[1].str() + " ", words = (*it)[5];
+        const double x = std::stod((*it)[2]), y = std::stod((*it)[3]);
+        const auto is = [&](const char* word) { return style.find(word) != std::string::npos; };
+        const double size = is(" head ") ? 18 : is(" title ") ? 14 : is(" small ") ? 12 : 13;  // as in plot_style
+        if ((*it)[4].str().find("rotate") != std::string::npos) continue;
         const auto letters = std::count_if(words.begin(), words.end(), [](char c) { return (c & 0xc0) != 0x80; });
         const double width = 0.53 * size * static_cast<double>(letters);
-        const double left = anchor == "start" ? x : anchor == "middle" ? x - width / 2 : x - width;
+        const double left = is(" m ") ? x - width / 2 : is(" e ") ? x - width : x;
         out.push_back({left, left + width, y - 0.75 * size, y + 0.2 * size, words});
     }
     return out;
@@ -55,7 +56,7 @@ void expect_readable(const std::string& svg) {
     EXPECT_TRUE(svg.ends_with("</svg>\n"));
     for (const char* alien : {"nan", "inf\"", "href", "url(", "<script", "<image"})
         EXPECT_EQ(svg.find(alien), std::string::npos) << alien;
-    const std::regex number("(?:x|y|x1|x2|y1|y2|cx|cy)=\"([-0-9.]+)\"");
+    const std::regex number("(?:x=\"|y=\"|cx=\"|cy=\"|M|L|M[-0-9.]+ |L[-0-9.]+ )([-0-9.]+)");
     for (std::sregex_iterator it(svg.begin(), svg.end(), number), end; it != end; ++it) {
         EXPECT_GE(std::stod((*it)[1]), 0) << it->str();
         EXPECT_LE(std::stod((*it)[1]), 980) << it->str();
@@ -98,22 +99,22 @@ TEST(Svg, TicksAreRoundAndFew) {
 
 TEST(Svg, NamesCannotBreakOut) {
     EXPECT_EQ(report::xml_escaped("a<b>&\"c\n\x01"), "a&lt;b&gt;&amp;&quot;c  ");
-    report::Svg svg(10, 10, "\"/><script>");
-    svg.text({0, 0}, "</text><script>");
+    report::Picture svg(10, 10, "\"/><script>");
+    svg.text({0, 0}, "</text><script>", "");
     EXPECT_EQ(std::move(svg).finish().find("<script"), std::string::npos);
 }
 
 TEST(Svg, ALineIsCutAtTheFrame) {
-    const report::Axis x{.low = 0, .high = 10, .from = 100, .to = 200, .title = ""};
-    const report::Axis y{.low = 0, .high = 5, .from = 300, .to = 200, .title = ""};
-    const auto drawn = [&](report::Svg::Point a, report::Svg::Point b) {
-        report::Svg svg(400, 400, "");
-        report::draw_line_through(svg, x, y, a, b, {});
+    const report::Axis x{.low = 0, .high = 10, .from = 100, .to = 200, .title = {}};
+    const report::Axis y{.low = 0, .high = 5, .from = 300, .to = 200, .title = {}};
+    const auto drawn = [&](report::Pixel a, report::Pixel b) {
+        report::Picture svg(400, 400, "");
+        report::draw_line_through(svg, x, y, a, b, "");
         return std::move(svg).finish();
     };
-    EXPECT_NE(drawn({1, 1}, {2, 2}).find(R"(x1="100.0" y1="300.0" x2="150.0" y2="200.0")"), std::string::npos);
-    EXPECT_NE(drawn({0, 3}, {1, 3}).find(R"(x1="100.0" y1="240.0" x2="200.0" y2="240.0")"), std::string::npos);
-    EXPECT_EQ(drawn({0, 6}, {1, 6}).find("<line"), std::string::npos);
+    EXPECT_NE(drawn({1, 1}, {2, 2}).find("M100.0 300.0L150.0 200.0"), std::string::npos);
+    EXPECT_NE(drawn({0, 3}, {1, 3}).find("M100.0 240.0L200.0 240.0"), std::string::npos);
+    EXPECT_EQ(drawn({0, 6}, {1, 6}).find("<path"), std::string::npos);
 }
 
 TEST(Plot, OfEverythingShowsSixKernels) {
@@ -181,8 +182,9 @@ TEST(Plot, AxesFitTheData) {
     const std::string svg = condition_plot(report);
     expect_readable(svg);
     // From 20 bits at the left to 30 at the right.
-    EXPECT_TRUE(std::regex_search(svg, std::regex("<text x=\"70\\.0\" y=\"520\\.0\"[^>]*>20</text>")));
-    EXPECT_TRUE(std::regex_search(svg, std::regex("<text x=\"710\\.0\" y=\"520\\.0\"[^>]*>30</text>")));
+    EXPECT_TRUE(std::regex_search(svg, std::regex("<text class=\"tick m\" x=\"76\\.0\" y=\"519\\.0\"[^>]*>20</text>")));
+    EXPECT_TRUE(
+        std::regex_search(svg, std::regex("<text class=\"tick m\" x=\"700\\.0\" y=\"519\\.0\"[^>]*>30</text>")));
     // Upwards no farther than the errors, 22 bits.
     for (const char* far : {">40</text>", ">50</text>", "error of 1<"})
         EXPECT_EQ(svg.find(far), std::string::npos) << far;

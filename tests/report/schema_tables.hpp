@@ -1,4 +1,4 @@
-/// SCHEMA.md read as what it is: one table of members a section, and sections that take over others' members.
+/// doc/json.md read as what it is: one table of members a section, and sections that take over others' members.
 #pragma once
 
 #include <map>

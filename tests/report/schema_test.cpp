@@ -1,4 +1,4 @@
-// The JSON that is written and SCHEMA.md say the same, member by member, both ways.
+// The JSON that is written and doc/json.md say the same, member by member, both ways.
 
 #include <algorithm>
 #include <limits>

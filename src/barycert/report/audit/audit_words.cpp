@@ -20,7 +20,7 @@ std::uint64_t exactly(const KernelStatistics& s, Region r) {
 std::string names_of(const AuditReport& report, auto which) {
     std::string names;
     for (const KernelResult& k : report.kernels) {
-        if (which(k)) names += (names.empty() ? "" : ", ") + base::printable(k.kernel.name);
+        if (which(k)) names += (names.empty() ? "" : ", ") + k.kernel.name;
     }
     return names;
 }
@@ -30,10 +30,24 @@ std::size_t wrong_kernels(const AuditReport& report) {
                                                   [](const auto& k) { return k.total.wrong_cases != 0; }));
 }
 
+/// All cases were run, and none has a finding.
+bool without_finding(const KernelStatistics& s) {
+    return s.wrong_cases == 0 && s.not_run == 0;
+}
+
 }  // namespace
 
 std::string percent(const Share& share) {
     return share.whole == 0 ? "-" : percent(share.part, share.whole);
+}
+
+Cell share_cell(const Share& share, bool red) {
+    return {percent(share), share.whole == 0 ? -1 : static_cast<double>(share.part) / static_cast<double>(share.whole),
+            red && share.part != 0 ? Tone::bad : Tone::plain};
+}
+
+Cell number_cell(double x) {
+    return {brief(x), x};
 }
 
 Share inside_called_outside(const KernelStatistics& s) {
@@ -52,10 +66,6 @@ Share wrong_on_meshes(const AuditReport& report, const KernelResult& k) {
         share.whole += f.statistics.cases;
     }
     return share;
-}
-
-bool without_finding(const KernelStatistics& s) {
-    return s.wrong_cases == 0 && s.not_run == 0;
 }
 
 bool perfect(const KernelStatistics& s) {
@@ -102,7 +112,7 @@ std::string verdict_sentence(const AuditReport& report) {
     const std::size_t all = report.kernels.size(), wrong = wrong_kernels(report);
     if (all == 1) {
         const KernelResult& k = report.kernels.front();
-        const std::string name = base::printable(k.kernel.name);
+        const std::string& name = k.kernel.name;
         const std::string left_out = k.total.not_run == 0 ? "" : fmt::format(", {} not run", k.total.not_run);
         return wrong == 0 ? fmt::format("{}: no wrong answer in {} cases{}", name, k.total.cases, left_out)
                           : fmt::format("{} is wrong in {} % of {} cases", name,
@@ -114,6 +124,9 @@ std::string verdict_sentence(const AuditReport& report) {
     return fmt::format("{} of {} kernels give wrong answers", wrong, all);
 }
 
+namespace {
+
+/// What is wrong with a kernel, how often and by how much.
 std::string kernel_sentence(const AuditReport& report, const KernelResult& k) {
     const KernelStatistics& s = k.total;
     const Share out = inside_called_outside(s), in = outside_called_inside(s), none = unanswered(s);
@@ -139,6 +152,8 @@ std::string kernel_sentence(const AuditReport& report, const KernelResult& k) {
     return text;
 }
 
+}  // namespace
+
 std::vector<std::string> verdict_details(const AuditReport& report) {
     std::vector<std::string> lines;
     if (report.kernels.size() == 1) {
@@ -149,7 +164,7 @@ std::vector<std::string> verdict_details(const AuditReport& report) {
     }
     if (any_wrong(report)) {
         const KernelResult& k = report.kernels.front();
-        lines.push_back(fmt::format("Worst: {}, wrong in {} % of its cases: {}.", base::printable(k.kernel.name),
+        lines.push_back(fmt::format("Worst: {}, wrong in {} % of its cases: {}.", k.kernel.name,
                                     percent(k.total.wrong_cases, k.total.cases), kernel_sentence(report, k)));
     }
     const std::string broken =
@@ -171,31 +186,85 @@ std::string regions_text(const AuditReport& report) {
     return regions;
 }
 
-std::string cases_sentence(const AuditReport& report) {
-    return fmt::format("{} cases of {} famil{}, exactly {}", report.cases, report.families.size(),
-                       report.families.size() == 1 ? "y" : "ies", regions_text(report));
-}
-
 std::string how_it_was_made(const AuditReport& report) {
     return fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s", report.seed, report.count,
                        report.threads, report.seconds);
 }
 
-std::vector<MeshLine> mesh_lines(const AuditReport& report, std::string_view command) {
-    if (report.meshes.empty()) return {MeshLine{.text = "meshes: none"}};
-    std::vector<MeshLine> lines;
-    const auto line = [&](Verdict verdict, std::string_view text, const std::string& hint) {
-        std::string names;
-        for (std::size_t i = 0; i < report.meshes.size(); ++i) {
-            if (report.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + base::printable(report.meshes[i]);
-        }
-        if (!names.empty())
-            lines.push_back({fmt::format("meshes, {}: {}{}", text, names, hint), verdict == Verdict::not_certified});
+std::string finding_sentence(const KernelResult& k, const Witness& w) {
+    const auto finding = finding_named(w.reason);
+    if (!finding)
+        return w.reason == "worst_value_ulp" ? "the largest error of a value, in ulps"
+                                             : "the largest error of a weight, in ulps";
+    return fmt::format("{} {}: {}", count_of(k.total, *finding),
+                       *finding < Finding::opposite_sign ? "cases" : "weights",
+                       finding_texts[static_cast<std::size_t>(*finding)].meaning);
+}
+
+std::string place_of(const Witness& w) {
+    return fmt::format("{}, case {}{}", w.family, w.index,
+                       w.cell < 0 ? "" : fmt::format(", cell {} of {}", w.cell, w.mesh));
+}
+
+std::string shows(const Witness& w) {
+    if (w.reason.ends_with("_ulp")) return brief(w.magnitude) + " ulps";
+    if (!w.detail.empty()) return w.detail;
+    if (const auto f = finding_named(w.reason); f && *f <= Finding::printed) return "asked once more, it did not";
+    if (w.reason == "false_declaration") return "declared degenerate";
+    if (w.reason == "missed_degenerate") return "weights up to " + brief(w.magnitude);
+    return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
+}
+
+namespace {
+
+/// The user's libraries, and how they are run and judged.
+std::string kernel_words(const TerminalStyle& style) {
+    std::string words;
+    for (const std::string& library : style.library_arguments) words += " --kernel-library " + shell_word(library);
+    return words + style.kernel_arguments;
+}
+
+}  // namespace
+
+std::string replay_from_file(const std::string& kernel, const std::string& reason, const TerminalStyle& style) {
+    return fmt::format("{} replay {}{} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
+                       kernel_words(style), shell_word(kernel), reason);
+}
+
+std::string replay_command(const AuditReport& report, const KernelResult& k, const Witness& w,
+                           const TerminalStyle& style) {
+    if (k.kernel.raised != nullptr) return {};  // no other program has the callable
+    if (!style.witness_path.empty()) return replay_from_file(k.kernel.name, w.reason, style);
+    std::string command = style.command + " replay" + kernel_words(style);
+    const auto family =
+        std::find_if(report.families.begin(), report.families.end(), [&](const auto& f) { return f.name == w.family; });
+    if (family != report.families.end() && family->needs_mesh) {
+        for (const std::string& mesh : style.mesh_arguments) command += " --mesh " + shell_word(mesh);
+    }
+    command += fmt::format(" --kernel {} --family {} --case {} --seed {}", shell_word(k.kernel.name),
+                           shell_word(w.family), w.index, w.seed);
+    // The answers show what else was found; these may not come again.
+    const auto f = finding_named(w.reason);
+    return f && *f <= Finding::printed ? command + " --reason " + w.reason : command;
+}
+
+std::string oracle_line(const OracleCounts& o) {
+    std::string decided, confirmed;
+    const auto add = [](std::string& to, std::uint64_t count, const std::string& text) {
+        if (count != 0) to += fmt::format("{}{} by {}", to.empty() ? "" : ", ", count, text);
     };
-    line(Verdict::certified, "certified to be partitions", "");
-    line(Verdict::not_certified, "NOT certified to be partitions", fmt::format(" (why: {} check MESH)", command));
-    line(Verdict::not_checked, "not checked", "");
-    return lines;
+    add(decided, o.core, "barycert's core");
+    add(decided, o.integers, fmt::format("integers ({} of them wide)", o.wide));
+    add(decided, o.cgal, "CGAL");
+    add(confirmed, o.also_integers, "integers");
+    add(confirmed, o.also_cgal, "CGAL");
+    return "decided: " + decided + (confirmed.empty() ? "" : "; confirmed: " + confirmed + ", 0 disagreements");
+}
+
+Json oracles_json(OracleChoice choice, const OracleCounts& o) {
+    return record("choice", name(choice), "core", o.core, "integers", o.integers, "wide", o.wide, "cgal", o.cgal,
+                  "also_integers", o.also_integers, "also_cgal", o.also_cgal, "disagreements",
+                  0);  // with one there is no report
 }
 
 }  // namespace barycert::report

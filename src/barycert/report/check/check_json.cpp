@@ -1,19 +1,13 @@
-#include "barycert/report.hpp"
+// The report on a mesh as programs read it.
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
 
 #include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/report.hpp"
 #include "barycert/report/check/check_words.hpp"
-#include "barycert/report/common/environment_json.hpp"
-#include "barycert/report/common/json_figure.hpp"
-#include "barycert/report/common/not_finite.hpp"
-#include "barycert/report/common/notes_json.hpp"
+#include "barycert/report/common/json.hpp"
 
 namespace barycert {
 
@@ -21,22 +15,16 @@ using namespace report;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json conditions_json(const CheckReport& r, const Mesh& mesh) {
-    Json list = Json::array();
-    for (const ConditionRow& row : condition_rows(r, mesh)) {
-        if (row.name.empty()) continue;  // what follows from the others
+Json conditions_json(const CheckReport& r) {
+    Json all = Json::array();
+    for (const ConditionRow& row : condition_rows(r, Mesh())) {  // whether files came changes no count
+        if (row.name.empty()) continue;                          // what follows from the others
         // Arrays that do not make cells are no cells to look at: nothing is known of the rest.
         const bool looked_at = row.count != 0 || row.instead != "not checked";
-        Json j;
-        j["name"] = row.name;
-        j["holds"] = looked_at ? Json(row.count == 0) : Json(nullptr);
-        j["violations"] = looked_at ? Json(row.count) : Json(nullptr);
-        j["at_least"] = row.at_least;
-        list.push_back(std::move(j));
+        all.push_back(record("name", row.name, "holds", looked_at ? Json(row.count == 0) : Json(), "violations",
+                             looked_at ? Json(row.count) : Json(), "at_least", row.at_least));
     }
-    return list;
+    return all;
 }
 
 /// The entries that are in use.
@@ -48,141 +36,67 @@ Json indices(const auto& all) {
     return j;
 }
 
-Json finding_json(const CheckReport& r, const Defect& f) {
-    const DefectText& t = defect_text(f.kind);
-    Json j;
-    j["name"] = t.name;
-    if (!t.condition.empty()) j["condition"] = t.condition;
-    j["breaks"] = f.breaks();
-    j["count"] = f.count;
-    j["at_least"] = f.at_least;
-    j["curved_cells"] = f.curved_cells;
-    j["text"] = t.text;
-    j["remedy"] = f.remedy();
-    j["places"] = Json::array();
-    for (const DefectPlace& p : f.places) {
-        Json place;
-        place["cells"] = indices(r.cell_number(p.cells));
-        place["nodes"] = indices(p.nodes);
-        if (p.other_nodes[0] >= 0) place["other_nodes"] = indices(p.other_nodes);
-        if (f.kind == DefectKind::near_nodes || f.kind == DefectKind::near_hanging) {
-            place["distance"] = figure(p.distance);
-            place["relative"] = figure(p.relative);
-        }
-        if (*p.detail != '\0') place["detail"] = p.detail;
-        j["places"].push_back(std::move(place));
+Json place_json(const CheckReport& r, DefectKind kind, const DefectPlace& p) {
+    Json j = record("cells", indices(r.cell_number(p.cells)), "nodes", indices(p.nodes));
+    if (p.other_nodes[0] >= 0) put(j, "other_nodes", indices(p.other_nodes));
+    if (kind == DefectKind::near_nodes || kind == DefectKind::near_hanging)
+        put(j, "distance", p.distance, "relative", p.relative);
+    if (*p.detail != '\0') put(j, "detail", p.detail);
+    return j;
+}
+
+Json defects_json(const CheckReport& r) {
+    return list(r.defects, [&](const Defect& f) {
+        const DefectText& t = defect_text(f.kind);
+        Json j = record("name", t.name);
+        if (!t.condition.empty()) put(j, "condition", t.condition);
+        put(j, "breaks", f.breaks(), "count", f.count, "at_least", f.at_least, "curved_cells", f.curved_cells, "text",
+            t.text, "remedy", f.remedy(), "places",
+            list(f.places, [&](const DefectPlace& p) { return place_json(r, f.kind, p); }));
+        return j;
+    });
+}
+
+Json contact_json(const CheckReport& r, const CellContact& c) {
+    Json decimal = Json::array(), hex = decimal, fraction = decimal;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
+        decimal.push_back(base::shortest(c.common.point[k]));
+        hex.push_back(base::hexadecimal(c.common.point[k]));
+        fraction.push_back(c.common.fraction[k]);
     }
-    return j;
-}
-
-Json boundary_json(const BoundaryReport& b) {
-    Json j;
-    j["facets"] = b.facets;
-    j["pieces"] = b.pieces;
-    j["closed"] = b.closed;
-    j["manifold"] = b.manifold;
-    j["cavities"] = b.cavities ? Json(*b.cavities) : Json(nullptr);
-    j["tunnels"] = b.tunnels ? Json(*b.tunnels) : Json(nullptr);
-    return j;
-}
-
-Json distribution_json(const CheckReport& r, const std::vector<double>& values) {
-    const Distribution d = distribution(values);
-    if (d.min_cell < 0) return nullptr;
-    Json j;
-    j["least"] = figure(d.min);
-    j["median"] = figure(d.median);
-    j["most"] = figure(d.max);
-    j["least_cell"] = r.cell_number(d.min_cell);
-    j["most_cell"] = r.cell_number(d.max_cell);
-    return j;
+    return record("cells", indices(r.cell_number(c.cells)), "overlap", c.overlap, "dimension", std::max(c.dimension, 0),
+                  "witness", record("exact", c.common.exact, "decimal", decimal, "hex", hex, "fraction", fraction));
 }
 
 Json measures_json(const CheckReport& r) {
     const CellMeasures& m = r.measures;
     std::vector<double> size(m.volume);
     for (double& x : size) x = std::fabs(x);
-    Json j;
-    j["volume"] = distribution_json(r, size);
-    j["condition"] = distribution_json(r, m.condition);
-    j["radius_edge"] = distribution_json(r, m.radius_edge);
-    j["aspect"] = distribution_json(r, m.aspect);
-    j["min_angle"] = distribution_json(r, m.min_angle);
-    j["max_angle"] = distribution_json(r, m.max_angle);
-    return j;
-}
-
-Json contact_json(const CheckReport& r, const CellContact& c) {
-    const int d = r.dimension;
-    Json j;
-    j["cells"] = indices(r.cell_number(c.cells));
-    j["overlap"] = c.overlap;
-    j["dimension"] = std::max(c.dimension, 0);
-    Json& w = j["witness"];
-    w["exact"] = c.common.exact;
-    for (const char* form : {"decimal", "hex", "fraction"}) w[form] = Json::array();
-    for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
-        w["decimal"].push_back(base::shortest(c.common.point[k]));
-        w["hex"].push_back(base::hexadecimal(c.common.point[k]));
-        w["fraction"].push_back(c.common.fraction[k]);
-    }
-    return j;
-}
-
-Json delaunay_json(const CheckReport& r) {
-    const DelaunayReport& d = *r.delaunay;
-    Json j;
-    j["facets"] = d.facets;
-    j["violations"] = d.violations;
-    j["cospherical"] = d.cospherical;
-    j["worst_depth"] = figure(d.worst_depth);
-    j["worst_cell"] = d.worst_cell < 0 ? Json(nullptr) : Json(r.cell_number(d.worst_cell));
-    j["worst_node"] = d.worst_node < 0 ? Json(nullptr) : Json(d.worst_node);
-    return j;
-}
-
-Json conformity_json(const ConformityReport& c) {
-    Json j;
-    j["facets"] = c.facets;
-    j["exact"] = c.exact;
-    j["rounded"] = c.rounded;
-    j["violated"] = c.violated;
-    j["missing_vertices"] = c.missing_vertices;
-    j["largest_distance"] = figure(c.max_distance);
-    j["relative_distance"] = figure(c.relative_distance);
-    j["examples"] = Json::array();
-    for (const ViolatedFacet& f : c.examples)
-        j["examples"].push_back(Json{{"facet", f.facet}, {"covered", figure(f.covered)}});
-    return j;
+    const auto of = [&](const std::vector<double>& values) {
+        const Distribution d = distribution(values);
+        return d.min_cell < 0 ? Json()
+                              : record("least", d.min, "median", d.median, "most", d.max, "least_cell",
+                                       r.cell_number(d.min_cell), "most_cell", r.cell_number(d.max_cell));
+    };
+    return record("volume", of(size), "condition", of(m.condition), "radius_edge", of(m.radius_edge), "aspect",
+                  of(m.aspect), "min_angle", of(m.min_angle), "max_angle", of(m.max_angle));
 }
 
 Json fix_json(const FixedMesh& fixed) {
     const FixReport& done = fixed.done;
-    Json j;
-    j["file"] = fixed.file;
-    j["merged"] = Json::array();
-    for (const MergedNode& m : done.merged)
-        j["merged"].push_back(Json{{"node", m.node}, {"into", m.into}, {"moved", figure(m.moved)}});
-    j["dropped"] = Json::array();
-    for (const DroppedCell& c : done.dropped)
-        j["dropped"].push_back(Json{{"cell", c.cell}, {"why", defect_text(c.why).name}});
-    j["collapsed"] = done.collapsed;
-    j["turned"] = done.turned;
-    j["dropped_faces"] = done.dropped_faces;
-    j["differing_markers"] = done.differing_markers;
-    j["differing_face_markers"] = done.differing_face_markers;
-    j["changed_neighbours"] = done.changed_neighbours;
-    for (const auto& [name, fields] : {std::pair("fields", &done.fields), {"cell_fields", &done.cell_fields}}) {
-        j[name] = Json::array();
-        for (const MergedField& f : *fields)
-            j[name].push_back(
-                Json{{"name", f.name}, {"differ", f.differ}, {"largest_difference", figure(f.max_difference)}});
-    }
-    j["notes"] = notes_json(fixed.notes);
-    j["verdict"] = barycert::name(fixed.after.certificate.verdict());
-    j["remaining"] = Json::array();
-    for (const Defect& f : fixed.after.defects) j["remaining"].push_back(finding_json(fixed.after, f));
-    return j;
+    const auto differing = [](const MergedField& f) {
+        return record("name", f.name, "differ", f.differ, "largest_difference", f.max_difference);
+    };
+    return record(
+        "file", fixed.file, "merged",
+        list(done.merged, [](const MergedNode& m) { return record("node", m.node, "into", m.into, "moved", m.moved); }),
+        "dropped",
+        list(done.dropped, [](const DroppedCell& c) { return record("cell", c.cell, "why", defect_text(c.why).name); }),
+        "collapsed", done.collapsed, "turned", done.turned, "dropped_faces", done.dropped_faces, "differing_markers",
+        done.differing_markers, "differing_face_markers", done.differing_face_markers, "changed_neighbours",
+        done.changed_neighbours, "fields", list(done.fields, differing), "cell_fields",
+        list(done.cell_fields, differing), "notes", notes_json(fixed.notes), "verdict",
+        barycert::name(fixed.after.certificate.verdict()), "remaining", defects_json(fixed.after));
 }
 
 }  // namespace
@@ -190,38 +104,35 @@ Json fix_json(const FixedMesh& fixed) {
 std::string check_json(const CheckReport& r, const std::string& name, const Environment& environment,
                        const FixedMesh* fixed) {
     const ExactEnvironment exact;
-    Json j;
-    j["schema"] = check_schema;
-    j["mesh"] = name;
-    j["curved"] = curved_json(r.curved);
-    j["verdict"] = barycert::name(r.certificate.verdict());
-    j["dimension"] = r.dimension;
-    j["nodes"] = r.nodes;
-    j["cells"] = r.cells;
-    j["notes"] = notes_json(r.notes);
-    j["not_finite"] = not_finite_json(r.not_finite);
-    j["conditions"] = conditions_json(r, Mesh());  // whether files came changes no count
-    j["findings"] = Json::array();
-    for (const Defect& f : r.defects) j["findings"].push_back(finding_json(r, f));
-    j["contacts"] = Json::array();
-    for (const CellContact& c : r.contacts) j["contacts"].push_back(contact_json(r, c));
-    j["orientation"]["positive"] = r.positive;
-    j["orientation"]["negative"] = r.negative;
-    j["orientation"]["degenerate"] = r.degenerate;
-    j["parts"] = r.parts;
-    j["boundary"] = boundary_json(r.boundary);
-    j["volume"]["cells"] = figure(r.volume.cells);
-    j["volume"]["boundary"] = figure(r.volume.boundary);
-    j["volume"]["equal"] = r.volume.equal;
-    j["measures"] = measures_json(r);
-    if (r.delaunay) j["delaunay"] = delaunay_json(r);
-    if (r.conformity) j["conformity"] = conformity_json(*r.conformity);
-    if (fixed != nullptr) j["fix"] = fix_json(*fixed);
-    j["problem_bits"] = Json::array();
-    for (const DefectText& t : defect_texts) j["problem_bits"].push_back(t.name);
-    j["seconds"] = r.seconds;
-    j["threads"] = r.threads;
-    j["environment"] = environment_json(environment);
+    const BoundaryReport& b = r.boundary;
+    Json j = record("schema", check_schema, "mesh", name, "curved", curved_json(r.curved), "verdict",
+                    barycert::name(r.certificate.verdict()), "dimension", r.dimension, "nodes", r.nodes, "cells",
+                    r.cells, "notes", notes_json(r.notes), "not_finite", not_finite_json(r.not_finite), "conditions",
+                    conditions_json(r), "findings", defects_json(r), "contacts",
+                    list(r.contacts, [&](const CellContact& c) { return contact_json(r, c); }), "orientation",
+                    record("positive", r.positive, "negative", r.negative, "degenerate", r.degenerate), "parts",
+                    r.parts, "boundary",
+                    record("facets", b.facets, "pieces", b.pieces, "closed", b.closed, "manifold", b.manifold,
+                           "cavities", b.cavities, "tunnels", b.tunnels),
+                    "volume", record("cells", r.volume.cells, "boundary", r.volume.boundary, "equal", r.volume.equal),
+                    "measures", measures_json(r));
+    if (const auto& d = r.delaunay) {
+        const auto index = [](std::int64_t i) { return i < 0 ? Json() : Json(i); };
+        put(j, "delaunay",
+            record("facets", d->facets, "violations", d->violations, "cospherical", d->cospherical, "worst_depth",
+                   d->worst_depth, "worst_cell", index(r.cell_number(d->worst_cell)), "worst_node",
+                   index(d->worst_node)));
+    }
+    if (const auto& c = r.conformity)
+        put(j, "conformity",
+            record("facets", c->facets, "exact", c->exact, "rounded", c->rounded, "violated", c->violated,
+                   "missing_vertices", c->missing_vertices, "largest_distance", c->max_distance, "relative_distance",
+                   c->relative_distance, "examples", list(c->examples, [](const ViolatedFacet& f) {
+                       return record("facet", f.facet, "covered", f.covered);
+                   })));
+    if (fixed != nullptr) put(j, "fix", fix_json(*fixed));
+    put(j, "problem_bits", list(defect_texts, [](const DefectText& t) { return Json(t.name); }), "seconds", r.seconds,
+        "threads", r.threads, "environment", environment_json(environment));
     return base::json_text(j, 1);
 }
 

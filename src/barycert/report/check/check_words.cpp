@@ -4,13 +4,36 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "barycert/base/text.hpp"
-#include "barycert/report/common/not_finite.hpp"
+#include "barycert/report/common/document.hpp"
 
 namespace barycert::report {
 namespace {
+
+/// What a defect means for the verdict, after its count.
+struct Clause {
+    DefectKind kind;
+    std::string_view one, more;
+};
+constexpr std::array<Clause, 16> clauses{{
+    {DefectKind::bad_structure, "array has a wrong size", "arrays have a wrong size"},
+    {DefectKind::index_out_of_range, "cell has an invalid index", "cells have an invalid index"},
+    {DefectKind::not_finite, "node is not finite", "nodes are not finite"},
+    {DefectKind::repeated_node, "cell has a node twice", "cells have a node twice"},
+    {DefectKind::degenerate_cell, "cell is degenerate", "cells are degenerate"},
+    {DefectKind::duplicate_cell, "cell is a duplicate", "cells are duplicates"},
+    {DefectKind::overfull_facet, "facet belongs to more than two cells", "facets belong to more than two cells"},
+    {DefectKind::same_side, "facet has both cells on the same side", "facets have both cells on the same side"},
+    {DefectKind::open_boundary, "ridge leaves the boundary open", "ridges leave the boundary open"},
+    {DefectKind::boundary_contact, "pair of boundary facets meets", "pairs of boundary facets meet"},
+    {DefectKind::nested_part, "piece of the boundary lies in cells", "pieces of the boundary lie in cells"},
+    {DefectKind::overlapping_cells, "pair of cells overlaps", "pairs of cells overlap"},
+    {DefectKind::wrong_neighbour, "entry of .neigh is wrong", "entries of .neigh are wrong"},
+    {DefectKind::wrong_face, "face in the files is not a facet", "faces in the files are not facets"},
+    {DefectKind::unfit_array, "array does not fit nodes and cells", "arrays do not fit nodes and cells"},
+    {DefectKind::hanging_node, "node hangs on a cell", "nodes hang on cells"},
+}};
 
 template <std::size_t N>
 std::vector<Mesh::Index> used(const std::array<Mesh::Index, N>& indices) {
@@ -19,6 +42,14 @@ std::vector<Mesh::Index> used(const std::array<Mesh::Index, N>& indices) {
         if (i >= 0 && (list.empty() || list.back() != i)) list.push_back(i);
     }
     return list;
+}
+
+void tell_differing(std::vector<std::string>& all, const std::vector<MergedField>& fields, std::string_view one,
+                    std::string_view more, std::string_view than) {
+    for (const MergedField& f : fields)
+        all.push_back(fmt::format("field {}: {} than the {} that is kept{}: those are left out",
+                                  base::printable(f.name), counted(f.differ, one, more), than,
+                                  f.max_difference == 0 ? "" : ", by up to " + base::shortest(f.max_difference)));
 }
 
 }  // namespace
@@ -51,12 +82,9 @@ std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& 
     return rows;
 }
 
-std::string_view left_out_sentence(const CheckReport& report) {
-    const bool some = std::any_of(report.defects.begin(), report.defects.end(), [](const Defect& f) {
-        return f.kind == DefectKind::index_out_of_range || f.kind == DefectKind::not_finite ||
-               f.kind == DefectKind::repeated_node;
-    });
-    return some ? "P2 to P5 leave out cells with an invalid index, a non-finite coordinate or a repeated node." : "";
+std::string reason(const Defect& defect) {
+    const auto c = std::find_if(clauses.begin(), clauses.end(), [&](const Clause& x) { return x.kind == defect.kind; });
+    return (defect.at_least ? "at least " : "") + counted(defect.count, c->one, c->more);
 }
 
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& p) {
@@ -81,190 +109,38 @@ std::string place_text(const CheckReport& report, DefectKind kind, const DefectP
     return out;
 }
 
-std::string numbering_sentence(const CheckReport& report, const Mesh& mesh) {
-    return fmt::format("Cells and nodes are numbered from 0 in file order{}{}.",
-                       report.cell_numbers.empty() ? "" : ", cells that were left out included",
-                       mesh.index_base == 1 ? " (the file itself numbers from 1)" : "");
-}
-
-std::vector<std::string> note_sentences(const CheckReport& report) {
-    std::vector<std::string> all;
-    all.reserve(report.notes.size());
-    for (const Note& note : report.notes) all.push_back(message(note));
-    for (const NotFinite& field : report.not_finite) all.push_back(not_finite_text(field));
-    return all;
-}
-
-std::vector<std::string> fix_sentences(const FixedMesh& fixed) {
-    const FixReport& done = fixed.done;
-    const auto counted = [](std::uint64_t n, std::string_view one, std::string_view more) {
-        return fmt::format("{} {}", n, n == 1 ? one : more);
-    };
-    std::vector<std::string> all;
-    const auto tell_differing = [&](const std::vector<MergedField>& fields, std::string_view one, std::string_view more,
-                                    std::string_view than) {
-        for (const MergedField& f : fields)
-            all.push_back(fmt::format("field {}: {} than the {} that is kept{}: those are left out",
-                                      base::printable(f.name), counted(f.differ, one, more), than,
-                                      f.max_difference == 0 ? "" : ", by up to " + base::shortest(f.max_difference)));
-    };
-    if (!done.merged.empty()) {
-        const auto far = std::max_element(done.merged.begin(), done.merged.end(),
-                                          [](const MergedNode& a, const MergedNode& b) { return a.moved < b.moved; });
-        all.push_back(fmt::format("{} merged into the lowest at their place{}",
-                                  counted(done.merged.size(), "node", "nodes"),
-                                  far->moved == 0 ? "; none moved"
-                                                  : fmt::format(", moved by at most {} (node {} to node {})",
-                                                                base::shortest(far->moved), far->node, far->into)));
-    }
-    tell_differing(done.fields, "merged node has another value", "merged nodes have other values", "node");
-    if (done.differing_markers != 0)
-        all.push_back(
-            counted(done.differing_markers, "merged node has another marker", "merged nodes have other markers") +
-            " than the node that is kept: those are left out");
-    if (!done.dropped.empty()) {
-        std::vector<std::string> kinds;
-        for (const DefectKind kind :
-             {DefectKind::repeated_node, DefectKind::degenerate_cell, DefectKind::duplicate_cell}) {
-            const auto count = std::count_if(done.dropped.begin(), done.dropped.end(),
-                                             [&](const DroppedCell& c) { return c.why == kind; });
-            if (count != 0) kinds.push_back(fmt::format("{} {}", count, defect_text(kind).name));
-        }
-        all.push_back(
-            fmt::format("{} dropped: {}{}", counted(done.dropped.size(), "cell", "cells"), fmt::join(kinds, ", "),
-                        done.collapsed == 0 ? "" : fmt::format("; {} of them have merged nodes", done.collapsed)));
-    }
-    tell_differing(done.cell_fields, "duplicate has another value", "duplicates have other values", "cell");
-    if (done.dropped_faces != 0)
-        all.push_back(counted(done.dropped_faces, "face", "faces") +
-                      " dropped: no cell has them, or they became twins");
-    if (done.differing_face_markers != 0)
-        all.push_back(counted(done.differing_face_markers, "twin has another marker", "twins have other markers") +
-                      " than the face that is kept: those are left out");
-    if (done.changed_neighbours != 0)
-        all.push_back(counted(done.changed_neighbours, "entry", "entries") + " of neighbours corrected");
-    if (done.turned != 0) all.push_back(counted(done.turned, "cell", "cells") + " turned to positive orientation");
-    if ((!done.merged.empty() || !done.dropped.empty()) && fixed.after.cells != 0)
-        all.emplace_back("nodes and cells behind those that went are numbered anew; --json FILE lists which went");
-    if (all.empty())
-        all.emplace_back(fixed.notes.empty() ? "nothing to repair: the copy is as the mesh is" : "nothing to repair");
-    for (const Note& note : fixed.notes) all.push_back(message(note));
-    return all;
-}
-
-std::string_view meeting_text(const CellContact& c) {
-    static constexpr std::array<std::string_view, 3> extents{"touch in a point", "touch along a segment",
-                                                             "touch in an area"};
-    return c.overlap ? "overlap" : extents[static_cast<std::size_t>(std::clamp(c.dimension, 0, 2))];
-}
-
-std::string shortened_fraction(const std::string& fraction, std::size_t longest) {
-    if (fraction.size() <= longest) return fraction;
-    const std::size_t end = longest * 3 / 10;
-    return fmt::format("{}...{} ({} characters)", fraction.substr(0, end), fraction.substr(fraction.size() - end),
-                       fraction.size());
-}
-
-std::vector<double> cell_sizes(const CellMeasures& measures) {
-    std::vector<double> sizes(measures.volume);
-    for (double& x : sizes) x = std::fabs(x);
-    return sizes;
-}
-
-std::vector<double> lost_bits(const CellMeasures& measures) {
-    std::vector<double> bits(measures.condition);
-    for (double& x : bits) x = std::isnan(x) ? x : std::log2(std::max(1.0, x));  // kappa is at least 1, but rounded
-    return bits;
-}
-
-std::string grouped(std::uint64_t n) {
-    std::string digits = std::to_string(n);
-    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-    return digits;
-}
-
-std::string CheckWords::number(std::uint64_t n) const {
-    return digits_ == Digits::grouped ? grouped(n) : std::to_string(n);
-}
-
-std::string CheckWords::counted(std::uint64_t n, std::string_view one, std::string_view more) const {
-    return fmt::format("{} {}", number(n), n == 1 ? one : more);
-}
-
-std::string CheckWords::count_of(const Defect& defect) const {
-    return (defect.at_least ? "at least " : "") + number(defect.count);
-}
-
-std::string CheckWords::domain() const {
-    std::string text = counted(r_.parts, "part", "parts");
-    if (r_.boundary.cavities) {
-        text += ", " + (r_.dimension == 2 ? counted(*r_.boundary.cavities, "hole", "holes")
-                                          : counted(*r_.boundary.cavities, "cavity", "cavities"));
-    }
-    if (r_.boundary.tunnels) {
-        text += ", " + counted(static_cast<std::uint64_t>(*r_.boundary.tunnels), "tunnel", "tunnels");
-    }
-    return text;
-}
-
-std::string CheckWords::certified() const {
-    return fmt::format("{} {} a domain of {}", counted(r_.cells, "cell", "cells"), r_.cells == 1 ? "is" : "partition",
-                       domain());
-}
-
-std::string CheckWords::proof() const {
-    return fmt::format("Proved {}cells meet in a common face or not at all. No overlap, no gap.",
-                       r_.curved.cells == 0 ? "in exact arithmetic: any two " : "exactly: any two straight ");
-}
-
-std::string CheckWords::curved(const Defect& defect) const {
+std::string curved_text(const Defect& defect) {
     return counted(defect.curved_cells, "cell of these is", "cells of these are") +
            " curved: sides of curved cells were taken as straight";
 }
 
-std::string CheckWords::orientations() const {
-    return fmt::format("{} positive, {} negative, {} degenerate, by the exact sign of the {}", number(r_.positive),
-                       number(r_.negative), number(r_.degenerate), size_word());
+std::string domain_text(const CheckReport& r) {
+    std::string text = counted(r.parts, "part");
+    if (const auto& n = r.boundary.cavities)
+        text += ", " + (r.dimension == 2 ? counted(*n, "hole") : counted(*n, "cavity", "cavities"));
+    if (const auto& n = r.boundary.tunnels) text += ", " + counted(static_cast<std::uint64_t>(*n), "tunnel");
+    return text;
 }
 
-std::string CheckWords::volumes() const {
-    return fmt::format("{} in the cells, {} inside the boundary", base::shortest(r_.volume.cells),
-                       base::shortest(r_.volume.boundary));
-}
-
-std::string CheckWords::uncounted() const {
-    if (r_.boundary.cavities) return "";
-    return fmt::format("{} are not counted where the boundary is {}",
-                       r_.dimension == 2 ? "holes" : "cavities and tunnels",
-                       r_.boundary.closed ? "pinched along a ridge" : "open");
-}
-
-std::string CheckWords::checked() const {
-    return fmt::format("{}, {}; checked in {:.3g} s on {}", counted(r_.nodes, "node", "nodes"),
-                       counted(r_.cells, "cell", "cells"), r_.seconds,
-                       counted(static_cast<std::uint64_t>(r_.threads), "thread", "threads"));
-}
-
-std::vector<std::string> CheckWords::delaunay() const {
-    const DelaunayReport& d = *r_.delaunay;
+std::vector<std::string> delaunay_sentences(const CheckReport& r) {
+    const DelaunayReport& d = *r.delaunay;
     std::string outcome = fmt::format(
-        "{} tested: {}", counted(d.facets, "interior facet", "interior facets"),
+        "{} tested: {}", counted(d.facets, "interior facet"),
         d.violations == 0 ? "all are locally Delaunay" : counted(d.violations, "is", "are") + " not locally Delaunay");
     if (d.cospherical != 0)
-        outcome += fmt::format("; {} {}", number(d.cospherical), r_.dimension == 2 ? "cocircular" : "cospherical");
+        outcome += fmt::format("; {} {}", d.cospherical, r.dimension == 2 ? "cocircular" : "cospherical");
     std::vector<std::string> all{std::move(outcome)};
     if (d.violations != 0)
         all.push_back(fmt::format("worst: node {} lies inside the circum{} of cell {}, {:.3g} of its radius deep",
-                                  d.worst_node, r_.dimension == 2 ? "circle" : "sphere", r_.cell_number(d.worst_cell),
+                                  d.worst_node, r.dimension == 2 ? "circle" : "sphere", r.cell_number(d.worst_cell),
                                   d.worst_depth));
     return all;
 }
 
-std::vector<std::string> CheckWords::conformity(std::size_t columns) const {
-    const ConformityReport& c = *r_.conformity;
+std::vector<std::string> conformity_sentences(const CheckReport& r, std::size_t room) {
+    const ConformityReport& c = *r.conformity;
     std::vector<std::string> all{fmt::format("{} of the PLC: {} respected exactly, {} up to rounding, {} violated",
-                                             counted(c.facets, "facet", "facets"), number(c.exact), number(c.rounded),
-                                             number(c.violated))};
+                                             counted(c.facets, "facet"), c.exact, c.rounded, c.violated)};
     if (c.rounded != 0)
         all.push_back(fmt::format("nodes lie up to {:.3g} from the plane of their facet, {:.3g} of the PLC's extent",
                                   c.max_distance, c.relative_distance));
@@ -275,13 +151,62 @@ std::vector<std::string> CheckWords::conformity(std::size_t columns) const {
     std::size_t shown = 0;
     for (const ViolatedFacet& f : c.examples) {
         const std::string one = fmt::format("{}{} ({:.3g} %)", violated.empty() ? "" : ", ", f.facet, 100 * f.covered);
-        if (violated.size() + one.size() > columns) break;
+        if (violated.size() + one.size() > room) break;
         violated += one;
         ++shown;
     }
-    if (c.violated > shown && shown > 0) violated += fmt::format(", and {} more", number(c.violated - shown));
+    if (c.violated > shown && shown > 0) violated += fmt::format(", and {} more", c.violated - shown);
     if (!violated.empty()) all.push_back("violated facets (area of faces centred on them): " + violated);
     return all;
+}
+
+std::vector<std::string> fix_sentences(const FixedMesh& fixed) {
+    const FixReport& done = fixed.done;
+    std::vector<std::string> all;
+    const auto add = [&](std::uint64_t n, std::string_view one, std::string_view more, std::string_view text) {
+        if (n != 0) all.push_back(counted(n, one, more) + std::string(text));
+    };
+    if (!done.merged.empty()) {
+        const auto far = std::max_element(done.merged.begin(), done.merged.end(),
+                                          [](const MergedNode& a, const MergedNode& b) { return a.moved < b.moved; });
+        all.push_back(counted(done.merged.size(), "node") + " merged into the lowest at their place" +
+                      (far->moved == 0 ? "; none moved"
+                                       : fmt::format(", moved by at most {} (node {} to node {})",
+                                                     base::shortest(far->moved), far->node, far->into)));
+    }
+    tell_differing(all, done.fields, "merged node has another value", "merged nodes have other values", "node");
+    add(done.differing_markers, "merged node has another marker", "merged nodes have other markers",
+        " than the node that is kept: those are left out");
+    if (!done.dropped.empty()) {
+        std::vector<std::string> kinds;
+        for (const DefectKind kind :
+             {DefectKind::repeated_node, DefectKind::degenerate_cell, DefectKind::duplicate_cell}) {
+            const auto count = std::count_if(done.dropped.begin(), done.dropped.end(),
+                                             [&](const DroppedCell& c) { return c.why == kind; });
+            if (count != 0) kinds.push_back(fmt::format("{} {}", count, defect_text(kind).name));
+        }
+        all.push_back(
+            fmt::format("{} dropped: {}{}", counted(done.dropped.size(), "cell"), fmt::join(kinds, ", "),
+                        done.collapsed == 0 ? "" : fmt::format("; {} of them have merged nodes", done.collapsed)));
+    }
+    tell_differing(all, done.cell_fields, "duplicate has another value", "duplicates have other values", "cell");
+    add(done.dropped_faces, "face", "faces", " dropped: no cell has them, or they became twins");
+    add(done.differing_face_markers, "twin has another marker", "twins have other markers",
+        " than the face that is kept: those are left out");
+    add(done.changed_neighbours, "entry", "entries", " of neighbours corrected");
+    add(done.turned, "cell", "cells", " turned to positive orientation");
+    if ((!done.merged.empty() || !done.dropped.empty()) && fixed.after.cells != 0)
+        all.emplace_back("nodes and cells behind those that went are numbered anew; --json FILE lists which went");
+    if (all.empty())
+        all.emplace_back(fixed.notes.empty() ? "nothing to repair: the copy is as the mesh is" : "nothing to repair");
+    for (const Note& note : fixed.notes) all.push_back(message(note));
+    return all;
+}
+
+std::string grouped(std::uint64_t n) {
+    std::string digits = std::to_string(n);
+    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+    return digits;
 }
 
 }  // namespace barycert::report

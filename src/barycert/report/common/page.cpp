@@ -1,39 +1,55 @@
-#include "barycert/report/common/page.hpp"
+// Documents as pages of HTML.
 
 #include <fmt/format.h>
 
-#include <cstddef>
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
 
-#include "barycert/report/common/html_text.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/base/utf8.hpp"
+#include "barycert/report/common/document.hpp"
+#include "barycert/report/common/html.hpp"
 #include "barycert/report/common/page_script.hpp"
 #include "barycert/report/common/page_style.hpp"
 
 namespace barycert::report {
 
-std::string page_head(std::string_view title, std::string_view style) {
-    return fmt::format(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
-        "'unsafe-inline'; script-src 'unsafe-inline'\"/>\n"
-        "<title>{}</title>\n<style>{}{}</style></head>\n<body><main>\n",
-        html_escaped(title), page_style, style);
+std::string xml_escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    }
+    return out;
 }
 
-std::string page_foot(std::string_view made_by, bool script) {
-    return fmt::format("</main>\n<footer>{}</footer>\n{}{}{}</body></html>\n", html_escaped(made_by),
-                       script ? "<script>" : "", script ? page_script : "", script ? "</script>\n" : "");
+std::string html_escaped(std::string_view text) {
+    std::string valid;
+    while (!text.empty()) {
+        const std::size_t size = base::first_character(text).size;
+        valid += size == 0 ? std::string_view("\xef\xbf\xbd") : text.substr(0, size);
+        text.remove_prefix(std::max<std::size_t>(size, 1));
+    }
+    return xml_escaped(valid);
 }
 
-std::string curved_section(const CurvedCells& curved, const std::string& mesh) {
-    if (message(curved).empty()) return {};
-    const std::string text = html_escaped(mesh + message(curved));
-    if (curved.cells == 0) return fmt::format("<p class=\"small\">{}.</p>\n", text);
-    return fmt::format(
-        "<section class=\"verdict told\"><b>Curved cells</b><p>{}. What is said below, \"exact\" and \"certified\" "
-        "included, holds of the cells with straight sides.</p></section>\n",
-        text);
+std::string html_name(std::string_view name) {
+    std::string out;
+    for (std::size_t at = 0; at < name.size();) {
+        const std::size_t dot = name.find('.', at);
+        const std::size_t end = dot == std::string_view::npos ? name.size() : dot + 1;
+        out += html_escaped(name.substr(at, end - at)) + (end < name.size() ? "<wbr/>" : "");
+        at = end;
+    }
+    return out;
 }
 
 std::string data_uri(std::string_view type, std::string_view bytes) {
@@ -47,6 +63,188 @@ std::string data_uri(std::string_view type, std::string_view bytes) {
         for (std::size_t k = 0; k < 4; ++k) out += k > left ? '=' : digits[group >> (18 - 6 * k) & 63U];
     }
     return out;
+}
+
+namespace {
+
+constexpr std::size_t max_places = 12;
+
+std::string paragraph(const std::string& markup, std::string_view style = {}) {
+    return fmt::format("<p{}{}{}>{}</p>\n", style.empty() ? "" : " class=\"", style, style.empty() ? "" : "\"", markup);
+}
+
+std::string command(const std::string& text) {
+    return "<code class=\"copy\">" + html_escaped(text) + "</code>";
+}
+
+std::string listed(const std::vector<std::string>& texts) {
+    std::string out;
+    for (const std::string& text : texts) out += "<li>" + html_escaped(text) + "</li>";
+    return "<ul>" + out + "</ul>";
+}
+
+class PageWriter {
+public:
+    std::string out;
+
+    void operator()(const Headline& h) {
+        std::string text = h.text;
+        if (!h.subject.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() -= 'a' - 'A';
+        out += fmt::format("<section class=\"verdict {}\"><b>{}</b>",
+                           h.tone == Tone::good  ? "good"
+                           : h.tone == Tone::bad ? "bad"
+                                                 : "told",
+                           html_escaped(text));
+        if (h.reasons.size() == 1) out += paragraph(html_escaped(h.reasons[0]) + ".");
+        if (h.reasons.size() > 1) out += listed(h.reasons);
+        for (const std::string& s : h.sentences) out += paragraph(html_escaped(s));
+        out += "</section>\n";
+    }
+
+    void operator()(const Section& s) {
+        if (!s.title.empty()) out += fmt::format("<h{0}>{1}</h{0}>\n", s.level, html_escaped(s.title));
+    }
+
+    void operator()(const Paragraph& p) {
+        const std::string text = html_escaped(p.text);
+        out += paragraph(p.tone == Tone::strong ? "<b>" + text + "</b>" : text, p.tone == Tone::soft  ? "small"
+                                                                                : p.tone == Tone::bad ? "bad"
+                                                                                                      : "");
+    }
+
+    void operator()(const Named& n) {
+        std::string lines;
+        for (const std::string& line : n.lines)
+            lines += (lines.empty() ? "" : "<br/>") + (n.command ? command(line) : html_escaped(line));
+        out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_escaped(n.name),
+                           n.tone == Tone::strong || n.tone == Tone::bad ? "<b>" + lines + "</b>" : lines);
+    }
+
+    void operator()(const Listing& t) {
+        std::string heads, rows;
+        for (const Column& c : t.columns) {
+            if (c.whom == For::terminal) continue;
+            heads += fmt::format("<th scope=\"col\" class=\"{}\"{}>{}</th>", c.left ? "t" : "n",
+                                 c.tip.empty() ? "" : fmt::format(" title=\"{}\"", html_escaped(c.tip)),
+                                 unbroken_words(head_of(c)));
+        }
+        for (const Row& row : t.rows) {
+            rows += "<tr>";
+            for (std::size_t i = 0; i < std::min(row.cells.size(), t.columns.size()); ++i)
+                if (t.columns[i].whom != For::terminal) rows += cell(t, row, i);
+            rows += "</tr>\n";
+        }
+        out +=
+            fmt::format("{}<table class=\"{}{}{}\"><thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table>{}\n",
+                        t.sorts ? "<div class=\"scroll\" tabindex=\"0\">" : "", t.sorts ? "sortable league" : "stack",
+                        t.style.empty() ? "" : " ", t.style, heads, rows, t.sorts ? "</div>" : "");
+    }
+
+    void operator()(const Item& item) {
+        out += "<div class=\"card\">" + paragraph("<b>" + html_escaped(item.title) + "</b>" + html_escaped(item.text));
+        for (const Item::Line& line : item.lines) {
+            if (!line.text.empty()) out += paragraph(line.command ? command(line.text) : html_escaped(line.text));
+            std::string places;
+            const std::size_t shown = std::min(line.places.shown.size(), max_places);
+            for (std::size_t i = 0; i < shown; ++i)
+                places += (i == 0 ? "" : std::string(1, line.places.between) + " ") + line.places.shown[i];
+            if (const std::string more = line.places.more(shown); !more.empty()) places += "; " + more;
+            if (!places.empty()) out += paragraph(html_escaped(places), "small");
+        }
+        out += "</div>\n";
+    }
+
+    void operator()(const Bars& b) {
+        std::uint64_t most = 1;
+        for (const Bars::Bar& bar : b.bars) most = std::max(most, bar.count);
+        out += "<table class=\"bars\">\n";
+        for (const Bars::Bar& bar : b.bars) {
+            out += fmt::format("<tr><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"w\">",
+                               html_escaped(bar.label), bar.count);
+            const double width = 100 * static_cast<double>(bar.count) / static_cast<double>(most);
+            if (bar.count != 0)
+                out +=
+                    fmt::format("<span class=\"bar{}\" style=\"width:{:.2f}%\"></span>", bar.bad ? " bad" : "", width);
+            out += "</td></tr>\n";
+        }
+        out += "</table>\n";
+    }
+
+    void operator()(const Pictures& p) { out += p.markup(); }
+
+private:
+    static std::string head_of(const Column& c) {
+        std::string head = c.page.empty() ? c.head : c.page;
+        std::replace(head.begin(), head.end(), '\n', ' ');
+        return head;
+    }
+
+    /// Flags begin with hyphens, at which lines would be broken.
+    static std::string unbroken_words(const std::string& text) {
+        if (text.find(" -") == std::string::npos) return html_escaped(text);
+        std::string out;
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = std::min(text.find(' ', at), text.size());
+            out += fmt::format("{}<span>{}</span>", at == 0 ? "" : " ", html_escaped(text.substr(at, end - at)));
+            at = end + 1;
+        }
+        return out;
+    }
+
+    static std::string cell(const Listing& t, const Row& row, std::size_t i) {
+        const Column& column = t.columns[i];
+        const Cell& c = row.cells[i];
+        const std::string text = t.sorts && column.left ? html_name(c.text) : html_escaped(c.text);
+        if (t.sorts && i == 0)
+            return fmt::format("<th scope=\"row\"{}>{}</th>",
+                               row.tip.empty() ? "" : fmt::format(" title=\"{}\"", html_escaped(row.tip)), text);
+        const Tone tone = c.tone != Tone::plain ? c.tone : t.sorts || column.left ? Tone::plain : row.tone;
+        std::string attributes = fmt::format("{}{}", column.left ? "" : "n",
+                                             tone == Tone::bad    ? " bad"
+                                             : tone == Tone::good ? " ok"
+                                                                  : "");
+        if (!attributes.empty()) attributes = " class=\"" + attributes + "\"";
+        if (c.order)
+            attributes += fmt::format(" data-v=\"{}\"", std::isinf(*c.order) ? "Infinity" : base::shortest(*c.order));
+        else if (!t.sorts && i != 0)
+            attributes += fmt::format(" data-l=\"{}\"", html_escaped(head_of(column)));
+        return fmt::format("<td{}>{}</td>", attributes, text);
+    }
+};
+
+}  // namespace
+
+std::string page_text(const Document& d) {
+    PageWriter writer;
+    std::vector<const Document::Content*> blocks;
+    for (const Document::Block& block : d.blocks) {
+        if (block.whom != For::terminal) blocks.push_back(&block.content);
+    }
+    const auto folds = [&](std::size_t i) {
+        const Item* const item = i < blocks.size() ? std::get_if<Item>(blocks[i]) : nullptr;
+        return item != nullptr && item->folds;
+    };
+    const auto named = [&](std::size_t i) { return i < blocks.size() && std::holds_alternative<Named>(*blocks[i]); };
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (named(i) && (i == 0 || !named(i - 1))) writer.out += "<dl>\n";
+        if (folds(i) && (i == 0 || !folds(i - 1))) {
+            std::size_t end = i;
+            while (folds(end)) ++end;
+            writer.out += fmt::format("<details><summary>{} more</summary>\n", end - i);
+        }
+        std::visit(writer, *blocks[i]);
+        if (named(i) && !named(i + 1)) writer.out += "</dl>\n";
+        if (folds(i) && !folds(i + 1)) writer.out += "</details>\n";
+    }
+    return fmt::format(
+        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+        "'unsafe-inline'; script-src 'unsafe-inline'\"/>\n"
+        "<title>{}</title>\n<style>{}{}</style></head>\n<body><main>\n<h1>{}</h1>\n{}</main>\n<footer>{}</footer>\n"
+        "{}{}{}</body></html>\n",
+        html_escaped(d.title), page_style, d.style, html_escaped(d.heading), writer.out, html_escaped(d.footer),
+        d.script ? "<script>" : "", d.script ? page_script : "", d.script ? "</script>\n" : "");
 }
 
 }  // namespace barycert::report

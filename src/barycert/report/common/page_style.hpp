@@ -24,17 +24,22 @@ p{margin:6px 0}
 .verdict.good{border-color:var(--good);background:var(--good-bg)}.verdict.good b{color:var(--good)}
 .verdict.bad{border-color:var(--bad);background:var(--bad-bg)}.verdict.bad b{color:var(--bad)}
 .verdict.told{border-color:var(--second);background:var(--panel)}.verdict.told b{font-size:20px}
-.tiles{display:flex;flex-wrap:wrap;gap:10px;margin:0 0 12px}
-.tiles div{border:1px solid var(--line);border-radius:4px;padding:8px 14px;min-width:104px}
-.tiles b{display:block;font-size:20px}.tiles span{color:var(--soft);font-size:14px}
 .scroll{overflow-x:auto}
+dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 18px;margin:8px 0}dt{color:var(--soft)}
+dd{margin:0;overflow-wrap:anywhere}
+details{margin:4px 0}summary{cursor:pointer;color:var(--soft);font-size:14px}
 table{border-collapse:collapse;width:100%;margin:8px 0}
 th,td{text-align:left;vertical-align:top;padding:6px 14px 6px 0;border-bottom:1px solid var(--line)}
 th{font-size:14px;color:var(--soft);font-weight:normal}
 th[scope=row]{color:inherit}
 tr{break-inside:avoid}
 th.n,td.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}
-td.bad,b.bad{color:var(--bad);font-weight:bold}.ok{color:var(--good)}
+td.bad,p.bad{color:var(--bad);font-weight:bold}.ok{color:var(--good)}
+.league{font-size:14px}.league th,.league td{padding-right:9px}
+.league thead th{white-space:normal;vertical-align:bottom;font-size:13px;line-height:1.3}
+.league thead span{white-space:nowrap}
+.league tbody th{font-weight:600;white-space:nowrap}
+.league th:first-child{position:sticky;left:0;background:var(--paper)}
 .small,figcaption{color:var(--soft);font-size:14px}
 .card{border:1px solid var(--line);border-radius:4px;background:var(--panel);--ground:var(--panel);padding:10px 14px;
  margin:8px 0;break-inside:avoid}
@@ -63,14 +68,19 @@ svg .halo{stroke:var(--ground);stroke-width:4px;fill:var(--ground)}svg .lead{str
 footer{margin-top:40px;border-top:1px solid var(--line);padding-top:10px;color:var(--soft);font-size:14px;overflow-wrap:anywhere}
 @media (max-width:560px){body{padding:16px 12px;font-size:15px}.verdict{padding:10px 14px}.verdict b{font-size:23px}
  th,td{padding-right:10px}
+ dl{grid-template-columns:1fr;gap:0}dd{margin-bottom:6px}
+ .league tbody th{white-space:normal;overflow-wrap:anywhere;min-width:132px}
  .stack,.stack tbody,.stack tr,.stack td{display:block;width:auto}.stack tr{padding:6px 0;border-bottom:1px solid var(--line)}
- .stack tr:has(th.h){display:none}.stack td{border:0;padding:1px 0}.stack td.n{text-align:left}
+ .stack thead{display:none}.stack td{border:0;padding:1px 0}.stack td.n{text-align:left}
  .stack td[data-l]::before{content:attr(data-l) ": ";color:var(--soft)}}
 @page{margin:12mm}
 @media print{:root{color-scheme:light;--ink:#000;--soft:#444;--paper:#fff;--panel:#fff;--line:#ccc;--good:#00694c;
  --good-bg:#fff;--bad:#a50d26;--bad-bg:#fff;--bar:#0072b2;--bar-bad:#c8102e;--second:#c67f00}
  body{padding:0;max-width:none;font-size:12px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
  h2{font-size:16px;margin-top:22px}.small,figcaption,th,code{font-size:10.5px}th,td{padding:3px 8px 3px 0}
+ .league,.league thead th{font-size:9.5px}.league th,.league td{padding:2px 6px 2px 0}
+ .league tbody th,td{white-space:normal;overflow-wrap:anywhere}.league tbody th{min-width:108px}
+ .league th:first-child{position:static}
  button.copy{display:none}.scroll{overflow:visible}}
 )";
 

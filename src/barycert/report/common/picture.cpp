@@ -8,7 +8,8 @@
 #include <numbers>
 #include <utility>
 
-#include "barycert/report/common/html_text.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/report/common/html.hpp"
 
 namespace barycert::report {
 namespace {
@@ -45,22 +46,23 @@ void join_close_ones(std::vector<Label>& labels) {
 
 }  // namespace
 
-Picture::Picture(double width, double height, std::string_view title)
+Picture::Picture(double width, double height, std::string_view title, std::string_view style)
     : width_(width),
       height_(height),
       body_(fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
                         "height=\"{1:.0f}\" role=\"img\">\n<title>{2}</title>\n",
-                        width, height, html_escaped(title))) {}
-
-void Picture::line(Pixel a, Pixel b, std::string_view style) {
-    body_ += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/>\n", style, a.x, a.y, b.x, b.y);
+                        width, height, html_escaped(title))) {
+    if (!style.empty())
+        body_ += fmt::format("<style>{}</style>\n<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>\n", style,
+                             width, height);
 }
 
-void Picture::polygon(const std::vector<Pixel>& corners, std::string_view style) {
+void Picture::path(const std::vector<Pixel>& corners, std::string_view style, bool closed) {
+    if (corners.size() < 2) return;
     body_ += fmt::format("<path class=\"{}\" d=\"", style);
     for (std::size_t i = 0; i < corners.size(); ++i)
         body_ += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", corners[i].x, corners[i].y);
-    body_ += "Z\"/>\n";
+    body_ += closed ? "Z\"/>\n" : "\"/>\n";
 }
 
 void Picture::bar(Pixel corner, double width, double height, std::string_view style, std::string_view tip) {
@@ -73,6 +75,17 @@ void Picture::dot(Pixel at, double radius, std::string_view style, std::string_v
     body_ += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\">", style, at.x, at.y, radius);
     if (!tip.empty()) body_ += fmt::format("<title>{}</title>", html_escaped(tip));
     body_ += "</circle>\n";
+}
+
+void Picture::mark(Pixel at, Mark mark, double r, std::string_view style) {
+    const auto [x, y] = at;
+    const std::string filled = std::string(style) + " mark";
+    if (mark == Mark::circle) dot(at, r, filled);
+    if (mark == Mark::cross) lines({{{x - r, y - r}, {x + r, y + r}}, {{x - r, y + r}, {x + r, y - r}}}, style);
+    if (mark == Mark::square) polygon({{x - r, y - r}, {x + r, y - r}, {x + r, y + r}, {x - r, y + r}}, filled);
+    if (mark == Mark::diamond) polygon({{x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}}, filled);
+    if (mark == Mark::up) polygon({{x - r, y + r}, {x, y - r}, {x + r, y + r}}, filled);
+    if (mark == Mark::down) polygon({{x - r, y - r}, {x, y + r}, {x + r, y - r}}, filled);
 }
 
 void Picture::dots(const std::vector<Pixel>& at, std::string_view style) {
@@ -141,6 +154,95 @@ void place_labels(Picture& picture, std::vector<Label> labels, double top) {
         if (far > 10) picture.text({best.x, best.y + 4}, l.text, "halo m");
         picture.text({best.x, best.y + 4}, l.text, std::string(l.style) + " m");
     }
+}
+
+std::vector<double> round_ticks(double low, double high, int max) {
+    double step = std::pow(10, std::floor(std::log10((high - low) / max)));
+    for (const double factor : {2.0, 2.5, 2.0, 2.0}) {  // 1, 2, 5, 10, 20 times the power of ten
+        if (std::floor(high / step) - std::ceil(low / step) < max) break;
+        step *= factor;
+    }
+    std::vector<double> ticks;
+    for (double k = std::ceil(low / step); k * step <= high; ++k) ticks.push_back(k * step + 0.0);  // no -0
+    return ticks;
+}
+
+std::vector<Tick> number_ticks(double low, double high, int max) {
+    std::vector<Tick> ticks;
+    for (const double t : round_ticks(low, high, max)) ticks.push_back({t, base::shortest(t)});
+    return ticks;
+}
+
+std::vector<Tick> decade_ticks(double low, double high) {
+    std::vector<Tick> ticks;
+    for (int k = static_cast<int>(std::floor(low)); k <= static_cast<int>(std::floor(high)); ++k) {
+        for (const double factor : {1.0, 2.0, 5.0}) {
+            const double t = k + std::log10(factor);
+            if (t < low || t > high) continue;
+            ticks.push_back({t, std::abs(k) <= 4 ? fmt::format("{:.6g}", factor * std::pow(10, k))
+                                                 : fmt::format("{:.0f}e{}", factor, k)});
+        }
+    }
+    return ticks;
+}
+
+std::string superscript(double exponent) {
+    constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string out;
+    for (const char c : fmt::format("{:.0f}", exponent))
+        out += c == '-' ? "⁻" : digits[static_cast<std::size_t>(c - '0')];
+    return out;
+}
+
+void draw_axes(Picture& picture, const Axis& x, const Axis& y) {
+    for (const Tick& t : y.ticks) {
+        if (y.grid) picture.line({x.from, y.at(t.at)}, {x.to, y.at(t.at)}, "grid");
+        picture.text({x.from - 7, y.at(t.at) + 4}, t.text, "tick e");
+    }
+    for (const Tick& t : x.ticks) {
+        if (x.grid) picture.line({x.at(t.at), y.from}, {x.at(t.at), y.to}, "grid");
+        picture.line({x.at(t.at), y.from}, {x.at(t.at), y.from + 5}, "axis");
+        picture.text({x.at(t.at), y.from + 19}, t.text, "tick m");
+    }
+    picture.line({x.from, y.from}, {x.to, y.from}, "axis");
+    picture.line({x.from, y.from}, {x.from, y.to}, "axis");
+    picture.text({(x.from + x.to) / 2, y.from + 42}, x.title, "title m");
+    picture.text({x.from - 46, (y.from + y.to) / 2}, y.title, "title m", true);
+}
+
+void draw_line_through(Picture& picture, const Axis& x, const Axis& y, Pixel a, Pixel b, std::string_view style) {
+    // Liang and Barsky: the line a + t (b - a), cut by each side in turn.
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    double first = -1e9, last = 1e9;
+    const auto cut = [&](double direction, double room) {  // keeps t * direction <= room
+        if (direction > 0) last = std::min(last, room / direction);
+        if (direction < 0) first = std::max(first, room / direction);
+        if (direction == 0 && room < 0) last = -1e9;
+    };
+    cut(dx, x.high - a.x);
+    cut(-dx, a.x - x.low);
+    cut(dy, y.high - a.y);
+    cut(-dy, a.y - y.low);
+    if (first >= last) return;
+    picture.line({x.at(a.x + first * dx), y.at(a.y + first * dy)}, {x.at(a.x + last * dx), y.at(a.y + last * dy)},
+                 style);
+}
+
+constexpr std::string_view plot_style = R"(
+svg{font-family:Helvetica,Arial,"DejaVu Sans",sans-serif}
+text{font-size:13px;fill:#222}.m{text-anchor:middle}.e{text-anchor:end}
+.head{font-size:18px;font-weight:bold}.title{font-size:14px}.small{font-size:12px;fill:#555}
+path{fill:none;stroke-width:1.2px;stroke-linejoin:round}path.mark{stroke:none}
+.grid{stroke:#e4e4e4}.axis{stroke:#444}.median{stroke-dasharray:3 3}.worst{stroke-opacity:.6}
+.prediction{stroke:#000;stroke-width:2px}.level{stroke:#888;stroke-dasharray:8 4}
+path.k0{stroke:#d55e00}path.k1{stroke:#0072b2}path.k2{stroke:#009e73}
+path.k3{stroke:#cc79a7}path.k4{stroke:#e69f00}path.k5{stroke:#56b4e9}
+.k0.mark{fill:#d55e00}.k1.mark{fill:#0072b2}.k2.mark{fill:#009e73}
+.k3.mark{fill:#cc79a7}.k4.mark{fill:#e69f00}.k5.mark{fill:#56b4e9}
+)";
+
+std::string curve_style(std::size_t i) {
+    return fmt::format("k{}", i);
 }
 
 }  // namespace barycert::report

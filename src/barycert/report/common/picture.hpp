@@ -1,12 +1,13 @@
-/// Pictures in HTML reports: bars, polygons and dots that take their looks from the page's style sheet by
-/// class, and labels that keep clear of each other. Unlike Svg's they are no files of their own.
+/// Pictures as SVG, in HTML pages or files of their own: lines, bars, marks, text, axes, and labels that keep clear of
+/// each other. Looks are classes of a style sheet: the page's, or the file's.
 ///
-/// Coordinates are pixels, y downwards. All text that comes in is escaped.
+/// Coordinates are pixels, y downwards, written with one decimal, so that the same data give the same bytes. All text
+/// that comes in is escaped.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace barycert::report {
@@ -15,14 +16,19 @@ struct Pixel {
     double x = 0, y = 0;
 };
 
+enum class Mark : unsigned char { circle, square, diamond, up, down, cross };
+
 class Picture {
 public:
-    Picture(double width, double height, std::string_view title);
+    /// `title` is what a reader is told who cannot see it. With a style of its own, on a white ground, it is a file.
+    Picture(double width, double height, std::string_view title, std::string_view style = {});
 
-    void line(Pixel from, Pixel to, std::string_view style);
-    void polygon(const std::vector<Pixel>& corners, std::string_view style);
+    void line(Pixel from, Pixel to, std::string_view style) { path({from, to}, style); }
+    void path(const std::vector<Pixel>& corners, std::string_view style, bool closed = false);
+    void polygon(const std::vector<Pixel>& corners, std::string_view style) { path(corners, style, true); }
     void bar(Pixel corner, double width, double height, std::string_view style, std::string_view tip);
     void dot(Pixel at, double radius, std::string_view style, std::string_view tip = {});
+    void mark(Pixel at, Mark mark, double radius, std::string_view style);
     void dots(const std::vector<Pixel>& at, std::string_view style);                           ///< many, in one element
     void lines(const std::vector<std::pair<Pixel, Pixel>>& segments, std::string_view style);  ///< likewise
     /// `style` may be several classes; "m" and "e" are the anchors middle and end.
@@ -47,5 +53,47 @@ struct Label {
 /// Away from the middle of all points where there is room, inside the picture from `top` on. Labels of points less than
 /// 4 pixels apart are joined; one that went far from its point gets a line to it.
 void place_labels(Picture& picture, std::vector<Label> labels, double top = 0);
+
+struct Tick {
+    double at;
+    std::string text;
+};
+
+/// Round numbers in [low, high]: multiples of 1, 2 or 5 times a power of ten, at most `most` of them (at least 2).
+std::vector<double> round_ticks(double low, double high, int max);
+/// These as ticks.
+std::vector<Tick> number_ticks(double low, double high, int max = 12);
+/// Of an axis of log10: 1, 2 and 5 times each power of ten in [low, high].
+std::vector<Tick> decade_ticks(double low, double high);
+
+/// "⁻¹²": the number, rounded, as an exponent.
+std::string superscript(double exponent);
+
+/// A linear axis: numbers [low, high] onto pixels [from, to].
+struct Axis {
+    double low = 0, high = 1;
+    double from = 0, to = 1;
+    std::string title = {};
+    std::vector<Tick> ticks = {};
+    bool grid = true;  ///< a line across the picture at each tick
+
+    double at(double x) const { return from + (to - from) * (x - low) / (high - low); }
+};
+
+/// The line across, ticks with their numbers, the grid, and the titles below and to the left, which take 60 pixels.
+void draw_axes(Picture& picture, const Axis& x, const Axis& y);
+
+/// The part of the line through `a` and `b` (numbers, not pixels) that lies between the axes; nothing if none does.
+void draw_line_through(Picture& picture, const Axis& x, const Axis& y, Pixel a, Pixel b, std::string_view style);
+
+/// Curves with marks on a picture that is a file of its own: up to six, in colours that most eyes tell apart (Okabe's
+/// and Ito's), classes k0 to k5, and in marks that differ without colour.
+inline constexpr std::size_t max_curves = 6;
+extern const std::string_view plot_style;
+constexpr Mark curve_mark(std::size_t i) {
+    constexpr Mark marks[max_curves] = {Mark::up, Mark::circle, Mark::square, Mark::diamond, Mark::down, Mark::cross};
+    return marks[i];
+}
+std::string curve_style(std::size_t i);
 
 }  // namespace barycert::report

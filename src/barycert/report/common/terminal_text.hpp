@@ -10,7 +10,6 @@
 
 #include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/check.hpp"
 
 namespace barycert::report {
 
@@ -66,20 +65,6 @@ private:
     }
     bool on_;
 };
-
-/// What stands before all else on a mesh whose sides are not straight; two lines, or none.
-inline std::string curved_lines(const CurvedCells& curved, const Colours& paint) {
-    std::string text = message(curved);
-    if (text.empty()) return "";
-    text.replace(text.find("; "), 2, fmt::format(";\n{:<11}", ""));
-    return curved.cells == 0 ? fmt::format("{:<10} {}\n", "rounded", text)
-                             : paint.bold(fmt::format("{:<10} {}", "curved", text)) + "\n";
-}
-
-/// For sentences that hold of straight sides alone; empty where these are the mesh's own.
-inline std::string_view for_straight_sides(const CurvedCells& curved) {
-    return curved.cells == 0 ? "" : " for straight sides";
-}
 
 using base::shell_word;
 

@@ -1,0 +1,388 @@
+// What an audit found, for people.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "barycert/audit_report.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report/audit/audit_pictures.hpp"
+#include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/common/document.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert {
+
+using namespace report;
+
+namespace {
+
+/// What these add to the style of pages.
+constexpr std::string_view audit_style = R"(
+.small-figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,236px),1fr));gap:14px 18px}
+.small-figures figcaption{overflow-wrap:anywhere;color:var(--ink);line-height:1.3}
+.small-figures small{color:var(--soft);font-size:13px}
+.signs,.maps{display:grid;grid-template-columns:repeat(auto-fill,minmax(160px,1fr));gap:14px 17px;align-items:start}
+.signs img,.maps img{display:block;width:100%;height:auto;max-width:320px;border:1px solid var(--line)}
+.maps img{image-rendering:pixelated}.signs img{max-width:256px}.signs .exact img{outline:3px solid var(--good)}
+.signs figcaption,.maps figcaption{font-size:13px;line-height:1.3;overflow-wrap:anywhere}
+.key span{white-space:nowrap}.key i{display:inline-block;width:12px;height:12px;margin:0 5px 0 14px;border:1px solid var(--line);vertical-align:-1px}
+svg .dot{fill:var(--bar);fill-opacity:.75}svg .dot.front{fill:var(--good);fill-opacity:1}
+svg .front{stroke:var(--good);stroke-width:1.6px}svg text.front{fill:var(--good);stroke:none;font-size:11px}
+)";
+
+/// What is known of a kernel, or of one of its families: a row of a table.
+struct Known {
+    std::string name, tip;
+    const KernelStatistics* statistics;
+    double meshes = -1, ns = 0;  ///< of a kernel
+};
+
+/// Of kernels, worst first; or of the families of one.
+Listing statistics_table(const std::vector<Known>& all, bool kernels) {
+    const std::string error = kernels ? "error," : "error";
+    const For of_kernels = kernels ? For::all : For::page, of_families = kernels ? For::page : For::all;
+    Listing table{.columns = {{kernels ? "kernel" : "family", true, 6},
+                              {"cases", false, 6, 1, "", "", of_families},
+                              {"wrong\n%", false, 6, 1, "wrong, %"},
+                              {"in as\nout %", false, 6, 1, "inside called outside, %"},
+                              {"out as\nin %", false, 6, 1, "outside called inside, %"},
+                              {"no\nans. %", false, 6, 1, "no answer, %"},
+                              {"error\n99 %", false, 6, 1, "error of 99 %"},
+                              {error + "\nmax", false, 8, 1, "largest error", "", of_families},
+                              {error + "\nmeshes", false, 8, 1, "largest error on meshes", "", of_kernels},
+                              {error + "\nulps", false, 8, 1, "largest, ulps"},
+                              {"ns", false, 5, 1, "", "", of_kernels}},
+                  .sorts = true,
+                  .style = kernels ? "kernels" : ""};
+    if (!kernels) table.columns.erase(table.columns.end() - 3), table.columns.pop_back();
+    for (const Known& k : all) {
+        const KernelStatistics& s = *k.statistics;
+        const Share wrong{s.wrong_cases, s.cases};
+        Row row{.cells = {k.name,
+                          {kernels ? std::to_string(s.cases) : brief_count(s.cases), static_cast<double>(s.cases)},
+                          share_cell(wrong, true),
+                          share_cell(inside_called_outside(s)),
+                          share_cell(outside_called_inside(s)),
+                          share_cell(unanswered(s)),
+                          {usual_error(s), s.errors.within(0.99)},
+                          number_cell(s.errors.worst.value)},
+                .tone = (kernels ? perfect(s) : s.cases != 0 && s.wrong_cases == 0) ? Tone::good : Tone::plain,
+                .tip = k.tip};
+        if (s.cases == 0) row.cells[2] = {"not run", -1};
+        if (kernels) row.cells.push_back(number_cell(k.meshes));
+        row.cells.push_back(number_cell(s.weight_ulp.value));
+        if (kernels) row.cells.emplace_back(brief_time(k.ns), k.ns);
+        if (kernels && !incidents(s).empty()) row.below.push_back(incidents(s));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+void tell_legend(Document& d, bool kernels) {
+    const auto line = [&](std::string name, std::vector<std::string> lines) {
+        d.add(Named{std::move(name), std::move(lines), Tone::soft});
+    };
+    line("wrong", {"cases with a wrong sign, zero, region or declaration"});
+    line("in as out", {"points inside or on the boundary that the kernel takes for outside; out as in: reverse"});
+    line("no ans.",
+         {"cases without a finite answer (a crash, a hang, an exception), or wrongly declared", "degenerate"});
+    line("error", {"of the weights of a case, relative to 1 or the largest weight: what 99 % of the answers",
+                   "are below; the largest; that in the families mesh.*; and in units in the last place of",
+                   "the exact weight, which are tiny for weights near zero"});
+    if (kernels) line("ns", {"median time of one evaluation"});
+}
+
+/// The meshes by what is known of them.
+void tell_meshes(Document& d, const AuditReport& r, const TerminalStyle& style, Breaks wrap) {
+    if (r.meshes.empty()) d.say("meshes: none");
+    for (const auto& [verdict, text] : {std::pair(Verdict::certified, "certified to be partitions"),
+                                        {Verdict::not_certified, "NOT certified to be partitions"},
+                                        {Verdict::not_checked, "not checked"}}) {
+        std::string names;
+        for (std::size_t i = 0; i < r.meshes.size(); ++i) {
+            if (r.verdicts[i] == verdict) names += (names.empty() ? "" : ", ") + r.meshes[i];
+        }
+        const bool bad = verdict == Verdict::not_certified;
+        const std::string why = bad ? fmt::format(" (why: {} check MESH)", style.command) : "";
+        if (!names.empty())
+            d.say(fmt::format("meshes, {}: {}{}", text, names, why), bad ? Tone::bad : Tone::plain, For::all, wrap);
+    }
+}
+
+/// What was audited, who decided, and what is known of the meshes.
+void tell_cases(Document& d, const AuditReport& r, const TerminalStyle& style) {
+    d.say(fmt::format("{} cases of {}, exactly {}", r.cases, counted(r.families.size(), "family", "families"),
+                      regions_text(r)),
+          Tone::plain, For::all, Breaks::words);
+    d.say(oracle_line(r.oracles), Tone::plain, For::all, Breaks::words);
+    tell_meshes(d, r, style, Breaks::commas);
+}
+
+void tell_families(Document& d, const AuditReport& r, For whom) {
+    struct Line {
+        std::uint64_t cases = 0;
+        std::size_t kernels = 0;
+        std::vector<std::pair<std::uint64_t, std::string>> wrong;  ///< wrong cases and kernel
+    };
+    std::map<std::pair<std::size_t, Simplex>, Line> lines;
+    for (const KernelResult& k : r.kernels) {
+        for (const FamilyResult& f : k.families) {
+            Line& line = lines[{f.family, k.kernel.simplex}];
+            line.cases = std::max(line.cases, f.statistics.cases);
+            ++line.kernels;
+            if (f.statistics.cases != 0)
+                line.wrong.emplace_back(f.statistics.wrong_cases, k.kernel.name.substr(k.kernel.name.find('.') + 1));
+        }
+    }
+    Listing table{.columns = {{"family", true, 6},
+                              {"simplex", true, 11, 2},
+                              {"cases", false, 7},
+                              {"clean", false, 7, 1, "kernels without a finding"},
+                              {"median %", false, 9, 1, "median wrong, %"},
+                              {"worst %", false, 8, 1, "worst wrong, %"},
+                              {"worst kernel", true, 0, 2}},
+                  .sorts = true};
+    for (auto& [key, line] : lines) {
+        auto& wrong = line.wrong;
+        std::stable_sort(wrong.begin(), wrong.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+        if (wrong.empty()) wrong.emplace_back(0, "not run");
+        const std::uint64_t worst = wrong.front().first;
+        const auto with = [&all = wrong](std::uint64_t n) {
+            return static_cast<std::size_t>(
+                std::count_if(all.begin(), all.end(), [&](const auto& w) { return w.first == n; }));
+        };
+        const std::size_t clean = line.cases == 0 ? 0 : with(0);
+        const std::string more = with(worst) > 1 ? fmt::format(" (+{} more)", with(worst) - 1) : "";
+        table.rows.push_back({{r.families[key.first].name,
+                               std::string(name(key.second)),
+                               {brief_count(line.cases), static_cast<double>(line.cases)},
+                               {fmt::format("{}/{}", clean, line.kernels),
+                                static_cast<double>(clean) / static_cast<double>(line.kernels)},
+                               share_cell({wrong[(wrong.size() - 1) / 2].first, line.cases}),
+                               share_cell({worst, line.cases}),
+                               worst == 0 && line.cases != 0 ? "-" : wrong.front().second + more}});
+    }
+    d.add(Section{"Families of cases", 2, false}, whom);
+    d.add(std::move(table), whom);
+    d.say("clean: kernels without a finding / all kernels. median, worst: share of wrong cases, over the kernels.",
+          Tone::soft, whom);
+}
+
+Item witness_item(const AuditReport& r, const KernelResult& k, const Witness& w, const TerminalStyle& style) {
+    Item item{.title = w.reason + ": " + finding_sentence(k, w), .lines = {{place_of(w) + ": " + shows(w)}}};
+    if (std::string replay = replay_command(r, k, w, style); !replay.empty())
+        item.lines.push_back({std::move(replay), true});
+    return item;
+}
+
+constexpr std::string_view no_witness = "No witness: every weight and value is correctly rounded.";
+
+/// Of each kernel the witnesses of all its findings, for a page.
+void tell_witnesses(Document& d, const AuditReport& r, const TerminalStyle& style) {
+    d.section("Witnesses", For::page);
+    d.say("The worst case of each finding, and the command that shows the kernel's answer beside the exact one.",
+          Tone::soft, For::page);
+    for (const KernelResult& k : r.kernels) {
+        d.section(k.kernel.name, For::page, 3);
+        if (!k.kernel.fails.empty()) d.say(k.kernel.fails, Tone::soft, For::page);
+        if (!k.kernel.note.empty()) d.say(k.kernel.note, Tone::plain, For::page);
+        if (k.total.not_run != 0)
+            d.say(fmt::format("Given up: {} cases were not run.", k.total.not_run), Tone::plain, For::page);
+        if (k.witnesses.empty() && k.total.not_run == 0) d.say(std::string(no_witness), Tone::plain, For::page);
+        for (std::size_t i = 0; i < k.witnesses.size(); ++i) {
+            Item item = witness_item(r, k, k.witnesses[i], style);
+            item.folds = i > 0;
+            d.add(std::move(item), For::page);
+        }
+    }
+}
+
+/// The report on the only kernel, family by family.
+void tell_kernel(Document& d, const AuditReport& r, const TerminalStyle& style) {
+    const KernelResult& k = r.kernels.front();
+    for (const auto& [what, text] : {std::pair("formula", k.kernel.formula),
+                                     {"source", k.kernel.source},
+                                     {"fails", k.kernel.fails},
+                                     {"note", k.kernel.note},
+                                     {"time", k.ns > 0 ? brief_time(k.ns) + " ns an evaluation" : std::string()}}) {
+        if (!text.empty()) d.add(Named{.name = what, .lines = {text}, .wrap = Breaks::words});
+    }
+    std::vector<Known> families;
+    for (const FamilyResult& f : k.families)
+        families.push_back({r.families[f.family].name, r.families[f.family].tests, &f.statistics});
+    std::stable_sort(families.begin(), families.end(), [](const Known& a, const Known& b) {
+        return a.statistics->wrong_cases > b.statistics->wrong_cases;
+    });
+    d.part("Families of cases");
+    d.add(statistics_table(families, false));
+    if (!style.wide) tell_legend(d, false);
+    d.section(k.kernel.raised != nullptr ? "Worst case of each finding:"
+                                         : "Worst case of each finding, and the command that replays it:");
+    if (!incidents(k.total).empty()) d.say(incidents(k.total), Tone::bad);
+    if (k.witnesses.empty() && k.total.not_run == 0) d.say(std::string(no_witness));
+    for (const Witness& w : k.witnesses) d.add(witness_item(r, k, w, style));
+}
+
+void tell_kernels(Document& d, const AuditReport& r) {
+    std::vector<Known> kernels;
+    for (const KernelResult& k : r.kernels)
+        kernels.push_back({k.kernel.name, "", &k.total, worst_on_meshes(r, k), k.ns});
+    d.part("Kernels, worst first");
+    d.add(statistics_table(kernels, true));
+    tell_legend(d, true);
+}
+
+/// All columns: wider than most terminals.
+void tell_all_counts(Document& d, const AuditReport& r) {
+    Listing table{.columns = {{"kernel", true, 6},
+                              {"cases", false, 5},
+                              {"wrong\n%", false, 6},
+                              {"wrong%\nmeshes", false, 6},
+                              {"opp.\nsign", false, 5},
+                              {"false\nzero", false, 5},
+                              {"false\nnon-0", false, 5},
+                              {"not\nfinite", false, 6},
+                              {"false\ninside", false, 6},
+                              {"false\noutside", false, 7},
+                              {"false\ndegen.", false, 6},
+                              {"missed\ndegen.", false, 6},
+                              {"ulps\n99.9%", false, 9},
+                              {"ulps\nworst", false, 9},
+                              {"value\n99.9%", false, 9},
+                              {"ns", false, 5}}};
+    for (const KernelResult& k : r.kernels) {
+        const KernelStatistics& s = k.total;
+        Row row{.cells = {k.kernel.name, brief_count(s.cases), percent({s.wrong_cases, s.cases}),
+                          percent(wrong_on_meshes(r, k))},
+                .tone = perfect(s) ? Tone::good : Tone::plain};
+        for (const Finding f :
+             {Finding::opposite_sign, Finding::false_zero, Finding::false_nonzero, Finding::not_finite,
+              Finding::false_inside, Finding::false_outside, Finding::false_declaration, Finding::missed_degenerate})
+            row.cells.emplace_back(brief_count(count_of(s, f)));
+        for (const std::string& figure :
+             {brief(s.p999_weight_ulp()), brief(s.weight_ulp.value), brief(s.p999_value_ulp()), brief_time(k.ns)})
+            row.cells.emplace_back(figure);
+        if (const std::string beside = incidents(s); !beside.empty()) row.below.push_back(beside);
+        if (const std::uint64_t broken = count_of(s, Finding::false_certificate); broken != 0)
+            row.below.push_back(fmt::format("certifies its answers, and {} of them are wrong", broken));
+        table.rows.push_back(std::move(row));
+    }
+    d.add(std::move(table));
+    for (
+        const char* line :
+        {"wrong %: share of cases with a finding, over all families and over the families mesh.*. A finding is a wrong "
+         "sign, zero, region or declaration.",
+         "ulps: error of a weight in ulps of the correctly rounded weight; value: the same for the interpolated value. "
+         "Signs, zeros and not",
+         "finite count weights; inside, outside and degenerate count cases.  ns: median time of one evaluation, over "
+         "blocks of cases."})
+        d.say(line, Tone::soft);
+}
+
+void tell_wide(Document& d, const AuditReport& r, const TerminalStyle& style) {
+    d.say(environment_line(r.environment));
+    d.say(how_it_was_made(r));
+    d.say(fmt::format("{} kernels, {} families, {} cases in all, exactly {}", r.kernels.size(), r.families.size(),
+                      r.cases, regions_text(r)));
+    tell_meshes(d, r, style, Breaks::none);
+    d.say(oracle_line(r.oracles));
+    d.part();
+    tell_all_counts(d, r);
+    tell_families(d, r, For::all);
+    d.section("Worst witness of each kernel, and the command that replays it:");
+    for (const KernelResult& k : r.kernels) {
+        const Witness* const w = worst_witness(k);
+        Item item{.title = k.kernel.name,
+                  .text = w != nullptr           ? fmt::format(": {} in {} ({})", w->reason, place_of(*w), shows(*w))
+                          : k.total.not_run != 0 ? ": no witness"
+                                                 : ": no witness, every weight and value is correctly rounded"};
+        const std::string replay = w == nullptr ? "" : replay_command(r, k, *w, style);
+        if (!replay.empty()) item.lines.push_back({replay, true});
+        d.add(std::move(item));
+    }
+}
+
+/// What a terminal is told last.
+void tell_hints(Document& d, const AuditReport& r, const TerminalStyle& style) {
+    const KernelResult& worst = r.kernels.front();
+    const Witness* const w = worst_witness(worst);
+    const std::string replay = w == nullptr ? "" : replay_command(r, worst, *w, style);
+    if (!replay.empty()) {
+        d.add(Section{}, For::terminal);
+        d.add(
+            Item{.text = fmt::format("See the worst kernel fail ({}, {}):", w->reason, shows(*w)), .lines = {{replay}}},
+            For::terminal);
+    }
+    d.say("One kernel, family by family: --kernel NAME. All counts and witnesses: --wide, --html FILE.", Tone::soft,
+          For::terminal);
+}
+
+/// `page`: what is on it beside.
+Document audit_document(const AuditReport& r, const TerminalStyle& style, const AuditPage& page,
+                        const std::string& signs, const std::string& maps) {
+    Document d;
+    d.title = "barycert audit: " + verdict_sentence(r);
+    d.heading = "barycert audit: floating-point kernels for barycentric weights, held against exact arithmetic";
+    d.footer = "barycert " + r.environment.version;
+    d.style = audit_style;
+    d.script = true;
+    for (std::size_t i = 0; i < r.curved.size(); ++i) d.curved(r.curved[i], r.meshes[i]);
+    if (style.wide) {
+        tell_wide(d, r, style);
+        return d;
+    }
+    const auto pictures = [&](auto markup) { d.add(Pictures{markup}, For::page); };
+    const bool one = r.kernels.size() == 1;
+    d.add(Headline{
+        .tone = any_wrong(r) ? Tone::bad : Tone::good, .text = verdict_sentence(r), .sentences = verdict_details(r)});
+    if (one)
+        tell_kernel(d, r, style);
+    else
+        tell_kernels(d, r);
+    d.part();
+    tell_cases(d, r, style);
+    if (!one) pictures([&r] { return pareto_figures(r); });
+    pictures([&signs, &maps, &r] { return signs + maps + error_histograms(r); });
+    if (!one) {
+        tell_witnesses(d, r, style);
+        tell_families(d, r, For::page);
+    }
+    tell_others(d, page.others);
+    d.section("How it was made", For::page);
+    if (!page.command_line.empty())
+        d.add(Named{.name = "command", .lines = {page.command_line}, .command = true}, For::page);
+    d.add(Named{"run", {how_it_was_made(r)}}, For::page);
+    d.add(Named{"by", {environment_line(r.environment)}}, For::page);
+    d.add(Named{"on", {fmt::format("a processor of {} threads", r.environment.hardware_threads)}}, For::page);
+    d.say(
+        "The same seed gives the same cases on every machine; figures other than times do not depend on the number of "
+        "threads.",
+        Tone::soft, For::page);
+    d.say(how_it_was_made(r), Tone::plain, For::terminal);
+    d.say(environment_line(r.environment), Tone::plain, For::terminal);
+    if (!one) tell_hints(d, r, style);
+    return d;
+}
+
+}  // namespace
+
+std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
+    const ExactEnvironment environment;
+    return terminal_text(audit_document(report, style, {}, {}, {}), style.colour);
+}
+
+Result<std::string> audit_html(const AuditReport& report, const AuditPage& page) {
+    const ExactEnvironment environment;
+    const Result<std::string> signs = sign_figures(page.signs);
+    if (!signs) return signs.error();
+    const Result<std::string> maps = map_figures(report, page.maps);
+    if (!maps) return maps.error();
+    TerminalStyle style = page.style;
+    style.wide = false;
+    return page_text(audit_document(report, style, page, *signs, *maps));
+}
+
+}  // namespace barycert

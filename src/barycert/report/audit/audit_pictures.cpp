@@ -1,0 +1,217 @@
+// Pictures of signs, and maps of meshes, as markup of the audit's page.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "barycert/base/text.hpp"
+#include "barycert/io/png/indexed_png.hpp"
+#include "barycert/report/audit/audit_pictures.hpp"
+#include "barycert/report/common/html.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert::report {
+namespace {
+
+std::string swatch(const io::Colour& c, std::string_view text) {
+    return fmt::format("<span><i style=\"background:#{:02x}{:02x}{:02x}\"></i>{}</span> ", c[0], c[1], c[2], text);
+}
+
+struct SignColour {
+    io::Colour colour;
+    std::string_view text;
+};
+/// Of the signs -1, 0, 1 and of no answer.
+constexpr std::array<SignColour, 4> sign_colours{{{{0xe6, 0x9f, 0x00}, "negative"},
+                                                  {{0xff, 0xff, 0xff}, "zero"},
+                                                  {{0x00, 0x72, 0xb2}, "positive"},
+                                                  {{0x20, 0x20, 0x20}, "no answer"}}};
+
+/// PNG; y grows upwards.
+Result<std::string> png_of(const SignPicture& p) {
+    constexpr std::size_t side = SignPicture::side;
+    std::vector<std::uint8_t> pixels(side * side);
+    for (std::size_t row = 0; row < side; ++row) {
+        for (std::size_t i = 0; i < side; ++i)
+            pixels[row * side + i] = static_cast<std::uint8_t>(p.signs[(side - 1 - row) * side + i] + 1);
+    }
+    std::array<io::Colour, sign_colours.size()> colours{};
+    std::transform(sign_colours.begin(), sign_colours.end(), colours.begin(), [](const auto& c) { return c.colour; });
+    return io::indexed_png(side, pixels, colours);
+}
+
+/// Pictures that are the same, in the order of the first.
+struct SameSigns {
+    const SignPicture* picture = nullptr;
+    std::vector<std::string> kernels;  ///< without the exact picture's empty name
+};
+
+std::vector<SameSigns> grouped_pictures(const std::vector<const SignPicture*>& pictures) {
+    std::vector<SameSigns> groups;
+    for (const SignPicture* p : pictures) {
+        auto same = std::find_if(groups.begin(), groups.end(),
+                                 [&](const SameSigns& g) { return g.picture->signs == p->signs; });
+        if (same == groups.end()) same = groups.insert(groups.end(), {p, {}});
+        if (!p->kernel.empty()) same->kernels.push_back(p->kernel);
+    }
+    return groups;
+}
+
+Result<std::string> figure_of_signs(const SameSigns& group) {
+    const Result<std::string> png = png_of(*group.picture);
+    if (!png) return png.error();
+    const bool exact = group.picture->kernel.empty();
+    const std::string names = html_escaped(fmt::format("{}", fmt::join(group.kernels, ", ")));
+    const auto all = static_cast<std::uint64_t>(SignPicture::side) * SignPicture::side;
+    const std::string caption =
+        exact ? "<b>exact</b>" + (names.empty() ? "" : "; the same: " + names)
+              : fmt::format("{}<br/><b>{} %</b> wrong", names, percent(group.picture->wrong, all));
+    return fmt::format(
+        "<figure{}><img alt=\"Signs on the grid: {}, {} of {} points wrong\" src=\"{}\" width=\"256\" "
+        "height=\"256\"/><figcaption>{}</figcaption></figure>\n",
+        exact ? " class=\"exact\"" : "", exact ? "exact" : names, group.picture->wrong, all,
+        data_uri("image/png", *png), caption);
+}
+
+/// Colours by the power of ten of an error, the darker the larger; and those without.
+class MapScale {
+public:
+    static constexpr std::uint8_t beside = 0, right = 1, unanswered = 2, first = 3;
+
+    explicit MapScale(const MeshMap& map) {
+        for (const MeshMap::OfKernel& k : map.kernels) {
+            for (const double e : k.errors) {
+                if (!(e > 0) || std::isinf(e)) continue;
+                low_ = std::min(low_, decade(e));
+                high_ = std::max(high_, decade(e));
+            }
+        }
+        for (int d = low_; d <= high_; ++d) {
+            const int span = std::max(high_ - low_, 1);
+            colours_.push_back(io::colour(io::colour_count - 1 - (io::colour_count - 1) * (d - low_) / span));
+        }
+    }
+
+    std::uint8_t index_of(double error) const {
+        if (error < 0) return beside;
+        if (error == 0) return right;
+        if (std::isinf(error)) return unanswered;
+        return static_cast<std::uint8_t>(first + decade(error) - low_);
+    }
+
+    const std::vector<io::Colour>& colours() const { return colours_; }
+
+    /// A swatch for each colour of errors.
+    std::string key() const {
+        std::string out = swatch(colours_[right], "no error");
+        for (int d = low_; d <= high_; ++d)
+            out += swatch(colours_[static_cast<std::size_t>(first + d - low_)], fmt::format("&lt; 1e{}", d + 1));
+        return out + swatch(colours_[unanswered], "no finite answer");
+    }
+
+private:
+    /// The power of ten at or below it: as many as fit the colours of a picture, from far below an ulp of 1 on.
+    static int decade(double error) { return std::clamp(static_cast<int>(std::floor(std::log10(error))), -40, 60); }
+    std::vector<io::Colour> colours_{{0xc4, 0xcb, 0xd1}, {0xff, 0xff, 0xff}, {0xc8, 0x10, 0x2e}};
+    int low_ = std::numeric_limits<int>::max(), high_ = std::numeric_limits<int>::min();
+};
+
+Result<std::string> map_figure(const MeshMap& map, const MeshMap::OfKernel& k, const MapScale& scale) {
+    std::vector<std::uint8_t> pixels;
+    for (const std::int32_t p : map.pixels)
+        pixels.push_back(p < 0 ? MapScale::beside : scale.index_of(k.errors[static_cast<std::size_t>(p)]));
+    const Result<std::string> png = io::indexed_png(map.width, pixels, scale.colours());
+    if (!png) return png.error();
+    const auto worst = static_cast<std::size_t>(std::max_element(k.errors.begin(), k.errors.end()) - k.errors.begin());
+    const double largest = k.errors[worst];
+    const std::string name = html_escaped(base::printable(k.kernel));
+    const std::string error =
+        largest < 0           ? "given up"
+        : largest == 0        ? "no error"
+        : std::isinf(largest) ? fmt::format("no finite answer in cell {}", map.cells[worst])
+                              : fmt::format("largest error <b>{}</b>, in cell {}", brief(largest), map.cells[worst]);
+    return fmt::format(
+        "<figure><img alt=\"Largest error of {} in each cell\" src=\"{}\" width=\"{}\" height=\"{}\"/>"
+        "<figcaption>{}<br/>{}; {} % of the points wrong</figcaption></figure>\n",
+        name, data_uri("image/png", *png), map.width, map.height, name, error, percent(k.wrong, k.cases));
+}
+
+std::string what_is_seen(const MeshMap& map) {
+    constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+    const auto range = [&](int axis, std::size_t side) {
+        return fmt::format("{} from {:.6g} to {:.6g}", axes[static_cast<std::size_t>(axis)], map.low[side],
+                           map.high[side]);
+    };
+    const std::string across = range(map.axis == 0 ? 1 : 0, 0), up = range(map.axis < 0 || map.axis == 2 ? 1 : 2, 1);
+    const std::string section =
+        map.axis < 0 ? "the mesh"
+                     : fmt::format("section at {} = {:.6g}", axes[static_cast<std::size_t>(map.axis)], map.at);
+    return fmt::format("{}, {} to the right, {} upwards; {} cells are seen", section, across, up, map.cells.size());
+}
+
+}  // namespace
+
+Result<std::string> sign_figures(const std::vector<SignPicture>& pictures) {
+    if (pictures.empty()) return std::string();
+    std::string out =
+        "<h2>Pictures of signs</h2>\n<p class=\"small\">What a kernel says of 256 × 256 neighbouring points beside a "
+        "side on the diagonal: the sign of one weight, at points 2⁻⁵³ apart around (1/2, 1/2), the side from 12 to 24 "
+        "(after Kettner, Mehlhorn, Pion, Schirra and Yap, 2008).</p>\n<p class=\"small key\">";
+    for (const SignColour& c : sign_colours) out += swatch(c.colour, c.text);
+    out += "</p>\n";
+    for (const SignPicture& exact : pictures) {
+        if (!exact.kernel.empty()) continue;
+        std::vector<const SignPicture*> kind;
+        for (const SignPicture& p : pictures) {
+            if (p.simplex == exact.simplex && p.perspective == exact.perspective) kind.push_back(&p);
+        }
+        out += fmt::format("<h3>{}{}</h3>\n<div class=\"signs\">\n", name(exact.simplex),
+                           exact.perspective ? ", perspective" : "");
+        for (const SameSigns& group : grouped_pictures(kind)) {
+            const Result<std::string> figure = figure_of_signs(group);
+            if (!figure) return figure.error();
+            out += *figure;
+        }
+        out += "</div>\n";
+    }
+    return out;
+}
+
+Result<std::string> map_figures(const AuditReport& r, const std::vector<MeshMap>& maps) {
+    if (maps.empty()) return std::string();
+    std::string out = fmt::format(
+        "<h2>Maps of the {}</h2>\n<p class=\"small\">Cells by the largest error of a weight in them, at a point "
+        "inside, "
+        "at points computed on the facets, and at points an ulp beside these; relative to 1 or to the largest weight. "
+        "Grey: beside the mesh.{}</p>\n",
+        maps.size() == 1 ? "mesh" : "meshes",
+        maps.size() < r.meshes.size()
+            ? fmt::format(" Of {} of {} meshes: name others to see them.", maps.size(), r.meshes.size())
+            : "");
+    for (const MeshMap& map : maps) {
+        out += fmt::format("<h3>{}</h3>\n", html_escaped(base::printable(map.mesh)));
+        if (!map.why_not.empty()) {
+            out += fmt::format("<p>No map: {}</p>\n", html_escaped(map.why_not));
+            continue;
+        }
+        const MapScale scale(map);
+        out += fmt::format(
+            "<p class=\"small\">{}.{}</p>\n<p class=\"small key\">{}</p>\n<div class=\"maps\">\n", what_is_seen(map),
+            map.left_out == 0 ? ""
+                              : fmt::format(" {} of {} kernels, worst first, without variants; others: --kernel NAME.",
+                                            map.kernels.size(), map.kernels.size() + map.left_out),
+            scale.key());
+        for (const MeshMap::OfKernel& k : map.kernels) {
+            const Result<std::string> figure = map_figure(map, k, scale);
+            if (!figure) return figure.error();
+            out += *figure;
+        }
+        out += "</div>\n";
+    }
+    return out;
+}
+
+}  // namespace barycert::report

@@ -1,0 +1,150 @@
+// Gaps and overlaps between the cells of a mesh.
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "barycert/audit_report.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert {
+
+using namespace report;
+
+namespace {
+
+std::string number_list(const std::vector<Mesh::Index>& numbers) {
+    if (numbers.empty()) return "none";
+    std::string text;
+    for (std::size_t i = 0; i < numbers.size() && i < 8; ++i) text += (i == 0 ? "" : " ") + std::to_string(numbers[i]);
+    return numbers.size() > 8 ? text + fmt::format(" and {} more", numbers.size() - 8) : text;
+}
+
+void tell_table(Document& d, const GapsReport& r) {
+    Listing table{.columns = {{"kernel", true, 16},
+                              {"rule", true, 8, 2},
+                              {"inside", false, 6},
+                              {"gaps", false, 6},
+                              {"several", false, 7},
+                              {"wrong", false, 6},
+                              {"first", false, 6},
+                              {"outside", false, 7},
+                              {"claimed", false, 7}}};
+    for (const ClaimResult& of : r.results) {
+        const ClaimCounts c = of.total();
+        const auto n = [&](ClaimFault f) { return brief_count(c.of(f)); };
+        table.rows.push_back({{of.kernel.empty() ? "exact arithmetic" : of.kernel, std::string(name(of.rule)),
+                               brief_count(c.inside), n(ClaimFault::gap), n(ClaimFault::several), n(ClaimFault::wrong),
+                               n(ClaimFault::wrong_first), brief_count(c.outside), n(ClaimFault::outside_claimed)}});
+    }
+    d.part();
+    d.add(std::move(table));
+    d.say(fmt::format(
+              "rule: a cell claims a point if all weights are > 0 (strict), >= 0 (exact), >= -{} (tolerant), or by the",
+              base::shortest(r.tolerance)),
+          Tone::soft);
+    for (const char* line :
+         {"kernel's own rule. inside: points that a cell holds, exactly; of these gaps: no cell claims it; several:",
+          "more than one does (right where it lies on what they share: see exact arithmetic); wrong: one that does not",
+          "hold it; first: the lowest of those that claim it does not hold it. outside: points that no cell holds, of",
+          "these claimed: by a cell."})
+        d.say(line, Tone::soft);
+}
+
+void tell_points(Document& d, const GapsReport& r) {
+    bool first = true;
+    for (const ClaimResult& of : r.results) {
+        // The other rules have such points by their nature; the JSON names them.
+        if (of.kernel.empty() || of.rule == ClaimRule::strict || of.rule == ClaimRule::tolerant) continue;
+        Item item{.title = of.kernel, .text = fmt::format(", {}", name(of.rule))};
+        for (const auto& [fault, w] : of.witnesses) {
+            if (fault == ClaimFault::several || fault == ClaimFault::wrong_first) continue;
+            std::string at;
+            for (int axis = 0; axis < r.dimension; ++axis)
+                at += (axis == 0 ? "" : ", ") + base::shortest(w.point[static_cast<std::size_t>(axis)]);
+            item.lines.push_back({fmt::format("{}: ({}), made on the {} of nodes {}", name(fault), at, name(w.feature),
+                                              number_list(w.nodes))});
+            item.lines.push_back(
+                {fmt::format("    held by {}, claimed by {}", number_list(w.holders), number_list(w.claimants))});
+        }
+        if (item.lines.empty()) continue;
+        if (std::exchange(first, false)) d.section("The first point of each fault:");
+        d.add(std::move(item));
+    }
+}
+
+void put_claims(Json& j, const ClaimCounts& c) {
+    put(j, "inside", c.inside);
+    for (std::size_t f = 0; f + 1 < claim_fault_count; ++f)
+        put(j, name(static_cast<ClaimFault>(f)), c.of(static_cast<ClaimFault>(f)));
+    put(j, "outside", c.outside, name(ClaimFault::outside_claimed), c.of(ClaimFault::outside_claimed));
+}
+
+Json claims_json(const ClaimResult& r, int dimension) {
+    Json j =
+        record("kernel", r.kernel.empty() ? Json() : Json(r.kernel), "rule", name(r.rule), "unanswered", r.unanswered);
+    put_claims(j, r.total());
+    j["features"] = Json::array();
+    for (std::size_t f = 0; f < 3; ++f) {
+        if (dimension == 2 && claim_features[f] == Feature::face) continue;
+        Json part = record("feature", name(claim_features[f]));
+        put_claims(part, r.by_feature[f]);
+        j["features"].push_back(std::move(part));
+    }
+    put(j, "witnesses", list(r.witnesses, [&](const auto& of) {
+            const auto& [fault, w] = of;
+            Json point = Json::array();
+            for (int axis = 0; axis < dimension; ++axis)
+                point.push_back(base::hexadecimal(w.point[static_cast<std::size_t>(axis)]));
+            return record("fault", name(fault), "feature", name(w.feature), "index", w.index, "nodes", w.nodes, "point",
+                          point, "holders", w.holders, "claimants", w.claimants);
+        }));
+    return j;
+}
+
+Document gaps_document(const GapsReport& r) {
+    Document d;
+    d.indent = 1;
+    d.curved(r.curved);
+    d.say(environment_line(r.environment));
+    const char* const known = r.verdict == Verdict::certified       ? "certified to be a partition"
+                              : r.verdict == Verdict::not_certified ? "NOT certified to be a partition"
+                                                                    : "not checked";
+    d.say(fmt::format("{}, {}{}; seed {}, {} points on {} each, {} threads, {:.1f} s", r.mesh, known,
+                      for_straight_sides(r.curved), r.seed, r.count,
+                      r.dimension == 2 ? "edges and vertices" : "faces, edges and vertices", r.threads, r.seconds));
+    d.say(oracle_line(r.oracles));
+    tell_table(d, r);
+    for (const ClaimResult& of : r.results) {
+        if (of.unanswered == 0 || of.rule != ClaimRule::exact) continue;  // the same under each rule
+        d.say(
+            fmt::format("{} gave no answer to {} pairs of point and cell (it ended, took too long, or was no longer "
+                        "asked for",
+                        of.kernel, of.unanswered));
+        d.say("that): the cell does not claim the point then.");
+    }
+    tell_points(d, r);
+    d.data = record("schema", audit_schema, "environment", environment_json(r.environment), "mesh", r.mesh, "curved",
+                    curved_json(r.curved), "verdict", name(r.verdict), "dimension", r.dimension, "seed", r.seed,
+                    "count", r.count, "threads", r.threads, "tolerance", r.tolerance, "oracles",
+                    oracles_json(OracleChoice::automatic, r.oracles), "seconds", r.seconds, "results",
+                    list(r.results, [&](const ClaimResult& of) { return claims_json(of, r.dimension); }));
+    return d;
+}
+
+}  // namespace
+
+std::string gaps_text(const GapsReport& report, const TerminalStyle& style) {
+    const ExactEnvironment environment;
+    return terminal_text(gaps_document(report), style.colour);
+}
+
+std::string gaps_json(const GapsReport& report) {
+    const ExactEnvironment environment;
+    return data_text(gaps_document(report));
+}
+
+}  // namespace barycert

@@ -1,0 +1,197 @@
+// A worst-case search, and the mutation score of the families.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "barycert/audit/witness_json.hpp"
+#include "barycert/audit_report.hpp"
+#include "barycert/audit_search.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert {
+
+using namespace report;
+
+namespace {
+
+std::string numbers(int count, auto at) {
+    std::string out;
+    for (int axis = 0; axis < count; ++axis) out += (axis == 0 ? "" : ", ") + base::shortest(at(axis));
+    return out;
+}
+
+/// The case in decimal, a vertex a line, and how to see what kernels make of it.
+Item plain_case(const SearchReport& report, const SearchFind& f, const TerminalStyle& style) {
+    const Case& c = f.plain.c;
+    Item item{.title = f.reason};
+    if (!f.plain.detail.empty()) item.lines.push_back({f.plain.detail});
+    for (int i = 0; i < vertex_count(c.simplex); ++i)
+        item.lines.push_back({fmt::format("v{}  {}", i, numbers(c.stride(), [&](int k) { return c.vertex(i, k); }))});
+    item.lines.push_back(
+        {"p   " + numbers(space_dimension(c.simplex), [&](int k) { return c.point[static_cast<std::size_t>(k)]; })});
+    if (!style.witness_path.empty()) item.lines.push_back({replay_from_file(report.kernel.name, f.reason, style)});
+    return item;
+}
+
+void tell_finds(Document& d, const SearchReport& r, const TerminalStyle& style) {
+    d.say(fmt::format(
+        "wrong: {} % of the cases met on the way (no measure of how often: the search goes where faults are)",
+        percent(r.wrong_cases, r.steps)));
+    Listing table{.columns = {{"\nfault", true, 21},
+                              {"\ncases", false, 7},
+                              {"worst:\nrelative", false, 9},
+                              {"ulps of\na weight", false, 9},
+                              {"plainest:\nrelative", false, 9, 3},
+                              {"ulps of\na weight", false, 9},
+                              {"\nbits", false, 5}}};
+    for (const SearchFind& f : r.finds)
+        table.rows.push_back(
+            {{f.reason, brief_count(f.cases), brief(f.relative_error), brief(f.weight_ulp),
+              brief(f.plain_relative_error), brief(f.plain_weight_ulp), std::to_string(f.plain_bits)}});
+    d.part();
+    d.add(std::move(table));
+    d.say("relative: error of a weight over the largest exact weight. plainest: the same fault on coordinates of the",
+          Tone::soft);
+    d.say("fewest significant bits (of an error: at least 1/1024 of it); bits: of all its coordinates together.",
+          Tone::soft);
+    for (const SearchFind& f : r.finds) {
+        d.part();
+        d.add(plain_case(r, f, style));
+    }
+}
+
+Document search_document(const SearchReport& r, const TerminalStyle& style) {
+    Document d;
+    d.indent = 1;
+    d.say(environment_line(r.environment));
+    d.say(fmt::format("{}: {} cases in {} walks, seed {}, exponents {} to {}, {:.1f} s", r.kernel.name, r.steps,
+                      r.walks, r.seed, r.min_exponent, r.max_exponent, r.seconds));
+    if (r.stopped)
+        d.say(fmt::format("stopped before {} cases: another run may find something else", r.steps_asked), Tone::bad);
+    if (r.given_up)
+        d.say(fmt::format("given up before {} cases: it crashed or gave no answer too often", r.steps_asked),
+              Tone::bad);
+    if (r.finds.empty())
+        d.say("no fault and no error found", Tone::good);
+    else
+        tell_finds(d, r, style);
+    d.data = record(
+        "schema", audit_schema, "environment", environment_json(r.environment), "kernel", r.kernel.name, "seed", r.seed,
+        "steps_asked", r.steps_asked, "steps", r.steps, "walks", r.walks, "plain_steps", r.plain_steps, "min_exponent",
+        r.min_exponent, "max_exponent", r.max_exponent, "threads", r.threads, "seconds", r.seconds, "stopped",
+        r.stopped, "given_up", r.given_up, "wrong_cases", r.wrong_cases, "finds",
+        list(r.finds,
+             [](const SearchFind& f) {
+                 return record("reason", f.reason, "cases", f.cases, "weight_ulp", magnitude(f.weight_ulp),
+                               "relative_error", magnitude(f.relative_error), "found", audit::witness_json(f.found),
+                               "plain_weight_ulp", magnitude(f.plain_weight_ulp), "plain_relative_error",
+                               magnitude(f.plain_relative_error), "plain_bits", f.plain_bits);
+             }),
+        "witnesses", list(r.finds, [](const SearchFind& f) { return audit::witness_json(f.plain); }));
+    return d;
+}
+
+void tell_mutants(Document& d, const MutantReport& r) {
+    const auto figure_text = [](const std::string& name, double x) {
+        return name.find("ulp") == std::string::npos ? brief_count(static_cast<std::uint64_t>(std::max(x, 0.0)))
+                                                     : brief(x);
+    };
+    Listing table{.columns = {{"mutant", true, 6},
+                              {"families", false, 8},
+                              {"most telling", true, 24, 2},
+                              {"by", true, 17},
+                              {"sound", false, 9},
+                              {"mutant", false, 9}}};
+    for (const MutantResult& m : r.mutants) {
+        Row row{{m.mutant.kernel.name, fmt::format("{}/{}", m.catches.size(), m.families)}};
+        if (m.catches.empty()) {
+            row.cells.emplace_back("not caught");
+            row.tone = Tone::bad;
+        } else {
+            const MutantCatch& c = m.catches.front();
+            for (const std::string& text :
+                 {c.family, c.figure, figure_text(c.figure, c.sound), figure_text(c.figure, c.mutant)})
+                row.cells.emplace_back(text);
+        }
+        table.rows.push_back(std::move(row));
+    }
+    d.add(std::move(table));
+    d.say("families: in which the mutant does worse than the sound kernel on the same cases: more wrong cases, or an",
+          Tone::soft);
+    d.say("error more than twice as large. by: the figure that tells it, of the sound kernel and of the mutant.",
+          Tone::soft);
+}
+
+/// Each family and how many mutants it catches, most first; those with one alone say which.
+void tell_catches(Document& d, const MutantReport& r) {
+    std::map<std::string, std::vector<const MutantResult*>> by_family;
+    for (const MutantResult& m : r.mutants) {
+        for (const MutantCatch& c : m.catches) by_family[c.family].push_back(&m);
+    }
+    std::vector<std::pair<std::string, std::vector<const MutantResult*>>> all(by_family.begin(), by_family.end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+    Listing table{.columns = {{"family", true, 24}, {"catches", false, 4}, {"", true, 0, 2}}};
+    for (const auto& [family, caught] : all) {
+        std::string alone;
+        for (const MutantResult* m : caught) {
+            if (m->catches.size() == 1) alone += (alone.empty() ? "alone: " : ", ") + m->mutant.kernel.name;
+        }
+        table.rows.push_back({{family, std::to_string(caught.size()), alone}});
+    }
+    d.part();
+    d.add(std::move(table));
+}
+
+Document mutants_document(const MutantReport& r) {
+    Document d;
+    d.indent = 1;
+    d.say(environment_line(r.environment));
+    const std::uint64_t caught = r.caught(), all = r.mutants.size();
+    d.say(fmt::format("{} of {} mutants caught; seed {}, {} cases per family and simplex, {:.1f} s", caught, all,
+                      r.seed, r.count, r.seconds),
+          caught == all ? Tone::good : Tone::bad);
+    d.part();
+    tell_mutants(d, r);
+    tell_catches(d, r);
+    d.data = record("schema", audit_schema, "environment", environment_json(r.environment), "seed", r.seed, "count",
+                    r.count, "threads", r.threads, "seconds", r.seconds, "caught", caught, "mutants",
+                    list(r.mutants, [](const MutantResult& m) {
+                        return record("name", m.mutant.kernel.name, "sound", m.mutant.sound.name, "fault",
+                                      m.mutant.fault, "change", m.mutant.change, "families", m.families, "catches",
+                                      list(m.catches, [](const MutantCatch& c) {
+                                          return record("family", c.family, "figure", c.figure, "sound_figure",
+                                                        magnitude(c.sound), "mutant_figure", magnitude(c.mutant));
+                                      }));
+                    }));
+    return d;
+}
+
+}  // namespace
+
+std::string search_text(const SearchReport& report, const TerminalStyle& style) {
+    const ExactEnvironment environment;
+    return terminal_text(search_document(report, style), style.colour);
+}
+
+std::string search_json(const SearchReport& report) {
+    const ExactEnvironment environment;
+    return data_text(search_document(report, {}));
+}
+
+std::string mutants_text(const MutantReport& report, const TerminalStyle& style) {
+    const ExactEnvironment environment;
+    return terminal_text(mutants_document(report), style.colour);
+}
+
+std::string mutants_json(const MutantReport& report) {
+    const ExactEnvironment environment;
+    return data_text(mutants_document(report));
+}
+
+}  // namespace barycert

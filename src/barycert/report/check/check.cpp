@@ -1,0 +1,332 @@
+// What a check of a mesh found, for people, and for systems that run it.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report.hpp"
+#include "barycert/report/check/check_pictures.hpp"
+#include "barycert/report/check/check_words.hpp"
+#include "barycert/report/common/document.hpp"
+
+namespace barycert {
+
+using namespace report;
+
+namespace {
+
+/// On a page, however many the report holds: it stays small, and --json has them all.
+constexpr std::size_t max_contacts = 8;
+
+void tell_verdict(Document& d, const CheckReport& r, const std::string& name) {
+    const std::string of(for_straight_sides(r.curved));
+    if (r.certified()) {
+        if (r.cells == 0) return d.add(Headline{Tone::good, name, "certified, trivially: the mesh has no cells"});
+        const std::string how = r.curved.cells == 0 ? "in exact arithmetic: any two " : "exactly: any two straight ";
+        return d.add(
+            Headline{Tone::good,
+                     name,
+                     "certified" + of,
+                     {fmt::format("{} {} a domain of {}", counted(r.cells, "cell"), r.cells == 1 ? "is" : "partition",
+                                  domain_text(r))},
+                     {fmt::format("Proved {}cells meet in a common face or not at all. No overlap, no gap.", how)}});
+    }
+    // Overlaps first: they matter most. An open boundary follows from other defects, if there are any.
+    std::vector<std::string> reasons;
+    bool files_only = true;
+    for (const Defect& f : r.defects) {
+        if (!defect_text(f.kind).breaks) continue;
+        files_only = files_only && defect_text(f.kind).condition == "P5";
+        if (f.kind != DefectKind::open_boundary)
+            reasons.insert(f.kind == DefectKind::overlapping_cells ? reasons.begin() : reasons.end(), reason(f));
+    }
+    const Defect* const open = r.find(DefectKind::open_boundary);
+    if (reasons.empty() && open != nullptr) reasons.push_back(reason(*open));
+    d.add(Headline{Tone::bad, name, "NOT certified", std::move(reasons)});
+    d.say(r.find(DefectKind::bad_structure) != nullptr
+              ? "The arrays of the mesh do not make cells: nothing else was checked."
+          : files_only ? "The cells partition a domain, but other arrays of the mesh do not fit them."
+                       : "The cells do not partition a domain.",
+          Tone::plain, For::page);
+}
+
+/// What must hold, and how often it does not.
+void tell_conditions(Document& d, const CheckReport& r, const Mesh& mesh) {
+    Listing table{.columns = {{"condition", true, 75}, {"violations", false, 12}}};
+    for (const ConditionRow& row : condition_rows(r, mesh)) {
+        const std::string what =
+            row.count != 0 ? (row.at_least ? ">= " : "") + std::to_string(row.count) : std::string(row.instead);
+        table.rows.push_back({{fmt::format("{:<3} {}", row.name, row.text), what},
+                              row.count != 0 ? Tone::bad
+                              : what == "ok" ? Tone::good
+                                             : Tone::plain});
+    }
+    d.part("What was checked");
+    d.add(std::move(table));
+    if (std::any_of(r.defects.begin(), r.defects.end(), leaves_cells_out))
+        d.say("P2 to P5 leave out cells with an invalid index, a non-finite coordinate or a repeated node.");
+}
+
+/// The listed places of a defect. Where each is just one cell or one node, "cells" or "nodes" is said once.
+Item::Places places_of(const CheckReport& r, const Defect& f) {
+    const auto plain = [&](bool cells) {
+        return std::all_of(f.places.begin(), f.places.end(), [&](const DefectPlace& p) {
+            const auto alone = [](const auto& all) { return all[0] >= 0 && (all[1] < 0 || all[1] == all[0]); };
+            return *p.detail == '\0' && (cells ? alone(p.cells) && p.nodes[0] < 0 : alone(p.nodes) && p.cells[0] < 0);
+        });
+    };
+    const bool cells = plain(true), nodes = !cells && plain(false);
+    Item::Places all{.count = f.count, .at_least = f.at_least, .between = cells || nodes ? ',' : ';'};
+    for (const DefectPlace& p : f.places) {
+        std::string text = place_text(r, f.kind, p);
+        if (cells || nodes) {
+            const std::string number = text.substr(text.find(' ') + 1);
+            const std::string what = cells ? "cell" : "node";
+            text = all.shown.empty() ? fmt::format("{}{} {}", what, f.places.size() > 1 ? "s" : "", number) : number;
+        }
+        all.shown.push_back(std::move(text));
+    }
+    return all;
+}
+
+void tell_defects(Document& d, const CheckReport& r, bool breaking, const std::string& heading) {
+    bool first = true;
+    for (const Defect& f : r.defects) {
+        if (f.breaks() != breaking) continue;
+        if (std::exchange(first, false)) d.section(heading);
+        const DefectText& t = defect_text(f.kind);
+        Item item{.title = fmt::format("{:<18}", t.name),
+                  .text = fmt::format(" {:>11}  {}", (f.at_least ? ">= " : "") + std::to_string(f.count), t.text),
+                  .lines = {{.places = places_of(r, f)}}};
+        if (f.curved_cells != 0) item.lines.push_back({curved_text(f)});
+        // That remedy repairs no folded cell.
+        const bool folded = f.kind == DefectKind::mixed_orientation && r.find(DefectKind::same_side) != nullptr;
+        if (!f.remedy().empty())
+            item.lines.push_back(
+                {fmt::format("-> {}{}", f.remedy(), folded ? "; this does not repair folded cells" : "")});
+        d.add(std::move(item));
+    }
+}
+
+/// A fraction of at most 80 characters, or its ends and its length: they grow with the widths of coordinates, up to
+/// thousands of digits.
+std::string shortened(const std::string& fraction, bool& cut) {
+    constexpr std::size_t longest = 80, end = 24;
+    if (fraction.size() <= longest) return fraction;
+    cut = true;
+    return fmt::format("{}...{} ({} characters)", fraction.substr(0, end), fraction.substr(fraction.size() - end),
+                       fraction.size());
+}
+
+void tell_contacts(Document& d, const CheckReport& r) {
+    if (r.contacts.empty()) return;
+    d.section(counted(r.contacts.size(), "pair") + " of cells that meet where they must not, each with a common point");
+    bool cut = false;
+    for (std::size_t i = 0; i < r.contacts.size(); ++i) {
+        const CellContact& c = r.contacts[i];
+        static constexpr std::array<std::string_view, 3> extents{"touch in a point", "touch along a segment",
+                                                                 "touch in an area"};
+        const auto cells = r.cell_number(c.cells);
+        std::vector<std::string> decimal, hex;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
+            decimal.push_back(base::shortest(c.common.point[k]));
+            hex.push_back(base::hexadecimal(c.common.point[k]));
+        }
+        Item item{.title = {},
+                  .text = fmt::format(
+                      "cells {} and {} {}:", cells[0], cells[1],
+                      c.overlap ? "overlap" : extents[static_cast<std::size_t>(std::clamp(c.dimension, 0, 2))])};
+        const std::string point = fmt::format("({}){}", fmt::join(decimal, ", "), c.common.exact ? "" : ", rounded");
+        if (item.text.size() + 1 + point.size() <= 100)
+            item.text += " " + point;
+        else
+            item.lines.push_back({point});
+        if (c.common.exact) item.lines.push_back({fmt::format("({})", fmt::join(hex, ", "))});
+        for (std::size_t k = 0; !c.common.exact && k < static_cast<std::size_t>(r.dimension); ++k)
+            item.lines.push_back({fmt::format("{} = {}", "xyz"[k], shortened(c.common.fraction[k], cut))});
+        d.add(std::move(item), i < max_contacts ? For::all : For::terminal);
+    }
+    if (r.contacts.size() > max_contacts)
+        d.say(fmt::format("And {} more, which --json FILE lists.", r.contacts.size() - max_contacts), Tone::soft,
+              For::page);
+    if (cut) d.say("--json FILE writes the fractions in full.");
+}
+
+void tell_whole_mesh(Document& d, const CheckReport& r) {
+    const BoundaryReport& b = r.boundary;
+    const std::string size = r.dimension == 2 ? "area" : "volume";
+    d.part("Cells and boundary");
+    d.add(Named{"mesh",
+                {counted(r.cells, r.dimension == 2 ? "triangle" : "tetrahedron",
+                         r.dimension == 2 ? "triangles" : "tetrahedra") +
+                 ", " + counted(r.nodes, "node")}},
+          For::page);
+    d.name("cells", fmt::format("{} positive, {} negative, {} degenerate, by the exact sign of the {}", r.positive,
+                                r.negative, r.degenerate, size));
+    std::string domain = domain_text(r);
+    if (!b.cavities)
+        domain += fmt::format("; {} are not counted where the boundary is {}",
+                              r.dimension == 2 ? "holes" : "cavities and tunnels",
+                              b.closed ? "pinched along a ridge" : "open");
+    d.name("domain", domain);
+    d.name("boundary",
+           fmt::format("{} in {}, {}, {}", counted(b.facets, "facet"), counted(b.pieces, "piece"),
+                       b.closed ? "closed" : "NOT closed", b.manifold ? "manifold" : "touching itself (not manifold)"));
+    d.name(size, fmt::format("{} in the cells, {} inside the boundary: {}", base::shortest(r.volume.cells),
+                             base::shortest(r.volume.boundary),
+                             !r.volume.equal ? "NOT equal"
+                             : r.certified() ? "exactly equal"
+                                             : "equal, no proof"));
+    if (r.delaunay) d.add(Named{"Delaunay", delaunay_sentences(r)});
+    if (r.conformity) d.add(Named{"PLC", conformity_sentences(r, 40)}, For::terminal);
+    if (r.conformity) d.add(Named{"PLC", conformity_sentences(r, 400)}, For::page);
+}
+
+void tell_measures(Document& d, const CheckReport& r) {
+    const auto rounded = [](double x) { return fmt::format("{:.4g}", x == 0 ? 0.0 : x); };
+    Listing table{.columns = {{"measure of a cell", true, 31},
+                              {"min", false, 11},
+                              {"median", false, 11},
+                              {"max", false, 11},
+                              {"worst cell", false, 11}}};
+    for (const Measure& m : measures_of(r)) {
+        const Distribution x = distribution(m.values);
+        table.rows.push_back(x.min_cell < 0
+                                 ? Row{{m.name, {"-"}, {"-"}, {"-"}, {"-"}}}
+                                 : Row{{m.name, rounded(x.min), rounded(x.median), rounded(x.max),
+                                        std::to_string(r.cell_number(m.max_is_worst ? x.max_cell : x.min_cell))}});
+    }
+    d.part("Shapes and sizes of the cells");
+    d.add(std::move(table));
+    d.say("Bits: log2 of the condition number; of the 53 bits of a double, plain weights may lose so many.",
+          Tone::soft);
+}
+
+Document fix_document(const FixedMesh& fixed) {
+    Document d;
+    d.section("Repaired copy: " + fixed.file);
+    for (const std::string& line : fix_sentences(fixed)) d.say(line);
+    tell_verdict(d, fixed.after, fixed.file);
+    if (!fixed.after.certified()) tell_defects(d, fixed.after, true, "What remains in the copy");
+    return d;
+}
+
+Document check_document(const CheckReport& r, const Mesh& mesh, const std::string& name, const FixedMesh* fixed) {
+    Document d;
+    d.title = name + (r.certified() ? fmt::format(": certified{}", for_straight_sides(r.curved)) : ": NOT certified");
+    d.heading = "Mesh certificate of " + name;
+    d.style = check_style;
+    // Without a structure there is nothing that could be drawn.
+    const bool drawn = r.find(DefectKind::bad_structure) == nullptr && r.cells != 0 &&
+                       r.measures.volume.size() == r.cells && mesh.dimension == r.dimension &&
+                       mesh.cell_count() == r.cells;
+    d.curved(r.curved);
+    tell_verdict(d, r, name);
+    if (!r.defects.empty() || r.cells != 0)
+        d.say(fmt::format("Cells and nodes are numbered from 0 in file order{}{}.",
+                          r.cell_numbers.empty() ? "" : ", cells that were left out included",
+                          mesh.index_base == 1 ? " (the file itself numbers from 1)" : ""));
+    tell_conditions(d, r, mesh);
+    tell_defects(d, r, true, "Defects and remedies");
+    if (fixed != nullptr) {
+        for (Document::Block& block : fix_document(*fixed).blocks) d.add(std::move(block.content), For::page);
+    }
+    if (drawn) d.add(Pictures{[&r, &mesh] { return exhibits(r, mesh); }}, For::page);
+    tell_contacts(d, r);
+    if (r.cells != 0) {
+        tell_whole_mesh(d, r);
+        tell_measures(d, r);
+    }
+    if (drawn) d.add(Pictures{[&r] { return histograms(r); }}, For::page);
+    tell_defects(d, r, false, "Notes: these do not affect the certificate");
+    std::vector<std::string> notes;
+    for (const Note& note : r.notes) notes.push_back(message(note));
+    for (const NotFinite& field : r.not_finite) notes.push_back(not_finite_text(field));
+    if (!notes.empty()) {
+        d.part("The files");
+        d.add(Named{"read", std::move(notes)});
+    }
+    const std::string checked =
+        fmt::format("{}, {}; checked in {:.3g} s on {}", counted(r.nodes, "node"), counted(r.cells, "cell"), r.seconds,
+                    counted(static_cast<std::uint64_t>(r.threads), "thread"));
+    d.part();
+    d.say(checked, Tone::plain, For::terminal);
+    d.footer = fmt::format(
+        "Made by barycert {} check: {}. Signs, counts, contacts and the verdict are exact; angles and ratios are plain "
+        "double precision.",
+        measure_environment().version, checked);
+    return d;
+}
+
+/// "40 text: place; place; and 38 more. Remedy: remedy".
+std::string defect_message(const CheckReport& r, const Defect& d) {
+    constexpr std::size_t most_places = 10;
+    std::string places;
+    std::size_t shown = 0;
+    for (const DefectPlace& place : d.places) {
+        const std::string text = place_text(r, d.kind, place);
+        if (text.empty() || shown == most_places) continue;
+        places += (shown++ == 0 ? ": " : "; ") + text;
+    }
+    if (shown != 0 && d.count > shown) places += fmt::format("; and {} more", d.count - shown);
+    return fmt::format("{}{} {}{}{}{}", d.at_least ? "at least " : "", d.count, defect_text(d.kind).text, places,
+                       d.curved_cells == 0 ? "" : ". " + curved_text(d),
+                       d.remedy().empty() ? "" : fmt::format(". Remedy: {}", d.remedy()));
+}
+
+}  // namespace
+
+std::string check_text(const CheckReport& report, const Mesh& mesh, const std::string& name,
+                       const TerminalStyle& style) {
+    const ExactEnvironment environment;
+    return terminal_text(check_document(report, mesh, name, nullptr), style.colour);
+}
+
+std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style) {
+    const ExactEnvironment environment;
+    return terminal_text(fix_document(fixed), style.colour);
+}
+
+std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& name, const FixedMesh* fixed) {
+    const ExactEnvironment environment;
+    return page_text(check_document(report, mesh, name, fixed));
+}
+
+CiReport check_outcomes(const CheckReport& r, const Mesh& mesh, const std::string& name, const std::string& artifact,
+                        const Environment& environment) {
+    const ExactEnvironment exact;
+    using State = CiOutcome::State;
+    CiReport ci{"barycert check", "resource", environment, r.seconds};
+    const auto add = [&](std::string_view what, std::string_view rule, std::string_view meaning, State state,
+                         std::string message) {
+        ci.outcomes.push_back(
+            {name, std::string(what), std::string(rule), std::string(meaning), state, std::move(message), artifact});
+    };
+    for (const ConditionRow& row : condition_rows(r, mesh)) {
+        if (row.count != 0 || row.instead != "ok") continue;  // its defects stand below; or it was not looked at
+        add(row.name.empty() ? std::string(row.text) : fmt::format("{}: {}", row.name, row.text),
+            row.name.empty() ? defect_text(DefectKind::overlapping_cells).name : row.name, row.text, State::passed, "");
+    }
+    for (const Defect& d : r.defects) {
+        const DefectText& t = defect_text(d.kind);
+        add(t.name, t.name, t.text, d.breaks() ? State::failed : State::noted, defect_message(r, d));
+    }
+    if (r.curved.cells != 0)
+        add("curved_cells", "curved_cells", "cells whose sides are not straight", State::noted, message(r.curved));
+    if (r.delaunay && r.delaunay->violations != 0)
+        add("not_delaunay", "not_delaunay", "interior facets that are not locally Delaunay", State::noted,
+            fmt::format("{}", fmt::join(delaunay_sentences(r), "; ")));
+    if (r.conformity && r.conformity->violated != 0)
+        add("violated_facet", "violated_facet", "facets of the PLC that are no union of faces of cells", State::noted,
+            fmt::format("{}", fmt::join(conformity_sentences(r, 80), "; ")));
+    if (!r.certified() && !ci.failed())
+        add("certified", "certified", "the mesh is certified to be a partition", State::failed, "it is not certified");
+    return ci;
+}
+
+}  // namespace barycert

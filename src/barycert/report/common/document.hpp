@@ -1,0 +1,190 @@
+/// A report, filled once by its job: what people read, as blocks in the order of reading, and what programs read. The
+/// writers below know no job.
+///
+/// Text is plain text as it came, from wherever: the writer for a terminal makes it printable, that for a page escapes
+/// it. Pages ask for nothing from anywhere, and their head forbids it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "barycert/check.hpp"
+#include "barycert/report/common/json.hpp"
+
+namespace barycert::report {
+
+enum class Tone : std::uint8_t { plain, good, bad, strong, soft };
+
+/// Whom a block is for.
+enum class For : std::uint8_t { all, terminal, page };
+
+/// The first thing to read. On a terminal one line, with as many reasons as fit; a page has all of them.
+struct Headline {
+    Tone tone = Tone::plain;
+    std::string subject = {};                 ///< what it is said of; may be empty
+    std::string text = {};                    ///< "certified"
+    std::vector<std::string> reasons = {};    ///< "2 cells are degenerate"
+    std::vector<std::string> sentences = {};  ///< below it
+    std::string_view rest = "more defect";    ///< what reasons are called that do not fit, in the singular
+};
+
+/// A heading, above it room; on a terminal, which has the more on a screen, it may be that room alone.
+struct Section {
+    std::string title = {};
+    int level = 2;
+    bool on_terminal = true;
+};
+
+/// How a sentence longer than a terminal's line is broken: not; at blanks; or behind commas, since names of files may
+/// hold blanks.
+enum class Breaks : std::uint8_t { none, words, commas };
+
+struct Paragraph {
+    std::string text;
+    Tone tone = Tone::plain;
+    Breaks wrap = Breaks::none;
+};
+
+/// A figure, or a few, and what it is called.
+struct Named {
+    std::string name = {};
+    std::vector<std::string> lines = {};
+    Tone tone = Tone::plain;
+    bool command = false;  ///< to be copied
+    Breaks wrap = Breaks::none;
+};
+
+struct Column {
+    std::string head = {};  ///< on a terminal; line feeds between its lines
+    bool left = false;      ///< text, not figures
+    std::size_t width = 0;  ///< on a terminal: at least so many characters
+    std::size_t gap = 1;    ///< likewise: blanks before it
+    std::string page = {};  ///< its head on a page, where that is another one
+    std::string tip = {};   ///< more of it, on a page
+    For whom = For::all;
+};
+
+struct Cell {
+    Cell(std::string shown, std::optional<double> key = {}, Tone in = Tone::plain)  // NOLINT: text is a cell
+        : text(std::move(shown)), order(key), tone(in) {}
+    std::string text;
+    std::optional<double> order;  ///< what a page's rows are sorted by; none: the text
+    Tone tone;
+};
+
+struct Row {
+    std::vector<Cell> cells = {};
+    Tone tone = Tone::plain;
+    std::vector<std::string> below = {};  ///< on a terminal: lines below it
+    std::string tip = {};                 ///< of its first cell, on a page
+};
+
+struct Listing {
+    std::vector<Column> columns = {};
+    std::vector<Row> rows = {};
+    /// On a page: `sorts` by a click on a head, and scrolls where the screen is narrow, as figures are compared down
+    /// the columns; else rows become lists there.
+    bool sorts = false;
+    std::string_view style = {};  ///< a page's class
+    bool headless = false;        ///< on a terminal
+};
+
+/// Something found: a title, and lines about it.
+struct Item {
+    /// The first of so many places; a page has fewer of them.
+    struct Places {
+        std::vector<std::string> shown = {};
+        std::uint64_t count = 0;
+        bool at_least = false;
+        char between = ';';
+        std::string more(std::size_t told) const;  ///< "and 30 more"; empty if all are told
+    };
+    struct Line {
+        std::string text = {};
+        bool command = false;  ///< to be copied
+        Places places = {};    ///< below the text
+    };
+    std::string title = {};
+    std::string text = {};  ///< in the title's line
+    std::vector<Line> lines = {};
+    bool folds = false;      ///< on a page: one of many, shown on a click
+    std::size_t indent = 4;  ///< of lines, on a terminal
+};
+
+/// A histogram.
+struct Bars {
+    struct Bar {
+        std::string label;
+        std::uint64_t count = 0;
+        bool bad = false;
+    };
+    std::vector<Bar> bars;
+};
+
+/// Markup of a page, such as pictures: made when the page is written.
+struct Pictures {
+    std::function<std::string()> markup;
+};
+
+class Document {
+public:
+    std::string title = {}, heading = {};  ///< of a page; `heading` is what stands first on it
+    std::string footer = {};               ///< of a page
+    bool script = false;                   ///< a page's tables sort, its commands are copied
+    std::string_view style = {};           ///< a page's, after the common one
+    Json data = {};
+    int indent = 2;  ///< of the data
+
+    using Content = std::variant<Headline, Section, Paragraph, Named, Listing, Item, Bars, Pictures>;
+    struct Block {
+        Content content;
+        For whom;
+    };
+    std::vector<Block> blocks = {};
+
+    void add(Content content, For whom = For::all) { blocks.push_back({std::move(content), whom}); }
+    void section(std::string heading, For whom = For::all, int level = 2) {
+        add(Section{std::move(heading), level}, whom);
+    }
+    /// With a heading on a page alone.
+    void part(std::string heading = {}) { add(Section{std::move(heading), 2, false}); }
+    void say(std::string text, Tone tone = Tone::plain, For whom = For::all, Breaks wrap = Breaks::none) {
+        add(Paragraph{std::move(text), tone, wrap}, whom);
+    }
+    void name(std::string name, std::string text, Tone tone = Tone::plain) {
+        add(Named{std::move(name), {std::move(text)}, tone});
+    }
+
+    /// What stands before all else on a mesh whose sides are not straight; nothing if they are. `mesh`: of several.
+    void curved(const CurvedCells& curved, const std::string& mesh = {});
+    /// A member of the data, and what people are told of it.
+    void figure(std::string_view key, Json value, std::string name, std::string text, Tone tone = Tone::plain);
+};
+
+/// For a terminal or a log: at most 100 columns, where words allow it.
+std::string terminal_text(const Document& document, bool colour);
+
+/// One page of HTML, self-contained and well-formed XML, for screens of any width, light and dark, and for paper.
+std::string page_text(const Document& document);
+
+std::string data_text(const Document& document);
+
+/// For sentences that hold of straight sides alone; empty where these are the mesh's own.
+inline std::string_view for_straight_sides(const CurvedCells& curved) {
+    return curved.cells == 0 ? "" : " for straight sides";
+}
+
+/// "field T: 3 of 50 values are not finite".
+std::string not_finite_text(const NotFinite& field);
+
+/// "1 cell", "2 cells": the plural is the singular and an s, if none is given.
+std::string counted(std::uint64_t n, std::string_view one, std::string_view more = {});
+
+}  // namespace barycert::report

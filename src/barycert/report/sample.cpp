@@ -1,0 +1,217 @@
+// What a run of sampling did.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report.hpp"
+#include "barycert/report/common/document.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert {
+
+using namespace report;
+
+namespace {
+
+/// Clauses with a figure each, but for those that are 0.
+std::string clauses(const std::vector<std::pair<std::uint64_t, std::string_view>>& all) {
+    std::vector<std::string> some;
+    for (const auto& [count, what] : all) {
+        if (count != 0) some.push_back(fmt::format("{} {}", count, what));
+    }
+    return fmt::format("{}", fmt::join(some, "; "));
+}
+
+void tell_inside(Document& d, const LocationCounts& n) {
+    const std::string where = fmt::format(": {} in the interior of a cell, {} on a face, {} on an edge, {} at a vertex",
+                                          n.interior, n.face, n.edge, n.vertex);
+    d.figure("inside",
+             record("count", n.inside(), "interior", n.interior, "face", n.face, "edge", n.edge, "vertex", n.vertex),
+             "inside", std::to_string(n.inside()) + (n.inside() == 0 ? "" : where));
+}
+
+/// What became of points outside.
+void tell_outside(Document& d, const SampleReport& s) {
+    const SampleCounts& n = s.counts;
+    const std::uint64_t strange = n.locations.not_finite, without = n.without_value - strange;
+    const std::string far = fmt::format("max distance {:.4g}", n.farthest);
+    const std::string fates =
+        clauses({{n.snapped, "snapped to the nearest point of the mesh, " + far},
+                 {n.extrapolated, "extrapolated from the nearest cell, " + far},
+                 {strange, "not finite, got NaN"},
+                 {without, (s.outside.kind == Outside::fill ? "got " + base::shortest(s.outside.fill) : "got NaN") +
+                               (s.outside.kind == Outside::nearest ? ", farther than " + base::shortest(s.outside.limit)
+                                                                   : "")}});
+    const std::uint64_t count = n.locations.outside;
+    d.figure("outside",
+             record("count", count, "policy", policy_text(s.outside), "snapped", n.snapped, "extrapolated",
+                    n.extrapolated, "without_value", n.without_value, "not_finite", strange, "farthest", n.farthest),
+             "outside", count == 0 ? "0" : fmt::format("{}: {}", count, fates),
+             count == 0 ? Tone::plain : Tone::strong);
+}
+
+void tell_values(Document& d, const SampleReport& s) {
+    const TierCounts& t = s.counts.values;
+    std::string text = fmt::format("exact{}, rounded once", for_straight_sides(s.curved));
+    if (t.cases() != 0)
+        text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
+                            t.double_double, t.exact);
+    if (s.rounding == Rounding::plain) text = "plain double, by --rounding plain; cells and features are exact";
+    if (s.columns.empty()) text = "none: the mesh has no fields, and --field was not given";
+    d.figure("values",
+             record("rounding", s.rounding == Rounding::correct ? "correct" : "plain", "filter", t.filter,
+                    "double_double", t.double_double, "exact", t.exact, "nan", s.nan_values),
+             "values", text);
+    if (s.nan_values != 0)
+        d.name("NaN",
+               counted(s.nan_values, "value") + " at points inside: values of nodes or cells there are not finite",
+               Tone::strong);
+}
+
+std::string steps_text(const SampleReport& s) {
+    std::string text = fmt::format("{}: {} to {}", s.steps.size(), s.steps.front(), s.steps.back());
+    if (!s.times.empty())
+        text += fmt::format(", times {} to {}", base::shortest(s.times.front()), base::shortest(s.times.back()));
+    return s.meshes <= 1
+               ? text
+               : text + fmt::format("; on {} meshes, in each of which the points were located, and counted above",
+                                    s.meshes);
+}
+
+void tell_picture(Document& d, const SliceCounts& n) {
+    std::string text = fmt::format("colours from {} to {}", base::shortest(n.low), base::shortest(n.high));
+    const std::uint64_t clear = n.outside + n.not_finite;
+    for (const auto& [count, how] : {std::pair(n.below, "below, drawn as the first"),
+                                     {n.above, "above, drawn as the last"},
+                                     {clear, "without a value, transparent"}}) {
+        if (count != 0) text += fmt::format("; {} {}", counted(count, "point"), how);
+    }
+    d.figure("picture", record("low", n.low, "high", n.high, "drawn", n.drawn, "below", n.below, "above", n.above),
+             "picture", std::isnan(n.low) ? "nothing drawn: no point has a finite value" : text);
+}
+
+void tell_integrals(Document& d, const std::vector<FieldIntegral>& all) {
+    if (all.empty()) return;
+    d.data["integrals"] = list(all, [](const FieldIntegral& of) {
+        return record("column", of.column, "source", of.source, "target", of.target, "source_left_out",
+                      of.source_left_out, "target_left_out", of.target_left_out);
+    });
+    const auto over = [](double sum, const char* where, std::uint64_t left_out) {
+        return fmt::format("{} over {}", base::shortest(sum), where) +
+               (left_out == 0 ? "" : fmt::format(" ({} without a finite value left out)", counted(left_out, "cell")));
+    };
+    for (const FieldIntegral& of : all)
+        d.name("integral", fmt::format("{}: {}, {}", of.column, over(of.source, "MESH", of.source_left_out),
+                                       over(of.target, "MESH2", of.target_left_out)));
+}
+
+void tell_mesh(Document& d, const SampleReport& s) {
+    std::string cells = counted(s.cells, "cell") + ", " + counted(s.nodes, "node");
+    if (s.degenerate_cells != 0)
+        cells += fmt::format("; {} degenerate and own{} nothing", counted(s.degenerate_cells, "cell is", "cells are"),
+                             s.degenerate_cells == 1 ? "s" : "");
+    d.name("mesh", cells, s.degenerate_cells == 0 ? Tone::plain : Tone::strong);
+}
+
+void tell_times(Document& d, const SampleReport& s) {
+    const SampleSeconds& t = s.seconds;
+    std::string text = fmt::format("{:.3g} s on {}: mesh {:.3g}, locator {:.3g}", t.total,
+                                   counted(static_cast<std::uint64_t>(s.threads), "thread"), t.mesh, t.build);
+    if (s.from != PointsFrom::grid) text += fmt::format(", points {:.3g}", t.read);
+    text += fmt::format(", sampling {:.3g}, writing {:.3g}", t.sample, t.write);
+    if (const std::uint64_t n = s.counts.locations.points(); n != 0)
+        text += fmt::format("; sampling took {} ns a point", brief_time(1e9 * t.sample / static_cast<double>(n)));
+    d.figure("seconds",
+             record("mesh", t.mesh, "build", t.build, "read", t.read, "sample", t.sample, "write", t.write, "total",
+                    t.total),
+             "time", text);
+    d.data["threads"] = s.threads;
+}
+
+Json grid_json(const Grid& g) {
+    const auto axes = [&](const auto& all) { return Json(std::vector(all.begin(), all.begin() + g.dimension)); };
+    return record("counts", axes(g.counts), "origin", axes(g.origin), "spacing", axes(g.spacing), "last", axes(g.last));
+}
+
+Document sample_document(const SampleReport& s, const Environment& environment) {
+    Document d;
+    d.data = record("schema", sample_schema, "command", s.command, "mesh", s.mesh, "curved", curved_json(s.curved));
+    d.curved(s.curved);
+    if (s.from == PointsFrom::mesh) d.data["onto_curved"] = curved_json(s.onto_curved);
+    if (!message(s.onto_curved).empty()) d.name("--onto", s.points + ":");
+    d.curved(s.onto_curved);
+    put(d.data, "dimension", s.dimension, "nodes", s.nodes, "cells", s.cells, "degenerate_cells", s.degenerate_cells,
+        "contested_cells", s.contested_cells, "verdict", name(s.verdict), "from", name(s.from));
+    s.grid ? put(d.data, "grid", grid_json(*s.grid)) : put(d.data, "file", s.points);
+    d.data["output"] = s.output;
+    if (!s.weights.empty()) d.data["weights"] = s.weights;
+    if (!s.steps.empty()) d.data["steps"] = s.steps;
+    if (!s.times.empty()) put(d.data, "times", s.times, "meshes", s.meshes);
+    put(d.data, "columns", s.columns, "carried", s.carried);
+
+    const std::uint64_t points = s.counts.locations.points();
+    std::string text = std::to_string(points);
+    if (s.grid)
+        text += fmt::format(": a grid of {}",
+                            fmt::join(s.grid->counts.begin(), s.grid->counts.begin() + s.grid->dimension, " x "));
+    if (s.all) text += fmt::format(", in {}: one for each cell that holds a point", counted(s.rows, "row"));
+    d.figure("points", points, "points", text);
+    put(d.data, "rows", s.rows, "on_boundary", s.all ? "all" : "lowest");
+    tell_inside(d, s.counts.locations);
+    tell_outside(d, s);
+    tell_values(d, s);
+    if (!s.steps.empty()) d.name("steps", steps_text(s));
+    if (s.picture) tell_picture(d, *s.picture);
+    tell_integrals(d, s.integrals);
+    tell_mesh(d, s);
+    d.figure("method", name(s.method), "method", fmt::format("{}: {}", name(s.method), s.reason));
+    d.data["reason"] = s.reason;
+    if (const WayCounts& w = s.counts.locations.ways; w.points() != 0)
+        d.figure("ways",
+                 record("no_cell_near", w.no_cell_near, "walk", w.walk, "contested", w.contested, "candidates",
+                        w.candidates),
+                 "found",
+                 clauses({{w.walk, "by a walk"},
+                          {w.contested, "in contested cells"},
+                          {w.candidates, "by testing every candidate"},
+                          {w.no_cell_near, "outside at once, no cell is near"}}));
+    put(d.data, "notes", notes_json(s.notes), "not_finite", not_finite_json(s.not_finite));
+    for (const Note& note : s.notes) d.name("note", message(note));
+    for (const NotFinite& field : s.not_finite) d.name("note", not_finite_text(field));
+    tell_times(d, s);
+    d.data["environment"] = environment_json(environment);
+    return d;
+}
+
+}  // namespace
+
+std::string policy_text(const OutsidePolicy& policy) {
+    switch (policy.kind) {
+        case Outside::nan:
+            return "nan";
+        case Outside::error:
+            return "error";
+        case Outside::fill:
+            return "fill=" + base::shortest(policy.fill);
+        case Outside::nearest:
+            return std::isinf(policy.limit) ? std::string("nearest") : "nearest=" + base::shortest(policy.limit);
+        default:
+            return "extrapolate";
+    }
+}
+
+std::string sample_text(const SampleReport& summary, bool colour) {
+    const ExactEnvironment environment;
+    return terminal_text(sample_document(summary, {}), colour);
+}
+
+std::string sample_json(const SampleReport& summary, const Environment& environment) {
+    const ExactEnvironment exact;
+    return data_text(sample_document(summary, environment));
+}
+
+}  // namespace barycert

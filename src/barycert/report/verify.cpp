@@ -1,0 +1,318 @@
+// What a verification of results found.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "barycert/base/decades.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/report.hpp"
+#include "barycert/report/common/document.hpp"
+#include "barycert/report/common/terminal_text.hpp"
+
+namespace barycert {
+
+using namespace report;
+
+namespace {
+
+/// The doubles of a point, with commas.
+std::string coordinates(const VerifyReport& s, const WrongRow& row) {
+    std::string text;
+    for (int k = 0; k < s.dimension; ++k)
+        text += (k == 0 ? "" : ",") + base::shortest(row.point[static_cast<std::size_t>(k)]);
+    return text;
+}
+
+std::string where(const WrongRow& row) {
+    if (row.exact.cell < 0) return "outside";
+    if (row.exact.feature == Feature::interior) return fmt::format("inside cell {}", row.exact.cell);
+    return fmt::format("on {} {} of cell {}", row.exact.feature == Feature::edge ? "an" : "a", name(row.exact.feature),
+                       row.exact.cell);
+}
+
+std::string value_clause(const VerifyReport& s, const WrongRow& row) {
+    if (s.columns.empty()) return "";
+    return fmt::format("{} is {}, should be {}", s.columns[row.column], base::shortest(row.claimed),
+                       base::shortest(row.value));
+}
+
+/// What is wrong with a row.
+std::string example_sentence(const VerifyReport& s, const WrongRow& row) {
+    std::string text = "point (" + coordinates(s, row) + ") is " + where(row);
+    switch (row.verdict) {
+        case RowVerdict::missed:
+            return text + ", and said to be outside";
+        case RowVerdict::invented:
+            if (!std::isnan(row.distance)) text += fmt::format(", {} from the mesh", brief(row.distance));
+            return text + (s.columns.empty()
+                               ? ", and said to be inside"
+                               : fmt::format(", and {} is {}", s.columns[row.column], base::shortest(row.claimed)));
+        case RowVerdict::wrong_cell:
+            return text + fmt::format(", not in cell {}", row.claimed_cell) +
+                   (row.relative > 0 ? "; " + value_clause(s, row) : "");
+        default:
+            return text + "; " + value_clause(s, row) +
+                   (row.relative > 0 && row.relative < 1e300 ? fmt::format(": {} of the range", brief(row.relative))
+                                                             : std::string());
+    }
+}
+
+/// A command that shows what the exact answer is.
+std::string example_command(const VerifyReport& s, const WrongRow& row) {
+    return fmt::format("echo {} | {} sample {} --columns 1,2{} --on-boundary all{} --points - --output -",
+                       coordinates(s, row), s.program, shell_word(s.mesh), s.dimension == 3 ? ",3" : "",
+                       std::isnan(row.distance) ? " --nonfinite-points nan" : "");
+}
+
+struct Kind {
+    std::uint64_t count = 0;
+    std::string what;  ///< what such rows are
+};
+
+/// One for each RowVerdict.
+std::array<Kind, 5> kinds_of(const VerifyReport& s) {
+    const Verdicts& v = s.verdicts;
+    std::string right = s.exact ? "the exact value, rounded once" : "values off by at most the tolerance";
+    if (v.by_other_cell != 0)
+        right += fmt::format("; {} by another cell that contains the point, not by the lowest", v.by_other_cell);
+    std::string missed = "in a cell, and said to be outside";
+    if (v.missed_on_boundary != 0)
+        missed += fmt::format("; {} on a face, an edge or a vertex of the cell", v.missed_on_boundary);
+    std::string invented = "in no cell, and said to be inside";
+    if (v.invented_zero != 0) invented += fmt::format("; {} have the value 0", v.invented_zero);
+    if (v.invented_measured != 0) {
+        const bool all = v.invented_measured == v.invented;
+        invented += all ? "; the farthest" : fmt::format("; the farthest of {} of them", v.invented_measured);
+        invented += fmt::format(" lies {} from the mesh", brief(v.invented_distance));
+        if (v.invented_near != 0)
+            invented += fmt::format(", {} nearer than {} of its diagonal", v.invented_near, brief(near_distance));
+    }
+    const bool named = !s.cell_column.empty(), valued = !s.columns.empty();
+    return {{{v.right, valued ? right : ""},
+             {v.missed, missed},
+             {v.invented, invented},
+             {v.wrong_cell, named ? "inside, but not in the cell that column " + base::quoted(s.cell_column) + " names"
+                                  : "not compared: the results name no cells"},
+             {v.wrong_value,
+              !valued   ? "not compared: no column of values"
+              : s.exact ? "not the exact value, rounded once"
+                        : fmt::format("off by more than {} of the range, or NaN", base::shortest(s.tolerance))}}};
+}
+
+void tell_verdict(Document& d, const VerifyReport& s) {
+    const Verdicts& v = s.verdicts;
+    const std::string_view of = for_straight_sides(s.curved);
+    const std::string verdict = v.rows == 0      ? "no rows"
+                                : v.wrong() != 0 ? fmt::format("WRONG{}: {} of {} rows", of, v.wrong(), v.rows)
+                                : v.rows == 1    ? fmt::format("the row is right{}", of)
+                                                 : fmt::format("all {} rows are right{}", v.rows, of);
+    d.add(Headline{.tone = v.wrong() == 0 ? Tone::good : Tone::bad, .subject = s.results, .text = verdict});
+    d.say(fmt::format("{}: {} inside the mesh, {} of them on a face, an edge or a vertex; {} outside{}",
+                      counted(v.rows, "row"), v.inside, v.on_boundary, v.outside,
+                      v.not_finite == 0 ? "" : fmt::format(", {} of them not finite", v.not_finite)));
+    Listing table{.columns = {{"row is", true, 12}, {"rows", false, 12}, {"", false, 9}, {"meaning", true, 0, 2}},
+                .headless = true};
+    const auto kinds = kinds_of(s);
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        const bool bad = k != 0 && kinds[k].count != 0;
+        table.rows.push_back({{std::string(name(static_cast<RowVerdict>(k))),
+                               {std::to_string(kinds[k].count), {}, bad ? Tone::bad : Tone::plain},
+                               percent(kinds[k].count, v.rows) + " %",
+                               kinds[k].what}});
+    }
+    d.part();
+    d.add(std::move(table));
+}
+
+void tell_values(Document& d, const VerifyReport& s) {
+    d.part("Values");
+    if (s.columns.empty()) return d.say("values       not compared");
+    const std::string over = s.exact ? "over 0" : "over " + base::shortest(s.tolerance);
+    Listing table{.columns = {{"values of", true, 20},
+                            {"column", true, 0, 1, "", "", For::page},
+                            {"compared", false, 12},
+                            {"bits right %", false, 12},
+                            {"max ulps", false, 12},
+                            {"max error", false, 12},
+                            {over, false, 10, 1, "wrong"}}};
+    for (std::size_t c = 0; c < s.columns.size(); ++c) {
+        const ValueErrors& e = s.verdicts.columns[c];
+        const std::uint64_t wrong = e.over + e.missing + e.spurious;
+        table.rows.push_back({{s.columns[c],
+                               s.found_in[c],
+                               std::to_string(e.values),
+                               percent(e.identical, e.values),
+                               brief(e.max_ulps),
+                               brief(e.max_relative),
+                               {std::to_string(wrong), {}, wrong == 0 ? Tone::plain : Tone::bad}}});
+    }
+    d.add(std::move(table));
+    d.say("max error: in parts of the range of the field (max - min)");
+    for (std::size_t c = 0; c < s.columns.size(); ++c) {
+        if (s.relative_to[c] == RelativeTo::magnitude)
+            d.say(fmt::format("{} is constant, its range is 0: its errors are in parts of its magnitude, {}",
+                              s.columns[c], base::shortest(s.ranges[c])));
+        if (s.relative_to[c] == RelativeTo::one)
+            d.say(fmt::format("{} is 0 throughout: its errors are absolute", s.columns[c]));
+    }
+}
+
+void tell_errors(Document& d, const VerifyReport& s) {
+    for (std::size_t c = 0; c < s.columns.size(); ++c) {
+        const ValueErrors& e = s.verdicts.columns[c];
+        if (e.values == 0) continue;
+        std::size_t first = 0, last = e.by_relative.size() - 1;
+        while (first < last && e.by_relative[first] == 0) ++first;
+        while (last > first && e.by_relative[last] == 0) --last;
+        Bars bars;
+        for (std::size_t b = first; b <= last; ++b) {
+            // From 10^(b - 19) on all are above the tolerance if that is less.
+            const bool bad = b != 0 && (s.exact || std::pow(10.0, static_cast<double>(b) - 19) >= s.tolerance);
+            bars.bars.push_back({b == 0 ? "right" : base::decade_label(b), e.by_relative[b], bad});
+        }
+        const For whom = e.values == e.identical ? For::page : For::all;  // one bar: the table says it
+        d.section(fmt::format("errors of {} in parts of its range", s.columns[c]), whom, 3);
+        d.add(std::move(bars), whom);
+    }
+}
+
+Json errors_json(const VerifyReport& s) {
+    Json all = Json::array();
+    for (std::size_t c = 0; c < s.columns.size(); ++c) {
+        const ValueErrors& e = s.verdicts.columns[c];
+        all.push_back(record("name", s.columns[c], "column", s.found_in[c], "range", s.ranges[c], "relative_to",
+                             name(s.relative_to[c]), "compared", e.values, "identical", e.identical, "over", e.over,
+                             "missing", e.missing, "spurious", e.spurious, "max_ulps", e.max_ulps, "max_error",
+                             e.max_relative, "by_ulps", e.by_ulps, "by_error", e.by_relative));
+    }
+    return all;
+}
+
+Json example_json(const VerifyReport& s, const WrongRow& row) {
+    const auto number = [](std::int64_t cell) { return cell < 0 ? Json() : Json(cell); };
+    Json j = record("verdict", name(row.verdict), "row", row.row, "point",
+                    std::vector(row.point.begin(), row.point.begin() + s.dimension), "cell", number(row.exact.cell),
+                    "feature", name(row.exact.feature));
+    if (row.verdict == RowVerdict::invented) put(j, "distance", row.distance);
+    if (!s.cell_column.empty()) put(j, "claimed_cell", number(row.claimed_cell));
+    if (!s.columns.empty())
+        put(j, "column", s.columns[row.column], "claimed", row.claimed, "value", row.value, "ulps", row.ulps, "error",
+            row.relative);
+    put(j, "command", example_command(s, row));
+    return j;
+}
+
+Json verify_data(const VerifyReport& s, const Environment& environment) {
+    const auto text = [](const std::string& column) { return column.empty() ? Json() : Json(column); };
+    const Verdicts& v = s.verdicts;
+    const SampleSeconds& t = s.seconds;
+    return record(
+        "schema", verify_schema, "command", "verify", "mesh", s.mesh, "results", s.results, "curved",
+        curved_json(s.curved), "dimension", s.dimension, "nodes", s.nodes, "cells", s.cells, "certified", s.certified,
+        "contested_cells", s.contested_cells, "cell_column", text(s.cell_column), "mask_column", text(s.mask_column),
+        "tolerance", s.tolerance, "exact", s.exact, "outside_value", s.outside_value, "rows", v.rows, "right", v.right,
+        "missed", v.missed, "invented", v.invented, "wrong_cell", v.wrong_cell, "wrong_value", v.wrong_value, "inside",
+        v.inside, "outside", v.outside, "not_finite", v.not_finite, "on_boundary", v.on_boundary, "missed_on_boundary",
+        v.missed_on_boundary, "invented_zero", v.invented_zero, "invented_measured", v.invented_measured,
+        "invented_near", v.invented_near, "invented_distance", v.invented_distance, "by_other_cell", v.by_other_cell,
+        "values", errors_json(s), "examples",
+        list(v.examples, [&](const WrongRow& row) { return example_json(s, row); }), "notes", notes_json(s.notes),
+        "seconds", record("mesh", t.mesh, "build", t.build, "read", t.read, "compare", t.sample, "total", t.total),
+        "threads", s.threads, "environment", environment_json(environment));
+}
+
+Document verify_document(const VerifyReport& s, const Environment& environment) {
+    Document d;
+    d.title = "barycert verify: " + s.results;
+    d.heading = fmt::format("barycert verify: {} on {}", s.results, s.mesh);
+    d.footer = environment_line(environment);
+    d.curved(s.curved);
+    tell_verdict(d, s);
+    tell_values(d, s);
+    tell_errors(d, s);
+    if (!s.verdicts.examples.empty()) d.section("worst rows, counted from 0");
+    for (const WrongRow& row : s.verdicts.examples)
+        d.add(Item{.title = fmt::format("{:<12}", name(row.verdict)),
+                   .text = fmt::format(" row {}: {}", row.row, example_sentence(s, row)),
+                   .lines = {{example_command(s, row), true}},
+                   .indent = 13});
+    d.part("Mesh and files");
+    const std::string of = s.certified ? fmt::format("certified{}, no two cells overlap", for_straight_sides(s.curved))
+                           : s.contested_cells == 0
+                               ? "cells meet in common faces"
+                               : fmt::format(
+                                     "{} cells may meet others beside common faces; any cell that contains a "
+                                     "point counts as right",
+                                     s.contested_cells);
+    d.name("mesh", fmt::format("{} cells, {} nodes: {}", s.cells, s.nodes, of));
+    for (const Note& note : s.notes)
+        d.name(std::string(name(note.kind)), note.text + (note.file.empty() ? "" : " (" + note.file + ")"));
+    const SampleSeconds& t = s.seconds;
+    d.name("time",
+           fmt::format("{:.3g} s on {}: mesh {:.3g}, locator {:.3g}, results {:.3g}, comparing {:.3g}", t.total,
+                       counted(static_cast<std::uint64_t>(s.threads), "thread"), t.mesh, t.build, t.read, t.sample));
+    return d;
+}
+
+}  // namespace
+
+std::string verify_text(const VerifyReport& summary, bool colour) {
+    const ExactEnvironment environment;
+    return terminal_text(verify_document(summary, {}), colour);
+}
+
+std::string verify_html(const VerifyReport& summary, const Environment& environment) {
+    const ExactEnvironment exact;
+    return page_text(verify_document(summary, environment));
+}
+
+std::string verify_json(const VerifyReport& summary, const Environment& environment) {
+    const ExactEnvironment exact;
+    Document d;
+    d.data = verify_data(summary, environment);
+    return data_text(d);
+}
+
+CiReport verify_outcomes(const VerifyReport& s, const std::vector<VerifyLimit>& limits,
+                         const Environment& environment) {
+    const ExactEnvironment exact;
+    using State = CiOutcome::State;
+    constexpr std::array<std::string_view, 5> meanings{
+        "right rows", "points in a cell that are said to be outside", "points in no cell that are said to be inside",
+        "points inside that are not in the cell named",
+        "values off by more than the tolerance, or NaN where one is due"};
+    CiReport ci{"barycert verify", "resource", environment, s.seconds.total};
+    const auto kinds = kinds_of(s);
+    for (std::size_t k = 1; k < kinds.size(); ++k) {
+        const auto verdict = static_cast<RowVerdict>(k);
+        const std::string rule(handle(verdict));
+        // "3 of 7 rows: what such rows are. Worst: row 5: ...".
+        const auto& examples = s.verdicts.examples;
+        const auto worst =
+            std::find_if(examples.begin(), examples.end(), [&](const WrongRow& row) { return row.verdict == verdict; });
+        std::string message = fmt::format("{} of {} rows: {}", kinds[k].count, s.verdicts.rows, kinds[k].what);
+        if (worst != examples.end())
+            message += fmt::format(". Worst: row {}, counted from 0: {}", worst->row, example_sentence(s, *worst));
+        const auto add = [&](std::string asked, State state) {
+            ci.outcomes.push_back({s.results, std::move(asked), rule, std::string(meanings[k]), state,
+                                   state == State::passed ? "" : message, s.results == "-" ? "" : s.results});
+        };
+        bool limited = false;
+        for (const VerifyLimit& limit : limits) {
+            if (limit.verdict != verdict || !compared(s, verdict)) continue;
+            limited = true;
+            add(fmt::format("{} <= {}", rule, limit.most),
+                exceeded(s.verdicts, {limit}).empty() ? State::passed : State::failed);
+        }
+        if (!limited && kinds[k].count != 0) add(rule, State::noted);
+    }
+    return ci;
+}
+
+}  // namespace barycert
