@@ -112,7 +112,7 @@ Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const Audit
 }
 
 int run_audit(AuditArguments& a) {
-    const auto rules = thresholds(a.fail_on);
+    const auto rules = parsed_all(a.fail_on, parse_threshold);
     if (!rules) return fail(rules.error());
     const auto meshes = meshes_or_own(a.meshes);
     if (meshes) a.job.meshes = *meshes;
@@ -130,7 +130,7 @@ int run_audit(AuditArguments& a) {
         if (prepared->libraries.contains(kernel.name)) tell_note(prepared->libraries.at(kernel.name), kernel);
     }
     if (!a.reports.is_quiet()) tell_important(prepared->notes);
-    a.reports.begin();
+    a.reports.begin_progress();
     Progress& progress = a.reports.progress();
     prepared->options.progress = [&progress](const AuditProgress& p) {
         if (!progress.due()) return;

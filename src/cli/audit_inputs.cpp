@@ -101,16 +101,6 @@ std::vector<base::NamedFile> library_files(const KernelChoice& kernels) {
     return base::named_files("--kernel-library", kernels.libraries);
 }
 
-Result<std::vector<Threshold>> thresholds(const std::vector<std::string>& texts) {
-    std::vector<Threshold> rules;
-    for (const std::string& text : texts) {
-        const Result<Threshold> rule = parse_threshold(text);
-        if (!rule) return rule.error();
-        rules.push_back(*rule);
-    }
-    return rules;
-}
-
 std::string failures_of(const std::vector<Violation>& violations) {
     std::string lines;
     for (const Violation& v : violations)

@@ -35,9 +35,6 @@ void tell_note(const std::string& path, const Kernel& kernel);
 /// The libraries as inputs.
 std::vector<base::NamedFile> library_files(const KernelChoice& kernels);
 
-/// The rules of --fail-on.
-Result<std::vector<Threshold>> thresholds(const std::vector<std::string>& texts);
-
 /// Lines that say which figures exceed their limits.
 std::string failures_of(const std::vector<Violation>& violations);
 

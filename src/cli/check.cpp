@@ -20,8 +20,7 @@ struct CheckArguments {
 };
 
 int run_check(CheckArguments& a) {
-    a.job.reports = a.reports.outputs();
-    a.job.progress = a.reports.begin();
+    a.reports.begin(a.job);
     return a.reports.end(check_files(a.job), [&](const CheckedMesh& c) {
         const FixedMesh* const fixed = c.copied ? &*c.fixed : nullptr;
         Told told{.text =

@@ -40,12 +40,8 @@ std::string broken_limits(const GapsReport& report, const std::vector<GapsLimit>
 }
 
 int run_gaps(GapsArguments& a) {
-    std::vector<GapsLimit> limits;
-    for (const std::string& text : a.fail_on) {
-        const Result<GapsLimit> limit = parse_gaps_limit(text);
-        if (!limit) return fail(limit.error());
-        limits.push_back(*limit);
-    }
+    const auto limits = parsed_all(a.fail_on, parse_gaps_limit);
+    if (!limits) return fail(limits.error());
     std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(a.job.mesh));
     for (base::NamedFile& file : library_files(a.kernels)) inputs.push_back(std::move(file));
     if (const Status ok = a.reports.check(inputs); !ok) return fail(ok.error());
@@ -57,7 +53,7 @@ int run_gaps(GapsArguments& a) {
     }
     a.job.check = !a.no_check;
     return a.reports.end(gaps_file(a.job), [&](const GapsReport& report) {
-        const std::string failures = broken_limits(report, limits);
+        const std::string failures = broken_limits(report, *limits);
         return Told{.files = {{"--json", [&] { return gaps_json(report); }}},
                     .text = [&](bool colour) { return gaps_text(report, {.colour = colour}); },
                     .notes = report.notes,

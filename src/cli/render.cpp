@@ -25,8 +25,7 @@ struct PictureArguments {
 };
 
 int run_picture(PictureArguments& a) {
-    a.job.reports = a.reports.outputs();
-    a.job.progress = a.reports.begin();
+    a.reports.begin(a.job);
     a.job.view.bar = !a.no_bar;
     return a.reports.end(render_files(a.job), [](const RenderReport& report) {
         return Told{.files = {{"--json", [&] { return render_json(report, measure_environment()); }}},

@@ -49,9 +49,7 @@ Status check_picture_only(const CLI::App& sub, const std::string& output, const 
 }
 
 int run_contour(ContourArguments& a) {
-    a.job.reports = a.reports.outputs();
-    a.job.progress = a.reports.begin();
-    a.job.program = command_name();
+    a.reports.begin(a.job);
     return a.reports.end(contour_files(a.job), [](const ContourReport& report) {
         return Told{.files = {{"--json", [&] { return contour_json(report, measure_environment()); }}},
                     .text = [&](bool colour) { return contour_text(report, colour); },

@@ -79,11 +79,19 @@ Status Reports::check(const std::vector<base::NamedFile>& inputs) const {
     return base::check_outputs(inputs, std::move(files));
 }
 
-std::function<void(const JobProgress&)> Reports::begin() {
+void Reports::begin(MeshJob& job) {
+    begin_progress();
+    job.reports = outputs();
+    job.program = command_name();
+    job.progress = [this](const JobProgress& p) {
+        p.done == 0 ? progress_.stage(p.stage) : progress_.count(p.stage, p.done);
+    };
+}
+
+void Reports::begin_progress() {
     // Rows on the same terminal would run into the progress.
     const bool rows_on_terminal = rows_ != nullptr && *rows_ == "-" && isatty(STDOUT_FILENO) == 1;
     progress_.begin(!quiet_ && stderr_is_terminal() && !rows_on_terminal);
-    return [this](const JobProgress& p) { p.done == 0 ? progress_.stage(p.stage) : progress_.count(p.stage, p.done); };
 }
 
 int Reports::write(const Told& told) {

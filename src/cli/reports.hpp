@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -76,8 +77,9 @@ public:
     std::vector<std::pair<std::string, std::string>> outputs() const;
     Status check(const std::vector<base::NamedFile>& inputs) const;
 
-    /// Begins to show progress; what a job calls.
-    std::function<void(const JobProgress&)> begin();
+    /// Tells the job of the reports, and how the program is called; its progress is shown from now on.
+    void begin(MeshJob& job);
+    void begin_progress();
     Progress& progress() { return progress_; }
 
     /// Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
@@ -113,6 +115,19 @@ bool stderr_is_terminal();
 
 /// True if text for people on stdout may be coloured: a terminal, and NO_COLOR is not set.
 bool colour_on_stdout();
+
+/// What parse(text) makes of each text, or its first error.
+template <class Parse>
+auto parsed_all(const std::vector<std::string>& texts, Parse parse)
+    -> Result<std::vector<std::decay_t<decltype(*parse(texts.front()))>>> {
+    std::vector<std::decay_t<decltype(*parse(texts.front()))>> all;
+    for (const std::string& text : texts) {
+        auto one = parse(text);
+        if (!one) return one.error();
+        all.push_back(std::move(*one));
+    }
+    return all;
+}
 
 /// "fails: WHAT = VALUE, limit LIMIT", a line.
 std::string failure(const std::string& what, const std::string& value, const std::string& limit);

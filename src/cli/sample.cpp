@@ -80,9 +80,7 @@ void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) 
 
 template <class Job>
 int run_sampling(SamplingArguments<Job>& a, Result<SampleReport> (*files)(const Job&)) {
-    a.job.reports = a.reports.outputs();
-    a.job.progress = a.reports.begin();
-    a.job.program = command_name();
+    a.reports.begin(a.job);
     a.job.count_degenerate = !a.reports.is_quiet() || a.reports.any_file();
     return a.reports.end(files(a.job), [](const SampleReport& report) {
         return Told{.files = {{"--json", [&] { return sample_json(report, measure_environment()); }}},

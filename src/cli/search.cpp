@@ -74,7 +74,7 @@ std::string progress_line(const SearchProgress& p, double seconds) {
 }
 
 Result<SearchReport> search(SearchArguments& a) {
-    a.reports.begin();
+    a.reports.begin_progress();
     const auto start = std::chrono::steady_clock::now();
     a.options.progress = [&](const SearchProgress& p) {
         if (a.reports.progress().due()) {
@@ -88,7 +88,7 @@ Result<SearchReport> search(SearchArguments& a) {
 }
 
 int run_search(SearchArguments& a) {
-    const auto rules = thresholds(a.fail_on);
+    const auto rules = parsed_all(a.fail_on, parse_threshold);
     if (!rules) return fail(rules.error());
     if (const Status ok = check_search_rules(*rules); !ok) return fail(ok.error());
     if (!a.name.empty()) a.kernel.names = {a.name};

@@ -21,27 +21,21 @@ struct VerifyArguments {
 };
 
 int run_verify(VerifyArguments& a) {
-    std::vector<VerifyLimit> limits;
-    for (const std::string& text : a.fail_on) {
-        const Result<VerifyLimit> limit = parse_verify_limit(text);
-        if (!limit) return fail(limit.error());
-        limits.push_back(*limit);
-    }
-    a.job.reports = a.reports.outputs();
-    a.job.progress = a.reports.begin();
-    a.job.program = command_name();
+    auto limits = parsed_all(a.fail_on, parse_verify_limit);
+    if (!limits) return fail(limits.error());
+    a.reports.begin(a.job);
     Result<VerifyReport> report = verify_files(a.job);
     if (report) {
-        if (const Status ok = check_limits(*report, limits); !ok) report = ok.error();
+        if (const Status ok = check_limits(*report, *limits); !ok) report = ok.error();
     }
-    if (limits.empty()) limits = strict_limits();
+    if (limits->empty()) *limits = strict_limits();
     return a.reports.end(report, [&](const VerifyReport& r) {
         const Environment environment = measure_environment();
-        const std::vector<VerifyLimit> failures = exceeded(r.verdicts, limits);
+        const std::vector<VerifyLimit> failures = exceeded(r.verdicts, *limits);
         Told told{.files = {{"--json", [&r, environment] { return verify_json(r, environment); }},
                             {"--html", [&r, environment] { return verify_html(r, environment); }}},
                   .text = [&r](bool colour) { return verify_text(r, colour); },
-                  .ci = [&r, &limits, environment] { return verify_outcomes(r, limits, environment); },
+                  .ci = [&r, &limits, environment] { return verify_outcomes(r, *limits, environment); },
                   .notes = r.notes,
                   .curved = {r.curved},
                   .clean = failures.empty()};

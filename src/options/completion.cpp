@@ -1,28 +1,236 @@
+// Completions for shells. That for bash is one function over tables of words, which needs bash alone and not the
+// package bash-completion; for zsh it is a function for each command, of specifications for _arguments; for fish a line
+// for each option, with the command it belongs to as its condition.
+
 #include "options/completion.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <string_view>
 
 namespace barycert::cli {
+namespace {
 
+/// `text` in single quotes of bash and zsh.
 std::string in_quotes(std::string_view text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return out + '\'';
 }
 
+/// A name of a function made of the path of a command: "_barycert_render_iso".
 std::string function_name(std::string_view path) {
     std::string name = "_";
     for (const char c : path) name += c == ' ' || c == '-' ? '_' : c;
     return name;
 }
 
+/// The beginning of a help text, as a list of completions shows it: up to the first ";", "(", ". " or ": ", in a line.
 std::string summary(std::string_view text) {
     std::size_t end = text.size();
     for (const std::string_view stop : {"; ", " (", ". ", ": "}) end = std::min(end, text.find(stop));
     std::string out(text.substr(0, end));
     std::replace(out.begin(), out.end(), '\n', ' ');
     return out;
+}
+
+std::string alternatives(const std::vector<std::string>& patterns) {
+    std::string text;
+    for (const std::string& pattern : patterns) text += (text.empty() ? "" : " | ") + in_quotes(pattern);
+    return text;
+}
+
+/// What completes a value or an operand, as assignments in the script.
+std::string source_of(const OptionEntry& option) {
+    std::string text;
+    if (!option.words.empty())
+        text = fmt::format("words={}", in_quotes(fmt::format("{}", fmt::join(option.words, " "))));
+    if (option.files) text += (text.empty() ? "" : " ") + std::string("files=1");
+    return text.empty() ? ":" : text;
+}
+
+/// `text` where _arguments and _describe give these characters a meaning.
+std::string zsh_text(std::string_view text, std::string_view special) {
+    std::string out;
+    for (const char c : text) {
+        if (special.find(c) != std::string_view::npos) out += '\\';
+        out += c;
+    }
+    return out;
+}
+
+/// ":TYPE:ACTION"
+std::string zsh_value(const OptionEntry& option) {
+    std::string action;
+    if (option.files) action = "_files";
+    if (!option.words.empty())
+        action = '(' + zsh_text(fmt::format("{}", fmt::join(option.words, " ")), ":\\^*?[]~#$") + ')';
+    return ':' + zsh_text(option.type, ":\\") + ':' + action;
+}
+
+std::string specification(const OptionEntry& option) {
+    const std::string text = '[' + zsh_text(summary(option.text), "[]\\:") + ']';
+    if (option.operand) return (option.repeats ? "*" : "") + zsh_value(option);
+    std::string all;
+    for (const std::string& name : option.names) {
+        std::string one = option.repeats ? "*" : "";
+        one += name;
+        if (!option.type.empty() && name.starts_with("--")) one += '=';
+        one += text;
+        if (!option.type.empty()) one += (option.may_be_bare ? ":" : "") + zsh_value(option);
+        all += ' ' + in_quotes(one);
+    }
+    return all;
+}
+
+std::string function_of(const CommandEntry& command) {
+    std::string text = function_name(command.path) + "() {\n";
+    std::string specifications;
+    for (const OptionEntry& option : command.options)
+        specifications +=
+            " \\\n   " + (option.operand ? ' ' + in_quotes(specification(option)) : specification(option));
+    if (command.commands.empty()) return text + "  _arguments -s -S" + specifications + "\n}\n";
+    std::string names, cases;
+    for (const CommandEntry& below : command.commands) {
+        names += "\n    " + in_quotes(zsh_text(below.name, ":\\") + ':' + zsh_text(summary(below.text), "\\"));
+        cases += fmt::format("    {}) {} ;;\n", below.name, function_name(below.path));
+    }
+    // Operands of a command that has commands below it: where the first word is none of them.
+    std::string operands;
+    for (const OptionEntry& option : command.options) {
+        if (option.operand && option.files) operands = "_files";
+    }
+    std::string options;
+    for (const OptionEntry& option : command.options) {
+        if (!option.operand) options += " \\\n   " + specification(option);
+    }
+    text += "  local curcontext=$curcontext state line\n  local -a commands\n  typeset -A opt_args\n";
+    text += "  commands=(" + names + "\n  )\n";
+    text += "  _arguments -C -S" + options + " \\\n    ': :->command' \\\n    '*:: :->rest'\n";
+    text +=
+        "  case $state in\n  command) _describe command commands" + (operands.empty() ? "" : "; " + operands) + " ;;\n";
+    text += "  rest)\n    case $words[1] in\n" + cases;
+    return text + "    esac ;;\n  esac\n}\n";
+}
+
+/// In single quotes of fish, which know \' and \\.
+std::string fish_word(std::string_view text) {
+    std::string out = "'";
+    for (const char c : text) {
+        if (c == '\'' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + '\'';
+}
+
+/// The words as fish takes them: one a line would need a command.
+std::string fish_words(const OptionEntry& option) {
+    return fish_word(fmt::format("{}", fmt::join(option.words, " ")));
+}
+
+std::string line_of(const OptionEntry& option, const std::string& start) {
+    std::string text = start;
+    if (!option.operand) {
+        for (const std::string& name : option.names)
+            text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+        if (!option.type.empty() && !option.may_be_bare) text += " -r";
+    }
+    if (option.files) text += " -F";
+    if (!option.files && !option.type.empty()) text += " -f";
+    if (!option.words.empty()) text += " -a " + fish_words(option);
+    return text + " -d " + fish_word(summary(option.text)) + '\n';
+}
+
+}  // namespace
+
+std::string bash_completion(const CommandEntry& program) {
+    std::vector<std::string> paths;
+    std::map<std::string, std::vector<std::string>> values;  // assignments -> "path option"
+    std::string operands, options;
+    for_commands(program, [&](const CommandEntry& command) {
+        if (command.path != program.path) paths.push_back(command.path);
+        OptionEntry operand;
+        std::string names;
+        for (const CommandEntry& below : command.commands) operand.words.push_back(below.name);
+        for (const OptionEntry& o : command.options) {
+            if (o.operand) {
+                operand.words.insert(operand.words.end(), o.words.begin(), o.words.end());
+                operand.files = operand.files || o.files;
+                continue;
+            }
+            for (const std::string& name : o.names) names += (names.empty() ? "" : " ") + name;
+            if (!o.type.empty()) values[source_of(o)].push_back(command.path + ' ' + o.name());
+        }
+        operands += fmt::format("        {}) {} ;;\n", in_quotes(command.path), source_of(operand));
+        options += fmt::format("        {}) words={} ;;\n", in_quotes(command.path), in_quotes(names));
+    });
+    std::string cases;
+    for (const auto& [source, patterns] : values)
+        cases += fmt::format("        {})\n            {} ;;\n", alternatives(patterns), source);
+    const std::string function = function_name(program.path);
+    std::string script = fmt::format("# Completion for bash; generated from the options of {}.\n", program.name);
+    script += function + "() {\n";
+    script += "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n";
+    script += fmt::format("    local command={} words= files= word i\n", in_quotes(program.path));
+    if (!paths.empty()) {
+        script += "    for ((i = 1; i < COMP_CWORD; ++i)); do\n";
+        script += "        word=\"$command ${COMP_WORDS[i]}\"\n";
+        script += fmt::format(
+            "        case $word in\n        {}) command=$word ;;\n        *) break ;;\n        esac\n    done\n",
+            alternatives(paths));
+    }
+    // bash makes words of their own of the parts of --option=value.
+    script += "    if [[ $current == = ]]; then\n        current=\n";
+    script +=
+        "    elif [[ $previous == = && $COMP_CWORD -ge 2 ]]; then\n        previous=${COMP_WORDS[COMP_CWORD - 2]}\n    "
+        "fi\n";
+    script += "    case \"$command $previous\" in\n" + cases;
+    script += "        *)\n            if [[ $current == -* ]]; then\n        case $command in\n" + options +
+              "        esac\n            else\n        case $command in\n" + operands +
+              "        esac\n            fi ;;\n";
+    script += "    esac\n";
+    script += "    COMPREPLY=()\n";
+    script += "    [[ -z $words ]] || mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n";
+    script += "    if [[ -n $files ]]; then\n        local -a found\n";
+    script += "        mapfile -t found < <(compgen -f -- \"$current\")\n";
+    script += "        COMPREPLY+=(\"${found[@]}\")\n";
+    script += "        compopt -o filenames 2>/dev/null\n    fi\n";
+    script += "    [[ ${COMPREPLY[0]} != *= ]] || compopt -o nospace 2>/dev/null\n";
+    return script + "}\n" + fmt::format("complete -F {} {}\n", function, program.name);
+}
+
+std::string zsh_completion(const CommandEntry& program) {
+    std::string script =
+        fmt::format("#compdef {0}\n# Completion for zsh; generated from the options of {0}.\n", program.name);
+    for_commands(program, [&](const CommandEntry& command) { script += function_of(command); });
+    // The file is a function of this name when zsh loads it by itself, and a script when it is sourced.
+    return script + fmt::format("if [ \"$funcstack[1]\" = {2} ]; then\n  {0} \"$@\"\nelse\n  compdef {0} {1}\nfi\n",
+                                function_name(program.path), program.name, '_' + program.name);
+}
+
+std::string fish_completion(const CommandEntry& program) {
+    const std::string function = "_" + function_name(program.path) + "_command";
+    std::string paths, lines;
+    for_commands(program, [&](const CommandEntry& command) {
+        if (command.path != program.path) paths += ' ' + fish_word(command.path);
+        const std::string start = fmt::format("complete -c {} -n {}", program.name,
+                                              fish_word(fmt::format("{} {}", function, fish_word(command.path))));
+        for (const CommandEntry& below : command.commands)
+            lines += fmt::format("{} -f -a {} -d {}\n", start, fish_word(below.name), fish_word(summary(below.text)));
+        for (const OptionEntry& option : command.options) lines += line_of(option, start);
+    });
+    std::string script = fmt::format("# Completion for fish; generated from the options of {}.\n", program.name);
+    script += fmt::format("function {} --description 'Whether this command is being typed'\n", function);
+    script += fmt::format("    set -l command {}\n", fish_word(program.path));
+    script += "    for word in (commandline -opc)[2..-1]\n";
+    script += fmt::format("        contains -- \"$command $word\"{}; or break\n", paths);
+    script += "        set command \"$command $word\"\n    end\n";
+    script += "    test \"$command\" = $argv[1]\nend\n";
+    script += fmt::format("complete -c {} -f\n", program.name);
+    return script + lines;
 }
 
 }  // namespace barycert::cli

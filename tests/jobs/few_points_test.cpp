@@ -1,5 +1,5 @@
 // A job for few points writes what it writes with an index, byte for byte.
-#include "barycert/jobs/few_points.hpp"
+#include "barycert/jobs/sampled_mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -19,7 +19,7 @@
 #include "barycert/jobs.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
-#include "barycert/jobs/pixel_grid.hpp"
+#include "barycert/jobs/pictures.hpp"
 #include "barycert/sample/quantity/expression.hpp"
 #include "barycert/sample/quantity/made_fields.hpp"
 

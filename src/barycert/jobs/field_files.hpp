@@ -1,4 +1,5 @@
-/// Fields from files, among those of the mesh.
+/// Fields from files, among those of the mesh; and labels of its cells (Mesh::cell_labels), among the fields that a job
+/// names.
 #pragma once
 
 #include <cstddef>
@@ -41,5 +42,13 @@ void give_each_a_name(Mesh& mesh);
 
 /// Adds the fields of all files, and gives each a name.
 Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh);
+
+/// The labels that are named, in their order; they are removed from `names`, in which one text may hold several names,
+/// with commas between them. A field goes before a label of its name; cell:NAME may stand for NAME. Errors: a label
+/// that is named twice; one that does not fit the mesh; integers among which is the one that stands for "outside".
+Result<std::vector<const Column*>> take_labels(const Mesh& mesh, std::vector<std::string>& names);
+
+/// Says which labels there are, if there are some and nothing is named.
+void note_labels(const Mesh& mesh, const std::vector<std::string>& names, Notes& notes);
 
 }  // namespace barycert::jobs

@@ -1,4 +1,4 @@
-#include "barycert/jobs/grid_sinks.hpp"
+#include "barycert/jobs/resampled.hpp"
 
 #include <fmt/format.h>
 

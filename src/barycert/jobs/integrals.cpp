@@ -1,4 +1,4 @@
-#include "barycert/jobs/integrals.hpp"
+#include "barycert/jobs/resampled.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>

@@ -1,4 +1,4 @@
-#include "barycert/jobs/mesh_sink.hpp"
+#include "barycert/jobs/resampled.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "barycert/jobs/pixel_grid.hpp"
+#include "barycert/jobs/pictures.hpp"
 
 #include <algorithm>
 #include <cmath>

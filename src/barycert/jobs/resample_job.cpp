@@ -10,10 +10,8 @@
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/jobs/grid_sinks.hpp"
-#include "barycert/jobs/integrals.hpp"
 #include "barycert/jobs/job_files.hpp"
-#include "barycert/jobs/mesh_sink.hpp"
+#include "barycert/jobs/resampled.hpp"
 #include "barycert/jobs/stream.hpp"
 #include "barycert/jobs/user_rows.hpp"
 
@@ -70,7 +68,7 @@ Status check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
         return Error{.what = targets == 0 ? "no target" : "more than one target",
                      .expected = "one of job.counts, job.spacing and job.onto",
                      .found = targets == 0 ? "none" : "several",
-                     .remedy = "`barycert resample job.help` explains them"};
+                     .remedy = "`barycert resample --help` explains them"};
     if (!job.bounds.empty() && !job.onto.empty())
         return Error{.what = "job.bounds cannot be combined with job.onto",
                      .remedy = "bounds are for job.counts and job.spacing: leave them out"};
@@ -79,7 +77,7 @@ Status check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
                      .file = job.weights,
                      .remedy =
                          "for the points of a grid, write them to a file first (job.output grid.csv), and use "
-                         "`barycert sample job.points grid.csv job.weights`"};
+                         "`barycert sample --points grid.csv --weights`"};
     if (job.onto.empty()) {
         if (Status known = jobs::check_grid_output(job); !known) return known;
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});

@@ -1,6 +1,7 @@
 /// The mesh of a job of sampling with its fields, what finds points in it, and what samples the fields.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -18,6 +19,17 @@
 #include "barycert/sampler.hpp"
 
 namespace barycert::jobs {
+
+/// Whether points are so few that no index of the mesh is worth its while: whether to look at each cell once instead
+/// (locate/cells_at_points.hpp), for so many points in so many cells. The turning point was measured: see NOTES.md.
+constexpr bool needs_no_index(std::size_t points, std::size_t cells) {
+    return points != 0 && cells >= 20'000 && points <= cells / 100;
+}
+
+/// If more cells than these may hold a point, an index is made all the same.
+constexpr std::size_t most_cells(std::size_t cells) {
+    return cells / 8;
+}
 
 /// Writes what it does into the report of the job. The job must stay, and so must this: sampler and locator refer to
 /// the mesh.
