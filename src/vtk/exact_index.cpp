@@ -95,6 +95,7 @@ std::vector<std::int64_t> all_global_ids(vtkDataSet& data) {
 void order_by_global_ids(vtkDataSet& data, ExactIndex& index) {
     const std::vector<Mesh::Index> order = index.sort_cells(global_ids(data, index));
     std::vector<vtkIdType> ids;
+    ids.reserve(order.size());
     for (const Mesh::Index cell : order) ids.push_back(index.id(cell));
     if (!ids.empty()) index.ids = std::move(ids);
 }
