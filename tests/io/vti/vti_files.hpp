@@ -25,8 +25,9 @@ Bytes bytes_of(const std::vector<T>& values) {
 }
 
 /// Blocks of any length, arrays taking turns by chance (or one after the other).
-inline Status write_in_blocks(const std::string& path, const io::VtiGrid& grid, const std::vector<io::ArrayFormat>& arrays,
-                              const std::vector<Bytes>& data, std::uint64_t seed, bool take_turns) {
+inline Status write_in_blocks(const std::string& path, const io::VtiGrid& grid,
+                              const std::vector<io::ArrayFormat>& arrays, const std::vector<Bytes>& data,
+                              std::uint64_t seed, bool take_turns) {
     Result<std::unique_ptr<io::VtiWriter>> writer = io::VtiWriter::open(path, grid, arrays);
     if (!writer) return writer.error();
     base::Random random(seed);

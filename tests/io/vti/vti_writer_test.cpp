@@ -19,16 +19,16 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<io::ArrayFormat> four{{"vtkValidPointMask", 1, io::NumberType::int8},
-                                     {"cell", 1, io::NumberType::int32},
-                                     {"u <v>", 3, io::NumberType::float64},
-                                     {"T", 1, io::NumberType::float64}};
+                                        {"cell", 1, io::NumberType::int32},
+                                        {"u <v>", 3, io::NumberType::float64},
+                                        {"T", 1, io::NumberType::float64}};
 
 std::vector<Bytes> data_of(base::Random& random, const std::vector<io::ArrayFormat>& arrays, std::size_t points) {
     std::vector<Bytes> data;
     for (const io::ArrayFormat& array : arrays) {
         const std::size_t size = array.type == io::NumberType::int8 || array.type == io::NumberType::uint8      ? 1
                                  : array.type == io::NumberType::int32 || array.type == io::NumberType::float32 ? 4
-                                                                                                          : 8;
+                                                                                                                : 8;
         data.push_back(any_bytes(random, points * size * static_cast<std::size_t>(array.components)));
     }
     return data;
@@ -98,8 +98,8 @@ TEST(VtiWriter, no_arrays) {
 TEST(VtiWriter, what_is_refused) {
     const TemporaryFolder folder;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const auto refused = [&](const io::VtiGrid& grid, const std::vector<io::ArrayFormat>& arrays, const std::string& what,
-                             const std::string& found) {
+    const auto refused = [&](const io::VtiGrid& grid, const std::vector<io::ArrayFormat>& arrays,
+                             const std::string& what, const std::string& found) {
         const auto writer = io::VtiWriter::open(folder / "a.vti", grid, arrays);
         ASSERT_FALSE(writer) << what;
         EXPECT_EQ(writer.error().what, what);

@@ -32,12 +32,12 @@ void expect_image(const io::VtiGrid& grid) {
     for (const std::int64_t count : grid.counts) points *= static_cast<std::size_t>(count);
     base::Random random(points);
     const std::vector<io::ArrayFormat> arrays{{"vtkValidPointMask", 1, io::NumberType::int8},
-                                           {"feature", 1, io::NumberType::uint8},
-                                           {"cell", 1, io::NumberType::int32},
-                                           {"id", 1, io::NumberType::int64},
-                                           {"single", 2, io::NumberType::float32},
-                                           {"u <&\"'> Größe\t", 3, io::NumberType::float64},
-                                           {"T", 1, io::NumberType::float64}};
+                                              {"feature", 1, io::NumberType::uint8},
+                                              {"cell", 1, io::NumberType::int32},
+                                              {"id", 1, io::NumberType::int64},
+                                              {"single", 2, io::NumberType::float32},
+                                              {"u <&\"'> Größe\t", 3, io::NumberType::float64},
+                                              {"T", 1, io::NumberType::float64}};
     const std::vector<Bytes> data{any_bytes(random, points),     any_bytes(random, points),
                                   any_bytes(random, 4 * points), any_bytes(random, 8 * points),
                                   any_bytes(random, 8 * points), any_bytes(random, 24 * points),

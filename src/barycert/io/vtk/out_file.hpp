@@ -137,8 +137,8 @@ std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>&
 /// A legacy file, of a mesh that is consistent: numbers in big-endian order, or as text.
 Status write_legacy(const Mesh& mesh, const std::string& path, VtkData data);
 
-/// A sink of rows into a .vtu file. The format has one array after the other: rows are kept in files without names beside
-/// the target up to commit(), so that memory does not grow with them.
+/// A sink of rows into a .vtu file. The format has one array after the other: rows are kept in files without names
+/// beside the target up to commit(), so that memory does not grow with them.
 Result<std::unique_ptr<TableSink>> open_vtu_sink(const std::string& path, const TableFormat& format);
 
 }  // namespace barycert::io
