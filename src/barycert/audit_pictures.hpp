@@ -22,9 +22,8 @@ namespace barycert {
 // The experiment of Kettner, Mehlhorn, Pion, Schirra and Yap ("Classroom examples of robustness problems in geometric
 // computations", 2008): the point runs over a grid with steps of one ulp around (1/2, 1/2), the side lies on the
 // diagonal x = y from 12 to 24, and the sign of the weight of the vertex off that side tells on which side the kernel
-// sees the point. Exactly, the picture is a diagonal of zeros with one sign on either side of it. For a tetrahedron
-// the side is a face in the plane x = y; a triangle3d lies in the plane z = 1/2; in perspective the depths are 1,
-// 2, 3.
+// sees the point. Exactly, the picture is a diagonal of zeros with one sign on either side. Of a tetrahedron the side
+// is a face in the plane x = y; a triangle3d lies in the plane z = 1/2; in perspective the depths are 1, 2, 3.
 
 struct SignPicture {
     static constexpr int side = 256;  ///< points along x and along y
@@ -86,12 +85,10 @@ std::vector<MeshMap> mesh_maps(const std::vector<Kernel>& kernels, const MeshSou
 
 // Drift: how far the value of an attribute moves away from the exact one as a triangle in a window grows.
 //
-// Enters: kernels on triangles. Cases as those of the family triangle.pixels: vertices on the grid of 1/256 pixel in
-// boxes of 4, 8, ... 4096 pixels, pixel centres in the triangle. Attributes are 1 to 2 at the vertices. That it is the
-// steps that tell, not the shape or the place: the box lies at the origin, and the triangle fills an eighth of it at
-// least.
-// Leaves: the largest error of the value by size. A kernel that steps from pixel to pixel drifts; one that computes
-// each pixel afresh does not.
+// Cases are those of the family triangle.pixels: vertices on the grid of 1/256 pixel in boxes of 4, 8, ... 4096 pixels,
+// pixel centres in the triangle. Attributes are 1 to 2 at the vertices. The box lies at the origin and the triangle
+// fills an eighth of it at least, so that the steps tell, not the shape or the place. A kernel that steps from pixel to
+// pixel drifts; one that computes each pixel afresh does not.
 
 struct DriftOptions {
     std::vector<Kernel> kernels;  ///< on triangles, without perspective

@@ -4,10 +4,10 @@
 /// Enters: a kernel; families whose worst cases are where walks start. Each step makes one case, asks the oracle and
 /// compares. Leaves: for each class of finding that was met, and for the errors, a witness as found and a plain one.
 ///
-/// How it looks. A walk starts from a family's worst, from the worst so far, or from a new pattern of exponents; its
-/// steps move coordinates by ulps, redraw significands, shift exponents, and jump by a secant of the exact weights to
-/// where a weight, or the whole determinant, is zero: beside these sets the condition number of a sign is unbounded.
-/// The idea of a search led by condition numbers is that of ATOMU (Zou, Zeng, Xiong, Fu, Zhang, Su, POPL 2020).
+/// A walk starts from a family's worst, from the worst so far, or from a new pattern of exponents; its steps move
+/// coordinates by ulps, redraw significands, shift exponents, and jump by a secant of the exact weights to where a
+/// weight, or the whole determinant, is zero: beside these sets the condition number of a sign is unbounded. The idea
+/// of a search led by condition numbers is that of ATOMU (Zou, Zeng, Xiong, Fu, Zhang, Su, POPL 2020).
 ///
 /// The result depends on the kernel's answers, the options and nothing else, unless time or the user ends the search,
 /// or the kernel is given up. The number of threads changes nothing. A kernel in a process of its own
@@ -221,9 +221,8 @@ inline constexpr std::array<Feature, 3> claim_features{Feature::face, Feature::e
 // The mutation score of the families: kernels with seeded faults, each beside the sound kernel that it was made from,
 // and the families whose figures tell them apart.
 //
-// A family that no mutant needs may be idle; a mutant that no family catches shows a gap. Faults are of the kinds seen
-// in public code: a constant off by ten, a guard left out, vertices swapped, a term dropped, a tie decided the other
-// way.
+// A family that no mutant needs may be idle; a mutant that no family catches shows a gap. Faults are of kinds seen in
+// public code: a constant off by ten, a guard left out, vertices swapped, a term dropped, a tie decided the other way.
 
 struct Mutant {
     Kernel kernel;  ///< its name is the sound kernel's, "!" and the fault

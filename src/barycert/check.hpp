@@ -7,9 +7,9 @@
 /// std::bad_alloc is thrown.
 ///
 /// Words. d is the dimension. A facet of a cell has all its vertices but one; two facets are the same if they have the
-/// same nodes, wherever these lie. A boundary facet is a facet of exactly one cell. A ridge is the d - 1 nodes that two
-/// facets share (an edge in 3D, a node in 2D). A piece of the boundary is a maximal set of boundary facets connected
-/// over ridges that exactly two of them hold.
+/// same nodes. A boundary facet is a facet of exactly one cell. A ridge is the d - 1 nodes that two facets share (an
+/// edge in 3D, a node in 2D). A piece of the boundary is a maximal set of boundary facets connected over ridges that
+/// exactly two of them hold.
 ///
 /// Theorem (proof: doc/theorem.md). Let a mesh satisfy
 ///   P1  every coordinate is finite, every vertex of every cell is a node, and no cell is degenerate;
@@ -17,20 +17,18 @@
 ///   P3  two boundary facets meet, if at all, in a common vertex or edge of both (the same nodes);
 ///   P4  of each piece of the boundary, one cell at it has its interior free of all other cells.
 /// Then any two cells meet in a common face of both or not at all: the cells partition the domain that is their union,
-/// without overlap or gap, and the boundary facets are the boundary of that domain. The order of a cell's vertices does
-/// not matter. The domain may have several parts, cavities and tunnels, and may touch itself in common vertices and
-/// edges. The conditions are necessary, too, up to the choice of cells in P4: every simplicial complex is certified.
+/// and the boundary facets are the boundary of that domain. The order of a cell's vertices does not matter. The domain
+/// may have several parts, cavities and tunnels, and may touch itself in common vertices and edges. The conditions are
+/// necessary, too, up to the choice of cells in P4: every simplicial complex is certified.
 ///
 /// A certificate also requires
-///   P5  neighbours and faces that came with the mesh (.neigh, .face) are those of its cells; a mesh of triangles has
-///   no
-///       faces; arrays of nodes and cells (fields, markers, mid-edge nodes) have the right sizes and indices.
+///   P5  neighbours and faces that came with the mesh (.neigh, .face) are those of its cells, and none if these are
+///       triangles; arrays of nodes and cells (fields, markers, mid-edge nodes) have the right sizes and indices.
 ///
-/// Time: O(n log n), plus about 0.1 microseconds for each pair of boundary facets whose boxes meet. These are few in
-/// most meshes, and up to n^2 where thin cells lie side by side askew to the axes. A mesh that is not certified is also
-/// searched for overlapping cells, which takes as long again, or longer where boxes of many cells overlap;
-/// CheckOptions::verdict_only skips that. A common point of two cells takes about ten microseconds, and up to some
-/// milliseconds where their coordinates span the whole range of doubles; CheckOptions::contacts limits their number.
+/// Time: O(n log n), plus about 0.1 microseconds for each pair of boundary facets whose boxes meet: few in most meshes,
+/// up to n^2 where thin cells lie side by side askew to the axes. A mesh that is not certified is also searched for
+/// overlapping cells, which takes as long again or longer; CheckOptions::verdict_only skips that. A common point of two
+/// cells takes ten microseconds to some milliseconds; CheckOptions::contacts limits their number.
 #pragma once
 
 #include <array>
@@ -47,9 +45,6 @@
 #include "barycert/result.hpp"
 
 namespace barycert {
-
-// The result of a mesh check as a value that stays bound to the mesh it was made for; and how far the sides of
-// second-order cells are from the straight ones that it is said of.
 
 struct CheckReport;
 struct CheckOptions;
@@ -100,8 +95,8 @@ struct CurvedCells {
     double max_rounded = 0;           ///< of such nodes
 };
 
-/// Cells with an index that is no node are left out, and so are coordinates that are not finite. `each`, if given: 1
-/// for each curved cell, 0 for others; empty if none is curved.
+/// Leaves out cells with an index that is no node, and coordinates that are not finite. `each`, if given: 1 for each
+/// curved cell, 0 for others; empty if none is curved.
 CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each = nullptr);
 
 /// In one sentence, empty if all sides are straight.
@@ -115,36 +110,34 @@ Result<CurvedCells> take_as_straight(const Mesh& mesh, const std::string& file, 
 
 // The defects that a check may find in a mesh, and which of them break the certificate.
 
+/// What they are, and which break the certificate, stands in defect_texts. Their numbers are the bits of DefectSet.
 enum class DefectKind : std::uint8_t {
-    // These break the certificate. P1 to P5: the condition of check.hpp that fails.
-    bad_structure,       ///< P1  array sizes that are no whole number of nodes or cells
-    index_out_of_range,  ///< P1  a vertex of a cell is not a node of the mesh
-    not_finite,          ///< P1  a node has a NaN or infinite coordinate
-    repeated_node,       ///< P1  a cell names a node twice
-    degenerate_cell,     ///< P1  exactly zero volume: coplanar, collinear, or one point
-    duplicate_cell,      ///< P2  two cells have the same nodes
-    overfull_facet,      ///< P2  a facet belongs to more than two cells
-    same_side,           ///< P2  two cells lie on the same side of their common facet
-    open_boundary,       ///< the boundary does not continue at a ridge: follows from P2 failing
-    boundary_contact,    ///< P3  two boundary facets meet outside common vertices and edges
-    nested_part,         ///< P4  a piece of the boundary at which a cell overlaps others
-    overlapping_cells,   ///< the interiors of two cells meet: caused by the defects above
-    wrong_neighbour,     ///< P5  .neigh names a cell that does not share that facet, or misses one that does
-    wrong_face,          ///< P5  a face in the files is not a facet of any cell; a mesh of triangles has faces
-    unfit_array,         ///< P5  fields, markers or mid-edge nodes do not fit the nodes and cells
-    // These are reported and do not affect the certificate.
-    mixed_orientation,  ///< cells are ordered in both ways
-    plain_sign_wrong,   ///< the sign of the cell's volume in plain double is not the exact one
-    coincident_nodes,   ///< two nodes have the same coordinates
-    unused_node,        ///< a node of no cell
-    pinched_ridge,      ///< the boundary touches itself along a ridge of more than two of its facets
-    pinched_node,       ///< the boundary touches itself in a node of several fans
-    // Later ones stand last, so that the bits of DefectSet stay.
-    hanging_node,  ///< breaks it: a node of one boundary facet lies within an edge of another one, or within that facet
-    near_nodes,    ///< two nodes of the boundary nearly coincide: CheckOptions::near
-    crack,         ///< two boundary facets would be one if coincident and near nodes were merged
-    missing_cell,  ///< a void of the shape of one cell, whose facets are a piece of the boundary
-    near_hanging,  ///< a node of the boundary nearly lies within an edge or a facet of it: CheckOptions::near
+    bad_structure,
+    index_out_of_range,
+    not_finite,
+    repeated_node,
+    degenerate_cell,
+    duplicate_cell,
+    overfull_facet,
+    same_side,
+    open_boundary,
+    boundary_contact,
+    nested_part,
+    overlapping_cells,
+    wrong_neighbour,
+    wrong_face,
+    unfit_array,
+    mixed_orientation,
+    plain_sign_wrong,
+    coincident_nodes,
+    unused_node,
+    pinched_ridge,
+    pinched_node,
+    hanging_node,
+    near_nodes,  ///< CheckOptions::near
+    crack,
+    missing_cell,
+    near_hanging,  ///< CheckOptions::near
 };
 
 struct DefectText {
@@ -304,7 +297,7 @@ struct DelaunayReport {
 
 struct ViolatedFacet {
     std::int64_t facet = -1;  ///< position in the PLC
-    double covered = 0;  ///< area of the faces of cells that lie in its plane with their centroids on it, over its own
+    double covered = 0;       ///< area that faces of cells in its plane have in common with it, over its own
 };
 
 /// Does the mesh respect the facets of a PLC? Each is respected exactly, respected up to rounding, or violated.
@@ -449,11 +442,10 @@ struct FixReport {
     }
 };
 
-/// A copy of the mesh with what can be repaired repaired, and in `report` what was done. Nodes merged are taken out and
-/// the others numbered anew, as are cells; all else stays with its node, cell or face: fields, labels, markers,
-/// mid-edge nodes, numbers of cells. Of cells turned the last two vertices are swapped. Neighbours, if any, are
-/// computed anew if nodes or cells went. It says nothing of the result: check_mesh does. Dropping a degenerate cell
-/// that others meet in facets may leave these facets unmatched. Errors: arrays of wrong sizes, indices out of range, a
+/// A repaired copy of the mesh; `report` says what was done. Merged nodes are taken out and the others numbered anew,
+/// as are cells; all else stays with its node, cell or face. The last two vertices of turned cells are swapped.
+/// Neighbours, if any, are computed anew if nodes or cells went. Whether the copy is a partition check_mesh tells:
+/// facets at a dropped degenerate cell may be left unmatched. Errors: arrays of wrong sizes, indices out of range, a
 /// distance that is negative or not finite.
 Result<Mesh> fix_mesh(const Mesh& mesh, const FixOptions& options, FixReport& report);
 

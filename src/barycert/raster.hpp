@@ -11,9 +11,9 @@
 ///   R2  A triangle with an area of exactly zero covers nothing.
 ///   D1  Coverage depends on the coordinates alone, not on threads, SIMD target, compiler or optimisation.
 ///
-/// Why R1: a centre on the side of a triangle is treated as if it were moved right by e and down by e * e, for an e > 0
-/// too small for anything else to change. The moved point lies on no line through two distinct points with finite
-/// coordinates, so of triangles that partition its surroundings exactly one holds it, in its interior.
+/// Why R1: the rule moves a centre on a side right by e and down by e * e, for an e > 0 too small for anything else to
+/// change. The moved point lies on no line through two distinct points with finite coordinates, so that of triangles
+/// that partition its surroundings exactly one holds it, in its interior.
 #pragma once
 
 #include <array>
@@ -195,21 +195,18 @@ Result<std::size_t> draw_textured(Image& image, const Texture& texture, std::spa
 // Clipping: what of a segment or triangle lies in a half-space, a box or the clip volume, with attributes.
 //
 // A vertex is a row of numbers: its position, then its attributes. Where a bound cuts, a new vertex C stands between A
-// and B, and every one of its numbers, position and attributes alike, is V_C = W_A * V_A + (1 - W_A) * V_B.
+// and B, and each of its numbers is V_C = W_A * V_A + (1 - W_A) * V_B.
 //
 // Laws (each is a test of that name in tests/raster):
 //   C1  Which part lies inside is decided exactly, for any finite numbers.
-//   C2  Every number of a new vertex is the exact one rounded to nearest, ties to even: the exact one of the segment
-//   or
-//       triangle that was given, however many bounds have cut it. An exact zero is +0. Vertices that stay keep their
-//       bits.
+//   C2  Every number of a new vertex is the exact one of the segment or triangle given, rounded to nearest, ties to
+//       even, however many bounds have cut it. An exact zero is +0. Vertices that stay keep their bits.
 //   C3  The end of an edge has the same bits for both triangles that share the edge, in whatever order they name its
 //       ends.
 //   C4  What was clipped by a box or the clip volume lies in it, rounded as it is: clipping it again changes nothing.
 //   D1  Answers depend on the numbers alone, not on the machine nor (D2) on the floating-point environment.
 //
-// Why C4: rounding to nearest is monotonic and commutes with the sign. A new vertex lies exactly in the volume, so
-// that x <= w exactly, hence x <= w rounded; and where x = w exactly, both are rounded to the same number.
+// Why C4: rounding to nearest is monotonic and commutes with the sign.
 //
 // Not promised: that a new vertex, rounded, lies on the line of its edge, or in an oblique half-space.
 

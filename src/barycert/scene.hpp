@@ -1,9 +1,8 @@
 /// From vertices to pixels: triangles with attributes, cameras, textures, a picture.
 ///
 /// The way of a triangle: object coordinates -> clip space (one matrix) -> clipped to -w <= x, y, z <= w -> divided by
-/// w
-/// -> window -> the pixels whose centres it covers (raster.hpp, R1) -> of several triangles at a pixel the one with the
-/// lowest depth, of equal ones the first -> the attributes there -> colour.
+/// w -> window -> the pixels that it covers (raster.hpp, R1) -> of several triangles at a pixel the one with the lowest
+/// depth, of equal ones the first -> the attributes there -> colour.
 ///
 /// Conventions, those of OpenGL: clip space is left-handed, z/w = -1 is the near end and 1 the far end; x = -w, y = -w
 /// is the lower left corner of the window; matrices act on columns. Depths are z/w, interpolated linearly in the

@@ -27,6 +27,9 @@ using Long = long double;
 constexpr Long long_ulp = std::numeric_limits<Long>::epsilon();
 
 /// Rounded to a double that is not below it. What is a double already stays as it is.
+double up(double x) {
+    return x;
+}
 double up(Long x) {
     const auto y = static_cast<double>(x);
     return y < x ? std::nextafter(y, std::numeric_limits<double>::infinity()) : y;
@@ -165,12 +168,11 @@ void add_residuals(KernelStatistics& s, const Case& c, const OracleAnswer& answe
     }
     const bool direct = c.simplex == Simplex::tetrahedron || c.simplex == Simplex::triangle;
     if (direct && !c.perspective) {  // ever closer, and slower
-        for (const auto bound_by : {plain_bound<double>, plain_bound<Long>}) {
-            const ResidualBound bound = bound_by(c, weights);
-            if (settled(bound.partition, s.partition_residual, index) &&
-                settled(bound.reproduction, s.reproduction_residual, index))
-                return;
-        }
+        const auto both_settled = [&](const ResidualBound& bound) {
+            return settled(bound.partition, s.partition_residual, index) &&
+                   settled(bound.reproduction, s.reproduction_residual, index);
+        };
+        if (both_settled(plain_bound<double>(c, weights)) || both_settled(plain_bound<Long>(c, weights))) return;
     }
     const ResidualBound bound = direct ? direct_bound(c, weights) : projected_bound(c, answer, weights);
     const std::span<const double> w(weights, n);
