@@ -102,8 +102,9 @@ Status sample_stream(Run& run, Engine& engine, PointSource& source, const Stream
     if (!ready) return ready;
     size = block_size(source.count(), threads, engine.locator().mesh().cell_count());
     // What pays for all points would not for one block.
-    locate::in_arena(
-        threads, [&] { locate::LocatorData::of(engine.locator()).prepare(std::max<std::uint64_t>(source.count().value_or(0), taken)); });
+    locate::in_arena(threads, [&] {
+        locate::LocatorData::of(engine.locator()).prepare(std::max<std::uint64_t>(source.count().value_or(0), taken));
+    });
     Stopwatch watch;
     if (Status opened = writer.open(engine, summary.all); !opened) return opened;
     seconds.write += watch.lap();

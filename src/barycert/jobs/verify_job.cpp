@@ -252,7 +252,8 @@ private:
         summary_.exact = options.exact;
         summary_.outside_value = options.outside_value;
         summary_.verdicts.columns.resize(summary_.columns.size());
-        locate::in_arena(threads, [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
+        locate::in_arena(threads,
+                         [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
         bool begun = false;
         const auto next = [&](ResultBlock& block) -> Status {
             if (!begun) {
