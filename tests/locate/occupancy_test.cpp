@@ -152,7 +152,8 @@ TEST(LocateOccupancy, MostOfTheBoxOfAThinCellIsEmpty) {
     for (std::size_t i = 0; i < count; ++i) {
         const double x = random.unit(), y = random.unit(), z = random.unit();
         const double p[] = {x, y, z};
-        kept += locate::LocatorData::of(*locator).occupancy()->may_hold(locate::LocatorData::of(*locator).index, p) ? 1 : 0;
+        kept +=
+            locate::LocatorData::of(*locator).occupancy()->may_hold(locate::LocatorData::of(*locator).index, p) ? 1 : 0;
     }
     EXPECT_GT(kept, 0U);
     EXPECT_LT(kept, count / 8);
@@ -181,8 +182,8 @@ TEST(LocateOccupancy, L1_L2_L3_EveryWay) {
             const auto locator = Locator::build(mesh, {.prove = false});
             locate::LocatorData::of(*locator).prepare(1'000'000);
             if (locate::LocatorData::of(*locator).occupancy() == nullptr) continue;
-            std::vector<double> points =
-                edge_points(mesh, locate::LocatorData::of(*locator).index, *locate::LocatorData::of(*locator).occupancy(), 200, random);
+            std::vector<double> points = edge_points(mesh, locate::LocatorData::of(*locator).index,
+                                                     *locate::LocatorData::of(*locator).occupancy(), 200, random);
             const std::vector<double> more = awkward_points(mesh, 10, random);
             points.insert(points.end(), more.begin(), more.end());
             ASSERT_GE(points.size() / static_cast<std::size_t>(d), mesh.cell_count());

@@ -16,7 +16,7 @@ std::array<double, 3> PixelGrid::middle(std::int64_t i, std::int64_t j) const {
     std::array<double, 3> at{};
     for (std::size_t k = 0; k < 3; ++k)
         at[k] = base::held((base::held(origin[k]) + static_cast<double>(i) * base::held(step_right[k])) +
-                     static_cast<double>(j) * base::held(step_up[k]));
+                           static_cast<double>(j) * base::held(step_up[k]));
     return at;
 }
 

@@ -171,7 +171,7 @@ std::array<double, 2> viewport(RasterSize size, double x, double y, double w, Ro
     if (!(w > 0) || !all_finite(std::array{x, y, w})) return {nan, nan};
     if (rounding == Rounding::correct) return {exact_window(x, w, size.width), exact_window(y, w, size.height)};
     return base::held(std::array<double, 2>{(base::held(x) / base::held(w) + 1) * (0.5 * size.width),
-                                      (base::held(y) / base::held(w) + 1) * (0.5 * size.height)});
+                                            (base::held(y) / base::held(w) + 1) * (0.5 * size.height)});
 }
 
 }  // namespace barycert
