@@ -5,21 +5,17 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::cli {
-
 namespace {
 
-struct Mistyped {
-    std::string word, meant;
-};
-
-/// The first word that was left over and is near an option.
-std::optional<Mistyped> mistyped_option(const CLI::App& app) {
+/// The first word that was left over and is near an option, and that option.
+std::optional<std::pair<std::string, std::string>> mistyped_option(const CLI::App& app) {
     for (const CLI::App* sub : app.get_subcommands()) {
         if (auto found = mistyped_option(*sub)) return found;
     }
@@ -30,7 +26,7 @@ std::optional<Mistyped> mistyped_option(const CLI::App& app) {
     for (const std::string& text : app.remaining()) {
         if (!text.starts_with("--")) continue;
         const std::string word = text.substr(0, text.find('='));
-        if (std::string meant = base::nearest_name(word, names); !meant.empty()) return Mistyped{word, meant};
+        if (std::string meant = base::nearest_name(word, names); !meant.empty()) return std::pair(word, meant);
     }
     return std::nullopt;
 }
@@ -83,8 +79,8 @@ std::string usage_error(const CLI::App& app, const std::exception& error, const 
     std::string text = message + (message.ends_with('?') ? " " : "; ");
     if (const auto option = mistyped_option(app)) {
         // Another error may have been found before.
-        if (message.find(option->word) == std::string::npos) text += '"' + option->word + "\" is no option, ";
-        text += "did you mean \"" + option->meant + "\"? ";
+        if (message.find(option->first) == std::string::npos) text += '"' + option->first + "\" is no option, ";
+        text += "did you mean \"" + option->second + "\"? ";
     }
     return text + rest;
 }
