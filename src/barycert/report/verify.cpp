@@ -117,7 +117,7 @@ void tell_verdict(Document& d, const VerifyReport& s) {
                       counted(v.rows, "row"), v.inside, v.on_boundary, v.outside,
                       v.not_finite == 0 ? "" : fmt::format(", {} of them not finite", v.not_finite)));
     Listing table{.columns = {{"row is", true, 12}, {"rows", false, 12}, {"", false, 9}, {"meaning", true, 0, 2}},
-                .headless = true};
+                  .headless = true};
     const auto kinds = kinds_of(s);
     for (std::size_t k = 0; k < kinds.size(); ++k) {
         const bool bad = k != 0 && kinds[k].count != 0;
@@ -135,12 +135,12 @@ void tell_values(Document& d, const VerifyReport& s) {
     if (s.columns.empty()) return d.say("values       not compared");
     const std::string over = s.exact ? "over 0" : "over " + base::shortest(s.tolerance);
     Listing table{.columns = {{"values of", true, 20},
-                            {"column", true, 0, 1, "", "", For::page},
-                            {"compared", false, 12},
-                            {"bits right %", false, 12},
-                            {"max ulps", false, 12},
-                            {"max error", false, 12},
-                            {over, false, 10, 1, "wrong"}}};
+                              {"column", true, 0, 1, "", "", For::page},
+                              {"compared", false, 12},
+                              {"bits right %", false, 12},
+                              {"max ulps", false, 12},
+                              {"max error", false, 12},
+                              {over, false, 10, 1, "wrong"}}};
     for (std::size_t c = 0; c < s.columns.size(); ++c) {
         const ValueErrors& e = s.verdicts.columns[c];
         const std::uint64_t wrong = e.over + e.missing + e.spurious;
