@@ -244,7 +244,8 @@ private:
         summary_.exact = options.exact;
         summary_.outside_value = options.outside_value;
         summary_.verdicts.columns.resize(summary_.columns.size());
-        locate::in_arena(threads, [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
+        locate::in_arena(threads,
+                         [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
         Status done = Stages::run(threads);
         Stopwatch watch;
         if (done) done = Verifier(*sampler_, job_.options).measure(summary_.verdicts);

@@ -133,7 +133,8 @@ std::vector<std::string> all_field_names(const Mesh& mesh) {
 Error no_such_field(const Mesh& mesh, const std::string& name) {
     const std::string points = names_of(mesh.point_fields), cells = names_of(mesh.cell_fields);
     std::string remedy = "there are " + points;
-    if (points.empty()) remedy = cells.empty() ? "the mesh has none: add them by job.field_files NAME=FILE" : "there are";
+    if (points.empty())
+        remedy = cells.empty() ? "the mesh has none: add them by job.field_files NAME=FILE" : "there are";
     if (!cells.empty()) remedy += (points.empty() ? " " : ", and of cells ") + cells;
     return {.what = "no field of that name",
             .file = {},
