@@ -329,16 +329,16 @@ struct RenderReport {
 /// `texture`: an image on a square or triangle; `cube`: a checkerboard on the faces of a cube in perspective, with the
 /// largest error of its texture coordinates; `clip`: a triangle and segments before and after they are clipped by a
 /// box; `mesh`: the boundary of a mesh of tetrahedra, or a mesh of triangles in the plane.
-enum class Picture : std::uint8_t { scene, gradient, texture, cube, clip, mesh };
+enum class PictureKind : std::uint8_t { scene, gradient, texture, cube, clip, mesh };
 
-constexpr std::string_view name(Picture p) {
+constexpr std::string_view name(PictureKind p) {
     constexpr std::array<std::string_view, 6> names{"scene", "gradient", "texture", "cube", "clip", "mesh"};
     return names[static_cast<std::size_t>(p)];
 }
 
-/// A picture as a PNG file. Of MeshJob, `mesh` and what belongs to it are for Picture::mesh alone.
+/// A picture as a PNG file. Of MeshJob, `mesh` and what belongs to it are for PictureKind::mesh alone.
 struct RenderJob : MeshJob {
-    Picture picture = Picture::scene;
+    PictureKind picture = PictureKind::scene;
     std::string output;     ///< must end in .png
     ViewOptions view = {};  ///< size, method and rounding of all pictures; the rest of that of a mesh
 

@@ -64,7 +64,7 @@ void add_methods(const Options& o, ViewOptions& view) {
 
 /// One of the small pictures; `more` declares what comes before the options that all have.
 template <class More>
-void add_picture(const Options& render, Picture picture, RasterSize size, const std::string& about, More more) {
+void add_picture(const Options& render, PictureKind picture, RasterSize size, const std::string& about, More more) {
     const Options o = render.below(std::string(name(picture)), about, done_or_error);
     const auto a = std::make_shared<PictureArguments>();
     a->job.picture = picture;
@@ -72,7 +72,7 @@ void add_picture(const Options& render, Picture picture, RasterSize size, const 
     more(o, a->job);
     add_outputs(o, *a);
     o.size(a->job.view.size);
-    if (picture != Picture::clip) add_methods(o, a->job.view);
+    if (picture != PictureKind::clip) add_methods(o, a->job.view);
     o.run([a] { return run_picture(*a); });
 }
 
@@ -111,7 +111,7 @@ void add_mesh(const Options& render) {
         "finite value. Second-order cells are drawn with straight sides.\nExit codes: 0 done; 2 usage or input error.");
     const auto a = std::make_shared<PictureArguments>();
     RenderJob& job = a->job;
-    job.picture = Picture::mesh;
+    job.picture = PictureKind::mesh;
     o.file("MESH", job.mesh, mesh_help)->required();
     o.step(job.step);
     o.word("--field", job.field,
@@ -146,13 +146,13 @@ void add_render(const Options& program) {
     add_outputs(o, *a, false);
     o.app().require_subcommand(0, 1);
     const auto nothing = [](const Options&, RenderJob&) {};
-    add_picture(o, Picture::gradient, {400, 400}, "A triangle with a red, a green and a blue corner", nothing);
-    add_picture(o, Picture::texture, {400, 400}, "A picture on a square or a triangle", add_texture);
-    add_picture(o, Picture::cube, {480, 400},
+    add_picture(o, PictureKind::gradient, {400, 400}, "A triangle with a red, a green and a blue corner", nothing);
+    add_picture(o, PictureKind::texture, {400, 400}, "A picture on a square or a triangle", add_texture);
+    add_picture(o, PictureKind::cube, {480, 400},
                 "A checkerboard on the faces of a cube in perspective, and the largest error of its texture "
                 "coordinates",
                 add_cube);
-    add_picture(o, Picture::clip, {640, 320},
+    add_picture(o, PictureKind::clip, {640, 320},
                 "A triangle and segments with colours, before and after clipping by a box", nothing);
     add_mesh(o);
     add_render_contours(o);

@@ -101,13 +101,13 @@ Result<TexelError> texel_error(const Scene& scene, const PixelValues& drawn) {
 
 Result<Scene> scene_of(const RenderJob& job) {
     switch (job.picture) {
-        case Picture::gradient:
+        case PictureKind::gradient:
             return gradient_scene(job);
-        case Picture::texture:
+        case PictureKind::texture:
             return texture_scene(job);
-        case Picture::cube:
+        case PictureKind::cube:
             return cube_scene(job);
-        case Picture::clip:
+        case PictureKind::clip:
             return jobs::clip_scene(job.view.size);
         default:
             return read_scene(job.scene);
@@ -118,13 +118,13 @@ Result<RenderReport> draw_scene(const RenderJob& job) {
     const Result<Scene> scene = scene_of(job);
     if (!scene) return scene.error();
     RenderReport report;
-    report.input = job.picture == Picture::scene ? job.scene : job.image;
+    report.input = job.picture == PictureKind::scene ? job.scene : job.image;
     report.size = scene->size;
     report.method = scene->method;
     report.interpolation = scene->interpolation;
     report.rounding = scene->rounding;
     PixelValues coordinates;
-    const bool cube = job.picture == Picture::cube;
+    const bool cube = job.picture == PictureKind::cube;
     const Result<Image> image = render(*scene, &report.counts, cube ? &coordinates : nullptr);
     if (!image) return image.error();
     if (cube) {
@@ -137,10 +137,10 @@ Result<RenderReport> draw_scene(const RenderJob& job) {
 }
 
 std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
-    if (job.picture == Picture::mesh) return jobs::input_files(job);
+    if (job.picture == PictureKind::mesh) return jobs::input_files(job);
     std::vector<base::NamedFile> inputs;
     if (!job.image.empty()) inputs.push_back({"job.image", job.image});
-    if (job.picture != Picture::scene) return inputs;
+    if (job.picture != PictureKind::scene) return inputs;
     inputs.push_back({"the scene", job.scene});
     for (const std::string& path : scene_files(job.scene)) inputs.push_back({"an image of the scene", path});
     return inputs;
@@ -159,7 +159,7 @@ Result<RenderReport> render_files(const RenderJob& job) {
     for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
     if (const Status ok = base::check_outputs(inputs_of(job), std::move(outputs)); !ok) return ok.error();
     jobs::Stopwatch time;
-    Result<RenderReport> report = job.picture == Picture::mesh ? jobs::draw_mesh(job) : draw_scene(job);
+    Result<RenderReport> report = job.picture == PictureKind::mesh ? jobs::draw_mesh(job) : draw_scene(job);
     if (!report) return report;
     report->picture = name(job.picture);
     report->output = job.output;
