@@ -93,7 +93,9 @@ Result<CellType> choose(const TypeCounts& counts, const RawGrid& grid, const std
         {{vtk_tetra, vtk_quadratic_tetra}, {vtk_triangle, vtk_quadratic_triangle}}};
     for (const auto& [linear, quadratic] : pairs) {
         if (counts[linear] != 0 && counts[quadratic] != 0) {
-            const auto is_one = [&](std::uint8_t type) { return type == linear || type == quadratic; };
+            const auto is_one = [one = linear, other = quadratic](std::uint8_t type) {
+                return type == one || type == other;
+            };
             return file_error(path, "linear and quadratic cells in one mesh", "cells of one type",
                               counts_by_name(counts, true, is_one),
                               "make all cells linear, or all quadratic: " + to_simplices(path));
