@@ -82,8 +82,7 @@ TEST(RealFiles, meshes) {
         expect_good(folder, good);
         left.erase(good.stem);
     }
-    expect_bad(folder, {"HumanWedgeMesh_BIN", ".node", 0, "the file does not begin as text", "words",
-                        "NUL bytes behind the first line: a binary file"});
+    expect_bad(folder, {"HumanWedgeMesh_BIN", ".node", 1, "a binary file", "text", "\"BIN\" in the header"});
     left.erase("HumanWedgeMesh_BIN");
     EXPECT_TRUE(left.empty()) << "no expectation for " << *left.begin();
 }
