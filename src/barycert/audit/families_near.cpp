@@ -95,12 +95,13 @@ void on_facet(Case& c, base::Random& random, std::uint64_t) {
 }
 
 // A good simplex and a point at height h over one of its facets.
-template <double h>
+template <int decimals>
 void near_facet(Case& c, base::Random& random, std::uint64_t) {
     ordinary(c, random);
     const int n = vertex_count(c.simplex) - 1;
     const bool over = random.coin();
-    c.point = lifted(c, random, random_point(c, random, n), over ? h : -h);
+    c.point =
+        lifted(c, random, random_point(c, random, n), over ? decimal_height<decimals> : -decimal_height<decimals>);
 }
 
 }  // namespace
@@ -132,9 +133,9 @@ std::vector<Family> near_families() {
         built("on-facet.offset", "the same at 1000, where differences are exact", "1000 + U[0,1)", on_facet<1000>,
               sided),
         built("near-facet.1e-13", "points at height 1e-13 above or below a facet", "U[-1,1), h = +-1e-13",
-              near_facet<1e-13>, sided),
-        built("near-facet.1e-14", "the same at 1e-14", "U[-1,1), h = +-1e-14", near_facet<1e-14>, sided),
-        built("near-facet.1e-15", "the same at 1e-15", "U[-1,1), h = +-1e-15", near_facet<1e-15>, sided),
+              near_facet<13>, sided),
+        built("near-facet.1e-14", "the same at 1e-14", "U[-1,1), h = +-1e-14", near_facet<14>, sided),
+        built("near-facet.1e-15", "the same at 1e-15", "U[-1,1), h = +-1e-15", near_facet<15>, sided),
     };
 }
 

@@ -10,11 +10,11 @@ namespace barycert::audit {
 namespace {
 
 // A simplex of height h; the point is a rounded combination of its vertices.
-template <double h>
+template <int decimals>
 void sliver(Case& c, base::Random& random, std::uint64_t) {
     ordinary(c, random);
     const int n = vertex_count(c.simplex);
-    set_vertex(c, n - 1, lifted(c, random, random_point(c, random, n - 1), h));
+    set_vertex(c, n - 1, lifted(c, random, random_point(c, random, n - 1), decimal_height<decimals>));
     c.point = random_point(c, random, n);
 }
 
@@ -98,10 +98,10 @@ void nearly_degenerate(Case& c, base::Random& random, std::uint64_t) {
 std::vector<Family> shape_families() {
     return {
         built("sliver.1e-12", "flat cells: a small divisor magnifies every error",
-              "height 1e-12, point fl(sum w_i v_i)", sliver<1e-12>, sided),
-        built("sliver.1e-13", "the same at 1e-13", "height 1e-13", sliver<1e-13>, sided),
-        built("sliver.1e-14", "the same at 1e-14", "height 1e-14", sliver<1e-14>, sided),
-        built("sliver.1e-15", "the same at 1e-15: the height is a few ulps", "height 1e-15", sliver<1e-15>, sided),
+              "height 1e-12, point fl(sum w_i v_i)", sliver<12>, sided),
+        built("sliver.1e-13", "the same at 1e-13", "height 1e-13", sliver<13>, sided),
+        built("sliver.1e-14", "the same at 1e-14", "height 1e-14", sliver<14>, sided),
+        built("sliver.1e-15", "the same at 1e-15: the height is a few ulps", "height 1e-15", sliver<15>, sided),
         built("needle", "cells with one very short edge", "two vertices 2^-10 to 2^-40 apart", needle, every),
         built("cap", "cells with a vertex close to the opposite facet", "height 2^-10 to 2^-40", cap, sided),
         built("lattice.tenths", "ties in decimals that rounding breaks", "0.1 k, k in 0..4", lattice_tenths, every),

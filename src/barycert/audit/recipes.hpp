@@ -131,6 +131,10 @@ inline std::array<double, 3> lifted(const Case& c, base::Random& random, std::ar
 /// (families_window.cpp)
 void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int window = 4096);
 
+/// 10 to the power of -12 to -15: Clang 14 takes no double as an argument of a template.
+template <int decimals>
+inline constexpr double decimal_height = std::array{1e-12, 1e-13, 1e-14, 1e-15}[decimals - 12];
+
 inline Family built(const char* name, const char* tests, const char* parameters, Family::Recipe recipe,
                     std::vector<Simplex> simplices) {
     Family f;
