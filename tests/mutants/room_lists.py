@@ -15,11 +15,11 @@ CHECK = [
     ("conformity.cpp", "high / 2 - low / 2", "(high - low) / 2", "an extent that overflows"),
     ("conformity.cpp", "crossing == PlcRegion::Crossing::none && areas.equal()", "areas.equal()", "areas alone"),
     ("conformity.cpp", " && !misses_vertex(region)", "", "a vertex that is no node"),
-    ("delaunay.cpp", " && !opposite(cell, p, i, node)", "", "one apex in the other's sphere is taken for both"),
+    ("delaunay.cpp", "const bool mutual = opposite(cell, p, i, node);", "const bool mutual = true;", "one apex in the other's sphere is taken for both"),
     ("facets.cpp", "apex(copy) > copy.highest", "apex(copy) >= copy.highest", "which facet tells of a duplicate"),
     ("measures.cpp", "(sorted.size() - 1) / 2", "sorted.size() / 2", "the upper median"),
     ("nodes.cpp", "    mark_used(mesh.mid_nodes, used);\n", "", "nodes midway are used"),
-    ("orientation.cpp", " || (f[0] == b && f[1] == a)", "", "edges from high to low"),
+    ("fix.cpp", " || (f[0] == b && f[1] == a)", "", "edges from high to low"),
     ("plc_facet.cpp", "p[k] / 2 - o[k] / 2, 1 - exponent_", "p[k] - o[k], -exponent_", "a difference that overflows"),
     ("plc_facet.cpp", "if (deepest != nullptr) return", "if (false) return", "the middle of a corner's triangle, whatever lies in it"),
     ("pairs.cpp", "if (!complete) defects.add_at_least(DefectKind::nested_part);", "", "not said that there may be more"),
@@ -46,8 +46,7 @@ LOCATE = [
     ("sorted_points.cpp", "finite &= find_bins", "finite = find_bins", "the last points alone"),
 ]
 SAMPLE = [
-    ("points/outside.cpp", "value + 0.0", "value", "a value that is -0"),
-    ("points/outside.cpp", "        tiers.not_finite += finite ? 0 : 1;", "", "a value that is not finite, uncounted"),
+    ("points/outside.cpp", "tiers.not_finite += used.not_finite != 0 ? 1 : 0;", ";", "a value that is not finite, uncounted"),
     ("points/outside.cpp", "if (data.quadratic && snap && !data.at_points.empty()) at = rounded_projection(mesh, at, nodes);", "",
      "gradients at the point, not at its projection"),
     ("points/sampler.cpp", "(data.point_components + 2) / 4", "data.point_components / 4", "the last group of components"),
