@@ -13,3 +13,8 @@ find . \( -name '*.hpp' -o -name '*.cpp' -o -name '*.h' \) -exec awk '
         $1 > may[$2] + 0 { print "src/barycert/" $2 ": lines that name options: " $1 ", allowed " may[$2] + 0; bad = 1 }
         { delete may[$2] }
         END { for (file in may) { print file ": in the table, and has none"; bad = 1 } exit bad }'
+# Below jobs, callers in C++ and Python have no job whose members could be named.
+if grep -rnE '"[^"]*\bjob\.[a-z_]+' core index io locate mesh raster sample surface verify; then
+    echo "these messages name members of a job, and the caller may have none"
+    exit 1
+fi

@@ -134,7 +134,7 @@ Error no_such_field(const Mesh& mesh, const std::string& name) {
     const std::string points = names_of(mesh.point_fields), cells = names_of(mesh.cell_fields);
     std::string remedy = "there are " + points;
     if (points.empty())
-        remedy = cells.empty() ? "the mesh has none: add them by job.field_files NAME=FILE" : "there are";
+        remedy = cells.empty() ? "the mesh has none; a field may come from a file of its own" : "there are";
     if (!cells.empty()) remedy += (points.empty() ? " " : ", and of cells ") + cells;
     return {.what = "no field of that name",
             .file = {},
@@ -212,13 +212,12 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
             if (chosen[i].field == chosen[k].field && chosen[i].steps == chosen[k].steps)
                 return Error{.what = chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
                              .found = '"' + (chosen[i].name.empty() ? chosen[i].field->name : chosen[i].name) + '"',
-                             .remedy = "name it once in job.fields"};
+                             .remedy = "name it once"};
         }
     }
     if (const auto name = common_column(mesh, chosen)) {
-        return Error{.what = "two columns have the same name",
-                     .found = '"' + *name + '"',
-                     .remedy = "choose one of them in job.fields"};
+        return Error{
+            .what = "two columns have the same name", .found = '"' + *name + '"', .remedy = "choose one of them"};
     }
     std::stable_sort(chosen.begin(), chosen.end(),
                      [&](const FieldChoice& a, const FieldChoice& b) { return rank(a) < rank(b); });
