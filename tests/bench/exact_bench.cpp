@@ -36,7 +36,7 @@ using namespace barycert;
 using bench::Demand;
 using bench::require;
 using bench::Row;
-using bench::Table;
+using bench::TargetTable;
 
 using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Epeck = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -336,7 +336,7 @@ void lean_values(const CubeMesh& mesh, const Queries& queries, double* out) {
 
 /// What `ask` writes on each target, required to be the same everywhere, counts of tiers included.
 template <class T, class Ask>
-std::vector<T> same_on_all_targets(const Table& table, std::size_t count, TierCounts& tiers, Ask ask) {
+std::vector<T> same_on_all_targets(const TargetTable& table, std::size_t count, TierCounts& tiers, Ask ask) {
     std::vector<T> first;
     for (const std::string& target : table.targets()) {
         require(use_simd_target(target), "a target cannot be chosen");
@@ -362,7 +362,7 @@ std::vector<T> same_on_all_targets(const Table& table, std::size_t count, TierCo
 }
 
 template <class Batch>
-std::vector<WeightSigns> verified_signs(const Table& table, const Batch& batch, const std::vector<WeightSigns>& right,
+std::vector<WeightSigns> verified_signs(const TargetTable& table, const Batch& batch, const std::vector<WeightSigns>& right,
                                         TierCounts& tiers) {
     auto found = same_on_all_targets<WeightSigns>(
         table, right.size(), tiers, [&](auto out, TierCounts* t) { weight_signs(batch, out, t).value(); });
@@ -397,7 +397,7 @@ struct Verified {
 
 /// Weights and values of a batch, required to be the oracle's. `at(j)` is case j.
 template <class Batch, class Values, class At>
-Verified verified_weights(const Table& table, const Batch& batch, const Values& field, std::size_t count, At at) {
+Verified verified_weights(const TargetTable& table, const Batch& batch, const Values& field, std::size_t count, At at) {
     Verified v;
     v.weights = same_on_all_targets<double>(
         table, 4 * count, v.weight_tiers, [&](auto out, TierCounts* t) { barycentric_weights(batch, out, t).value(); });
@@ -451,7 +451,7 @@ std::function<void()> times(std::size_t n, std::function<void()> work) {
 
 constexpr std::size_t rounds = 64;  // of what fits the cache
 
-Group signs_of_mesh(const Table& table, const CubeMesh& mesh, const Queries& queries) {
+Group signs_of_mesh(const TargetTable& table, const CubeMesh& mesh, const Queries& queries) {
     Group g;
     const std::size_t count = queries.cells.size();
     static std::vector<WeightSigns> out(count);
@@ -469,7 +469,7 @@ Group signs_of_mesh(const Table& table, const CubeMesh& mesh, const Queries& que
     return g;
 }
 
-Group signs_of_arrays(const Table& table, const Cases& small, const Cases& large) {
+Group signs_of_arrays(const TargetTable& table, const Cases& small, const Cases& large) {
     Group g;
     static std::vector<WeightSigns> out(large.count());
     for (const Cases* cases : {&small, &large}) {
@@ -492,7 +492,7 @@ Group signs_of_arrays(const Table& table, const Cases& small, const Cases& large
     return g;
 }
 
-Group values_of_all(const Table& table, const CubeMesh& mesh, const Queries& queries, const Cases& small,
+Group values_of_all(const TargetTable& table, const CubeMesh& mesh, const Queries& queries, const Cases& small,
                     const Cases& large) {
     Group g;
     const std::size_t all = queries.cells.size();
@@ -597,7 +597,7 @@ int one_orient3d(const Case& c) {
     return static_cast<int>(orient3d(v, v + 3, v + 6, c.point.data()));
 }
 
-Group hard_cases(const Table& table, const Cases& cases, const std::string& name, bool values_only) {
+Group hard_cases(const TargetTable& table, const Cases& cases, const std::string& name, bool values_only) {
     Group g;
     static std::vector<WeightSigns> signs(cases.count());
     static std::vector<double> out(4 * cases.count());
@@ -634,7 +634,7 @@ Group hard_cases(const Table& table, const Cases& cases, const std::string& name
     return g;
 }
 
-Group family(const Table& table, const Cases& cases) {
+Group family(const TargetTable& table, const Cases& cases) {
     Group g;
     static std::vector<WeightSigns> signs(cases.count());
     const std::size_t count = cases.count();
@@ -717,7 +717,7 @@ Group singles(const Cases& cases) {
 
 int main() {
     const double start = bench::seconds();
-    const Table table;
+    const TargetTable table;
     std::vector<std::pair<std::string, Group>> groups;
     const auto add = [&](const std::string& title, Group g) {
         table.run(title, g.rows, repetitions);

@@ -50,9 +50,9 @@ struct Demand {
     static constexpr std::size_t none = ~std::size_t{0};
 };
 
-class Table {
+class TargetTable {
 public:
-    Table() : targets_(simd_targets()) { std::reverse(targets_.begin(), targets_.end()); }
+    TargetTable() : targets_(simd_targets()) { std::reverse(targets_.begin(), targets_.end()); }
 
     const std::vector<std::string>& targets() const { return targets_; }
 

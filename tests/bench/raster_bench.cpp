@@ -179,7 +179,7 @@ void beside_mesa(double across, const std::vector<TexturedVertex>& corners, doub
 }  // namespace
 
 int main() {
-    const bench::Table table;
+    const bench::TargetTable table;
     const Texels texels;
     Picture picture;
     for (const double across : {10.0, 100.0, 500.0}) {
