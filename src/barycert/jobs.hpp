@@ -58,6 +58,15 @@ struct MeshJob {
     std::function<void(const JobProgress&)> progress = {};
 };
 
+/// What reports of jobs on a mesh have.
+struct MeshReport {
+    std::string mesh;
+    CurvedCells curved;  ///< of the mesh: taken with straight sides
+    Notes notes;         ///< what was left out, converted or guessed: of the mesh, of fields, of points
+    std::uint64_t nodes = 0, cells = 0;
+    int dimension = 3, threads = 1;
+};
+
 /// What sampling and resampling have.
 struct SamplingJob : MeshJob {
     /// Of a mesh that is a series: without a `step`, where the output has {step} or {time} in its name, and there are
@@ -94,22 +103,19 @@ struct SampleJob : SamplingJob {
 
 /// Fields on a regular grid, or at the nodes of another mesh: exactly one of counts, spacing and onto is set.
 struct ResampleJob : SamplingJob {
-    std::vector<std::int64_t> counts = {};         ///< points along each axis
-    std::vector<double> spacing = {};              ///< of points: one for all axes, or one each
-    std::vector<double> bounds = {};               ///< low and high, axis after axis; empty: the box of the cells
-    std::string onto;                              ///< a mesh; `curved` is of it, too
-    std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
+    std::vector<std::int64_t> counts = {};  ///< points along each axis
+    std::vector<double> spacing = {};       ///< of points: one for all axes, or one each
+    std::vector<double> bounds = {};        ///< low and high, axis after axis; empty: the box of the cells
+    std::string onto;                       ///< a mesh; `curved` is of it, too
+    std::optional<std::pair<double, double>> range = {};  ///< of the colours of a picture
 };
 
 /// How the owners of points were found. `pass`: one look at each cell, and no index of the mesh.
 enum class FoundBy : std::uint8_t { walk, candidates, map, grid, pass };
 
 constexpr std::string_view name(FoundBy f) {
-    return f == FoundBy::walk         ? "walk"
-           : f == FoundBy::candidates ? "candidates"
-           : f == FoundBy::map        ? "map"
-           : f == FoundBy::grid       ? "grid"
-                                      : "pass";
+    constexpr std::array<std::string_view, 5> names{"walk", "candidates", "map", "grid", "pass"};
+    return names[static_cast<std::size_t>(f)];
 }
 
 /// Where points came from.
@@ -140,15 +146,13 @@ struct FieldIntegral {
 };
 
 /// What a job did: what its reports are made of.
-struct SampleReport {
+struct SampleReport : MeshReport {
     std::string command;  ///< "sample" or "resample"
-    std::string mesh, output, weights;
+    std::string output, weights;
     std::string points;                ///< the file they came from; empty for a grid
-    CurvedCells curved;                ///< of the mesh: taken with straight sides
     CurvedCells onto_curved;           ///< of the mesh of ResampleJob::onto
     std::vector<std::string> columns;  ///< of values
     std::vector<std::string> carried;  ///< columns that were carried through: labels of cells, columns of points
-    Notes notes;                       ///< what was left out, converted or guessed: of the mesh, of fields, of points
     std::string reason;                ///< why `method`: a clause
     std::optional<Grid> grid;          ///< of ResampleJob::counts and spacing
     std::optional<SliceCounts> picture;
@@ -156,7 +160,6 @@ struct SampleReport {
     OutsidePolicy outside;
     SampleCounts counts;  ///< locations: one a point
     SampleSeconds seconds;
-    std::uint64_t nodes = 0, cells = 0;
     std::uint64_t degenerate_cells = 0;  ///< method `pass`: of the cells near the points
     std::uint64_t contested_cells = 0;   ///< see Locator::contested_cells
     std::uint64_t rows = 0;
@@ -166,7 +169,6 @@ struct SampleReport {
     std::vector<std::string> steps;  ///< of series, in order; all else but nan_values and seconds is of one of them
     std::vector<double> times;       ///< of these steps, where the mesh is the series
     std::uint64_t meshes = 1;        ///< of such steps; in each of them points are located, and counted
-    int dimension = 3, threads = 1;
     PointsFrom from = PointsFrom::points;
     FoundBy method = FoundBy::walk;
     Rounding rounding = Rounding::correct;
@@ -221,6 +223,19 @@ Result<CheckedMesh> check_files(const CheckJob& job);
 
 // A whole job: the results that some tool wrote into a file, held against the exact ones.
 
+/// A rule of --fail-on: more such rows than that fail.
+struct VerifyLimit {
+    RowVerdict verdict = RowVerdict::missed;
+    std::uint64_t most = 0;
+};
+
+/// The kinds of rows that limits are of.
+inline constexpr std::array<RowVerdict, 4> kinds_of_wrong{RowVerdict::missed, RowVerdict::invented,
+                                                          RowVerdict::wrong_cell, RowVerdict::wrong_value};
+
+/// NAME or NAME>NUMBER, with NAME missed, invented, wrong_cell or wrong_value.
+Result<VerifyLimit> parse_verify_limit(std::string_view text);
+
 struct VerifyJob : MeshJob {
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: those that the results have
 
@@ -238,15 +253,13 @@ struct VerifyJob : MeshJob {
     std::string mask_column;
 
     VerifyOptions options = {};
-    bool tolerance_given = false;  ///< else 1e-6 is taken where values are single precision throughout
+    bool tolerance_given = false;          ///< else 1e-6 is taken where values are single precision throughout
+    std::vector<VerifyLimit> limits = {};  ///< empty: none of any kind
 };
 
 /// What a verification did: what its reports are made of.
-struct VerifyReport {
-    std::string mesh, results;
-    std::uint64_t nodes = 0, cells = 0;
-    int dimension = 3, threads = 1;
-    CurvedCells curved;  ///< of the mesh: results are held against straight sides
+struct VerifyReport : MeshReport {
+    std::string results;
     bool certified = false;
     std::uint64_t contested_cells = 0;
 
@@ -259,37 +272,21 @@ struct VerifyReport {
     bool exact = false;
     std::optional<double> outside_value;
 
-    Verdicts verdicts;  ///< cells of examples are the file's own numbers
-    Notes notes;
+    Verdicts verdicts;                ///< cells of examples are the file's own numbers
+    std::vector<VerifyLimit> limits;  ///< of the job, or 0 of every kind
     std::string program;
     SampleSeconds seconds;
+
+    /// Whether rows could be of that kind: wrong_cell takes a column of cells, wrong_value one of values.
+    bool compared(RowVerdict verdict) const {
+        if (verdict == RowVerdict::wrong_cell) return !cell_column.empty();
+        return verdict != RowVerdict::wrong_value || !columns.empty();
+    }
+    std::vector<VerifyLimit> exceeded() const;
 };
 
-/// A rule of --fail-on: more such rows than that fail.
-struct VerifyLimit {
-    RowVerdict verdict = RowVerdict::missed;
-    std::uint64_t most = 0;
-};
-
-/// NAME or NAME>NUMBER, with NAME missed, invented, wrong_cell or wrong_value.
-Result<VerifyLimit> parse_verify_limit(std::string_view text);
-
-/// The names that it takes.
-std::vector<std::string> verify_limit_names();
-
-/// Every kind, 0 of it: what fails without a rule.
-std::vector<VerifyLimit> strict_limits();
-
-/// Whether rows could be of that kind: wrong_cell takes a column of cells, wrong_value one of values.
-bool compared(const VerifyReport& summary, RowVerdict verdict);
-
-/// Error: a limit on what was not compared. Nothing could fail.
-Status check_limits(const VerifyReport& summary, const std::vector<VerifyLimit>& limits);
-
-/// Those that are exceeded.
-std::vector<VerifyLimit> exceeded(const Verdicts& verdicts, const std::vector<VerifyLimit>& limits);
-
-/// Returns an Error if an input cannot be read, or the results have no column that could be compared.
+/// Returns an Error if an input cannot be read, the results have no column that could be compared, or there is a limit
+/// on what is not compared: nothing could exceed it.
 Result<VerifyReport> verify_files(const VerifyJob& job);
 
 // Pictures as jobs, files to files: what `barycert render` does and tells.
@@ -346,7 +343,7 @@ struct RenderJob : MeshJob {
     Interpolation interpolation = Interpolation::perspective;  ///< of a cube
     std::string image;                                         ///< of a texture: .png; empty: one of 2 by 2 texels
     bool triangle = false;                                     ///< what that is put on; else a square
-    double low = 0, high = 1;                                  ///< u and v at its lower left and upper right
+    std::pair<double, double> coordinates{0, 1};               ///< u and v at its lower left and upper right
     Wrap wrap = Wrap::clamp;
     Filter filter = Filter::nearest;
 
@@ -369,12 +366,12 @@ struct ContourJob : MeshJob {
     // Or a plane; then `field`, which may be one of cells, is what a picture shows, or what a surface carries along.
     std::optional<Plane> plane = {};
 
-    std::vector<std::string> fields = {};          ///< to carry along, see Sampler::build; empty: all. Not for pictures
-    std::string output;                            ///< .vtp, .ply, .off or .png; segments not as .off or .png
-    std::optional<std::array<double, 2>> range{};  ///< of the colours of a picture
-    std::int64_t width = 800;                      ///< of a picture of a section, in pixels, without bar and caption
-    ViewOptions view = {};                         ///< of a picture of an iso-surface, but for its range
-    std::string colours;  ///< the field, of nodes or cells, that colours it; named as `field`; empty: grey
+    std::vector<std::string> fields = {};  ///< to carry along, see Sampler::build; empty: all. Not for pictures
+    std::string output;                    ///< .vtp, .ply, .off or .png; segments not as .off or .png
+    std::optional<std::pair<double, double>> range = {};  ///< of the colours of a picture
+    std::int64_t width = 800;  ///< of a picture of a section, in pixels, without bar and caption
+    ViewOptions view = {};     ///< of a picture of an iso-surface, but for its range
+    std::string colours;       ///< the field, of nodes or cells, that colours it; named as `field`; empty: grey
 
     std::optional<VtkData> vtk_data = {};  ///< of a .vtp file; not set: raw
     int threads = 0;                       ///< 0: as many as the machine has
@@ -400,19 +397,15 @@ struct ContourSeconds {
 };
 
 /// What a job did: what its reports are made of.
-struct ContourReport {
-    std::string mesh, field, output;
-    CurvedCells curved;  ///< of the mesh: cut with straight sides
+struct ContourReport : MeshReport {
+    std::string field, output;
     std::optional<double> value;
     std::optional<Plane> plane;
-    std::uint64_t nodes = 0, cells = 0;
-    int dimension = 3, threads = 1;
 
     std::uint64_t points = 0, parts = 0;  ///< of the surface; parts are triangles, in the plane segments
     CutCounts counts;
     std::vector<std::string> fields;  ///< in the file
     SurfaceFile file;
-    Notes notes;  ///< of the mesh
     /// Of what is cut, the field or normal.x: its least and greatest number at nodes of cells. NaN if there is none.
     double low = 0, high = 0;
 

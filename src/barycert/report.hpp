@@ -140,8 +140,7 @@ CiReport check_outcomes(const CheckReport& report, const Mesh& mesh, const std::
                         const std::string& artifact, const Environment& environment);
 
 /// Kinds of wrong rows with their number and the worst; those fail of which there are more than a limit says.
-CiReport verify_outcomes(const VerifyReport& summary, const std::vector<VerifyLimit>& limits,
-                         const Environment& environment);
+CiReport verify_outcomes(const VerifyReport& summary, const Environment& environment);
 
 /// A suite a subject, a case an outcome. Valid by the schema of Jenkins (junit-10.xsd).
 std::string ci_junit(const CiReport& report);

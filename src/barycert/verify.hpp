@@ -70,11 +70,8 @@ enum class RowVerdict : std::uint8_t {
 };
 
 constexpr std::string_view name(RowVerdict v) {
-    return v == RowVerdict::right        ? "right"
-           : v == RowVerdict::missed     ? "missed"
-           : v == RowVerdict::invented   ? "invented"
-           : v == RowVerdict::wrong_cell ? "wrong cell"
-                                         : "wrong value";
+    constexpr std::array<std::string_view, 5> names{"right", "missed", "invented", "wrong cell", "wrong value"};
+    return names[static_cast<std::size_t>(v)];
 }
 
 /// The same as in JSON and in rules of --fail-on.
@@ -140,11 +137,7 @@ struct Verdicts {
 
     std::uint64_t wrong() const { return rows - right; }
     std::uint64_t of(RowVerdict v) const {
-        return v == RowVerdict::right        ? right
-               : v == RowVerdict::missed     ? missed
-               : v == RowVerdict::invented   ? invented
-               : v == RowVerdict::wrong_cell ? wrong_cell
-                                             : wrong_value;
+        return std::array{right, missed, invented, wrong_cell, wrong_value}[static_cast<std::size_t>(v)];
     }
     /// Adds what was found in rows that came after.
     void add(const Verdicts& other, std::size_t examples);

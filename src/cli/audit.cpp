@@ -1,19 +1,15 @@
 // barycert audit: run kernels over families of cases against the oracle and report.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/io.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -22,7 +18,7 @@ namespace {
 struct AuditArguments {
     AuditJob job;
     std::vector<std::string> meshes, fail_on, others;
-    bool mutants = false, no_check = false, wide = false;
+    bool mutants = false, wide = false;
     Reports reports;
 };
 
@@ -34,20 +30,10 @@ Status check_files(const AuditArguments& a) {
     }
     for (const std::string& file : a.others) inputs.push_back({"--with", file});
     if (!a.job.baseline.empty()) inputs.push_back({"--baseline", a.job.baseline});
-    return a.reports.check(inputs);
-}
-
-/// The files of --with.
-Result<std::vector<OtherResults>> read_others(const AuditArguments& a) {
-    std::vector<OtherResults> others;
+    if (const Status ok = a.reports.check(inputs); !ok) return ok;
     if (!a.others.empty() && a.reports.path("--html").empty())
         return Error{.what = "--with needs --html", .remedy = "it adds to the page"};
-    for (const std::string& file : a.others) {
-        Result<OtherResults> read = read_other_results(file);
-        if (!read) return read.error();
-        others.push_back(std::move(*read));
-    }
-    return others;
+    return Done{};
 }
 
 /// Other options than these say something of kernels under audit, or of reports on them.
@@ -55,10 +41,8 @@ Status check_mutants_alone(const CLI::App& sub) {
     static constexpr std::array<std::string_view, 10> with_mutants{"MESH",       "--family",  "--oracle", "--count",
                                                                    "--seed",     "--threads", "--json",   "--mutants",
                                                                    "--no-check", "--quiet"};
-    if (sub.count("--mutants") == 0) return Done{};
-    for (const CLI::Option* option : sub.get_options()) {
-        const std::string name = option->get_name();
-        if (option->count() != 0 && std::find(with_mutants.begin(), with_mutants.end(), name) == with_mutants.end())
+    for (const std::string& name : sub.count("--mutants") == 0 ? std::vector<std::string>() : given_options(sub)) {
+        if (std::find(with_mutants.begin(), with_mutants.end(), name) == with_mutants.end())
             return Error{.what = "--mutants and " + name,
                          .remedy = "leave " + name + " out: --mutants audits kernels of its own"};
     }
@@ -117,9 +101,8 @@ int run_audit(AuditArguments& a) {
     const auto meshes = meshes_or_own(a.meshes);
     if (meshes) a.job.meshes = *meshes;
     if (const Status ok = check_files(a); !ok) return fail(ok.error());
-    const auto others = read_others(a);
+    const auto others = parsed_all(a.others, read_other_results);
     if (!others) return fail(others.error());
-    a.job.check = !a.no_check;
     a.job.meshes_asked = !a.meshes.empty();
     Result<PreparedAudit> prepared = prepare_audit(a.job);
     if (!prepared) return fail(prepared.error());
@@ -164,13 +147,13 @@ void add_audit(const Options& program) {
         "not caught; 2 usage or input error.");
     const auto a = std::make_shared<AuditArguments>();
     AuditJob& job = a->job;
-    o.files("MESH", a->meshes,
-            "Meshes for the families mesh.*, in the formats of barycert sample; default: barycert's own")
+    o.text("MESH", a->meshes,
+           "Meshes for the families mesh.*, in the formats of barycert sample; default: barycert's own")
         ->allow_extra_args(true);
     add_kernels(o, job.kernels, "Audit only kernels that match; may be repeated");
-    o.words("--family", job.families, "Use only families that match; may be repeated", "FAMILY|GLOB");
-    o.files("--kernel-library", job.kernels.libraries,
-            "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");
+    o.text("--family", job.families, "Use only families that match; may be repeated", "FAMILY|GLOB");
+    o.text("--kernel-library", job.kernels.libraries,
+           "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");
     add_kernel_rules(o, job.kernels);
     o.choice<OracleChoice>(
         "--oracle", job.options.oracle,
@@ -185,26 +168,26 @@ void add_audit(const Options& program) {
     a->reports.file(o, "--html",
                     "Write the report as an HTML page with pictures, histograms and witnesses; - is stdout and "
                     "suppresses the table");
-    o.files("--with", a->others,
-            "Also show on that page what `./run flags --json FILE` or `./run systems --json FILE` wrote");
+    o.text("--with", a->others,
+           "Also show on that page what `./run flags --json FILE` or `./run systems --json FILE` wrote");
     a->reports.file(o, "--witnesses", "Write the worst cases as JSON, for `barycert replay`; - is stdout");
     a->reports.file(o, "--plot",
                     "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
     std::string names;
     for (const std::string& rule : threshold_names()) names += " " + rule;
-    o.words("--fail-on", a->fail_on,
-            "Exit with 1 if this figure of a kernel exceeds NUMBER (0 if omitted); may be repeated. RULE is one of:" +
-                names,
-            "RULE[>NUMBER]");
-    o.file("--baseline", job.baseline,
-           "Compare with the --json report of an earlier audit of the same seed, count and meshes; exit with 1 if "
-           "a figure got worse");
+    o.text("--fail-on", a->fail_on,
+           "Exit with 1 if this figure of a kernel exceeds NUMBER (0 if omitted); may be repeated. RULE is one of:" +
+               names,
+           "RULE[>NUMBER]");
+    o.text("--baseline", job.baseline,
+           "Compare with the --json report of an earlier audit of the same seed, count and meshes; exit with 1 if a "
+           "figure got worse");
     a->reports.ci(o, "broken rules and what got worse than the baseline");
     o.flag("--mutants", a->mutants,
-           "Audit kernels with seeded faults instead, and show which family catches which; exit with 1 if one "
-           "is not caught");
+           "Audit kernels with seeded faults instead, and show which family catches which; exit with 1 if one is not "
+           "caught");
     o.flag("--wide", a->wide, "Print all counts, the families and a witness of each kernel: 160 columns");
-    o.flag("--no-check", a->no_check, "Do not check whether the meshes are partitions (see `barycert check`)");
+    o.negative("--no-check", job.check, "Do not check whether the meshes are partitions (see `barycert check`)");
     a->reports.quiet(o, "Print no table and no progress");
     o.run([a, o] {
         const Status ok = check_mutants_alone(o.app());

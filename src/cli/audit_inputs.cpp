@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "barycert/audit_report.hpp"
 #include "barycert/base/folder.hpp"
 #include "barycert/base/named_file.hpp"
 #include "barycert/base/text.hpp"
-#include "command.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -74,7 +74,7 @@ std::string words_of(const KernelChoice& kernels) {
 }
 
 void add_kernels(const Options& o, KernelChoice& kernels, const std::string& help) {
-    o.words("--kernel", kernels.names, help, "KERNEL|GLOB");
+    o.text("--kernel", kernels.names, help, "KERNEL|GLOB");
 }
 
 void add_count(const Options& o, std::uint64_t& count, int most_bits, const std::string& help) {
@@ -106,6 +106,41 @@ std::string failures_of(const std::vector<Violation>& violations) {
     for (const Violation& v : violations)
         lines += failure(v.kernel + ": " + v.figure, base::shortest(v.value), base::shortest(v.limit));
     return lines;
+}
+
+namespace {
+
+/// A list as a table, and JSON.
+template <class Items>
+int list(Reports& reports, const Result<Items>& items, std::string (*json)(const Items&),
+         std::string (*text)(const Items&)) {
+    return reports.end(items, [&](const Items& all) {
+        return Told{.files = {{"--json", [&] { return json(all); }}}, .text = [&](bool) { return text(all); }};
+    });
+}
+
+}  // namespace
+
+// barycert kernels, barycert families: list and explain.
+void add_catalogue(const Options& program) {
+    struct Arguments {
+        KernelChoice kernels;
+        std::vector<std::string> families;
+        Reports of_kernels, of_families;
+    };
+    const auto a = std::make_shared<Arguments>();
+    constexpr const char* json_list = "Write the list as JSON; - is stdout";
+    const Options kernels =
+        program.below("kernels", "List the kernels: formula, source, known failures", done_or_error);
+    kernels.app().add_option("KERNEL|GLOB", a->kernels.names, "List only matching names");
+    kernels.text("--kernel-library", a->kernels.libraries, "Also list the kernel of this shared library");
+    a->of_kernels.file(kernels, "--json", json_list);
+    kernels.run([a] { return list(a->of_kernels, chosen_kernels(a->kernels), kernels_json, kernels_text); });
+    const Options families =
+        program.below("families", "List the families of cases: what each tests, and its recipe", done_or_error);
+    families.app().add_option("FAMILY|GLOB", a->families, "List only matching names");
+    a->of_families.file(families, "--json", json_list);
+    families.run([a] { return list(a->of_families, choose_families(a->families), families_json, families_text); });
 }
 
 }  // namespace barycert::cli

@@ -1,14 +1,10 @@
 // barycert check: is a mesh a partition of its domain? Proved in exact arithmetic, or the reasons why not.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
-#include <memory>
 #include <utility>
 
 #include "barycert/report/check/check_words.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -52,19 +48,18 @@ void add_check(const Options& program) {
     const Options o = program.below(
         "check", "Prove in exact arithmetic that a mesh is a partition of its domain, or report why it is not",
         "Exit codes: 0 certified, 1 not certified, 2 usage or input error; with --fix by the copy,\nwhile --junit, "
-        "--sarif and --annotations tell of the mesh as it was.\nCertified: any two "
-        "cells meet in a common "
-        "face or not at all, and the files .neigh and .face, if present, agree with\nthe cells. Second-order cells are "
-        "checked with straight sides.");
+        "--sarif and --annotations tell of the mesh as it was.\nCertified: any two cells meet in a common face or not "
+        "at all, and the files .neigh and .face, if present, agree with\nthe cells. Second-order cells are checked "
+        "with straight sides.");
     const auto a = std::make_shared<CheckArguments>();
     CheckJob& job = a->job;
-    o.file("MESH", job.mesh,
+    o.text("MESH", job.mesh,
            "A mesh: TetGen's .node/.ele (with .face and .neigh if present) or Triangle's, Gmsh's .msh, Medit's .mesh "
            ".meshb, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series .vtp.series")
         ->required();
     o.step(job.step);
     o.flag("--delaunay", job.options.delaunay, "Also test exactly whether every interior facet is locally Delaunay");
-    o.file("--conforms-to", job.plc,
+    o.text("--conforms-to", job.plc,
            "Also test whether the facets of this PLC (.poly .smesh .off .stl .ply) are unions of faces of cells",
            "PLC");
     o.integer<std::size_t>("--examples", job.options.examples, 0, 1000000, "Max number of places listed per defect");
@@ -73,18 +68,17 @@ void add_check(const Options& program) {
     o.curved(job.curved);
     o.threads(job.options.threads);
     a->reports.file(o, "--json", json_instead);
-    a->reports.file(o, "--html",
-                    "Write the report as an HTML page with histograms and pictures of cells; - is stdout and "
-                    "suppresses the table");
-    o.file("--vtu", job.measures, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
-    auto* const all =
-        o.file("--fix", job.fix,
-               "Write a copy with what has one right answer repaired, and check it: coincident nodes "
-               "merged, degenerate and duplicate cells dropped, negative cells turned: .vtu .vtk .msh, or "
-               "TetGen's STEM.node, STEM.ele (.face, .neigh)");
+    a->reports.file(
+        o, "--html",
+        "Write the report as an HTML page with histograms and pictures of cells; - is stdout and suppresses the table");
+    o.text("--vtu", job.measures, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
+    auto* const all = o.text("--fix", job.fix,
+                             "Write a copy with what has one right answer repaired, and check it: coincident nodes "
+                             "merged, degenerate and duplicate cells dropped, negative cells turned: .vtu .vtk .msh, "
+                             "or TetGen's STEM.node, STEM.ele (.face, .neigh)");
     o.number("--merge-within", job.merge_within, 0, "With --fix, merge nodes of cells at most so far apart",
              "DISTANCE");
-    o.file("--fix-orientation", job.fix_orientation, "Likewise, but turn negative cells and repair no more")
+    o.text("--fix-orientation", job.fix_orientation, "Likewise, but turn negative cells and repair no more")
         ->excludes(all);
     o.number("--near", job.options.near, 0,
              "Tell boundary nodes at most RATIO times the shortest boundary edge at either apart; 0: none", "RATIO")

@@ -20,9 +20,8 @@ namespace {
 /// Members of jobs and what is in them whose options have the same name, with - for _.
 constexpr std::string_view same_names =
     " bounds cell_base cell_column colours columns count family field fields fix fix_orientation in_process keep "
-    "kernel "
-    "kernel_library map mask_column merge_within mesh nonfinite_points onto output outside plane points range reason "
-    "results save_map seed simplex spacing step time tolerance value vtk_data weights width ";
+    "kernel kernel_library map mask_column merge_within mesh nonfinite_points onto output outside plane points range "
+    "reason results save_map seed simplex spacing step time tolerance value vtk_data weights width ";
 
 /// Those whose options have another.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 7> other_names{{

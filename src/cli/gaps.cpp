@@ -1,18 +1,14 @@
 // barycert gaps: which points of a mesh a kernel loses between cells, gives to several, or to a wrong one.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <memory>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -22,7 +18,6 @@ struct GapsArguments {
     GapsJob job;
     KernelChoice kernels;
     std::vector<std::string> fail_on, rules;
-    bool no_check = false;
     Reports reports;
 };
 
@@ -51,7 +46,6 @@ int run_gaps(GapsArguments& a) {
     for (const ClaimRule rule : all_claim_rules) {
         if (std::find(a.rules.begin(), a.rules.end(), name(rule)) != a.rules.end()) a.job.options.rules.push_back(rule);
     }
-    a.job.check = !a.no_check;
     return a.reports.end(gaps_file(a.job), [&](const GapsReport& report) {
         const std::string failures = broken_limits(report, *limits);
         return Told{.files = {{"--json", [&] { return gaps_json(report); }}},
@@ -72,11 +66,11 @@ void add_gaps(const Options& program) {
         "Exit codes: 0 done; 1 a limit of --fail-on is exceeded; 2 usage or input error.");
     const auto a = std::make_shared<GapsArguments>();
     GapsOptions& options = a->job.options;
-    o.file("MESH", a->job.mesh, "A mesh, as for barycert sample")->required();
+    o.text("MESH", a->job.mesh, "A mesh, as for barycert sample")->required();
     add_kernels(o, a->kernels, "Kernels that match, those for the cells of the mesh; may be repeated");
-    o.files("--kernel-library", a->kernels.libraries,
-            "A shared library with a kernel of yours (see barycert/kernel.h); alone unless --kernel is given");
-    o.words("--rule", a->rules, "Show only this rule; may be repeated", joined(names_of(all_claim_rules)))
+    o.text("--kernel-library", a->kernels.libraries,
+           "A shared library with a kernel of yours (see barycert/kernel.h); alone unless --kernel is given");
+    o.text("--rule", a->rules, "Show only this rule; may be repeated", joined(names_of(all_claim_rules)))
         ->check(one_of(names_of(all_claim_rules)));
     o.number("--class-tolerance", options.tolerance, 0,
              "Of the rule tolerant: a cell claims a point if all weights are >= -X; 1e-10 unless given", "X");
@@ -86,11 +80,11 @@ void add_gaps(const Options& program) {
     o.curved(a->job.curved);
     o.threads(options.threads);
     a->reports.file(o, "--json", json_instead);
-    o.words("--fail-on", a->fail_on,
-            "Exit with 1 if a kernel has more than NUMBER (0 if omitted) such points under a rule that is shown; "
-            "FAULT is gaps, several, wrong, wrong_first or outside_claimed; may be repeated",
-            "FAULT[>NUMBER]");
-    o.flag("--no-check", a->no_check, "Do not check whether the mesh is a partition (see `barycert check`)");
+    o.text("--fail-on", a->fail_on,
+           "Exit with 1 if a kernel has more than NUMBER (0 if omitted) such points under a rule that is shown; FAULT "
+           "is gaps, several, wrong, wrong_first or outside_claimed; may be repeated",
+           "FAULT[>NUMBER]");
+    o.negative("--no-check", a->job.check, "Do not check whether the mesh is a partition (see `barycert check`)");
     a->reports.quiet(o, "Print no table");
     o.run([a] { return run_gaps(*a); });
 }

@@ -36,7 +36,8 @@ struct HelpArguments {
 };
 
 Vocabulary vocabulary(const CLI::App& app) {
-    Vocabulary words{{"KIND", verify_limit_names()}, {"SUBCOMMAND", command_names(app)}};
+    Vocabulary words{{"SUBCOMMAND", command_names(app)}};
+    for (const RowVerdict kind : kinds_of_wrong) words["KIND"].emplace_back(handle(kind));
 #ifdef BARYCERT_WITH_AUDIT
     words["KERNEL"] = names_of(kernels_matching("*"));
     words["FAMILY"] = names_of(all_families());
@@ -168,7 +169,7 @@ void add_help(const Options& program) {
     o.choice<CompletionOf>("--completion", a->completion,
                            {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}},
                            "Print a script that completes subcommands, options and their values in this shell");
-    o.file("--man", a->folder, "Write the manual pages of barycert, its subcommands and barycert-tetgen", "DIR");
+    o.text("--man", a->folder, "Write the manual pages of barycert, its subcommands and barycert-tetgen", "DIR");
     o.run([program, a] { return run_help(program.app(), *a); });
 }
 

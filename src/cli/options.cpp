@@ -2,27 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <system_error>
 
 #include "barycert/base/text.hpp"
 #include "command.hpp"
+#include "options/command_table.hpp"
 
 namespace barycert::cli {
 namespace {
 
-template <class N>
-std::optional<N> integer_of(std::string_view text) {
-    N n = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return n;
-}
-
-CLI::Validator not_empty() {
-    return {[](std::string& text) { return text.empty() ? "expected the name of a file, found \"\"" : ""; }, ""};
+/// The help behind "Picture: "; alone it begins with a capital.
+std::string with_heading(const std::string& what, std::string help) {
+    if (what.empty()) help.front() = static_cast<char>(std::toupper(help.front()));
+    return what + help;
 }
 
 /// Whether the text is NAME@PATTERN, and where the pattern begins; a name may have an @, and a file an =.
@@ -36,9 +32,8 @@ std::optional<FieldFile> series_of(FieldFile::Of of, const std::string& text) {
 }
 
 FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::string& text) {
-    const std::size_t sign = text.find('=');
-    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) refuse_option(option, "NAME=FILE", text);
-    FieldFile file{of, text.substr(0, sign), text.substr(sign + 1)};
+    auto [name, rest] = assignment(option, "NAME=FILE", text);
+    FieldFile file{of, std::move(name), std::move(rest)};
     // FILE:COLUMN, where the file is the shortest beginning that there is; a file may have a colon in its name, and a
     // column, too.
     std::error_code ignored;
@@ -55,6 +50,14 @@ FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::
 
 }  // namespace
 
+std::vector<std::string> given_options(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        if (option->count() != 0) names.push_back(option->get_name());
+    }
+    return names;
+}
+
 void refuse_option(const std::string& option, const std::string& expected, std::string_view found) {
     throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
 }
@@ -64,14 +67,27 @@ std::optional<double> finite(std::string_view text) {
     return x && std::isfinite(*x) ? x : std::nullopt;
 }
 
+std::optional<double> positive(std::string_view text) {
+    const auto x = finite(text);
+    return x && *x > 0 ? x : std::nullopt;
+}
+
 std::optional<std::int64_t> count_of(std::string_view text) {
     const auto n = integer_of<std::int64_t>(text);
     return n && *n >= 1 ? n : std::nullopt;
 }
 
-std::optional<std::vector<double>> finite_numbers(std::string_view text, std::size_t count) {
-    auto all = numbers_of(text, ',', finite);
-    return all && (count == 0 || all->size() == count) ? all : std::nullopt;
+std::optional<std::pair<double, double>> ends_of(std::string_view text) {
+    const auto ends = numbers(',', finite, 2, 2)(text);
+    if (!ends) return std::nullopt;
+    return std::pair((*ends)[0], (*ends)[1]);
+}
+
+std::pair<std::string, std::string> assignment(const std::string& option, const std::string& expected,
+                                               const std::string& text) {
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) refuse_option(option, expected, text);
+    return {text.substr(0, sign), text.substr(sign + 1)};
 }
 
 std::string Options::told(const std::string& help) {
@@ -97,46 +113,30 @@ CLI::Validator Options::finite_number(double least, bool above) {
             ""};
 }
 
-Options Options::below(const std::string& name, const std::string& about, const std::string& footer) const {
-    CLI::App* const sub = app_->add_subcommand(name, about);
+Options Options::below(std::string_view name, const std::string& about, const std::string& footer) const {
+    CLI::App* const sub = app_->add_subcommand(std::string(name), about);
     sub->footer(told(footer));
     return {*sub, *exit_code_};
 }
 
-CLI::Option* Options::file(const std::string& name, std::string& path, const std::string& help,
-                           const std::string& type) const {
-    return app_->add_option(name, path, told(help))->check(not_empty())->type_name(type);
+CLI::Option* Options::text_like(CLI::Option* option, const std::string& type, bool several) {
+    if (several) option->allow_extra_args(false);
+    if (is_type_of_files(type))
+        option->check(
+            {[](std::string& text) { return text.empty() ? "expected the name of a file, found \"\"" : ""; }, ""});
+    return option->type_name(type);
 }
 
-CLI::Option* Options::files(const std::string& name, std::vector<std::string>& paths, const std::string& help,
-                            const std::string& type) const {
-    return words(name, paths, help, type)->check(not_empty());
+CLI::Option* Options::taken(const std::string& name, const std::string& type, const std::string& help,
+                            const std::string& expected, const std::function<bool(const std::string&)>& take) const {
+    const auto read = [=](const std::string& text) {
+        if (!take(text)) refuse_option(name, expected, text);
+    };
+    return app_->add_option_function<std::string>(name, read, told(help))->type_name(type);
 }
 
-CLI::Option* Options::word(const std::string& name, std::string& text, const std::string& help,
-                           const std::string& type) const {
-    return app_->add_option(name, text, told(help))->type_name(type);
-}
-
-CLI::Option* Options::words(const std::string& name, std::vector<std::string>& texts, const std::string& help,
-                            const std::string& type) const {
-    return app_->add_option(name, texts, told(help))->allow_extra_args(false)->type_name(type);
-}
-
-CLI::Option* Options::flag(const std::string& name, bool& value, const std::string& help) const {
-    return app_->add_flag(name, value, told(help));
-}
-
-CLI::Option* Options::parsed(const std::string& name, const std::string& type, const std::string& help,
-                             const std::string& expected, const std::function<bool(const std::string&)>& take) const {
-    return app_
-        ->add_option_function<std::string>(
-            name,
-            [=](const std::string& text) {
-                if (!take(text)) refuse_option(name, expected, text);
-            },
-            told(help))
-        ->type_name(type);
+void Options::mesh(std::string& mesh) const {
+    text("MESH", mesh, mesh_help)->required();
 }
 
 void Options::threads(int& threads) const {
@@ -145,8 +145,8 @@ void Options::threads(int& threads) const {
 
 void Options::curved(Curved& curved) const {
     choice<Curved>("--curved", curved, {{"straight", Curved::straight}, {"refuse", Curved::refuse}},
-                   "Second-order cells with mid-edge nodes off the middle: straight: take their sides as "
-                   "straight, and say so (default); refuse: fail");
+                   "Second-order cells with mid-edge nodes off the middle: straight: take their sides as straight, and "
+                   "say so (default); refuse: fail");
 }
 
 void Options::vtk_data(std::optional<VtkData>& data) const {
@@ -163,24 +163,33 @@ void Options::nonfinite(NonfinitePoints& points) const {
         "are outside, with NaN for values whatever points outside get, and counted");
 }
 
+void Options::rounding(Rounding& rounding, const char* help) const {
+    choice<Rounding>("--rounding", rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, help);
+}
+
+void Options::range(std::optional<std::pair<double, double>>& range, const std::string& what) const {
+    const std::string help = "the values of the first and the last colour; default: min and max of the values drawn";
+    parsed("--range", "MIN,MAX", with_heading(what, help), "MIN,MAX, finite numbers, MIN < MAX", range,
+           [](const std::string& text) {
+               const auto ends = ends_of(text);
+               return ends && ends->first < ends->second ? ends : std::nullopt;
+           });
+}
+
 void Options::step(StepChoice& step, bool* all) const {
     auto* const number =
-        parsed("--step", all != nullptr ? "N|all|last" : "N|last",
-               std::string("Of a MESH that is a series (.pvd, .vtu.series, .vtp.series): the step to read, by its "
-                           "number from 0; default: the first") +
-                   (all == nullptr ? "" : ", or all where {step} or {time} stands in --output: a file for each"),
-               std::string("a number from 0, ") + (all != nullptr ? "all or last" : "or last"),
-               [&step, all](const std::string& text) {
-                   if (all != nullptr && text == "all") return *all = true;
-                   if (text == "last") return step.last = true;
-                   step.number = integer_of<std::size_t>(text);
-                   return step.number.has_value();
-               });
-    parsed("--time", "T", "Likewise, by its time, exactly as the file has it", "a finite number",
-           [&step](const std::string& text) {
-               step.time = finite(text);
-               return step.time.has_value();
-           })
+        taken("--step", all != nullptr ? "N|all|last" : "N|last",
+              std::string("Of a MESH that is a series (.pvd, .vtu.series, .vtp.series): the step to read, by its "
+                          "number from 0; default: the first") +
+                  (all == nullptr ? "" : ", or all where {step} or {time} stands in --output: a file for each"),
+              std::string("a number from 0, ") + (all != nullptr ? "all or last" : "or last"),
+              [&step, all](const std::string& text) {
+                  if (all != nullptr && text == "all") return *all = true;
+                  if (text == "last") return step.last = true;
+                  step.number = integer_of<std::size_t>(text);
+                  return step.number.has_value();
+              });
+    parsed("--time", "T", "Likewise, by its time, exactly as the file has it", "a finite number", step.time, finite)
         ->excludes(number);
 }
 
@@ -188,25 +197,23 @@ void Options::field_files(std::vector<FieldFile>& files, const std::string& eith
                           std::vector<FieldFile>* series) const {
     const std::string any =
         std::string(
-            "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy); "
-            "FILE:COLUMN: a column of a CSV or structured .npy file, or an array of another mesh") +
+            "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy); FILE:COLUMN: "
+            "a column of a CSV or structured .npy file, or an array of another mesh") +
         (series == nullptr ? ""
-                           : "; NAME@'step-*.npy': a series, one file a step in natural order, or a .pvd "
-                             "or .vtu.series file. {step} in --output: a file for each step; else columns NAME@STEP");
+                           : "; NAME@'step-*.npy': a series, one file a step in natural order, or a .pvd or "
+                             ".vtu.series file. {step} in --output: a file for each step; else columns NAME@STEP");
     const auto add = [&](const std::string& name, FieldFile::Of of, const std::string& help) {
-        app_->add_option_function<std::vector<std::string>>(
-                name,
-                [=, &files](const std::vector<std::string>& all) {
-                    for (const std::string& text : all) {
-                        const auto steps = series == nullptr ? std::nullopt : series_of(of, text);
-                        if (steps) {
-                            series->push_back(*steps);
-                        } else {
-                            files.push_back(field_file_of(name, of, text));
-                        }
-                    }
-                },
-                help)
+        const auto take = [=, &files](const std::vector<std::string>& all) {
+            for (const std::string& text : all) {
+                const auto steps = series == nullptr ? std::nullopt : series_of(of, text);
+                if (steps) {
+                    series->push_back(*steps);
+                } else {
+                    files.push_back(field_file_of(name, of, text));
+                }
+            }
+        };
+        app_->add_option_function<std::vector<std::string>>(name, take, help)
             ->allow_extra_args(false)
             ->type_name(series == nullptr ? "NAME=FILE[:COLUMN]" : "NAME=FILE[:COLUMN]|NAME@PATTERN[:COLUMN]");
     };
@@ -217,23 +224,17 @@ void Options::field_files(std::vector<FieldFile>& files, const std::string& eith
 
 void Options::size(RasterSize& size) const {
     parsed("--size", "WxH", fmt::format("Width and height in pixels; default: {}x{}", size.width, size.height),
-           fmt::format("width and height in pixels, 1 to {}, such as 640x480", max_raster_side),
-           [&size](const std::string& text) {
-               const auto sides = numbers_of(text, 'x', count_of);
-               if (!sides || sides->size() != 2 || std::max((*sides)[0], (*sides)[1]) > max_raster_side) return false;
-               size = {static_cast<std::int32_t>((*sides)[0]), static_cast<std::int32_t>((*sides)[1])};
-               return true;
+           fmt::format("width and height in pixels, 1 to {}, such as 640x480", max_raster_side), size,
+           [](const std::string& text) -> std::optional<RasterSize> {
+               const auto sides = numbers('x', count_of, 2, 2)(text);
+               if (!sides || std::max((*sides)[0], (*sides)[1]) > max_raster_side) return std::nullopt;
+               return RasterSize{static_cast<std::int32_t>((*sides)[0]), static_cast<std::int32_t>((*sides)[1])};
            });
 }
 
 void Options::camera(ViewOptions& view, const std::string& what) const {
-    const auto angle = [&](const char* name, double& degrees, std::string help) {
-        if (what.empty()) help.front() = static_cast<char>(std::toupper(help.front()));
-        parsed(name, "DEGREES", what + help, "degrees, a finite number", [&degrees](const std::string& text) {
-            const auto x = finite(text);
-            if (x) degrees = *x;
-            return x.has_value();
-        });
+    const auto angle = [&](const char* name, double& degrees, const std::string& help) {
+        parsed(name, "DEGREES", with_heading(what, help), "degrees, a finite number", degrees, finite);
     };
     angle("--azimuth", view.azimuth, "where the camera stands, from the x axis towards the y axis; default: 30");
     angle("--elevation", view.elevation, "how far above the xy plane; default: 25");

@@ -3,11 +3,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
+#include <concepts>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -17,33 +21,43 @@
 
 namespace barycert::cli {
 
-/// A finite number; nothing if the text is something else. Likewise an integer of at least 1.
-std::optional<double> finite(std::string_view text);
-std::optional<std::int64_t> count_of(std::string_view text);
-
-/// The parts of the text between separators, each read by `read`; nothing if one of them is not what it reads.
-template <class Read>
-auto numbers_of(std::string_view text, char separator, Read read)
-    -> std::optional<std::vector<typename decltype(read(text))::value_type>> {
-    std::vector<typename decltype(read(text))::value_type> all;
-    for (;;) {
-        const std::size_t end = text.find(separator);
-        const auto x = read(text.substr(0, end));
-        if (!x) return std::nullopt;
-        all.push_back(*x);
-        if (end == std::string_view::npos) return all;
-        text.remove_prefix(end + 1);
-    }
+/// The integer that is the whole text.
+template <class N>
+std::optional<N> integer_of(std::string_view text) {
+    N n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return n;
 }
 
-/// Numbers between commas, as many as asked for (0: any number).
-std::optional<std::vector<double>> finite_numbers(std::string_view text, std::size_t count = 0);
+/// A finite number; nothing if the text is something else. Likewise one above 0, and an integer of at least 1.
+std::optional<double> finite(std::string_view text);
+std::optional<double> positive(std::string_view text);
+std::optional<std::int64_t> count_of(std::string_view text);
+
+/// Reads the parts of a text between separators, each by `read`, from `least` to `most` of them; nothing if that fails.
+template <class Read>
+auto numbers(char separator, Read read, std::size_t least, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    return [=](std::string_view text) {
+        std::optional<std::vector<typename decltype(read(text))::value_type>> all(std::in_place);
+        for (;;) {
+            const std::size_t end = text.find(separator);
+            const auto x = read(text.substr(0, end));
+            if (x) all->push_back(*x);
+            if (!x || all->size() > most) return decltype(all)();
+            if (end == std::string_view::npos) return all->size() < least ? decltype(all)() : all;
+            text.remove_prefix(end + 1);
+        }
+    };
+}
+
+/// MIN,MAX.
+std::optional<std::pair<double, double>> ends_of(std::string_view text);
 
 /// Of each item its name, a member or name(item).
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {
     std::vector<std::string> names;
-    names.reserve(items.size());
     for (const auto& item : items) {
         if constexpr (requires { item.name; })
             names.push_back(item.name);
@@ -61,7 +75,7 @@ public:
     Options(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}
 
     /// The options of a subcommand below this one. `footer`: what its help ends with.
-    Options below(const std::string& name, const std::string& about, const std::string& footer) const;
+    Options below(std::string_view name, const std::string& about, const std::string& footer) const;
 
     CLI::App& app() const { return *app_; }
 
@@ -72,17 +86,21 @@ public:
     }
     void exit_with(int code) const { *exit_code_ = code; }
 
-    /// A file or mesh: the empty string is refused.
-    CLI::Option* file(const std::string& name, std::string& path, const std::string& help,
-                      const std::string& type = "FILE") const;
-    CLI::Option* files(const std::string& name, std::vector<std::string>& paths, const std::string& help,
-                       const std::string& type = "FILE") const;
-    CLI::Option* word(const std::string& name, std::string& text, const std::string& help,
-                      const std::string& type) const;
-    /// May be repeated.
-    CLI::Option* words(const std::string& name, std::vector<std::string>& texts, const std::string& help,
-                       const std::string& type) const;
-    CLI::Option* flag(const std::string& name, bool& value, const std::string& help) const;
+    /// A text or, if the option may be repeated, texts. A file or mesh, by the type, is not the empty string.
+    template <class Text>
+    CLI::Option* text(const std::string& name, Text& text, const std::string& help,
+                      const std::string& type = "FILE") const {
+        return text_like(app_->add_option(name, text, told(help)), type, !std::same_as<Text, std::string>);
+    }
+    CLI::Option* flag(const std::string& name, bool& value, const std::string& help) const {
+        return app_->add_flag(name, value, told(help));
+    }
+
+    /// Sets what is true without it to false.
+    CLI::Option* negative(const std::string& name, bool& value, const std::string& help) const {
+        return app_->add_flag_callback(
+            name, [&value] { value = false; }, told(help));
+    }
 
     /// An integer from `least` to `most`; the help shows what it is without the option.
     template <class N>
@@ -106,31 +124,35 @@ public:
         return app_->add_option(name, x, told(help))->check(finite_number(least, above))->type_name(type);
     }
     /// What take(text) reads; it returns false for what is not as `expected`.
+    CLI::Option* taken(const std::string& name, const std::string& type, const std::string& help,
+                       const std::string& expected, const std::function<bool(const std::string&)>& take) const;
+    /// What read(text) makes of it; it returns nothing for what is not as `expected`.
+    template <class Value, class Read>
     CLI::Option* parsed(const std::string& name, const std::string& type, const std::string& help,
-                        const std::string& expected, const std::function<bool(const std::string&)>& take) const;
+                        const std::string& expected, Value& value, Read read) const {
+        return taken(name, type, help, expected, [&value, read](const std::string& text) {
+            const auto x = read(text);
+            if (x) value = *x;
+            return x.has_value();
+        });
+    }
     /// One of a few words.
     template <class Value>
     CLI::Option* choice(const std::string& name, Value& value,
                         const std::vector<std::pair<std::string, Value>>& choices, const std::string& help) const {
         return choice_option<Value>(*app_, name, value, choices, told(help));
     }
-    /// MIN,MAX: what the first and the last colour of a picture mean.
-    template <class Range>
-    CLI::Option* range(Range& range, const std::string& help) const {
-        return parsed("--range", "MIN,MAX", help, "MIN,MAX, finite numbers, MIN < MAX",
-                      [&range](const std::string& text) {
-                          const auto ends = finite_numbers(text, 2);
-                          if (!ends || !((*ends)[0] < (*ends)[1])) return false;
-                          range = {(*ends)[0], (*ends)[1]};
-                          return true;
-                      });
-    }
 
     // Options that several subcommands have.
+    void mesh(std::string& mesh) const;
     void threads(int& threads) const;
     void curved(Curved& curved) const;
     void vtk_data(std::optional<VtkData>& data) const;
     void nonfinite(NonfinitePoints& points) const;
+    void rounding(Rounding& rounding, const char* help) const;
+    /// MIN,MAX: what the first and the last colour of a picture mean. `what`: "Picture: ", where there are other
+    /// outputs.
+    void range(std::optional<std::pair<double, double>>& range, const std::string& what) const;
     /// --step and --time, of a MESH that is a series. `all`: what --step all sets; nullptr: not allowed.
     void step(StepChoice& step, bool* all = nullptr) const;
     /// Fields from files; `either` names the option whose rows may belong to nodes or to cells. `series`: where fields
@@ -139,11 +161,12 @@ public:
                      std::vector<FieldFile>* series = nullptr) const;
     /// --size WxH.
     void size(RasterSize& size) const;
-    /// Where the camera stands. `what`: "Picture: ", where there are other outputs.
+    /// Where the camera stands. `what`: as above.
     void camera(ViewOptions& view, const std::string& what) const;
 
 private:
     static std::string told(const std::string& help);
+    static CLI::Option* text_like(CLI::Option* option, const std::string& type, bool several);
     static CLI::Validator whole_number();
     static CLI::Validator finite_number(double least, bool above);
 
@@ -151,8 +174,15 @@ private:
     int* exit_code_;
 };
 
+/// The names of the options that were given.
+std::vector<std::string> given_options(const CLI::App& app);
+
 /// Throws what the parser of options tells.
 [[noreturn]] void refuse_option(const std::string& option, const std::string& expected, std::string_view found);
+
+/// NAME and VALUE of NAME=VALUE, neither of them empty; else refuses the option.
+std::pair<std::string, std::string> assignment(const std::string& option, const std::string& expected,
+                                               const std::string& text);
 
 /// What MESH may be.
 inline constexpr const char* mesh_help =

@@ -1,15 +1,9 @@
 // barycert render: pictures of scenes and meshes; the rest of its subcommands have files of their own.
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
-#include <memory>
-#include <tuple>
 #include <utility>
 
 #include "barycert/base/nearest_name.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "options/mistyped.hpp"
 #include "reports.hpp"
 
@@ -20,18 +14,11 @@ constexpr const char* pictures_remedy = "`barycert render --help` lists the pict
 
 struct PictureArguments {
     RenderJob job;
-    bool no_bar = false;
     Reports reports{Reports::Text::summary};
 };
 
 int run_picture(PictureArguments& a) {
-    a.reports.begin(a.job);
-    a.job.view.bar = !a.no_bar;
-    return a.reports.end(render_files(a.job), [](const RenderReport& report) {
-        return Told{.files = {{"--json", [&] { return render_json(report, measure_environment()); }}},
-                    .text = [&](bool colour) { return render_text(report, colour); },
-                    .notes = report.notes};
-    });
+    return a.reports.summarise(a.job, render_files, render_json, render_text);
 }
 
 int run_scene_file(PictureArguments& a, const std::vector<std::string>& pictures) {
@@ -46,26 +33,25 @@ int run_scene_file(PictureArguments& a, const std::vector<std::string>& pictures
 }
 
 void add_outputs(const Options& o, PictureArguments& a, bool required = true) {
-    o.file("--output", a.job.output, "The picture: .png")->required(required);
+    o.text("--output", a.job.output, "The picture: .png")->required(required);
     a.reports.file(o, "--json", json_summary);
     a.reports.quiet(o, "Print no summary");
 }
 
 void add_methods(const Options& o, ViewOptions& view) {
-    o.choice<FillMethod>("--method", view.method,
-                         {{"barycentric", FillMethod::barycentric},
-                          {"scanline", FillMethod::scanline},
-                          {"bilinear", FillMethod::bilinear}},
-                         "How values are found at pixels: by the weights at each (default); by constant steps; along "
-                         "auxiliary lines");
-    o.choice<Rounding>("--rounding", view.rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}},
-                       "plain: computed in double (default); correct: the exact values, rounded once");
+    o.choice<FillMethod>(
+        "--method", view.method,
+        {{"barycentric", FillMethod::barycentric},
+         {"scanline", FillMethod::scanline},
+         {"bilinear", FillMethod::bilinear}},
+        "How values are found at pixels: by the weights at each (default); by constant steps; along auxiliary lines");
+    o.rounding(view.rounding, "plain: computed in double (default); correct: the exact values, rounded once");
 }
 
 /// One of the small pictures; `more` declares what comes before the options that all have.
 template <class More>
 void add_picture(const Options& render, PictureKind picture, RasterSize size, const std::string& about, More more) {
-    const Options o = render.below(std::string(name(picture)), about, done_or_error);
+    const Options o = render.below(name(picture), about, done_or_error);
     const auto a = std::make_shared<PictureArguments>();
     a->job.picture = picture;
     a->job.view.size = size;
@@ -77,21 +63,17 @@ void add_picture(const Options& render, PictureKind picture, RasterSize size, co
 }
 
 void add_texture(const Options& o, RenderJob& job) {
-    o.file("--image", job.image, "The picture: .png; default: one of 2 by 2 texels");
+    o.text("--image", job.image, "The picture: .png; default: one of 2 by 2 texels");
     o.choice<bool>("--shape", job.triangle, {{"square", false}, {"triangle", true}},
                    "What it is put on; default: square");
-    o.choice<Wrap>("--wrap", job.wrap, {{"clamp", Wrap::clamp}, {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}},
-                   "What is beyond the picture: its rim (default), the picture again, or again "
-                   "and every other time reversed");
+    o.choice<Wrap>(
+        "--wrap", job.wrap, {{"clamp", Wrap::clamp}, {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}},
+        "What is beyond the picture: its rim (default), the picture again, or again and every other time reversed");
     o.choice<Filter>("--filter", job.filter, {{"nearest", Filter::nearest}, {"bilinear", Filter::bilinear}},
                      "The texel at a point (default), or between the four around it");
     o.parsed("--coordinates", "MIN,MAX",
              "u and v at the lower left and the upper right; default: 0,1, the picture once", "MIN,MAX, finite numbers",
-             [&job](const std::string& text) {
-                 const auto ends = finite_numbers(text, 2);
-                 if (ends) std::tie(job.low, job.high) = std::pair((*ends)[0], (*ends)[1]);
-                 return ends.has_value();
-             });
+             job.coordinates, ends_of);
 }
 
 void add_cube(const Options& o, RenderJob& job) {
@@ -112,14 +94,14 @@ void add_mesh(const Options& render) {
     const auto a = std::make_shared<PictureArguments>();
     RenderJob& job = a->job;
     job.picture = PictureKind::mesh;
-    o.file("MESH", job.mesh, mesh_help)->required();
+    o.mesh(job.mesh);
     o.step(job.step);
-    o.word("--field", job.field,
+    o.text("--field", job.field,
            "The field: A, point:A or cell:A; A.1 is its component 1; default: none, the mesh is grey", "NAME");
     o.field_files(job.field_files, "--field-file");
-    o.range(job.view.range, "The values of the first and the last colour; default: min and max of the values drawn");
+    o.range(job.view.range, "");
     o.camera(job.view, "");
-    o.flag("--no-bar", a->no_bar, "Draw no colour bar");
+    o.negative("--no-bar", job.view.bar, "Draw no colour bar");
     add_outputs(o, *a);
     o.size(job.view.size);
     add_methods(o, job.view);
@@ -142,16 +124,16 @@ void add_render(const Options& program) {
     const Options o = program.below(
         "render", "Pictures of meshes and scenes, surfaces in meshes, and what the shortcuts of rasterisers cost", "");
     const auto a = std::make_shared<PictureArguments>();
-    o.file("SCENE", a->job.scene, "A scene (.json)");
+    o.text("SCENE", a->job.scene, "A scene (.json)");
     add_outputs(o, *a, false);
     o.app().require_subcommand(0, 1);
     const auto nothing = [](const Options&, RenderJob&) {};
     add_picture(o, PictureKind::gradient, {400, 400}, "A triangle with a red, a green and a blue corner", nothing);
     add_picture(o, PictureKind::texture, {400, 400}, "A picture on a square or a triangle", add_texture);
-    add_picture(o, PictureKind::cube, {480, 400},
-                "A checkerboard on the faces of a cube in perspective, and the largest error of its texture "
-                "coordinates",
-                add_cube);
+    add_picture(
+        o, PictureKind::cube, {480, 400},
+        "A checkerboard on the faces of a cube in perspective, and the largest error of its texture coordinates",
+        add_cube);
     add_picture(o, PictureKind::clip, {640, 320},
                 "A triangle and segments with colours, before and after clipping by a box", nothing);
     add_mesh(o);

@@ -2,17 +2,13 @@
 // mesh. Both as a surface or a picture.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/weights.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -28,7 +24,7 @@ struct ContourArguments {
 void add_contour_options(const Options& o, ContourArguments& a) {
     o.step(a.job.step);
     o.field_files(a.job.field_files, "--field-file");
-    o.words("--fields", a.job.fields, "Fields to carry along: A,B,...; default: all", "NAMES");
+    o.text("--fields", a.job.fields, "Fields to carry along: A,B,...; default: all", "NAMES");
     o.curved(a.job.curved);
     o.threads(a.job.threads);
     o.vtk_data(a.job.vtk_data);
@@ -36,46 +32,33 @@ void add_contour_options(const Options& o, ContourArguments& a) {
     a.reports.quiet(o, "Print no summary and no progress");
 }
 
-constexpr const char* range_help =
-    "Picture: the values of the first and the last colour; default: min and max of the values drawn";
-
 /// Refuses options of pictures that were given, where the output is a surface.
-Status check_picture_only(const CLI::App& sub, const std::string& output, const std::vector<const char*>& options) {
-    for (const char* const name : options) {
-        if (sub.get_option(name)->count() > 0 && !output.empty() && !io::has_suffix(output, ".png"))
-            return Error{.what = std::string(name) + " is for pictures", .remedy = "leave it out, or name a .png file"};
+Status check_picture_only(const CLI::App& sub, const std::string& output, const std::vector<std::string>& options) {
+    for (const std::string& name : given_options(sub)) {
+        if (std::find(options.begin(), options.end(), name) != options.end() && !output.empty() &&
+            !io::has_suffix(output, ".png"))
+            return Error{.what = name + " is for pictures", .remedy = "leave it out, or name a .png file"};
     }
     return Done{};
 }
 
 int run_contour(ContourArguments& a) {
-    a.reports.begin(a.job);
-    return a.reports.end(contour_files(a.job), [](const ContourReport& report) {
-        return Told{.files = {{"--json", [&] { return contour_json(report, measure_environment()); }}},
-                    .text = [&](bool colour) { return contour_text(report, colour); },
-                    .notes = report.notes};
-    });
+    return a.reports.summarise(a.job, contour_files, contour_json, contour_text);
 }
 
 void add_segment(const Options& o, ContourArguments& a) {
     o.parsed("--segment", "A:B", "Instead of a mesh: the ends of one segment; with --values",
-             "XA,YA,ZA:XB,YB,ZB, finite numbers, as many at both ends (one to three)", [&a](const std::string& text) {
-                 const std::string_view all = text;
-                 const std::size_t colon = all.find(':');
-                 if (colon == std::string_view::npos) return false;
-                 const auto first = finite_numbers(all.substr(0, colon)),
-                            second = finite_numbers(all.substr(colon + 1));
-                 if (!first || !second || first->size() != second->size() || first->size() > 3) return false;
-                 a.ends = *first;
-                 a.ends.insert(a.ends.end(), second->begin(), second->end());
-                 return true;
+             "XA,YA,ZA:XB,YB,ZB, finite numbers, as many at both ends (one to three)", a.ends,
+             [](std::string_view text) -> std::optional<std::vector<double>> {
+                 const std::size_t colon = std::min(text.find(':'), text.size());
+                 auto ends = numbers(',', finite, 1, 3)(text.substr(0, colon));
+                 const auto second = numbers(',', finite, 1, 3)(text.substr(std::min(colon + 1, text.size())));
+                 if (!ends || !second || ends->size() != second->size()) return std::nullopt;
+                 ends->insert(ends->end(), second->begin(), second->end());
+                 return ends;
              });
-    o.parsed("--values", "FA,FB", "The values at the ends of the segment", "two finite numbers, FA,FB",
-             [&a](const std::string& text) {
-                 const auto numbers = finite_numbers(text, 2);
-                 if (numbers) a.values = *numbers;
-                 return numbers.has_value();
-             });
+    o.parsed("--values", "FA,FB", "The values at the ends of the segment", "two finite numbers, FA,FB", a.values,
+             numbers(',', finite, 2, 2));
 }
 
 /// t and the point, on one line. `of_mesh`: an option that was given and has no meaning for a segment.
@@ -107,10 +90,9 @@ int run_iso(ContourArguments& a, const CLI::App& sub) {
     if (const Status ok = check_picture_only(sub, a.job.output, {"--azimuth", "--elevation", "--size"}); !ok)
         return fail(ok.error());
     std::string of_mesh;
-    for (const CLI::Option* option : sub.get_options()) {
-        const std::string name = option->get_name();
+    for (const std::string& name : given_options(sub)) {
         const bool of_segment = name == "--segment" || name == "--values" || name == "--value";
-        if (option->count() > 0 && !of_segment && name.starts_with('-')) of_mesh = name;
+        if (!of_segment && name.starts_with('-')) of_mesh = name;
     }
     if (!a.ends.empty()) return on_segment(a, of_mesh);
     if (!a.values.empty()) return fail({.what = "--values needs --segment"});
@@ -132,19 +114,16 @@ void add_iso(const Options& render) {
         "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.");
     const auto a = std::make_shared<ContourArguments>();
     ContourJob& job = a->job;
-    o.file("MESH", job.mesh, mesh_help);
-    o.word("--field", job.field,
+    o.text("MESH", job.mesh, mesh_help);
+    o.text("--field", job.field,
            "The field of nodes, or what is made of it, as sample names it: NAME.x or NAME.0, |NAME| (at the nodes)",
            "NAME");
-    o.parsed("--value", "V", "Its value", "a finite number", [&job](const std::string& text) {
-        job.value = finite(text);
-        return job.value.has_value();
-    });
-    o.file("--output", job.output, "The surface: .vtp .ply .off .png");
+    o.parsed("--value", "V", "Its value", "a finite number", job.value, finite);
+    o.text("--output", job.output, "The surface: .vtp .ply .off .png");
     add_contour_options(o, *a);
-    o.word("--colours", job.colours,
+    o.text("--colours", job.colours,
            "Picture: the field of nodes or cells that colours the surface; default: none, it is grey", "NAME");
-    o.range(job.range, range_help);
+    o.range(job.range, "Picture: ");
     o.camera(job.view, "Picture: ");
     o.size(job.view.size);
     add_segment(o, *a);
@@ -159,7 +138,7 @@ std::optional<Plane> plane_of(const std::string& text) {
         plane.normal[static_cast<std::size_t>(text[0] - 'x')] = 1;
         return plane;
     }
-    const auto n = finite_numbers(text, 4);
+    const auto n = numbers(',', finite, 4, 4)(text);
     if (!n || ((*n)[0] == 0 && (*n)[1] == 0 && (*n)[2] == 0)) return std::nullopt;
     return Plane{{(*n)[0], (*n)[1], (*n)[2]}, (*n)[3]};
 }
@@ -174,22 +153,19 @@ void add_slice(const Options& render) {
         "Exit codes: 0 done; 2 usage or input error, a picture of nothing included.");
     const auto a = std::make_shared<ContourArguments>();
     ContourJob& job = a->job;
-    o.file("MESH", job.mesh, mesh_help)->required();
+    o.mesh(job.mesh);
     o.parsed("--plane", "NX,NY,NZ,D", "All points with NX x + NY y + NZ z = D; or of one axis: x=D, y=D, z=D",
              "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers, a normal that is not zero, such as "
              "0,0,1,0.5",
-             [&job](const std::string& text) {
-                 job.plane = plane_of(text);
-                 return job.plane.has_value();
-             })
+             job.plane, plane_of)
         ->required();
-    o.word("--field", job.field,
+    o.text("--field", job.field,
            "Picture: the field of nodes or cells that it shows, or what is made of it, as sample names it: NAME.x or "
            "NAME.0, |NAME|. Surface: carry this one only",
            "NAME");
-    o.file("--output", job.output, "The section: .png .vtp .ply .off")->required();
+    o.text("--output", job.output, "The section: .png .vtp .ply .off")->required();
     o.integer<std::int64_t>("--width", job.width, 1, 1000000, "Picture: pixels across the section", "PIXELS");
-    o.range(job.range, range_help);
+    o.range(job.range, "Picture: ");
     add_contour_options(o, *a);
     o.run([a, o] {
         const Status ok = check_picture_only(o.app(), a->job.output, {"--width"});

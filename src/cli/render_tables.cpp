@@ -1,12 +1,7 @@
 // barycert render drift, barycert render texels: what the shortcuts of rasterisers cost, against exact arithmetic.
 
-#include <CLI/CLI.hpp>
-#include <memory>
-
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -62,19 +57,17 @@ void add_render_tables(const Options& render) {
     a->reports.file(drift, "--output", "Plot the errors over the size of the triangle, as SVG; - is stdout");
     a->reports.file(drift, "--json", json_figures);
     add_kernels(drift, a->kernels,
-                "Kernels on triangles (not triangle.perspective-*); may be repeated; default: increments in float "
-                "and double, bilinear, signed-area, exact");
-    drift.files("--kernel-library", a->kernels.libraries,
-                "A shared library with a kernel of yours; alone without --kernel");
+                "Kernels on triangles (not triangle.perspective-*); may be repeated; default: increments in float and "
+                "double, bilinear, signed-area, exact");
+    drift.text("--kernel-library", a->kernels.libraries,
+               "A shared library with a kernel of yours; alone without --kernel");
     add_containment(drift, a->kernels);
     add_count_and_seed(drift, *a, "Cases per size");
     a->reports.quiet(drift, "Print no table");
     drift.run([a] { return run_drift(*a); });
-    const Options texels =
-        render.below("texels",
-                     "Count how often rules for the texel of a texture coordinate are wrong or leave the "
-                     "texture",
-                     done_or_error);
+    const Options texels = render.below(
+        "texels", "Count how often rules for the texel of a texture coordinate are wrong or leave the texture",
+        done_or_error);
     t->count = 100000;
     t->reports.file(texels, "--json", json_figures);
     add_count_and_seed(texels, *t, "Coordinates");

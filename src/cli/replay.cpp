@@ -1,19 +1,15 @@
 // barycert replay: show a witness, every kernel's weights next to the exact ones.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -33,14 +29,13 @@ struct ReplayArguments {
 /// --reason.
 std::string where_none_matches(const CaseJob& wanted, const std::vector<Witness>& witnesses) {
     const char* const rest = "leave out --kernel and --reason to see all";
-    for (const auto& [glob, name] :
-         {std::pair(wanted.kernel, &Witness::kernel), std::pair(wanted.reason, &Witness::reason)}) {
+    for (const auto& wish : {std::pair(wanted.kernel, &Witness::kernel), std::pair(wanted.reason, &Witness::reason)}) {
         std::vector<std::string> names;
-        for (const Witness& w : witnesses) names.push_back(w.*name);
-        const bool matched = glob.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& n) {
-                                 return base::glob_match(glob, n);
+        for (const Witness& w : witnesses) names.push_back(w.*wish.second);
+        const bool matched = wish.first.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& n) {
+                                 return base::glob_match(wish.first, n);
                              });
-        if (!matched) return base::did_you_mean(glob, names, rest);
+        if (!matched) return base::did_you_mean(wish.first, names, rest);
     }
     return rest;
 }
@@ -104,24 +99,23 @@ void add_replay(const Options& program) {
     const Options o = program.below("replay", "Show witnesses: a kernel's weights beside the exact ones",
                                     "Exit codes: 0 done; 1 a finding is not reproduced; 2 usage or input error.");
     const auto a = std::make_shared<ReplayArguments>();
-    o.file("FILE", a->file, "Witnesses from `barycert audit` or `search`: --witnesses FILE or --json FILE");
-    o.word("--kernel", a->made.kernel, "Show only witnesses of matching kernels; with --case, mark this kernel",
+    o.text("FILE", a->file, "Witnesses from `barycert audit` or `search`: --witnesses FILE or --json FILE");
+    o.text("--kernel", a->made.kernel, "Show only witnesses of matching kernels; with --case, mark this kernel",
            "KERNEL|GLOB");
-    o.word("--reason", a->made.reason,
+    o.text("--reason", a->made.reason,
            "Show only witnesses of this kind of finding; with --case, the finding it must show", "REASON|GLOB");
-    o.word("--family", a->made.family, "Generate a case instead of reading it: its family", "FAMILY");
+    o.text("--family", a->made.family, "Generate a case instead of reading it: its family", "FAMILY");
     o.whole("--case", a->index, "Number of the case to generate", "N");
     add_seed(o, a->made.seed, "Seed of the case to generate");
-    o.word("--simplex", a->made.simplex, "Simplex of the case, if family and kernel do not determine it",
+    o.text("--simplex", a->made.simplex, "Simplex of the case, if family and kernel do not determine it",
            joined(names_of(all_simplices)));
-    o.files("--mesh", a->meshes, "Meshes of the case, in the order given to the audit; default: barycert's own",
-            "MESH");
-    o.files("--kernel-library", a->kernels.libraries, "Also show the kernel of this library");
+    o.text("--mesh", a->meshes, "Meshes of the case, in the order given to the audit; default: barycert's own", "MESH");
+    o.text("--kernel-library", a->kernels.libraries, "Also show the kernel of this library");
     o.flag("--all", a->all, "Show the answers of all kernels, not only of the one in question");
     add_kernel_rules(o, a->kernels);
     o.run([a, o] {
-        for (const char* const name : {"--case", "--seed", "--simplex"}) {
-            if (o.app().get_option(name)->count() > 0) a->of_generated = name;
+        for (const std::string& name : given_options(o.app())) {
+            if (name == "--case" || name == "--seed" || name == "--simplex") a->of_generated = name;
         }
         return run_replay(*a);
     });

@@ -7,7 +7,6 @@
 #include <cstdlib>
 
 #include "barycert/base/text.hpp"
-#include "command.hpp"
 
 namespace barycert::cli {
 
@@ -16,10 +15,6 @@ void Progress::stage(std::string_view text) {
     tell(fmt::format("\r\033[K{}", base::printable(text)));
     shown_ = true;
     last_ = std::chrono::steady_clock::now();
-}
-
-void Progress::count(std::string_view what, std::uint64_t done) {
-    if (due()) stage(fmt::format("{}: {}", what, done));
 }
 
 bool Progress::due() const {
@@ -33,12 +28,12 @@ void Progress::clear() {
 
 void Reports::file(const Options& o, const char* option, const char* help) {
     files_.push_back({option, ""});
-    o.file(option, files_.back().path, help);
+    o.text(option, files_.back().path, help);
 }
 
 void Reports::ci(const Options& o, const std::string& failures) {
-    o.file("--junit", junit_, "Write " + failures + " as failures in JUnit XML; - is stdout and suppresses the table");
-    o.file("--sarif", sarif_,
+    o.text("--junit", junit_, "Write " + failures + " as failures in JUnit XML; - is stdout and suppresses the table");
+    o.text("--sarif", sarif_,
            "Write all that was found as SARIF 2.1.0, " + failures + " as errors; - is stdout likewise");
     o.flag("--annotations", annotations_,
            "Print " + failures + " as annotations of GitHub's workflows, after the table");
@@ -84,7 +79,8 @@ void Reports::begin(MeshJob& job) {
     job.reports = outputs();
     job.program = command_name();
     job.progress = [this](const JobProgress& p) {
-        p.done == 0 ? progress_.stage(p.stage) : progress_.count(p.stage, p.done);
+        if (p.done == 0) progress_.stage(p.stage);
+        if (p.done != 0 && progress_.due()) progress_.stage(fmt::format("{}: {}", p.stage, p.done));
     };
 }
 

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -27,8 +28,6 @@ class Progress {
 public:
     void begin(bool on) { on_ = on; }
     void stage(std::string_view text);
-    /// stage("what: done"), at most ten times a second.
-    void count(std::string_view what, std::uint64_t done);
     /// True if a line is shown at all and the last one is a tenth of a second old.
     bool due() const;
     void clear();
@@ -95,6 +94,18 @@ public:
         if constexpr (requires { report->mesh.notes; })
             report->mesh.notes = with_options(std::move(report->mesh.notes));
         return write(told(std::as_const(*report)));
+    }
+
+    /// A job on a mesh whose report is a summary, and JSON.
+    template <class Job, class Report>
+    int summarise(Job& job, Result<Report> (*files)(const Job&), std::string (*json)(const Report&, const Environment&),
+                  std::string (*text)(const Report&, bool)) {
+        begin(job);
+        return end(files(job), [&](const Report& report) {
+            return Told{.files = {{"--json", [&] { return json(report, measure_environment()); }}},
+                        .text = [&](bool colour) { return text(report, colour); },
+                        .notes = report.notes};
+        });
     }
 
 private:

@@ -1,16 +1,11 @@
 // barycert sample, barycert resample: the fields of a mesh at points, on a regular grid, or at the nodes of another
 // mesh.
 
-#include <CLI/CLI.hpp>
-
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -42,34 +37,31 @@ OutsidePolicy policy_of(const std::string& text) {
         known ? (text == "fill" ? "say with what" : '"' + text.substr(text.find('=') + 1) + "\" is no such number") +
                     ": " + word + "=0.5"
               : base::did_you_mean(word, {"nan", "error", "fill", "nearest", "extrapolate"});
-    throw CLI::ValidationError("--outside",
-                               "expected nan, error, fill=NUMBER, nearest, nearest=DISTANCE (at least 0) or "
-                               "extrapolate, found \"" +
-                                   text + '"' + (meant.empty() ? "" : "; " + meant));
+    throw CLI::ValidationError(
+        "--outside",
+        "expected nan, error, fill=NUMBER, nearest, nearest=DISTANCE (at least 0) or extrapolate, found \"" + text +
+            '"' + (meant.empty() ? "" : "; " + meant));
 }
 
 /// What both have.
 void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) {
     o.step(job.step, &job.all_steps);
     o.field_files(job.field_files, "--field", &job.series);
-    o.words("--fields", job.fields,
-            "Fields to sample: A,B,...; columns have this order, fields of nodes before fields of cells, and these "
-            "before lengths; cell:A is the cell field A if there is also a node field "
-            "A; default: all. Of each, or of these again: A.x or A.0, a component; |A|, the length; grad(A), the "
-            "gradient in the owner; mean(A), cell data averaged to nodes by volume, then interpolated",
-            "NAMES");
-    o.file("--weights", job.weights,
+    o.text("--fields", job.fields,
+           "Fields to sample: A,B,...; columns have this order, fields of nodes before fields of cells, and these "
+           "before lengths; cell:A is the cell field A if there is also a node field A; default: all. Of each, or of "
+           "these again: A.x or A.0, a component; |A|, the length; grad(A), the gradient in the owner; mean(A), cell "
+           "data averaged to nodes by volume, then interpolated",
+           "NAMES");
+    o.text("--weights", job.weights,
            "Write the correctly rounded weight of each node for each point, .npz: a sparse matrix for "
            "scipy.sparse.load_npz, to be multiplied with any field of the nodes");
-    o.choice<Rounding>("--rounding", job.options.rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}},
-                       "correct: the exact value, rounded once (default); plain: computed in double");
-    o.app()
-        .add_option_function<std::string>(
-            "--outside", [&job](const std::string& text) { job.options.outside = policy_of(text); },
-            "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the "
-            "value at the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest "
-            "cell")
-        ->type_name("nan|error|fill=V|nearest[=D]|extrapolate");
+    o.rounding(job.options.rounding, "correct: the exact value, rounded once (default); plain: computed in double");
+    o.parsed(
+        "--outside", "nan|error|fill=V|nearest[=D]|extrapolate",
+        "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the value at "
+        "the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest cell",
+        "", job.options.outside, [](const std::string& text) { return std::optional(policy_of(text)); });
     o.curved(job.curved);
     o.threads(job.options.threads);
     o.vtk_data(job.vtk_data);
@@ -80,38 +72,22 @@ void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) 
 
 template <class Job>
 int run_sampling(SamplingArguments<Job>& a, Result<SampleReport> (*files)(const Job&)) {
-    a.reports.begin(a.job);
     a.job.count_degenerate = !a.reports.is_quiet() || a.reports.any_file();
-    return a.reports.end(files(a.job), [](const SampleReport& report) {
-        return Told{.files = {{"--json", [&] { return sample_json(report, measure_environment()); }}},
-                    .text = [&](bool colour) { return sample_text(report, colour); },
-                    .notes = report.notes};
-    });
+    return a.reports.summarise(a.job, files, sample_json, sample_text);
 }
 
 void add_targets(const Options& o, ResampleJob& job) {
     o.parsed("--grid", "NXxNYxNZ", "Number of points along each axis, ends included; a single point lies in the middle",
-             "numbers of points along the axes, min 1, such as 200x200x100", [&job](const std::string& text) {
-                 const auto counts = numbers_of(text, 'x', count_of);
-                 if (counts) job.counts = *counts;
-                 return counts && counts->size() >= 2 && counts->size() <= 3;
-             });
+             "numbers of points along the axes, min 1, such as 200x200x100", job.counts, numbers('x', count_of, 2, 3));
     o.parsed("--spacing", "H|HXxHYxHZ", "Distance of points along each axis, from the lower end of the bounds",
-             "a positive number, or one for each axis, such as 0.1x0.1x0.2", [&job](const std::string& text) {
-                 const auto spacing = numbers_of(text, 'x', [](std::string_view part) {
-                     const auto x = finite(part);
-                     return x && *x > 0 ? x : std::nullopt;
-                 });
-                 if (spacing) job.spacing = *spacing;
-                 return spacing && spacing->size() <= 3;
-             });
+             "a positive number, or one for each axis, such as 0.1x0.1x0.2", job.spacing, numbers('x', positive, 1, 3));
     o.parsed("--bounds", "XMIN,XMAX,...", "Box of the grid; default: the box of the cells",
-             "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX (2D: the first four), finite numbers", [&job](const std::string& text) {
-                 const auto bounds = finite_numbers(text);
-                 if (bounds) job.bounds = *bounds;
-                 return bounds && (bounds->size() == 4 || bounds->size() == 6);
+             "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX (2D: the first four), finite numbers", job.bounds,
+             [](const std::string& text) {
+                 const auto bounds = numbers(',', finite, 4, 6)(text);
+                 return bounds && bounds->size() != 5 ? bounds : std::nullopt;
              });
-    o.file("--onto", job.onto, "Sample at the nodes of this mesh", "MESH2");
+    o.text("--onto", job.onto, "Sample at the nodes of this mesh", "MESH2");
 }
 
 }  // namespace
@@ -121,8 +97,7 @@ void add_sample(const Options& program) {
         "sample", "Sample the fields of a mesh at points, correctly rounded",
         "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...): node\n"
         "fields, cell fields, lengths; then with --outside nearest or extrapolate the distance to the mesh, then "
-        "labels of cells "
-        "named\n"
+        "labels of cells named\n"
         "in --fields (texts, large integers), then columns of the points (--keep). cell: the number in the file, from\n"
         "0, of the first cell that contains the point; -1 outside. feature: interior, face, edge, vertex or outside,\n"
         "exact. TetGen's node attributes are named attribute0, attribute1, ... Rows are points again: --points takes\n"
@@ -131,26 +106,26 @@ void add_sample(const Options& program) {
         "error.");
     const auto a = std::make_shared<SamplingArguments<SampleJob>>();
     SampleJob& job = a->job;
-    o.file("MESH", job.mesh, mesh_help)->required();
-    o.file("--points", job.points,
-           "Points: .csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV "
-           "from stdin, and so is any pipe");
-    o.words("--columns", job.columns,
-            "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed "
-            "where the file does not name x,y,z and has more columns than the mesh has dimensions",
-            "A,B,C");
-    o.words("--keep", job.keep,
-            "Columns of the points that rows are to have, as they are: names; or all: every column but the "
-            "coordinates and those that rows have anyway; NEW=NAME gives a column another name",
-            "NAMES|all");
-    o.file("--output", job.output, "Rows: .csv .npy .vtu; - is CSV on stdout");
+    o.mesh(job.mesh);
+    o.text("--points", job.points,
+           "Points: .csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV from "
+           "stdin, and so is any pipe");
+    o.text("--columns", job.columns,
+           "The columns of the coordinates, by name or by number from 1, such as 2,3,4 or lon,lat,depth; needed where "
+           "the file does not name x,y,z and has more columns than the mesh has dimensions",
+           "A,B,C");
+    o.text("--keep", job.keep,
+           "Columns of the points that rows are to have, as they are: names; or all: every column but the coordinates "
+           "and those that rows have anyway; NEW=NAME gives a column another name",
+           "NAMES|all");
+    o.text("--output", job.output, "Rows: .csv .npy .vtu; - is CSV on stdout");
     add_sampling_options(o, job, a->reports);
     o.nonfinite(job.options.nonfinite_points);
     o.choice<std::optional<bool>>(
         "--on-boundary", job.all, {{"lowest", false}, {"all", true}},
         "If several cells contain a point: one row for the cell of lowest index (default), or one row per cell");
-    o.file("--save-map", job.save_map, "Write the cell of each point to a file for --map");
-    o.file("--map", job.map,
+    o.text("--save-map", job.save_map, "Write the cell of each point to a file for --map");
+    o.text("--map", job.map,
            "Instead of --points: take points and cells from this map; for other fields on the same mesh");
     o.run([a] { return run_sampling(*a, sample_files); });
 }
@@ -168,12 +143,11 @@ void add_resample(const Options& program) {
         "error.");
     const auto a = std::make_shared<SamplingArguments<ResampleJob>>();
     ResampleJob& job = a->job;
-    o.file("MESH", job.mesh, mesh_help)->required();
+    o.mesh(job.mesh);
     add_targets(o, job);
-    o.file("--output", job.output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .msh .node .csv .npy")
+    o.text("--output", job.output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .msh .node .csv .npy")
         ->required();
-    o.range(job.range,
-            "Picture: the values of the first and the last colour; default: min and max of the values drawn");
+    o.range(job.range, "Picture: ");
     add_sampling_options(o, job, a->reports);
     o.run([a] { return run_sampling(*a, resample_files); });
 }

@@ -2,18 +2,14 @@
 
 #include <fmt/format.h>
 #include <signal.h>
-#include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <chrono>
-#include <memory>
-#include <string_view>
+#include <tuple>
+#include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -52,18 +48,6 @@ public:
 private:
     struct sigaction before_ {};
 };
-
-/// LOW:HIGH.
-bool set_exponents(SearchOptions& o, std::string_view text) {
-    const auto read = [](std::string_view part, int& into) {
-        const char* const end = part.data() + part.size();
-        const auto [stop, wrong] = std::from_chars(part.data(), end, into);
-        return wrong == std::errc() && stop == end;
-    };
-    const std::size_t colon = text.find(':');
-    return colon != std::string_view::npos && read(text.substr(0, colon), o.min_exponent) &&
-           read(text.substr(colon + 1), o.max_exponent);
-}
 
 std::string progress_line(const SearchProgress& p, double seconds) {
     std::string line = fmt::format("{:3d} %  {} of {} cases, {:.0f} s", p.steps_done * 100 / p.steps_total,
@@ -129,23 +113,27 @@ void add_search(const Options& program) {
     const auto a = std::make_shared<SearchArguments>();
     SearchOptions& options = a->options;
     o.app().add_option("KERNEL", a->name, with_command_name("The kernel, as `barycert kernels` lists it"));
-    o.file("--kernel-library", a->library, "Instead: a shared library with a kernel of yours (see barycert/kernel.h)");
+    o.text("--kernel-library", a->library, "Instead: a shared library with a kernel of yours (see barycert/kernel.h)");
     add_containment(o, a->kernel);
     o.integer("--steps", options.steps, std::uint64_t{1}, std::uint64_t{1} << 48, "Cases to make");
     o.number("--seconds", options.seconds, 0, "End after this time at the latest; then a repetition may find otherwise",
              "S", true);
     add_seed(o, options.seed, "The same seed and steps find the same, on any number of threads");
-    o.parsed("--exponents", "LOW:HIGH",
-             "Keep coordinates within 2^LOW <= |x| < 2^(HIGH+1), or zero; default: -1074:1023, all doubles",
-             "LOW:HIGH, such as -10:10", [&options](const std::string& text) { return set_exponents(options, text); });
-    o.words("--family", a->families, "Start from families that match; may be repeated; default: all", "FAMILY|GLOB");
+    o.taken("--exponents", "LOW:HIGH",
+            "Keep coordinates within 2^LOW <= |x| < 2^(HIGH+1), or zero; default: -1074:1023, all doubles",
+            "LOW:HIGH, integers from -1074 to 1023, such as -10:10", [&options](const std::string& text) {
+                const auto ends = numbers(':', integer_of<int>, 2, 2)(text);
+                if (ends) std::tie(options.min_exponent, options.max_exponent) = std::pair((*ends)[0], (*ends)[1]);
+                return ends.has_value();
+            });
+    o.text("--family", a->families, "Start from families that match; may be repeated; default: all", "FAMILY|GLOB");
     o.threads(options.threads);
     a->reports.file(o, "--json", json_instead);
     a->reports.file(o, "--witnesses", "Write the plainest cases as JSON, for `barycert replay`; - is stdout");
-    o.words("--fail-on", a->fail_on,
-            "Exit with 1 if RULE exceeds NUMBER (0 if omitted): any, a class of finding (cases), "
-            "worst_weight_ulp, worst_value_ulp; may be repeated",
-            "RULE[>NUMBER]");
+    o.text("--fail-on", a->fail_on,
+           "Exit with 1 if RULE exceeds NUMBER (0 if omitted): any, a class of finding (cases), worst_weight_ulp, "
+           "worst_value_ulp; may be repeated",
+           "RULE[>NUMBER]");
     a->reports.quiet(o, "Print no table and no progress");
     o.run([a] { return run_search(*a); });
 }

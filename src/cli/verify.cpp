@@ -1,14 +1,10 @@
 // barycert verify: results of any tool, held against the exact ones.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
-#include <memory>
 #include <utility>
 
 #include "barycert/base/text.hpp"
-#include "command.hpp"
-#include "options.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -23,26 +19,22 @@ struct VerifyArguments {
 int run_verify(VerifyArguments& a) {
     auto limits = parsed_all(a.fail_on, parse_verify_limit);
     if (!limits) return fail(limits.error());
+    a.job.limits = *limits;
     a.reports.begin(a.job);
-    Result<VerifyReport> report = verify_files(a.job);
-    if (report) {
-        if (const Status ok = check_limits(*report, *limits); !ok) report = ok.error();
-    }
-    if (limits->empty()) *limits = strict_limits();
-    return a.reports.end(report, [&](const VerifyReport& r) {
+    return a.reports.end(verify_files(a.job), [&](const VerifyReport& r) {
         const Environment environment = measure_environment();
-        const std::vector<VerifyLimit> failures = exceeded(r.verdicts, *limits);
+        const std::vector<VerifyLimit> failures = r.exceeded();
         Told told{.files = {{"--json", [&r, environment] { return verify_json(r, environment); }},
                             {"--html", [&r, environment] { return verify_html(r, environment); }}},
                   .text = [&r](bool colour) { return verify_text(r, colour); },
-                  .ci = [&r, &limits, environment] { return verify_outcomes(r, *limits, environment); },
+                  .ci = [&r, environment] { return verify_outcomes(r, environment); },
                   .notes = r.notes,
                   .curved = {r.curved},
                   .clean = failures.empty()};
         for (const VerifyLimit& limit : failures) {
-            if (a.fail_on.empty()) break;
-            told.failures += failure(fmt::format("{}: {}", base::printable(r.results), handle(limit.verdict)),
-                                     std::to_string(r.verdicts.of(limit.verdict)), std::to_string(limit.most));
+            if (!a.fail_on.empty())
+                told.failures += failure(fmt::format("{}: {}", base::printable(r.results), handle(limit.verdict)),
+                                         std::to_string(r.verdicts.of(limit.verdict)), std::to_string(limit.most));
         }
         return told;
     });
@@ -63,33 +55,30 @@ void add_verify(const Options& program) {
         "Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or input error.");
     const auto a = std::make_shared<VerifyArguments>();
     VerifyJob& job = a->job;
-    o.file("MESH", job.mesh, mesh_help)->required();
+    o.mesh(job.mesh);
     o.step(job.step);
-    o.file("--results", job.results, "Points with results: .csv .txt .npy .vtu .vtp .vti .vtk; - is CSV from stdin")
+    o.text("--results", job.results, "Points with results: .csv .txt .npy .vtu .vtp .vti .vtk; - is CSV from stdin")
         ->required();
     o.field_files(job.field_files, "--field");
-    o.words("--fields", job.fields,
-            "Fields to compare, or what is made of them, as sample names it: A,B.x,|C|,...; default: those that the "
-            "results have",
-            "NAMES");
+    o.text("--fields", job.fields,
+           "Fields to compare, or what is made of them, as sample names it: A,B.x,|C|,...; default: those that the "
+           "results have",
+           "NAMES");
+    const auto add_values = [&job](const std::vector<std::string>& all) {
+        for (const std::string& text : all) {
+            const auto [field, column] = assignment("--value", "FIELD=COLUMN", text);
+            job.values[field] = column;
+        }
+    };
     o.app()
         .add_option_function<std::vector<std::string>>(
-            "--value",
-            [&job](const std::vector<std::string>& all) {
-                for (const std::string& text : all) {
-                    const std::size_t sign = text.find('=');
-                    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
-                        refuse_option("--value", "FIELD=COLUMN", text);
-                    job.values[text.substr(0, sign)] = text.substr(sign + 1);
-                }
-            },
-            "The column of the results for a value of the mesh (T, v.0, ...)")
+            "--value", add_values, "The column of the results for a value of the mesh (T, v.0, ...)")
         ->allow_extra_args(false)
         ->type_name("FIELD=COLUMN");
-    o.words("--columns", job.columns, "Columns of the coordinates: names, or numbers from 1; default: x,y,z", "A,B,C");
-    o.word("--cell-column", job.cell_column, "Column with the cell of each point; default: cell; none: none", "NAME");
+    o.text("--columns", job.columns, "Columns of the coordinates: names, or numbers from 1; default: x,y,z", "A,B,C");
+    o.text("--cell-column", job.cell_column, "Column with the cell of each point; default: cell; none: none", "NAME");
     o.integer("--cell-base", job.cell_base, 0, 1, "Number of the first cell in that column", "0|1");
-    o.word("--mask-column", job.mask_column, "Column that is 0 outside; default: vtkValidPointMask; none: none",
+    o.text("--mask-column", job.mask_column, "Column that is 0 outside; default: vtkValidPointMask; none: none",
            "NAME");
     o.app()
         .add_option("--outside-value", job.options.outside_value,

@@ -2,15 +2,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <string_view>
 
 namespace barycert::cli {
 namespace {
-
-/// The types of values that are names of files.
-constexpr std::array<std::string_view, 6> types_of_files{"FILE", "MESH", "MESH2", "PLC", "NAME=FILE", "DIR"};
 
 void add_words(OptionEntry& entry, std::string_view type, const Vocabulary& vocabulary) {
     for (;;) {
@@ -27,7 +25,7 @@ void add_words(OptionEntry& entry, std::string_view type, const Vocabulary& voca
         } else if (const auto known = vocabulary.find(std::string(word)); known != vocabulary.end()) {
             entry.words.insert(entry.words.end(), known->second.begin(), known->second.end());
         }
-        for (const std::string_view file : types_of_files) entry.files = entry.files || word == file;
+        entry.files = entry.files || word == "NAME=FILE" || is_type_of_files(word);
         if (bar == std::string_view::npos) return;
         type.remove_prefix(bar + 1);
     }
@@ -67,6 +65,11 @@ CommandEntry entry_of(const CLI::App& app, const std::string& above, const Vocab
 }
 
 }  // namespace
+
+bool is_type_of_files(std::string_view type) {
+    constexpr std::array<std::string_view, 5> types{"FILE", "MESH", "MESH2", "PLC", "DIR"};
+    return std::find(types.begin(), types.end(), type) != types.end();
+}
 
 CommandEntry command_table(const CLI::App& app, const Vocabulary& vocabulary) {
     return entry_of(app, "", vocabulary);

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
@@ -42,9 +43,12 @@ struct CommandEntry {
 /// The words that types of values stand for: "KERNEL" -> all kernels.
 using Vocabulary = std::map<std::string, std::vector<std::string>>;
 
+/// Whether values of that type are names of files.
+bool is_type_of_files(std::string_view type);
+
 /// Types of values, by which their words are found: parts between |, of which those in small letters are words
-/// themselves (up to a [; with their = where one follows), FILE and the names of operands that file_option() makes are
-/// files, and others are looked up in the vocabulary.
+/// themselves (up to a [; with their = where one follows), names of files are completed as such, and others are looked
+/// up in the vocabulary.
 CommandEntry command_table(const CLI::App& app, const Vocabulary& vocabulary);
 
 /// Calls visit(command) for the command, and for all below it, depth first.

@@ -43,17 +43,19 @@ std::string alternatives(const std::vector<std::string>& patterns) {
     return text;
 }
 
-/// What completes a value or an operand, as assignments in the script.
-std::string source_of(const OptionEntry& option) {
-    std::string text;
-    if (!option.words.empty())
-        text = fmt::format("words={}", in_quotes(fmt::format("{}", fmt::join(option.words, " "))));
-    if (option.files) text += (text.empty() ? "" : " ") + std::string("files=1");
-    return text.empty() ? ":" : text;
+std::string words_of(const OptionEntry& option) {
+    return fmt::format("{}", fmt::join(option.words, " "));
 }
 
-/// `text` where _arguments and _describe give these characters a meaning.
-std::string zsh_text(std::string_view text, std::string_view special) {
+/// What completes a value or an operand, as assignments in the script.
+std::string source_of(const OptionEntry& option) {
+    const std::string words = option.words.empty() ? "" : "words=" + in_quotes(words_of(option));
+    if (option.files) return words + (words.empty() ? "" : " ") + "files=1";
+    return words.empty() ? ":" : words;
+}
+
+/// `text` with a backslash before the characters to which a shell gives a meaning.
+std::string escaped(std::string_view text, std::string_view special) {
     std::string out;
     for (const char c : text) {
         if (special.find(c) != std::string_view::npos) out += '\\';
@@ -66,13 +68,12 @@ std::string zsh_text(std::string_view text, std::string_view special) {
 std::string zsh_value(const OptionEntry& option) {
     std::string action;
     if (option.files) action = "_files";
-    if (!option.words.empty())
-        action = '(' + zsh_text(fmt::format("{}", fmt::join(option.words, " ")), ":\\^*?[]~#$") + ')';
-    return ':' + zsh_text(option.type, ":\\") + ':' + action;
+    if (!option.words.empty()) action = '(' + escaped(words_of(option), ":\\^*?[]~#$") + ')';
+    return ':' + escaped(option.type, ":\\") + ':' + action;
 }
 
 std::string specification(const OptionEntry& option) {
-    const std::string text = '[' + zsh_text(summary(option.text), "[]\\:") + ']';
+    const std::string text = '[' + escaped(summary(option.text), "[]\\:") + ']';
     if (option.operand) return (option.repeats ? "*" : "") + zsh_value(option);
     std::string all;
     for (const std::string& name : option.names) {
@@ -95,7 +96,7 @@ std::string function_of(const CommandEntry& command) {
     if (command.commands.empty()) return text + "  _arguments -s -S" + specifications + "\n}\n";
     std::string names, cases;
     for (const CommandEntry& below : command.commands) {
-        names += "\n    " + in_quotes(zsh_text(below.name, ":\\") + ':' + zsh_text(summary(below.text), "\\"));
+        names += "\n    " + in_quotes(escaped(below.name, ":\\") + ':' + escaped(summary(below.text), "\\"));
         cases += fmt::format("    {}) {} ;;\n", below.name, function_name(below.path));
     }
     // Operands of a command that has commands below it: where the first word is none of them.
@@ -118,17 +119,7 @@ std::string function_of(const CommandEntry& command) {
 
 /// In single quotes of fish, which know \' and \\.
 std::string fish_word(std::string_view text) {
-    std::string out = "'";
-    for (const char c : text) {
-        if (c == '\'' || c == '\\') out += '\\';
-        out += c;
-    }
-    return out + '\'';
-}
-
-/// The words as fish takes them: one a line would need a command.
-std::string fish_words(const OptionEntry& option) {
-    return fish_word(fmt::format("{}", fmt::join(option.words, " ")));
+    return '\'' + escaped(text, "'\\") + '\'';
 }
 
 std::string line_of(const OptionEntry& option, const std::string& start) {
@@ -140,7 +131,7 @@ std::string line_of(const OptionEntry& option, const std::string& start) {
     }
     if (option.files) text += " -F";
     if (!option.files && !option.type.empty()) text += " -f";
-    if (!option.words.empty()) text += " -a " + fish_words(option);
+    if (!option.words.empty()) text += " -a " + fish_word(words_of(option));
     return text + " -d " + fish_word(summary(option.text)) + '\n';
 }
 
@@ -170,36 +161,53 @@ std::string bash_completion(const CommandEntry& program) {
     std::string cases;
     for (const auto& [source, patterns] : values)
         cases += fmt::format("        {})\n            {} ;;\n", alternatives(patterns), source);
-    const std::string function = function_name(program.path);
-    std::string script = fmt::format("# Completion for bash; generated from the options of {}.\n", program.name);
-    script += function + "() {\n";
-    script += "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n";
-    script += fmt::format("    local command={} words= files= word i\n", in_quotes(program.path));
-    if (!paths.empty()) {
-        script += "    for ((i = 1; i < COMP_CWORD; ++i)); do\n";
-        script += "        word=\"$command ${COMP_WORDS[i]}\"\n";
-        script += fmt::format(
-            "        case $word in\n        {}) command=$word ;;\n        *) break ;;\n        esac\n    done\n",
-            alternatives(paths));
-    }
+    // Options of commands below: the words before the last name the command.
+    std::string descend;
+    if (!paths.empty())
+        descend = fmt::format(R"(    for ((i = 1; i < COMP_CWORD; ++i)); do
+        word="$command ${{COMP_WORDS[i]}}"
+        case $word in
+        {}) command=$word ;;
+        *) break ;;
+        esac
+    done
+)",
+                              alternatives(paths));
     // bash makes words of their own of the parts of --option=value.
-    script += "    if [[ $current == = ]]; then\n        current=\n";
-    script +=
-        "    elif [[ $previous == = && $COMP_CWORD -ge 2 ]]; then\n        previous=${COMP_WORDS[COMP_CWORD - 2]}\n    "
-        "fi\n";
-    script += "    case \"$command $previous\" in\n" + cases;
-    script += "        *)\n            if [[ $current == -* ]]; then\n        case $command in\n" + options +
-              "        esac\n            else\n        case $command in\n" + operands +
-              "        esac\n            fi ;;\n";
-    script += "    esac\n";
-    script += "    COMPREPLY=()\n";
-    script += "    [[ -z $words ]] || mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n";
-    script += "    if [[ -n $files ]]; then\n        local -a found\n";
-    script += "        mapfile -t found < <(compgen -f -- \"$current\")\n";
-    script += "        COMPREPLY+=(\"${found[@]}\")\n";
-    script += "        compopt -o filenames 2>/dev/null\n    fi\n";
-    script += "    [[ ${COMPREPLY[0]} != *= ]] || compopt -o nospace 2>/dev/null\n";
-    return script + "}\n" + fmt::format("complete -F {} {}\n", function, program.name);
+    return fmt::format(R"(# Completion for bash; generated from the options of {name}.
+{function}() {{
+    local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD - 1]}}
+    local command={path} words= files= word i
+{descend}    if [[ $current == = ]]; then
+        current=
+    elif [[ $previous == = && $COMP_CWORD -ge 2 ]]; then
+        previous=${{COMP_WORDS[COMP_CWORD - 2]}}
+    fi
+    case "$command $previous" in
+{cases}        *)
+            if [[ $current == -* ]]; then
+        case $command in
+{options}        esac
+            else
+        case $command in
+{operands}        esac
+            fi ;;
+    esac
+    COMPREPLY=()
+    [[ -z $words ]] || mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
+    if [[ -n $files ]]; then
+        local -a found
+        mapfile -t found < <(compgen -f -- "$current")
+        COMPREPLY+=("${{found[@]}}")
+        compopt -o filenames 2>/dev/null
+    fi
+    [[ ${{COMPREPLY[0]}} != *= ]] || compopt -o nospace 2>/dev/null
+}}
+complete -F {function} {name}
+)",
+                       fmt::arg("name", program.name), fmt::arg("function", function_name(program.path)),
+                       fmt::arg("path", in_quotes(program.path)), fmt::arg("descend", descend),
+                       fmt::arg("cases", cases), fmt::arg("options", options), fmt::arg("operands", operands));
 }
 
 std::string zsh_completion(const CommandEntry& program) {

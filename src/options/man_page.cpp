@@ -11,33 +11,14 @@ namespace {
 
 /// As text of roff: nothing in it is a request or an escape.
 std::string roff(std::string_view text) {
+    using Escape = std::pair<char, std::string_view>;
+    constexpr std::array<Escape, 6> escapes{
+        {{'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}, {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"}}};
     std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '\\':
-                out += "\\e";
-                break;
-            case '-':
-                out += "\\-";
-                break;
-            case '\'':
-                out += "\\(aq";
-                break;
-            case '`':
-                out += "\\(ga";
-                break;
-            case '^':
-                out += "\\(ha";
-                break;
-            case '~':
-                out += "\\(ti";
-                break;
-            case '.':
-                out += out.empty() || out.back() == '\n' ? "\\&." : ".";
-                break;
-            default:
-                out += c;
-        }
+    for (const char& c : text) {
+        if (c == '.' && (out.empty() || out.back() == '\n')) out += "\\&";
+        const auto escape = std::find_if(escapes.begin(), escapes.end(), [&](const Escape& e) { return e.first == c; });
+        out += escape == escapes.end() ? std::string_view(&c, 1) : escape->second;
     }
     return out;
 }
@@ -147,13 +128,10 @@ std::string link_to(const std::string& name) {
 }
 
 std::string see_also(const CommandEntry& command, const CommandEntry& program) {
-    std::vector<std::string> names;
-    if (&command != &program) names.push_back(page_name(program));
-    for (const CommandEntry& other : command.commands) names.push_back(page_name(other));
-    if (names.empty()) return "";
-    std::string text = ".SH SEE ALSO\n";
-    for (std::size_t i = 0; i < names.size(); ++i) text += link_to(names[i]) + (i + 1 == names.size() ? "\n" : ",\n");
-    return text;
+    std::vector<std::string> links;
+    if (&command != &program) links.push_back(link_to(page_name(program)));
+    for (const CommandEntry& other : command.commands) links.push_back(link_to(page_name(other)));
+    return links.empty() ? "" : fmt::format(".SH SEE ALSO\n{}\n", fmt::join(links, ",\n"));
 }
 
 std::string page(const CommandEntry& command, const CommandEntry& program, std::string_view version,

@@ -76,8 +76,13 @@ std::string usage_error(const CLI::App& app, const std::exception& error, const 
         dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr ? given_twice(app) : nullptr;
     if (twice != nullptr)
         message = twice->get_name() + " is given " + std::to_string(twice->count()) + " times: give it once";
+    const auto option = mistyped_option(app);
+    // Who knows what is expected of a value needs no list of options.
+    if (!option && dynamic_cast<const CLI::ValidationError*>(&error) != nullptr &&
+        message.find(": expected ") != std::string::npos)
+        return message;
     std::string text = message + (message.ends_with('?') ? " " : "; ");
-    if (const auto option = mistyped_option(app)) {
+    if (option) {
         // Another error may have been found before.
         if (message.find(option->first) == std::string::npos) text += '"' + option->first + "\" is no option, ";
         text += "did you mean \"" + option->second + "\"? ";

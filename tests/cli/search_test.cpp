@@ -153,6 +153,8 @@ TEST(search, bad_usage_is_told) {
     EXPECT_TRUE(contains(error({"search"}), "the name of one kernel, or --kernel-library FILE"));
     EXPECT_TRUE(contains(error({"search", "nobody"}), "\"nobody\""));
     EXPECT_TRUE(contains(error({"search", "triangle.*"}), " of them"));
+    EXPECT_TRUE(contains(error(short_search({"--exponents", "x"})),
+                         "expected LOW:HIGH, integers from -1074 to 1023, such as -10:10, found \"x\"\n"));
     EXPECT_TRUE(contains(error(short_search({"--exponents", "5"})), "LOW:HIGH"));
     EXPECT_TRUE(contains(error(short_search({"--exponents", "5:x"})), "LOW:HIGH"));
     EXPECT_TRUE(contains(error(short_search({"--exponents", "5:4"})), "LOW <= HIGH"));

@@ -69,25 +69,6 @@ private:
     std::size_t fault_;
 };
 
-/// Points that no further step reads again.
-class Rows final : public jobs::PointRows {
-public:
-    using PointRows::PointRows;
-    Status begin_again(const jobs::SampledMesh&) override { return Error{.what = "once"}; }
-};
-
-class Output final : public jobs::RowsOutput {
-public:
-    Output(Written& to, std::size_t fault) : to_(to), fault_(fault) {}
-    Result<std::unique_ptr<TableSink>> open(const TableFormat&, const std::string&) override {
-        return std::unique_ptr<TableSink>(std::make_unique<Sink>(to_, fault_));
-    }
-
-private:
-    Written& to_;
-    std::size_t fault_;
-};
-
 constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
 
 struct How {
@@ -121,10 +102,12 @@ protected:
         EXPECT_TRUE(mesh.open());
         auto source = std::make_unique<RandomSource>(how.count, how.source_fault, how.known);
         source->low = how.low;
-        Rows rows(std::move(source));
+        std::unique_ptr<PointSource> points = std::move(source);
         Written written;
-        Output output(written, how.sink_fault);
-        const Status done = jobs::sample_rows(mesh, rows, output);
+        const auto open = [&](const TableFormat&, const std::string&) {
+            return Result(std::unique_ptr<TableSink>(std::make_unique<Sink>(written, how.sink_fault)));
+        };
+        const Status done = jobs::sample_rows(mesh, jobs::rows_of_points(points), open);
         if (summary != nullptr) *summary = mesh.report;
         return {std::move(written), done ? "" : done.error().message()};
     }

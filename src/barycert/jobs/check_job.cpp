@@ -13,6 +13,8 @@
 namespace barycert {
 namespace {
 
+using jobs::refusal;
+
 /// Both are one way of writing.
 const std::string& copy_of(const CheckJob& job) {
     return job.fix.empty() ? job.fix_orientation : job.fix;
@@ -28,13 +30,11 @@ Status check_job(const CheckJob& job) {
     if (job.measures == "-")
         return Error{.what = "job.measures cannot write to stdout", .remedy = "name a file: its data are binary"};
     if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtu"))
-        return Error{.what = "job.measures writes VTU files",
-                     .file = job.measures,
-                     .expected = "a name that ends in .vtu",
-                     .remedy = "choose another name; job.fix writes other formats"};
+        return refusal(job.measures, "job.measures writes VTU files", "a name that ends in .vtu", "",
+                       "choose another name; job.fix writes other formats");
     if (copy == "-")
-        return Error{.what = member_of_copy(job) + " cannot write to stdout",
-                     .remedy = "name a file, .vtu .vtk .msh, or a stem of TetGen's files"};
+        return refusal("", member_of_copy(job) + " cannot write to stdout", "", "",
+                       "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
     Result<std::vector<std::string>> written = std::vector<std::string>();
     if (!copy.empty()) written = written_mesh_files(copy);
     if (!written) return written.error();
@@ -43,14 +43,10 @@ Status check_job(const CheckJob& job) {
     if (job.vtk_data && job.measures.empty() && !copy.ends_with(".vtu") && !copy.ends_with(".vtk"))
         return Error{.what = "job.vtk_data is for VTK's files",
                      .remedy = "leave it out, or give job.measures FILE, or job.fix FILE.vtu"};
-    std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(job.mesh));
-    std::vector<base::NamedFile> outputs{{"job.measures", job.measures}};
-    if (!job.plc.empty()) {
-        for (const std::string& path : plc_files(job.plc)) inputs.push_back({"the PLC of job.plc", path});
-    }
-    for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
-    for (const std::string& path : *written) outputs.push_back({member_of_copy(job), path});
-    return base::check_outputs(inputs, std::move(outputs));
+    std::vector<base::NamedFile> plc, outputs = base::named_files(member_of_copy(job), *written);
+    if (!job.plc.empty()) plc = base::named_files("the PLC of job.plc", plc_files(job.plc));
+    outputs.insert(outputs.begin(), {"job.measures", job.measures});
+    return jobs::check_outputs(job, jobs::input_files(job, plc), std::move(outputs));
 }
 
 /// write_tetgen leaves no file of another mesh beside its own. Told before the work.
@@ -63,9 +59,8 @@ Status check_nothing_in_the_way(const CheckJob& job, const Mesh& mesh) {
         std::error_code ignored;
         const std::string file = tetgen_stem(path) + suffix;
         if (!written && std::filesystem::exists(file, ignored))
-            return Error{.what = "a file of another mesh exists",
-                         .file = file,
-                         .remedy = "remove it, or give " + member_of_copy(job) + " another name"};
+            return refusal(file, "a file of another mesh exists", "", "",
+                           "remove it, or give " + member_of_copy(job) + " another name");
     }
     return Done{};
 }
@@ -93,9 +88,8 @@ Status write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checke
                  fixed.done);
     if (!copy) return copy.error();
     if (copy->cell_count() == 0 && checked.mesh.cell_count() != 0)
-        return Error{.what = "no copy is written, as it would have no cells",
-                     .file = fixed.file,
-                     .remedy = "look at the mesh, and where nodes were merged choose a smaller distance"};
+        return refusal(fixed.file, "no copy is written, as it would have no cells", "", "",
+                       "look at the mesh, and where nodes were merged choose a smaller distance");
     fixed.notes = io::left_out_by(*io::mesh_output_format(fixed.file), *copy);
     const VtkData data = job.vtk_data.value_or(VtkData::raw);
     if (const Status ok = write_mesh(*copy, fixed.file, {.comment = {}, .data = data}); !ok) return ok;
@@ -108,22 +102,11 @@ Status write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checke
     return Done{};
 }
 
-std::string artifact_of(const std::string& mesh) {
-    for (const std::string& path : mesh_files(mesh)) {
-        std::error_code ignored;
-        if (std::filesystem::exists(path, ignored)) return path;
-    }
-    return mesh;
-}
-
 }  // namespace
 
 Result<CheckedMesh> check_files(const CheckJob& job) {
     if (const Status ok = check_job(job); !ok) return ok.error();
-    const auto stage = [&](const std::string& text) {
-        if (job.progress) job.progress({.stage = text});
-    };
-    stage("checking: reading");
+    jobs::tell_stage(job, "checking: reading");
     CheckedMesh checked;
     Result<Mesh> mesh =
         read_mesh(job.mesh, {.faces = true, .neighbours = true, .threads = job.options.threads, .step = job.step});
@@ -137,18 +120,20 @@ Result<CheckedMesh> check_files(const CheckJob& job) {
     CheckOptions options = job.options;
     if (!job.plc.empty()) {
         if (mesh->dimension == 2)
-            return Error{.what = "job.plc needs a mesh of tetrahedra",
-                         .file = job.mesh,
-                         .found = "triangles in the plane",
-                         .remedy = "leave the option out"};
+            return refusal(job.mesh, "job.plc needs a mesh of tetrahedra", "", "triangles in the plane",
+                           "leave the option out");
         plc = read_plc(job.plc);
         if (!plc) return plc.error();
         options.plc = &*plc;
     }
-    options.progress = [&](const char* text) { stage(std::string("checking: ") + text); };
+    options.progress = [&](const char* text) { jobs::tell_stage(job, std::string("checking: ") + text); };
     checked.mesh = std::move(*mesh);
     checked.name = tetgen_stem(job.mesh);
-    checked.artifact = artifact_of(job.mesh);
+    const std::vector<std::string> files = mesh_files(job.mesh);
+    std::error_code ignored;
+    const auto there = std::find_if(files.begin(), files.end(),
+                                    [&](const std::string& path) { return std::filesystem::exists(path, ignored); });
+    checked.artifact = there == files.end() ? job.mesh : *there;
     checked.report = check_mesh(checked.mesh, options);
     if (!copy_of(job).empty()) checked.written = write_copy(job, options, checked);
     if (!job.measures.empty()) {

@@ -8,6 +8,7 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/jobs/job_files.hpp"
 #include "barycert/sample/quantity/expression.hpp"
 
 namespace barycert::jobs {
@@ -15,26 +16,26 @@ namespace {
 
 constexpr const char* none = "none";
 
-bool has(const std::vector<ColumnFormat>& there, const std::string& name) {
-    return std::any_of(there.begin(), there.end(), [&](const ColumnFormat& c) { return c.name == name; });
+std::vector<std::string> names_in(const std::vector<ColumnFormat>& there) {
+    std::vector<std::string> names;
+    for (const ColumnFormat& c : there) names.push_back(c.name);
+    return names;
 }
 
-std::string list_of(const std::vector<ColumnFormat>& there) {
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string list_of(const std::vector<std::string>& names, const char* if_empty = "none") {
     std::string text;
-    for (const ColumnFormat& c : there) text += (text.empty() ? "" : ", ") + base::quoted(c.name);
-    return text.empty() ? "none" : text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + base::quoted(name);
+    return text.empty() ? if_empty : text;
 }
 
 Error no_column(const VerifyJob& job, const std::string& what, const std::string& name,
-                const std::vector<ColumnFormat>& there) {
-    std::vector<std::string> names;
-    names.reserve(there.size());
-    for (const ColumnFormat& c : there) names.push_back(c.name);
-    return {.what = what + ": the results have no such column",
-            .file = job.results,
-            .expected = list_of(there),
-            .found = base::quoted(name),
-            .remedy = base::did_you_mean(name, names, "name one of these")};
+                const std::vector<std::string>& there) {
+    return refusal(job.results, what + ": the results have no such column", list_of(there), base::quoted(name),
+                   base::did_you_mean(name, there, "name one of these"));
 }
 
 /// The columns that a choice has in rows.
@@ -43,55 +44,45 @@ TableField columns_of(const Mesh& mesh, const FieldChoice& choice) {
             static_cast<int>(sample::shape_of(mesh, choice)->components)};
 }
 
-/// The column of component c of a field: what the job says, or one of the usual names.
-std::optional<std::string> column_of(const VerifyJob& job, const TableField& field, int c,
-                                     const std::vector<ColumnFormat>& there) {
+/// The column of component c of a field: what the job says, or one of the usual names; empty: none.
+std::string column_of(const VerifyJob& job, const TableField& field, int c, const std::vector<std::string>& there) {
     const std::string number = std::to_string(c);
     const std::string own = field.components == 1 ? field.name : field.name + '.' + number;
     if (const auto named = job.values.find(own); named != job.values.end()) return named->second;
-    std::vector<std::string> tries{own};
-    if (field.components != 1) tries.insert(tries.end(), {field.name + ':' + number, field.name + '_' + number});
-    for (const std::string& name : tries) {
-        if (has(there, name)) return name;
+    if (has(there, own)) return own;
+    for (const char sign : {':', '_'}) {
+        if (const std::string name = field.name + sign + number; field.components != 1 && has(there, name)) return name;
     }
-    return std::nullopt;
+    return "";
 }
 
 Status check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
-                   const std::vector<ColumnFormat>& there) {
+                   const std::vector<std::string>& there) {
     std::vector<TableField> all;
-    all.reserve(fields.size());
     for (const FieldChoice& choice : fields) all.push_back(columns_of(mesh, choice));
     const std::vector<std::string> known = column_names(all);
     for (const auto& [value, column] : job.values) {
-        if (std::find(known.begin(), known.end(), value) == known.end()) {
-            std::string list;
-            for (const std::string& name : known) list += (list.empty() ? "" : ", ") + base::quoted(name);
-            return Error{.what = "job.values: the mesh has no such value",
-                         .expected = list.empty() ? "no field at all: give one with job.field_files" : list,
-                         .found = base::quoted(value),
-                         .remedy = base::did_you_mean(value, known)};
-        }
+        if (!has(known, value))
+            return refusal("", "job.values: the mesh has no such value",
+                           list_of(known, "no field at all: give one with job.field_files"), base::quoted(value),
+                           base::did_you_mean(value, known));
         if (!has(there, column)) return no_column(job, "job.values", column, there);
     }
-    for (const auto& [option, column] :
+    for (const auto& [member, column] :
          {std::pair("job.cell_column", job.cell_column), {"job.mask_column", job.mask_column}}) {
-        if (!column.empty() && column != none && !has(there, column)) return no_column(job, option, column, there);
+        if (!column.empty() && column != none && !has(there, column)) return no_column(job, member, column, there);
     }
     return Done{};
 }
 
-std::string chosen(const std::string& asked, const std::string& usual, const std::vector<ColumnFormat>& there) {
+std::string chosen(const std::string& asked, const std::string& usual, const std::vector<std::string>& there) {
     if (asked == none) return "";
     if (!asked.empty()) return asked;
     return has(there, usual) ? usual : "";
 }
 
-const Column* column_named(const std::vector<Column>& columns, const std::string& name) {
-    for (const Column& column : columns) {
-        if (column.name == name) return &column;
-    }
-    return nullptr;
+const Column& column_named(const std::vector<Column>& columns, const std::string& name) {
+    return *std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
 }
 
 /// As doubles; NaN for an empty text.
@@ -107,12 +98,11 @@ Result<std::vector<double>> numbers_of(const Column& column, const VerifyJob& jo
         std::optional<double> x = base::parse_double(text);
         if (text.empty()) x = std::numeric_limits<double>::quiet_NaN();
         if (!x)
-            return Error{.what = "row " + std::to_string(first_row + out.size()) + " (from 0), column " +
-                                 base::quoted(column.name),
-                         .file = job.results,
-                         .expected = "a number, nan, or nothing",
-                         .found = base::quoted(text),
-                         .remedy = "choose the columns to compare: job.fields, job.values, job.cell_column"};
+            return refusal(
+                job.results,
+                "row " + std::to_string(first_row + out.size()) + " (from 0), column " + base::quoted(column.name),
+                "a number, nan, or nothing", base::quoted(text),
+                "choose the columns to compare: job.fields, job.values, job.cell_column");
         out.push_back(*x);
     }
     return out;
@@ -141,28 +131,24 @@ std::int64_t index_of(std::int64_t number, const Mesh& mesh) {
 }  // namespace
 
 std::vector<std::string> ClaimedColumns::names() const {
-    std::vector<std::string> all;
-    const auto add = [&](const std::string& name) {
-        if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
-    };
-    for (const std::string& name : values) add(name);
-    add(cell);
-    add(mask);
-    return all;
+    std::vector<std::string> all = values, once;
+    all.insert(all.end(), {cell, mask});
+    for (const std::string& name : all) {
+        if (!name.empty() && !has(once, name)) once.push_back(name);
+    }
+    return once;
 }
 
 Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
-                                       const std::vector<ColumnFormat>& there, Notes& notes) {
+                                       const std::vector<ColumnFormat>& formats, Notes& notes) {
+    const std::vector<std::string> there = names_in(formats);
     if (Status ok = check_named(job, mesh, fields, there); !ok) return ok.error();
     ClaimedColumns out;
     for (const FieldChoice& choice : fields) {
         const TableField own = columns_of(mesh, choice);
         std::vector<std::string> columns;
-        for (int c = 0; c < own.components; ++c) {
-            const auto column = column_of(job, own, c, there);
-            if (column) columns.push_back(*column);
-        }
-        if (columns.size() == static_cast<std::size_t>(own.components)) {
+        for (int c = 0; c < own.components; ++c) columns.push_back(column_of(job, own, c, there));
+        if (!has(columns, "")) {
             out.fields.push_back(choice);
             out.values.insert(out.values.end(), columns.begin(), columns.end());
         } else if (!job.fields.empty()) {
@@ -178,26 +164,20 @@ Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, c
     out.mask = chosen(job.mask_column, "vtkValidPointMask", there);
     std::string unused;
     const std::vector<std::string> used = out.names();
-    for (const ColumnFormat& c : there) {
-        if (std::find(used.begin(), used.end(), c.name) == used.end()) unused += (unused.empty() ? "" : ", ") + c.name;
+    for (const std::string& name : there) {
+        if (!has(used, name)) unused += (unused.empty() ? "" : ", ") + name;
     }
     if (!unused.empty())
         notes.push_back({Note::Kind::left_out, "columns that are not compared: " + unused, job.results});
-    if (used.empty()) {
-        std::string names;
-        for (const FieldChoice& choice : fields)
-            names += (names.empty() ? "" : ", ") + base::quoted(choice.field->name);
-        return Error{
-            .what = "the results have no column to compare",
-            .file = job.results,
-            .expected = "columns named as fields of the mesh (" + (names.empty() ? "it has none" : names) +
-                        "), `cell` or vtkValidPointMask",
-            .found = list_of(there),
-            .remedy =
-                "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not "
-                "in the mesh file: job.field_files NAME=FILE"};
-    }
-    return out;
+    if (!used.empty()) return out;
+    std::vector<std::string> names;
+    for (const FieldChoice& choice : fields) names.push_back(choice.field->name);
+    return refusal(
+        job.results, "the results have no column to compare",
+        "columns named as fields of the mesh (" + list_of(names, "it has none") + "), `cell` or vtkValidPointMask",
+        list_of(there),
+        "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not in the mesh "
+        "file: job.field_files NAME=FILE");
 }
 
 Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
@@ -205,7 +185,7 @@ Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>&
     Claims out;
     std::vector<std::vector<double>> values;
     for (const std::string& name : which.values) {
-        auto numbers = numbers_of(*column_named(columns, name), job, first_row);
+        auto numbers = numbers_of(column_named(columns, name), job, first_row);
         if (!numbers) return numbers.error();
         values.push_back(std::move(*numbers));
     }
@@ -215,22 +195,20 @@ Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>&
         for (std::size_t i = 0; i < rows; ++i) out.values[values.size() * i + c] = values[c][i];
     }
     if (!which.cell.empty()) {
-        const auto numbers = numbers_of(*column_named(columns, which.cell), job, first_row);
+        const auto numbers = numbers_of(column_named(columns, which.cell), job, first_row);
         if (!numbers) return numbers.error();
         for (std::size_t i = 0; i < rows; ++i) {
             const double x = (*numbers)[i];
             if (!std::isnan(x) && (std::floor(x) != x || std::fabs(x) > 0x1p53))
-                return Error{.what = "the cell of row " + std::to_string(first_row + i) + " (from 0)",
-                             .file = job.results,
-                             .expected = "an integer",
-                             .found = base::shortest(x),
-                             .remedy = "name the column of cells: job.cell_column NAME, or none"};
+                return refusal(job.results, "the cell of row " + std::to_string(first_row + i) + " (from 0)",
+                               "an integer", base::shortest(x),
+                               "name the column of cells: job.cell_column NAME, or none");
             const std::int64_t number = std::isnan(x) ? -1 : static_cast<std::int64_t>(x);
             out.cells.push_back(number < 0 ? -1 : index_of(number - job.cell_base, mesh));
         }
     }
     if (!which.mask.empty()) {
-        const auto numbers = mask_of(*column_named(columns, which.mask), job, first_row);
+        const auto numbers = mask_of(column_named(columns, which.mask), job, first_row);
         if (!numbers) return numbers.error();
         for (const double x : *numbers) out.inside.push_back(x != 0 && !std::isnan(x) ? 1 : 0);
     }

@@ -26,6 +26,8 @@
 namespace barycert {
 namespace {
 
+using base::shortest;
+using jobs::refusal;
 using jobs::Stopwatch;
 using jobs::tell_stage;
 
@@ -35,34 +37,29 @@ bool is_picture(const ContourJob& job) {
 
 Status check_job(const ContourJob& job) {
     if (job.value.has_value() == job.plane.has_value())
-        return Error{
-            .what = "what to cut at", .expected = "a value or a plane", .found = job.value ? "both" : "neither"};
-    const bool surface =
-        io::has_suffix(job.output, ".vtp") || io::has_suffix(job.output, ".ply") || io::has_suffix(job.output, ".off");
+        return refusal("", "what to cut at", "a value or a plane", job.value ? "both" : "neither");
     const bool picture = is_picture(job);
-    if (!surface && !picture) return jobs::unknown_output(job.output, ".vtp, .ply, .off or .png");
-    if (!picture && !job.colours.empty())
-        return Error{.what = "job.colours is for pictures", .remedy = "leave it out, or name a .png file"};
-    if (picture && job.field.empty())
-        return Error{.what = "a picture shows a field", .expected = "job.field NAME", .found = "none"};
-    if (job.value && job.field.empty())
-        return Error{.what = "which field has the value", .expected = "job.field NAME", .found = "none"};
+    if (!picture && !jobs::has_suffix_of(job.output, ".vtp .ply .off"))
+        return jobs::unknown_output(job.output, ".vtp, .ply, .off or .png");
+    for (const auto& [member, given] : {std::pair("job.colours", !job.colours.empty()), {"job.range", !!job.range}}) {
+        if (!picture && given)
+            return refusal("", std::string(member) + " is for pictures", "", "", "leave it out, or name a .png file");
+    }
+    if (job.field.empty() && (picture || job.value))
+        return refusal("", picture ? "a picture shows a field" : "which field has the value", "job.field NAME", "none");
     if (job.plane && !picture && !job.field.empty() && !job.fields.empty())
-        return Error{
-            .what = "job.field and job.fields", .expected = "one of them", .remedy = "job.fields names several"};
+        return refusal("", "job.field and job.fields", "one of them", "", "job.fields names several");
     if (picture && !job.fields.empty())
         return Error{.what = "job.fields cannot be combined with a picture", .remedy = "job.field names what it shows"};
-    if (!picture && job.range)
-        return Error{.what = "job.range is for pictures", .remedy = "leave it out, or name a .png file"};
     if (Status data = jobs::check_vtk_data(job.vtk_data, job.output); !data) return data;
     if (job.width < 1 || job.width > 1000000)
-        return Error{.what = "job.width", .expected = "1 to 1000000", .found = std::to_string(job.width)};
-    return Done{};
+        return refusal("", "job.width", "1 to 1000000", std::to_string(job.width));
+    return jobs::check_files(job, {}, {{"job.output", job.output}});
 }
 
 /// Sets low and high to those of at(node) over the nodes of cells.
 template <class At>
-void set_range(const Mesh& mesh, At at, ContourReport& summary) {
+void set_range(const Mesh& mesh, At at, ContourReport& report) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     using Range = std::pair<double, double>;
     const Range range = tbb::parallel_reduce(
@@ -81,8 +78,8 @@ void set_range(const Mesh& mesh, At at, ContourReport& summary) {
         });
     const bool none = range.first > range.second;
     // A zero may come with either sign, as threads come.
-    summary.low = none ? std::numeric_limits<double>::quiet_NaN() : range.first + 0.0;
-    summary.high = none ? std::numeric_limits<double>::quiet_NaN() : range.second + 0.0;
+    report.low = none ? std::numeric_limits<double>::quiet_NaN() : range.first + 0.0;
+    report.high = none ? std::numeric_limits<double>::quiet_NaN() : range.second + 0.0;
 }
 
 class Contour {
@@ -90,35 +87,21 @@ public:
     explicit Contour(const ContourJob& job) : job_(job) {}
 
     Result<ContourReport> run() {
-        Stopwatch whole;
-        ContourReport& s = summary_;
-        Stopwatch watch;
-        Result<Mesh> opened = jobs::open_mesh(job_, job_.threads, job_.step, s.curved);
-        if (!opened) return opened.error();
-        mesh_ = std::move(*opened);
-        if (Status added = jobs::add_fields(job_.field_files, mesh_); !added) return added.error();
+        Stopwatch whole, watch;
+        ContourReport& s = report_;
+        if (Status opened = jobs::open_mesh_with_fields(job_, job_.threads, mesh_, s); !opened) return opened.error();
         s.seconds.mesh = watch.lap();
-        s.mesh = job_.mesh;
         s.field = job_.field;
         s.output = job_.output;
         s.value = job_.value;
         s.plane = job_.plane;
-        s.nodes = mesh().point_count();
-        s.cells = mesh().cell_count();
-        s.dimension = mesh().dimension;
-        s.notes = mesh().notes;
-        s.threads = jobs::thread_count(job_.threads);
-        if (job_.plane && mesh().dimension == 2)
-            return Error{.what = "a plane cuts meshes of tetrahedra",
-                         .file = job_.mesh,
-                         .found = "triangles in the plane",
-                         .remedy = "draw a mesh of triangles by `" + job_.program + " resample --grid`"};
         const bool picture = is_picture(job_);
-        if (picture && job_.value && mesh().dimension == 2)
-            return Error{.what = "iso-lines cannot be written as a picture",
-                         .file = job_.output,
-                         .expected = ".vtp or .ply",
-                         .remedy = "choose another name"};
+        if (job_.plane && mesh_.dimension == 2)
+            return refusal(job_.mesh, "a plane cuts meshes of tetrahedra", "", "triangles in the plane",
+                           "draw a mesh of triangles by `" + job_.program + " resample --grid`");
+        if (picture && job_.value && mesh_.dimension == 2)
+            return refusal(job_.output, "iso-lines cannot be written as a picture", ".vtp or .ply", "",
+                           "choose another name");
         Result<Cut> cut = picture && job_.plane ? cut_plane({}) : cut_with_fields();
         if (!cut) return cut.error();
         s.counts = cut->counts;
@@ -130,134 +113,115 @@ public:
                                             : draw_view(cut->surface);
         if (!written) return written.error();
         s.seconds.total = whole.lap();
-        return std::move(summary_);
+        return std::move(report_);
     }
 
 private:
-    const Mesh& mesh() const { return mesh_; }
-
     Result<Cut> cut_plane(CutOptions options) {
         tell_stage(job_, "cutting");
         options.threads = job_.threads;
         const std::array<double, 3>& n = job_.plane->normal;
-        set_range(
-            mesh(),
-            [&](std::size_t i) {
-                const double* const x = mesh().points.data() + 3 * i;
-                return n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
-            },
-            summary_);
-        return slice(mesh(), *job_.plane, options);
+        const auto height = [&](std::size_t i) {
+            const double* const x = mesh_.points.data() + 3 * i;
+            return n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
+        };
+        set_range(mesh_, height, report_);
+        return slice(mesh_, *job_.plane, options);
     }
 
     Result<Cut> cut_with_fields() {
         // To carry along, a field need not be one number.
         auto chosen =
-            sample::quantities_named(mesh(), job_.plane && !job_.field.empty() ? std::vector{job_.field} : job_.fields);
+            sample::quantities_named(mesh_, job_.plane && !job_.field.empty() ? std::vector{job_.field} : job_.fields);
         if (!chosen) return chosen.error();
-        if (Status made = sample::make_all_fields(mesh(), *chosen, made_, summary_.notes); !made) return made.error();
+        if (Status made = sample::make_all_fields(mesh_, *chosen, made_, report_.notes); !made) return made.error();
         CutOptions options;
         options.threads = job_.threads;
         for (const FieldChoice& c : *chosen) {
             (c.of_cells ? options.cell_fields : options.point_fields).push_back(c.field);
-            summary_.fields.push_back(c.field->name);
+            report_.fields.push_back(c.field->name);
         }
         if (job_.plane) return cut_plane(std::move(options));
         if (is_picture(job_)) {
             if (Status good = choose_colours(options); !good) return good.error();
         }
-        const Result<FieldChoice> column = field_of_numbers(job_.field);
+        const Result<FieldChoice> column = jobs::field_of_numbers(mesh_, job_.field, made_, report_.notes);
         if (!column) return column.error();
         const Field& field = *column->field;
         if (column->of_cells)
-            return Error{
-                .what = "field \"" + job_.field + "\" is one of cells",
-                .expected = "a field of nodes",
-                .found = "a number for each cell",
-                .remedy = "a field of cells jumps from cell to cell: there is no surface on which it has a value"};
+            return refusal("", "field \"" + job_.field + "\" is one of cells", "a field of nodes",
+                           "a number for each cell",
+                           "a field of cells jumps from cell to cell: there is no surface on which it has a value");
         tell_stage(job_, "cutting");
-        set_range(
-            mesh(), [&](std::size_t i) { return field.data[i]; }, summary_);
-        return mesh().dimension == 2 ? isoline(mesh(), field, *job_.value, options)
-                                     : isosurface(mesh(), field, *job_.value, options);
-    }
-
-    /// A field of one component, made if there is none.
-    Result<FieldChoice> field_of_numbers(const std::string& name) {
-        const Result<FieldChoice> column = sample::number_named(mesh(), name);
-        if (!column) return column.error();
-        std::vector<FieldChoice> one{*column};
-        if (Status made = sample::make_all_fields(mesh(), one, made_, summary_.notes); !made) return made.error();
-        return one.front();
+        const auto value = [&](std::size_t i) { return field.data[i]; };
+        set_range(mesh_, value, report_);
+        return mesh_.dimension == 2 ? isoline(mesh_, field, *job_.value, options)
+                                    : isosurface(mesh_, field, *job_.value, options);
     }
 
     Status write(Surface& surface) {
         Stopwatch watch;
-        for (Mesh::Index& cell : surface.mesh_cells) cell = mesh().cell_number(cell);
+        for (Mesh::Index& cell : surface.mesh_cells) cell = mesh_.cell_number(cell);
         tell_stage(job_, "writing " + job_.output);
         Result<SurfaceFile> file = write_surface(surface, job_.output, job_.vtk_data.value_or(VtkData::raw));
         if (!file) return file.error();
-        summary_.file = std::move(*file);
-        std::erase_if(summary_.fields, [&](const std::string& name) {
-            const auto& out = summary_.file.left_out;
+        report_.file = std::move(*file);
+        std::erase_if(report_.fields, [&](const std::string& name) {
+            const auto& out = report_.file.left_out;
             return std::find(out.begin(), out.end(), name) != out.end();
         });
-        summary_.seconds.write = watch.lap();
+        report_.seconds.write = watch.lap();
         return Done{};
     }
 
     Status draw(const Surface& section) {
         Stopwatch watch;
-        const Result<FieldChoice> column = sample::number_named(mesh(), job_.field);
+        const Result<FieldChoice> column = sample::number_named(mesh_, job_.field);
         if (!column) return column.error();
+        const auto& [n, at] = *job_.plane;
+        const std::string normal = fmt::format("{},{},{}", shortest(n[0]), shortest(n[1]), shortest(n[2]));
         Result<PixelGrid> pixels = jobs::pixels_over(*job_.plane, section.points, job_.width);
         if (!pixels) {
             Error e = pixels.error();
             e.file = job_.mesh;
             if (!section.points.empty()) return e;
-            const std::array<double, 3>& n = job_.plane->normal;
-            const std::string normal =
-                fmt::format("{},{},{}", base::shortest(n[0]), base::shortest(n[1]), base::shortest(n[2]));
-            const double low = summary_.low, high = summary_.high, at = job_.plane->offset;
+            const double low = report_.low, high = report_.high;
             const bool touches = at == low || at == high;
-            e.found = fmt::format("D = {}, {} the cells are from {} to {}", base::shortest(at),
-                                  touches ? "a plane that only touches the boundary:" : "where", base::shortest(low),
-                                  base::shortest(high));
+            e.found = fmt::format("D = {}, {} the cells are from {} to {}", shortest(at),
+                                  touches ? "a plane that only touches the boundary:" : "where", shortest(low),
+                                  shortest(high));
             const double inwards = at == low ? low + (high - low) / 1000 : high - (high - low) / 1000;
             e.remedy = fmt::format("{}: job.plane {},{}", touches ? "move it inwards" : "choose D between them", normal,
-                                   base::shortest(touches ? inwards : low / 2 + high / 2));
+                                   shortest(touches ? inwards : low / 2 + high / 2));
             return e;
         }
         const auto count = static_cast<std::uint64_t>(pixels->width * pixels->height);
-        const Result<Locator> locator = jobs::build_locator(job_, mesh(), job_.threads);
+        const Result<Locator> locator = jobs::build_locator(job_, mesh_, job_.threads);
         if (!locator) return locator.error();
         const Result<Sampler> sampler = Sampler::build(*locator, {*column});
         if (!sampler) return sampler.error();
         std::vector<double> values(count);
         std::vector<std::uint8_t> valid(count);
         if (Status done = sample(*pixels, *sampler, values, valid); !done) return done;
-        summary_.seconds.sample = watch.lap();
+        report_.seconds.sample = watch.lap();
         if (std::none_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
-            return Error{.what = "nothing to draw",
-                         .file = job_.output,
-                         .expected = "a pixel whose middle is in the mesh, where the field is finite",
-                         .found = fmt::format("{} x {} pixels without one", pixels->width, pixels->height),
-                         .remedy = "give more pixels, job.width N, or another field"};
+            return refusal(job_.output, "nothing to draw",
+                           "a pixel whose middle is in the mesh, where the field is finite",
+                           fmt::format("{} x {} pixels without one", pixels->width, pixels->height),
+                           "give more pixels, job.width N, or another field");
         tell_stage(job_, "writing " + job_.output);
         Slice slice;
         slice.width = static_cast<std::size_t>(pixels->width);
         slice.height = static_cast<std::size_t>(pixels->height);
         slice.values = values;
         slice.valid = valid;
-        if (job_.range) slice.range = {(*job_.range)[0], (*job_.range)[1]};
-        slice.title = fmt::format("{}, plane {},{},{},{}", job_.field, base::shortest(job_.plane->normal[0]),
-                                  base::shortest(job_.plane->normal[1]), base::shortest(job_.plane->normal[2]),
-                                  base::shortest(job_.plane->offset));
+        slice.range = job_.range;
+        slice.title = fmt::format("{}, plane {},{}", job_.field, normal, shortest(at));
         slice.pixel_length = pixels->pixel;
-        summary_.pixels = *pixels;
-        summary_.fields = {job_.field};
-        Status written = write_png(job_.output, slice, &summary_.picture);
-        summary_.seconds.write = watch.lap();
+        report_.pixels = *pixels;
+        report_.fields = {job_.field};
+        Status written = write_png(job_.output, slice, &report_.picture);
+        report_.seconds.write = watch.lap();
         return written;
     }
 
@@ -265,23 +229,20 @@ private:
     Status choose_colours(CutOptions& options) {
         options.point_fields.clear();
         options.cell_fields.clear();
-        summary_.fields.clear();
+        report_.fields.clear();
         if (job_.colours.empty()) return Done{};
-        const Result<FieldChoice> column = field_of_numbers(job_.colours);
+        const Result<FieldChoice> column = jobs::field_of_numbers(mesh_, job_.colours, made_, report_.notes);
         if (!column) return column.error();
         (column->of_cells ? options.cell_fields : options.point_fields).push_back(column->field);
-        summary_.fields = {job_.colours};
+        report_.fields = {job_.colours};
         return Done{};
     }
 
     Status draw_view(const Surface& surface) {
         if (surface.cells.empty())
-            return Error{.what = "the iso-surface is empty",
-                         .file = job_.output,
-                         .expected = fmt::format("a value from {} to {}", base::shortest(summary_.low),
-                                                 base::shortest(summary_.high)),
-                         .found = base::shortest(*job_.value),
-                         .remedy = "choose another value"};
+            return refusal(job_.output, "the iso-surface is empty",
+                           fmt::format("a value from {} to {}", shortest(report_.low), shortest(report_.high)),
+                           shortest(*job_.value), "choose another value");
         Stopwatch watch;
         tell_stage(job_, "drawing");
         SurfaceView view{.points = surface.points, .triangles = surface.cells};
@@ -289,14 +250,14 @@ private:
         if (of_points) view.point_values = surface.point_fields.front().data;
         if (!of_points && !surface.cell_fields.empty()) view.triangle_values = surface.cell_fields.front().data;
         ViewOptions options = job_.view;
-        if (job_.range) options.range = {(*job_.range)[0], (*job_.range)[1]};
-        const Result<Image> image = draw_surface(view, options, &summary_.drawn);
+        if (job_.range) options.range = job_.range;
+        const Result<Image> image = draw_surface(view, options, &report_.drawn);
         if (!image) return image.error();
-        summary_.view = options.size;
-        summary_.colours = job_.colours;
-        summary_.seconds.sample = watch.lap();
+        report_.view = options.size;
+        report_.colours = job_.colours;
+        report_.seconds.sample = watch.lap();
         Status written = write_png(job_.output, *image);
-        summary_.seconds.write = watch.lap();
+        report_.seconds.write = watch.lap();
         return written;
     }
 
@@ -319,7 +280,7 @@ private:
                 }
             }
             if (Status done = sampler.sample(points, options, rows); !done) return done;
-            summary_.samples.add(rows.counts);
+            report_.samples.add(rows.counts);
             for (std::size_t r = 0; r < rows.row_count(); ++r, ++at) {
                 values[at] = rows.value(r, 0);
                 valid[at] = rows.cells[r] >= 0 ? 1 : 0;
@@ -331,7 +292,7 @@ private:
 
     const ContourJob& job_;
     Mesh mesh_;
-    ContourReport summary_;
+    ContourReport report_;
     std::deque<Field> made_;
 };
 
@@ -341,7 +302,6 @@ Result<ContourReport> contour_files(const ContourJob& job) {
     const ExactEnvironment environment;
     const base::RunFiles run_files;
     if (Status good = check_job(job); !good) return good.error();
-    if (Status files = jobs::check_files(job, {}, {{"job.output", job.output}}); !files) return files.error();
     const jobs::ThreadLimit limit(job.threads);
     return Contour(job).run();
 }

@@ -15,13 +15,17 @@
 #include "barycert/io/medit/read_medit.hpp"
 #include "barycert/io/mesh_format.hpp"
 #include "barycert/io/point_table.hpp"
+#include "barycert/jobs/job_files.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/made_fields.hpp"
 
 namespace barycert::jobs {
 namespace {
 
 constexpr std::string_view of_cells = "cell:", of_points = "point:";
+constexpr const char* say_which =
+    "say which: FieldFile::Of::points or FieldFile::Of::cells instead of FieldFile::Of::either";
 
 std::string count(std::size_t n, const std::string& what) {
     return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
@@ -34,19 +38,13 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
     const bool fits_cells = rows == cells && file.of != FieldFile::Of::points;
     if (fits_nodes != fits_cells) return fits_cells;
     if (fits_nodes)
-        return Error{
-            .what = "rows of field \"" + file.name + "\" could belong to nodes or to cells",
-            .file = file.path,
-            .found = "a mesh of " + std::to_string(nodes) + " nodes and the same number of cells",
-            .remedy = "say which: FieldFile::Of::points or FieldFile::Of::cells instead of FieldFile::Of::either"};
+        return refusal(file.path, "rows of field \"" + file.name + "\" could belong to nodes or to cells", "",
+                       "a mesh of " + std::to_string(nodes) + " nodes and the same number of cells", say_which);
     std::string expected = count(nodes, "row") + ", one for each node";
     if (file.of == FieldFile::Of::cells) expected = count(cells, "row") + ", one for each cell";
     if (file.of == FieldFile::Of::either) expected += ", or " + std::to_string(cells) + ", one for each cell";
-    return Error{.what = "field \"" + file.name + '"',
-                 .file = file.path,
-                 .expected = expected,
-                 .found = count(rows, "row"),
-                 .remedy = "use a file made for this mesh"};
+    return refusal(file.path, "field \"" + file.name + '"', expected, count(rows, "row"),
+                   "use a file made for this mesh");
 }
 
 std::string names_of(const std::vector<Field>& fields) {
@@ -87,7 +85,7 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
 
 /// Whether it has fields of Medit, and no mesh.
 bool is_solution(const std::string& path) {
-    return io::has_suffix(path, ".sol") || io::has_suffix(path, ".solb");
+    return has_suffix_of(path, ".sol .solb");
 }
 
 /// The array file.column of the mesh in the file; file.of becomes what it is of.
@@ -102,48 +100,45 @@ Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
         const std::vector<std::string> names = sample::all_field_names(*other);
         if (file.column.empty() && names.size() == 1) file.column = names.front();
     }
-    const bool may_be_points = file.of != FieldFile::Of::cells, may_be_cells = file.of != FieldFile::Of::points;
-    const Field* const of_points = may_be_points ? sample::field_named(other->point_fields, file.column) : nullptr;
-    const Field* const of_cells = may_be_cells ? sample::field_named(other->cell_fields, file.column) : nullptr;
-    if (of_points != nullptr && of_cells != nullptr)
-        return Error{
-            .what = "there is an array of nodes and one of cells of that name",
-            .file = file.path,
-            .found = base::quoted(file.column),
-            .remedy = "say which: FieldFile::Of::points or FieldFile::Of::cells instead of FieldFile::Of::either"};
-    if (of_points == nullptr && of_cells == nullptr)
-        return Error{
-            .what = file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
-            .file = file.path,
-            .expected = file.column.empty() ? "" : base::quoted(file.column),
-            .found = "of nodes " + names_of(other->point_fields) + "; of cells " + names_of(other->cell_fields),
-            .remedy = base::did_you_mean(file.column, sample::all_field_names(*other),
-                                         "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY")};
-    file.of = of_points != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
-    const bool same =
-        solution || (other->points == mesh.points && (of_points != nullptr || other->cells == mesh.cells));
-    const std::size_t components = static_cast<std::size_t>((of_points != nullptr ? of_points : of_cells)->components);
-    const std::size_t rows = (of_points != nullptr ? of_points : of_cells)->data.size() / components;
-    const bool fits = rows == (of_points != nullptr ? mesh.point_count() : mesh.cell_count());
-    if (fits && !same)
+    const Field* const of_nodes =
+        file.of == FieldFile::Of::cells ? nullptr : sample::field_named(other->point_fields, file.column);
+    const Field* const of_cells =
+        file.of == FieldFile::Of::points ? nullptr : sample::field_named(other->cell_fields, file.column);
+    if (of_nodes != nullptr && of_cells != nullptr)
+        return refusal(file.path, "there is an array of nodes and one of cells of that name", "",
+                       base::quoted(file.column), say_which);
+    if (of_nodes == nullptr && of_cells == nullptr)
+        return refusal(file.path,
+                       file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
+                       file.column.empty() ? "" : base::quoted(file.column),
+                       "of nodes " + names_of(other->point_fields) + "; of cells " + names_of(other->cell_fields),
+                       base::did_you_mean(file.column, sample::all_field_names(*other),
+                                          "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY"));
+    const bool nodes = of_nodes != nullptr;
+    file.of = nodes ? FieldFile::Of::points : FieldFile::Of::cells;
+    Field field = nodes ? *of_nodes : *of_cells;
+    const bool same = solution || (other->points == mesh.points && (nodes || other->cells == mesh.cells));
+    const std::size_t rows = field.data.size() / static_cast<std::size_t>(field.components);
+    if (rows == (nodes ? mesh.point_count() : mesh.cell_count()) && !same)
         notes.push_back({Note::Kind::guessed,
-                         "the " + std::string(of_points != nullptr ? "nodes" : "cells") +
+                         std::string("the ") + (nodes ? "nodes" : "cells") +
                              " are in the order of the mesh, whose coordinates or cells are others: field " + file.name,
                          file.path, true});
-    Field field = of_points != nullptr ? *of_points : *of_cells;
     field.name = file.name;
     return field;
 }
 
+/// A field of that name, with or without cell:, goes before.
 const Column* label_named(const Mesh& mesh, std::string_view name) {
-    for (const std::string& full : {std::string(name), std::string(of_cells) + std::string(name)}) {
-        if (sample::field_named(mesh.point_fields, full) != nullptr ||
-            sample::field_named(mesh.cell_fields, full) != nullptr)
+    const auto full = [](std::string_view of) { return std::string(of_cells) + std::string(of); };
+    for (const std::string& field : {std::string(name), full(name)}) {
+        if (sample::field_named(mesh.point_fields, field) != nullptr ||
+            sample::field_named(mesh.cell_fields, field) != nullptr)
             return nullptr;
     }
     for (int part = 0; part < 2; ++part) {
         for (const Column& label : mesh.cell_labels) {
-            if (label.name == name || label.name == std::string(of_cells) + std::string(name)) return &label;
+            if (label.name == name || label.name == full(name)) return &label;
         }
         if (!name.starts_with(of_cells)) break;
         name.remove_prefix(of_cells.size());
@@ -153,30 +148,23 @@ const Column* label_named(const Mesh& mesh, std::string_view name) {
 
 Status check_label(const Mesh& mesh, const Column& label) {
     if (label.size() != mesh.cell_count())
-        return Error{.what = "a label of cells does not fit the mesh",
-                     .expected = std::to_string(mesh.cell_count()) + " values",
-                     .found = std::to_string(label.size()) + " of " + base::quoted(label.name)};
+        return refusal("", "a label of cells does not fit the mesh", std::to_string(mesh.cell_count()) + " values",
+                       std::to_string(label.size()) + " of " + base::quoted(label.name));
     const auto* const integers = std::get_if<std::vector<std::int64_t>>(&label.values);
     if (integers != nullptr && std::find(integers->begin(), integers->end(), mesh::no_label) != integers->end())
-        return Error{.what = "a label of cells has the integer that stands for points outside",
-                     .expected = "integers above " + std::to_string(mesh::no_label),
-                     .found = base::quoted(label.name),
-                     .remedy = "leave it out of job.fields"};
+        return refusal("", "a label of cells has the integer that stands for points outside",
+                       "integers above " + std::to_string(mesh::no_label), base::quoted(label.name),
+                       "leave it out of job.fields");
     return Done{};
 }
 
 }  // namespace
 
 bool is_file_of_a_mesh(const std::string& path) {
-    constexpr std::array<std::string_view, 5> of_meshes{".msh", ".mesh", ".meshb", ".node", ".ele"};
-    constexpr std::array<std::string_view, 6> of_tables{".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"};
-    const auto ends_as = [&](const auto& suffixes) {
-        return std::any_of(suffixes.begin(), suffixes.end(),
-                           [&](std::string_view suffix) { return io::has_suffix(path, suffix); });
-    };
-    if (io::is_vtk_points_file(path) || ends_as(of_meshes)) return true;
+    if (io::is_vtk_points_file(path) || has_suffix_of(path, ".msh .mesh .meshb .node .ele")) return true;
     std::error_code ignored;  // what is no regular file is not opened to look at it
-    return !ends_as(of_tables) && std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);
+    return !has_suffix_of(path, ".csv .txt .dat .xyz .tsv .npy") && std::filesystem::is_regular_file(path, ignored) &&
+           io::mesh_format(path);
 }
 
 bool is_name_of_rows(const std::string& name) {
@@ -204,27 +192,23 @@ Result<FieldPlace> add_field(const FieldFile& file, Mesh& mesh, bool replace) {
         return FieldPlace{*cells, i};
     }
     if (sample::field_named(fields, file.name) != nullptr)
-        return Error{.what = "a field of this name exists already",
-                     .file = file.path,
-                     .found = '"' + file.name + '"',
-                     .remedy = "give it another name: job.field_files OTHER=" + file.path};
+        return refusal(file.path, "a field of this name exists already", "", '"' + file.name + '"',
+                       "give it another name: job.field_files OTHER=" + file.path);
     fields.push_back(std::move(*field));
     return FieldPlace{*cells, fields.size() - 1};
 }
 
 void give_each_a_name(Mesh& mesh) {
-    for (Field& field : mesh.point_fields) {
-        if (is_name_of_rows(field.name)) field.name = std::string(of_points) + field.name;
-    }
-    for (Field& field : mesh.cell_fields) {
-        if (sample::field_named(mesh.point_fields, field.name) != nullptr || is_name_of_rows(field.name))
-            field.name = std::string(of_cells) + field.name;
-    }
-    for (Column& label : mesh.cell_labels) {
-        if (sample::field_named(mesh.point_fields, label.name) != nullptr ||
-            sample::field_named(mesh.cell_fields, label.name) != nullptr || is_name_of_rows(label.name))
-            label.name = std::string(of_cells) + label.name;
-    }
+    const auto rename = [](std::string& name, std::string_view of, bool taken) {
+        if (taken || is_name_of_rows(name)) name = std::string(of) + name;
+    };
+    const auto there = [](const std::vector<Field>& fields, const std::string& name) {
+        return sample::field_named(fields, name) != nullptr;
+    };
+    for (Field& field : mesh.point_fields) rename(field.name, of_points, false);
+    for (Field& field : mesh.cell_fields) rename(field.name, of_cells, there(mesh.point_fields, field.name));
+    for (Column& label : mesh.cell_labels)
+        rename(label.name, of_cells, there(mesh.point_fields, label.name) || there(mesh.cell_fields, label.name));
 }
 
 Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
@@ -233,6 +217,14 @@ Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
     }
     give_each_a_name(mesh);
     return Done{};
+}
+
+Result<FieldChoice> field_of_numbers(const Mesh& mesh, const std::string& name, std::deque<Field>& made, Notes& notes) {
+    const Result<FieldChoice> column = sample::number_named(mesh, name);
+    if (!column) return column;
+    std::vector<FieldChoice> one{*column};
+    if (Status done = sample::make_all_fields(mesh, one, made, notes); !done) return done.error();
+    return one.front();
 }
 
 Result<std::vector<const Column*>> take_labels(const Mesh& mesh, std::vector<std::string>& names) {
@@ -245,29 +237,23 @@ Result<std::vector<const Column*>> take_labels(const Mesh& mesh, std::vector<std
             continue;
         }
         std::string others;
-        std::size_t begin = 0, labels = 0;
-        for (bool more = true; more;) {
-            const std::size_t comma = text.find(',', begin);
-            const std::string part = text.substr(begin, comma - begin);
-            more = comma != std::string::npos;
-            begin = comma + 1;
+        const std::size_t before = taken.size();
+        sample::for_names(text, [&](const std::string& part) {
             if (const Column* const label = label_named(mesh, part)) {
                 taken.push_back(label);
-                ++labels;
             } else {
                 others += (others.empty() ? "" : ",") + part;
             }
-        }
-        if (labels == 0) others = text;
-        if (labels == 0 || !others.empty()) rest.push_back(std::move(others));
+            return true;
+        });
+        if (taken.size() == before) others = text;
+        if (taken.size() == before || !others.empty()) rest.push_back(std::move(others));
     }
-    for (std::size_t i = 0; i < taken.size(); ++i) {
-        if (std::find(taken.begin(), taken.begin() + static_cast<std::ptrdiff_t>(i), taken[i]) !=
-            taken.begin() + static_cast<std::ptrdiff_t>(i))
-            return Error{.what = "a label of cells is named twice",
-                         .found = base::quoted(taken[i]->name),
-                         .remedy = "name it once in job.fields"};
-        if (Status fits = check_label(mesh, *taken[i]); !fits) return fits.error();
+    for (auto label = taken.begin(); label != taken.end(); ++label) {
+        if (std::find(taken.begin(), label, *label) != label)
+            return refusal("", "a label of cells is named twice", "", base::quoted((*label)->name),
+                           "name it once in job.fields");
+        if (Status fits = check_label(mesh, **label); !fits) return fits.error();
     }
     names = std::move(rest);
     return taken;

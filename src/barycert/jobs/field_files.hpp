@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <string>
 #include <vector>
 
 #include "barycert/jobs.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
+#include "barycert/sampler.hpp"
 
 namespace barycert::jobs {
 
@@ -42,6 +44,9 @@ void give_each_a_name(Mesh& mesh);
 
 /// Adds the fields of all files, and gives each a name.
 Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh);
+
+/// The field of nodes or cells that a name means, one number each; in `made` where the mesh has none.
+Result<FieldChoice> field_of_numbers(const Mesh& mesh, const std::string& name, std::deque<Field>& made, Notes& notes);
 
 /// The labels that are named, in their order; they are removed from `names`, in which one text may hold several names,
 /// with commas between them. A field goes before a label of its name; cell:NAME may stand for NAME. Errors: a label

@@ -18,7 +18,7 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vti/vti.hpp"
 #include "barycert/jobs/job_files.hpp"
-#include "barycert/jobs/user_rows.hpp"
+#include "barycert/jobs/stream.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -32,11 +32,8 @@ std::span<const std::byte> bytes_of(const std::vector<T>& numbers) {
 
 /// That the format holds no such column.
 Error no_place(const ColumnFormat& column, const std::string& path, const char* expected, const char* remedy) {
-    return {.what = "the format has no place for a label of cells",
-            .file = path,
-            .expected = expected,
-            .found = base::quoted(column.name) + (column.type == Column::Type::text ? ", texts" : ", integers"),
-            .remedy = remedy};
+    return refusal(path, "the format has no place for a label of cells", expected,
+                   base::quoted(column.name) + (column.type == Column::Type::text ? ", texts" : ", integers"), remedy);
 }
 
 /// VTK's image data: an array for each field, and what VTK's own probes give besides.
@@ -68,30 +65,29 @@ public:
 
     Status write(const TableView& rows) override {
         std::size_t array = 0, first = 0;
+        Status done = Done{};
+        const auto put = [&](std::span<const std::byte> bytes) {
+            if (done) done = file_->write(array++, bytes);
+        };
         for (const std::size_t n : components_) {
             if (n == columns_) {  // as they stand
-                if (Status done = file_->write(array++, std::as_bytes(rows.values)); !done) return done;
+                put(std::as_bytes(rows.values));
                 break;
             }
             numbers_.resize(n * rows.cells.size());
-            for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-                for (std::size_t c = 0; c < n; ++c) numbers_[n * i + c] = rows.values[columns_ * i + first + c];
-            }
-            if (Status done = file_->write(array++, bytes_of(numbers_)); !done) return done;
+            for (std::size_t i = 0; i < rows.cells.size(); ++i)
+                std::copy_n(&rows.values[columns_ * i + first], n, &numbers_[n * i]);
+            put(bytes_of(numbers_));
             first += n;
         }
-        if (!rows.distances.empty()) {
-            if (Status done = file_->write(array++, std::as_bytes(rows.distances)); !done) return done;
-        }
+        if (!rows.distances.empty()) put(std::as_bytes(rows.distances));
         mask_.resize(rows.cells.size());
         for (std::size_t i = 0; i < mask_.size(); ++i) mask_[i] = rows.cells[i] >= 0 ? 1 : 0;
-        if (Status done = file_->write(array++, bytes_of(mask_)); !done) return done;
-        Status done = file_->write(array++, std::as_bytes(rows.cells));
+        put(bytes_of(mask_));
+        put(std::as_bytes(rows.cells));
         for (const Column& column : rows.carried) {
-            if (!done) break;
             const auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values);
-            done = file_->write(array++, integers != nullptr ? bytes_of(*integers)
-                                                             : bytes_of(std::get<std::vector<double>>(column.values)));
+            put(integers != nullptr ? bytes_of(*integers) : bytes_of(std::get<std::vector<double>>(column.values)));
         }
         return done;
     }
@@ -111,11 +107,9 @@ private:
 class NpyArraySink final : public TableSink {
 public:
     NpyArraySink(const std::string& path, const Grid& grid, std::size_t columns) : file_(path) {
-        std::string shape;
-        for (std::size_t k = static_cast<std::size_t>(grid.dimension); k-- > 0;)
-            shape += fmt::format("{}, ", grid.counts[k]);
-        if (columns > 1) shape += fmt::format("{}, ", columns);
-        shape.resize(shape.size() - 2);
+        std::vector<std::int64_t> sizes(grid.counts.rend() - grid.dimension, grid.counts.rend());
+        if (columns > 1) sizes.push_back(static_cast<std::int64_t>(columns));
+        const std::string shape = fmt::format("{}", fmt::join(sizes, ", "));
         std::string text = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}", shape);
         // Magic, version 1.0, the length of the text in two bytes; the array begins at a multiple of 64.
         constexpr std::size_t head = 10;
@@ -136,12 +130,12 @@ private:
     base::OutputFile file_;
 };
 
-/// Rows as those of points from a file.
-class GridRowsSink final : public TableSink {
+/// Puts the points of the grid into rows, as rows of points from a file have them.
+class PointsOfGrid {
 public:
-    GridRowsSink(std::unique_ptr<TableSink> sink, const Grid& grid) : sink_(std::move(sink)), grid_(grid) {}
+    explicit PointsOfGrid(const Grid& grid) : grid_(grid) {}
 
-    Status write(const TableView& rows) override {
+    void operator()(TableView& rows) {
         const auto d = static_cast<std::size_t>(grid_.dimension);
         points_.resize(d * rows.cells.size());
         std::array<std::uint64_t, 3> size{}, at{};
@@ -152,14 +146,10 @@ public:
                 points_[d * i + k] = grid_.coordinate(k, static_cast<std::int64_t>(at[k]));
             for (std::size_t k = 0; k < 3 && ++at[k] == size[k]; ++k) at[k] = 0;
         }
-        TableView with_points = rows;
-        with_points.points = points_;
-        return sink_->write(with_points);
+        rows.points = points_;
     }
-    Status commit() override { return sink_->commit(); }
 
 private:
-    std::unique_ptr<TableSink> sink_;
     Grid grid_;
     std::vector<double> points_;
 };
@@ -167,7 +157,8 @@ private:
 /// A picture of one column. It is kept in memory: its colours depend on all of it.
 class PictureSink final : public TableSink {
 public:
-    PictureSink(std::string path, const Slice& slice) : path_(std::move(path)), slice_(slice) {}
+    PictureSink(std::string path, Slice slice, std::optional<SliceCounts>& counts)
+        : path_(std::move(path)), slice_(std::move(slice)), counts_(counts) {}
 
     Status write(const TableView& rows) override {
         values_.insert(values_.end(), rows.values.begin(), rows.values.end());
@@ -179,99 +170,79 @@ public:
     Status commit() override {
         slice_.values = values_;
         slice_.valid = valid_;
-        return write_png(path_, slice_, &counts_);
+        return write_png(path_, slice_, &counts_.emplace());
     }
-    const SliceCounts& counts() const { return counts_; }
 
 private:
     std::string path_;
     Slice slice_;
+    std::optional<SliceCounts>& counts_;
     std::vector<double> values_;
     std::vector<std::uint8_t> valid_;
-    SliceCounts counts_;
 };
 
-/// The two axes of a grid in a plane.
-Result<std::array<std::size_t, 2>> axes_of_picture(const Grid& grid, const std::string& path) {
+Result<std::unique_ptr<TableSink>> open_picture(const ResampleJob& a, const std::string& path,
+                                                const std::vector<std::string>& columns, const Grid& grid,
+                                                std::optional<SliceCounts>& counts) {
+    // The two axes of a grid in a plane.
     std::vector<std::size_t> axes;
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
         if (grid.counts[k] > 1 || grid.dimension == 2) axes.push_back(k);
     }
     if (axes.size() != 2)
-        return Error{.what = "a picture shows one layer",
-                     .file = path,
-                     .expected = "one point along exactly one axis, such as job.counts 800x600x1",
-                     .found = fmt::format("{} x {} x {} points", grid.counts[0], grid.counts[1], grid.counts[2]),
-                     .remedy = "choose the layer with job.bounds: it lies in the middle of the bounds"};
+        return refusal(path, "a picture shows one layer",
+                       "one point along exactly one axis, such as job.counts 800x600x1",
+                       fmt::format("{} points", fmt::join(grid.counts, " x ")),
+                       "choose the layer with job.bounds: it lies in the middle of the bounds");
     constexpr std::int64_t max = 1000000;
-    if (grid.counts[axes[0]] > max || grid.counts[axes[1]] > max)
-        return Error{.what = "too many points for a picture",
-                     .file = path,
-                     .expected = "at most 1000000 along each axis",
-                     .found = fmt::format("{} x {}", grid.counts[axes[0]], grid.counts[axes[1]]),
-                     .remedy = "choose a coarser grid"};
-    return std::array{axes[0], axes[1]};
-}
-
-Result<GridOutput> open_picture(const ResampleJob& a, const std::string& path, const std::vector<std::string>& columns,
-                                const Grid& grid) {
-    const auto axes = axes_of_picture(grid, path);
-    if (!axes) return axes.error();
+    const std::size_t w = axes[0], h = axes[1];
+    if (grid.counts[w] > max || grid.counts[h] > max)
+        return refusal(path, "too many points for a picture", "at most 1000000 along each axis",
+                       fmt::format("{} x {}", grid.counts[w], grid.counts[h]), "choose a coarser grid");
     if (columns.size() != 1)
-        return Error{.what = "a picture shows one column",
-                     .file = path,
-                     .expected = "a field of one component, chosen by job.fields",
-                     .found = columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
-                     .remedy = columns.empty() ? "add one by job.field_files NAME=FILE" : "name one in job.fields"};
-    const auto [w, h] = *axes;
+        return refusal(path, "a picture shows one column", "a field of one component, chosen by job.fields",
+                       columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
+                       columns.empty() ? "add one by job.field_files NAME=FILE" : "name one in job.fields");
     Slice slice;
     slice.width = static_cast<std::size_t>(grid.counts[w]);
     slice.height = static_cast<std::size_t>(grid.counts[h]);
     if (grid.spacing[w] > 0 && grid.spacing[h] > 0) slice.aspect = grid.spacing[w] / grid.spacing[h];
-    if (a.range) slice.range = std::pair((*a.range)[0], (*a.range)[1]);
+    slice.range = a.range;
     slice.title = columns.front();
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
         if (k != w && k != h) slice.title += fmt::format(", {} = {}", "xyz"[k], base::shortest(grid.origin[k]));
     }
     slice.pixel_length = grid.spacing[w];
-    auto sink = std::make_unique<PictureSink>(path, slice);
-    const SliceCounts* const counts = &sink->counts();
-    return GridOutput{std::move(sink), counts};
+    return std::unique_ptr<TableSink>(std::make_unique<PictureSink>(path, std::move(slice), counts));
 }
 
 }  // namespace
 
 Status check_grid_output(const ResampleJob& job) {
-    const bool picture = io::has_suffix(job.output, ".png");
-    if (job.range && !picture)
-        return Error{.what = "job.range needs a picture",
-                     .file = job.output,
-                     .remedy = "use job.output FILE.png, or leave job.range out"};
-    if (job.output == "-" || io::has_suffix(job.output, ".csv") || io::has_suffix(job.output, ".npy") ||
-        io::has_suffix(job.output, ".vti") || picture)
-        return Done{};
+    if (job.range && !io::has_suffix(job.output, ".png"))
+        return refusal(job.output, "job.range needs a picture", "", "",
+                       "use job.output FILE.png, or leave job.range out");
+    if (job.output == "-" || has_suffix_of(job.output, ".csv .npy .vti .png")) return Done{};
     return unknown_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
 }
 
-Result<GridOutput> open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format,
-                                  const Grid& grid) {
+Result<std::unique_ptr<TableSink>> open_grid_sink(const ResampleJob& job, const std::string& path,
+                                                  const TableFormat& format, const Grid& grid,
+                                                  std::optional<SliceCounts>& picture) {
     const std::vector<std::string> columns = format.columns();
-    const bool picture = io::has_suffix(path, ".png");
-    if (!format.carried.empty() && (picture || io::has_suffix(path, ".npy")))
+    const bool png = io::has_suffix(path, ".png"), array = io::has_suffix(path, ".npy");
+    if (!format.carried.empty() && (png || array))
         return no_place(format.carried.front(), path, "fields",
                         "write .csv, or integers to .vti, or leave the label out of job.fields");
-    if (picture) return open_picture(job, path, columns, grid);
-    const bool array = io::has_suffix(path, ".npy");
+    if (png) return open_picture(job, path, columns, grid, picture);
     if (array && columns.empty())
-        return Error{.what = "no field to write",
-                     .file = path,
-                     .remedy = "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields"};
-    if (array) return GridOutput{std::make_unique<NpyArraySink>(path, grid, columns.size())};
-    const bool vti = io::has_suffix(path, ".vti");
-    Result<std::unique_ptr<TableSink>> sink = vti ? VtiSink::open(path, format, grid) : open_rows(path, format);
-    if (!sink) return sink.error();
-    if (vti) return GridOutput{std::move(*sink)};
-    return GridOutput{std::make_unique<GridRowsSink>(std::move(*sink), grid)};
+        return refusal(path, "no field to write", "", "",
+                       "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields");
+    if (array) return std::unique_ptr<TableSink>(std::make_unique<NpyArraySink>(path, grid, columns.size()));
+    if (io::has_suffix(path, ".vti")) return VtiSink::open(path, format, grid);
+    Result<std::unique_ptr<TableSink>> rows = open_rows(path, format);
+    if (!rows) return rows;
+    return changed(std::move(*rows), PointsOfGrid(grid));
 }
 
 }  // namespace barycert::jobs

@@ -27,10 +27,6 @@ struct PartialIntegral {
     std::uint64_t left_out = 0;
 };
 
-PartialIntegral joined(const PartialIntegral& a, const PartialIntegral& b) {
-    return {a.sum + b.sum, a.left_out + b.left_out};
-}
-
 /// Means over cells, times `denominator`, are sums of weight times value over their entities.
 struct MeanRule {
     std::size_t corners;             ///< nodes of the cell; 0: the value is that of the cell
@@ -86,7 +82,9 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
             for (std::size_t c = range.begin(); c != range.end(); ++c) add_cell(c, part);
             return part;
         },
-        joined);
+        [](const PartialIntegral& a, const PartialIntegral& b) {
+            return PartialIntegral{a.sum + b.sum, a.left_out + b.left_out};
+        });
     const std::array<std::uint64_t, 1> denominator{(mesh.dimension == 2 ? 2 : 6) * rule.denominator};
     // Without a value but zeros the unit has no exponent, and the sum is zero in any.
     return {core::round_quotient(whole.sum.sign() < 0, whole.sum.magnitude(), denominator,
@@ -130,27 +128,7 @@ private:
     std::unique_ptr<TableSink> sink_;
 };
 
-}  // namespace
-
-void note_cell_fields(SampledMesh& mesh, bool of_series) {
-    std::string names, made;
-    std::size_t count = 0;
-    for (const FieldChoice& choice : mesh.fields()) {
-        if (!choice.of_cells) continue;
-        names += (count++ == 0 ? "" : ", ") + base::quoted(name_of(choice));
-        if (!choice.steps.empty()) made += (made.empty() ? "" : ", ") + base::quoted(name_of(choice));
-    }
-    if (count == 0) return;
-    const std::string without = of_series      ? "; their integrals are printed for one step alone: job.step N"
-                                : made.empty() ? ""
-                                               : "; integrals are printed of whole fields, not of " + made;
-    mesh.report.notes.push_back(
-        {Note::Kind::converted,
-         std::to_string(count) + (count == 1 ? " field" : " fields") +
-             " of cells into values at nodes, each that of the cell that owns the node: " + names + without,
-         mesh.job.mesh, true});
-}
-
+/// The columns of cell fields that are sampled as they are; their integrals over the mesh go into the report.
 std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& format) {
     std::vector<std::size_t> columns;
     std::size_t first = 0;
@@ -174,18 +152,40 @@ std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& 
     return columns;
 }
 
-Mesh geometry_of(const Mesh& mesh) {
-    Mesh geometry;
-    geometry.dimension = mesh.dimension;
-    geometry.points = mesh.points;
-    geometry.cells = mesh.cells;
-    geometry.mid_nodes = mesh.mid_nodes;
-    return geometry;
+}  // namespace
+
+void note_cell_fields(SampledMesh& mesh, bool of_series) {
+    std::string names, made;
+    std::size_t count = 0;
+    for (const FieldChoice& choice : mesh.fields()) {
+        if (!choice.of_cells) continue;
+        names += (count++ == 0 ? "" : ", ") + base::quoted(name_of(choice));
+        if (!choice.steps.empty()) made += (made.empty() ? "" : ", ") + base::quoted(name_of(choice));
+    }
+    if (count == 0) return;
+    const std::string without = of_series      ? "; their integrals are printed for one step alone: job.step N"
+                                : made.empty() ? ""
+                                               : "; integrals are printed of whole fields, not of " + made;
+    mesh.report.notes.push_back(
+        {Note::Kind::converted,
+         std::to_string(count) + (count == 1 ? " field" : " fields") +
+             " of cells into values at nodes, each that of the cell that owns the node: " + names + without,
+         mesh.job.mesh, true});
 }
 
-std::unique_ptr<TableSink> integrate_target(SampledMesh& mesh, Mesh geometry, const std::vector<std::size_t>& columns,
-                                            std::unique_ptr<TableSink> sink) {
-    return std::make_unique<IntegralSink>(mesh, std::move(geometry), columns, std::move(sink));
+Result<std::unique_ptr<TableSink>> with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
+                                                  const std::function<Result<std::unique_ptr<TableSink>>()>& open) {
+    const std::vector<std::size_t> columns = integrate_source(mesh, format);
+    if (columns.empty()) return open();
+    Mesh geometry;
+    geometry.dimension = other.dimension;
+    geometry.points = other.points;
+    geometry.cells = other.cells;
+    geometry.mid_nodes = other.mid_nodes;
+    auto sink = open();
+    if (!sink) return sink;
+    return std::unique_ptr<TableSink>(
+        std::make_unique<IntegralSink>(mesh, std::move(geometry), columns, std::move(*sink)));
 }
 
 }  // namespace barycert::jobs

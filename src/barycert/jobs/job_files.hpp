@@ -4,9 +4,11 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
-#include <memory>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "barycert/base/named_file.hpp"
@@ -47,18 +49,33 @@ private:
 /// How many threads that is.
 int thread_count(int threads);
 
+/// In the order of the message; empty parts are left out.
+inline Error refusal(std::string file, std::string what, std::string expected = {}, std::string found = {},
+                     std::string remedy = {}) {
+    return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
+}
+
 /// Tells what the job is doing, and how much of it is done.
 void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0);
 
 /// Reads the mesh of the job, and takes its cells as straight, as far as it may: `curved` says which are not.
 Result<Mesh> open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved);
 
+/// The same at the step of the job, with the fields from files.
+Status open_mesh_with_fields(const MeshJob& job, int threads, Mesh& mesh, MeshReport& report);
+
+/// What a report says of the mesh.
+void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& report);
+
 /// What finds points in the mesh.
 Result<Locator> build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove = true);
 
-/// The mesh and the files of fields, and of VTK's files that name others, those.
-std::vector<base::NamedFile> input_files(const MeshJob& job);
-void add_input(std::vector<base::NamedFile>& inputs, const std::string& what, const std::string& path);
+/// The mesh, the files of fields, and `more`; of VTK's files that name others, those.
+std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more = {});
+
+/// The outputs and the reports of the job, held against the inputs by base::check_outputs.
+Status check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
+                     std::vector<base::NamedFile> outputs);
 
 /// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
 /// inputs. Error: an output is an input or another output, or cannot be written; an input cannot be read.
@@ -73,10 +90,10 @@ Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
 /// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
 Status check_vtk_data(std::optional<VtkData> data, const std::string& path);
 
+/// Whether the path ends as one of these, in any case: ".csv .npy".
+bool has_suffix_of(const std::string& path, std::string_view suffixes);
+
 /// That the suffix of the output is none of those `expected`.
 Error unknown_output(const std::string& path, const std::string& expected);
-
-/// Refuses what open_table would refuse by its suffix alone.
-Status check_rows_format(const std::string& path);
 
 }  // namespace barycert::jobs

@@ -7,24 +7,10 @@
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/pictures.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
 #include "barycert/surface.hpp"
 
 namespace barycert::jobs {
 namespace {
-
-/// Triangles, with the chosen number at their points or on them.
-struct DrawnSurface {
-    Surface surface;
-    std::vector<double> values;
-    bool of_triangles = false;
-
-    SurfaceView view(int dimension) const {
-        SurfaceView view{.dimension = dimension, .points = surface.points, .triangles = surface.cells};
-        (of_triangles ? view.triangle_values : view.point_values) = values;
-        return view;
-    }
-};
 
 /// The cells of a mesh in the plane, or the boundary of one in space. The fields of `options` are carried along.
 Result<Surface> triangles_of(const Mesh& mesh, const CutOptions& options) {
@@ -37,25 +23,28 @@ Result<Surface> triangles_of(const Mesh& mesh, const CutOptions& options) {
     return cells;
 }
 
-Result<DrawnSurface> drawn_surface(const Mesh& mesh, const std::string& field, int threads, Notes& notes) {
+/// Draws the surface in the colours of the field; what is told of them goes into the report.
+Result<Image> image_of(const RenderJob& job, const Mesh& mesh, RenderReport& report) {
     CutOptions options;
-    options.threads = threads;
+    options.threads = job.threads;
     FieldChoice chosen;
     std::deque<Field> made;
-    if (!field.empty()) {
-        const Result<FieldChoice> found = sample::number_named(mesh, field);
+    if (!job.field.empty()) {
+        const Result<FieldChoice> found = field_of_numbers(mesh, job.field, made, report.notes);
         if (!found) return found.error();
-        std::vector<FieldChoice> one{*found};
-        if (Status done = sample::make_all_fields(mesh, one, made, notes); !done) return done.error();
-        chosen = one.front();
+        chosen = *found;
         (chosen.of_cells ? options.cell_fields : options.point_fields).push_back(chosen.field);
     }
-    Result<Surface> surface = triangles_of(mesh, options);
+    const Result<Surface> surface = triangles_of(mesh, options);
     if (!surface) return surface.error();
-    DrawnSurface drawn{std::move(*surface), {}, chosen.of_cells};
-    if (chosen.field == nullptr) return drawn;
-    drawn.values = (chosen.of_cells ? drawn.surface.cell_fields : drawn.surface.point_fields).front().data;
-    return drawn;
+    SurfaceView view{.dimension = mesh.dimension, .points = surface->points, .triangles = surface->cells};
+    if (chosen.field != nullptr && chosen.of_cells) view.triangle_values = surface->cell_fields.front().data;
+    if (chosen.field != nullptr && !chosen.of_cells) view.point_values = surface->point_fields.front().data;
+    ViewCounts counts;
+    Result<Image> image = draw_surface(view, job.view, &counts);
+    report.counts = counts.render;
+    if (!job.field.empty()) report.colours = {job.field, counts.low, counts.high, counts.without_value};
+    return image;
 }
 
 }  // namespace
@@ -66,25 +55,19 @@ Result<RenderReport> draw_mesh(const RenderJob& job) {
     Result<Mesh> mesh = open_mesh(job, job.threads, job.step, report.curved);
     if (!mesh) return mesh.error();
     if (Status added = add_fields(job.field_files, *mesh); !added) return added.error();
-    if (mesh->cells.empty())
-        return Error{.what = "the mesh has no cells", .file = job.mesh, .remedy = "there is nothing to draw"};
+    if (mesh->cells.empty()) return refusal(job.mesh, "the mesh has no cells", "", "", "there is nothing to draw");
     report.input = job.mesh;
     report.size = job.view.size;
     report.notes = mesh->notes;
-    const auto drawn = drawn_surface(*mesh, job.field, job.threads, report.notes);
-    if (!drawn) {
-        Error error = drawn.error();
+    report.method = job.view.method;
+    report.rounding = job.view.rounding;
+    const Result<Image> image = image_of(job, *mesh, report);
+    if (!image) {
+        Error error = image.error();
         if (error.file.empty()) error.file = job.mesh;
         return error;
     }
-    ViewCounts counts;
-    const Result<Image> image = draw_surface(drawn->view(mesh->dimension), job.view, &counts);
-    if (!image) return image.error();
     if (Status written = write_png(job.output, *image); !written) return written.error();
-    report.counts = counts.render;
-    report.method = job.view.method;
-    report.rounding = job.view.rounding;
-    if (!job.field.empty()) report.colours = {job.field, counts.low, counts.high, counts.without_value};
     return report;
 }
 

@@ -22,9 +22,6 @@ public:
         : mesh_(std::move(mesh)), path_(std::move(path)), data_(format.vtk_data) {
         mesh_.point_fields.clear();
         for (const TableField& f : format.fields) mesh_.point_fields.push_back({f.name, f.components, {}});
-        mask_ = {"vtkValidPointMask", 1, {}};
-        cell_ = {"cell", 1, {}};
-        distance_ = {"distance", 1, {}};
     }
 
     Status write(const TableView& rows) override {
@@ -40,29 +37,24 @@ public:
     Status commit() override {
         const Result<io::MeshFormat> format = io::mesh_output_format(path_);
         if (!format) return format.error();
-        return *format == io::MeshFormat::tetgen ? write_tetgen_files() : write_one_file(*format);
-    }
-
-private:
-    /// Where there is room for what else is known of each node. In Gmsh each field is a picture of its own: `cell`
-    /// tells what the mask does, too.
-    Status write_one_file(io::MeshFormat format) {
+        if (*format == io::MeshFormat::tetgen) return write_tetgen_files();
+        // Where there is room for what else is known of each node. In Gmsh each field is a picture of its own: `cell`
+        // tells what the mask does, too.
         if (!distance_.data.empty()) mesh_.point_fields.push_back(std::move(distance_));
-        if (format == io::MeshFormat::vtk) mesh_.point_fields.push_back(std::move(mask_));
+        if (*format == io::MeshFormat::vtk) mesh_.point_fields.push_back(std::move(mask_));
         mesh_.point_fields.push_back(std::move(cell_));
         return write_mesh(mesh_, path_, {.comment = {}, .data = data_});
     }
 
+private:
     Status write_tetgen_files() {
         for (const Field& f : mesh_.point_fields) {
             const auto it = std::find_if(f.data.begin(), f.data.end(), [](double x) { return !std::isfinite(x); });
             if (it == f.data.end()) continue;
             const auto node = static_cast<std::size_t>(it - f.data.begin()) / static_cast<std::size_t>(f.components);
-            return Error{
-                .what = fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
-                .file = path_,
-                .expected = "finite attributes: a .node file cannot hold NaN or infinity",
-                .remedy = "choose job.outside nearest, extrapolate or fill=V for nodes outside, or another format"};
+            return refusal(path_, fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
+                           "finite attributes: a .node file cannot hold NaN or infinity", "",
+                           "choose job.outside nearest, extrapolate or fill=V for nodes outside, or another format");
         }
         return write_tetgen(mesh_, tetgen_stem(path_));
     }
@@ -70,13 +62,13 @@ private:
     Mesh mesh_;
     std::string path_;
     VtkData data_;
-    Field mask_, cell_, distance_;
+    Field mask_{"vtkValidPointMask", 1, {}}, cell_{"cell", 1, {}}, distance_{"distance", 1, {}};
 };
 
 }  // namespace
 
 bool is_rows_output(const std::string& path) {
-    return path == "-" || io::has_suffix(path, ".csv") || io::has_suffix(path, ".npy");
+    return path == "-" || has_suffix_of(path, ".csv .npy");
 }
 
 std::vector<std::string> files_of_mesh_output(const ResampleJob& job) {
@@ -90,8 +82,7 @@ Status check_mesh_output(const ResampleJob& job) {
     if (job.range)
         return Error{.what = "job.range cannot be combined with job.onto",
                      .remedy = "it is for pictures: leave it out"};
-    if (is_rows_output(job.output)) return Done{};
-    if (io::mesh_output_format(job.output)) return Done{};
+    if (is_rows_output(job.output) || io::mesh_output_format(job.output)) return Done{};
     return unknown_output(job.output,
                           ".vtu, .vtk, .msh, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
 }
@@ -99,11 +90,9 @@ Status check_mesh_output(const ResampleJob& job) {
 Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format,
                                              Notes& notes) {
     if (!format.carried.empty())
-        return Error{.what = "a mesh has no labels of nodes",
-                     .file = path,
-                     .expected = "fields",
-                     .found = "label " + base::quoted(format.carried.front().name),
-                     .remedy = "leave labels out of job.fields, or write rows: .csv or .npy"};
+        return refusal(path, "a mesh has no labels of nodes", "fields",
+                       "label " + base::quoted(format.carried.front().name),
+                       "leave labels out of job.fields, or write rows: .csv or .npy");
     const Result<io::MeshFormat> kind = io::mesh_output_format(path);
     if (kind && *kind == io::MeshFormat::tetgen) io::note_lost_names(format.columns(), "a .node", notes);
     return std::unique_ptr<TableSink>(std::make_unique<MeshSink>(std::move(mesh), path, format));

@@ -35,7 +35,7 @@ Result<Scene> texture_scene(const RenderJob& job) {
         texture.image = std::move(*image);
     }
     scene.texture = std::move(texture);
-    const double low = job.low, high = job.high;
+    const auto [low, high] = job.coordinates;
     if (job.triangle) {
         scene.positions = {-1, -1, 0, 1, 1, -1, 0, 1, 0, 1, 0, 1};
         scene.texture_coordinates = {low, low, high, low, 0.5 * low + 0.5 * high, high};
@@ -138,11 +138,10 @@ Result<RenderReport> draw_scene(const RenderJob& job) {
 
 std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
     if (job.picture == PictureKind::mesh) return jobs::input_files(job);
-    std::vector<base::NamedFile> inputs;
-    if (!job.image.empty()) inputs.push_back({"job.image", job.image});
-    if (job.picture != PictureKind::scene) return inputs;
-    inputs.push_back({"the scene", job.scene});
-    for (const std::string& path : scene_files(job.scene)) inputs.push_back({"an image of the scene", path});
+    if (job.picture != PictureKind::scene) return base::named_files("job.image", {job.image});
+    std::vector<base::NamedFile> inputs = base::named_files("an image of the scene", scene_files(job.scene));
+    inputs.insert(inputs.begin(), {{"job.image", job.image}, {"the scene", job.scene}});
+    std::erase_if(inputs, [](const base::NamedFile& f) { return f.path.empty(); });
     return inputs;
 }
 
@@ -151,13 +150,10 @@ std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
 Result<RenderReport> render_files(const RenderJob& job) {
     const ExactEnvironment environment;
     if (!job.output.ends_with(".png"))
-        return Error{.what = "pictures are PNG files",
-                     .file = job.output,
-                     .expected = "a name that ends in .png",
-                     .remedy = "choose another name for job.output"};
-    std::vector<base::NamedFile> outputs{{"job.output", job.output}};
-    for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
-    if (const Status ok = base::check_outputs(inputs_of(job), std::move(outputs)); !ok) return ok.error();
+        return jobs::refusal(job.output, "pictures are PNG files", "a name that ends in .png", "",
+                             "choose another name for job.output");
+    if (const Status ok = jobs::check_outputs(job, inputs_of(job), {{"job.output", job.output}}); !ok)
+        return ok.error();
     jobs::Stopwatch time;
     Result<RenderReport> report = job.picture == PictureKind::mesh ? jobs::draw_mesh(job) : draw_scene(job);
     if (!report) return report;

@@ -8,6 +8,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/jobs/job_files.hpp"
 
 namespace barycert {
 
@@ -70,13 +71,6 @@ struct Frame {
     }
 };
 
-Error no_picture(std::string what, std::string expected, std::string found, std::string remedy) {
-    return {.what = std::move(what),
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = std::move(remedy)};
-}
-
 }  // namespace
 
 Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& points, std::int64_t width) {
@@ -92,16 +86,15 @@ Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& poi
     }
     const double across = high[0] - low[0], tall = high[1] - low[1];
     if (!(across > 0) || !(tall > 0) || !std::isfinite(across) || !std::isfinite(tall))
-        return no_picture("the section has no area", "a plane that goes through the mesh",
-                          points.empty() ? "no cell on both sides of it" : "a point or a line",
-                          "choose another offset");
+        return refusal("", "the section has no area", "a plane that goes through the mesh",
+                       points.empty() ? "no cell on both sides of it" : "a point or a line", "choose another offset");
     PixelGrid grid;
     grid.width = width;
     grid.pixel = across / static_cast<double>(width);
     const double lines = std::max(1.0, std::round(tall / grid.pixel));
     if (!(lines * static_cast<double>(width) <= static_cast<double>(max_pixels)) || !(grid.pixel > 0))
-        return no_picture("the picture would be too large", "at most " + std::to_string(max_pixels) + " pixels",
-                          std::to_string(width) + " by " + base::shortest(lines), "choose a smaller job.width");
+        return refusal("", "the picture would be too large", "at most " + std::to_string(max_pixels) + " pixels",
+                       std::to_string(width) + " by " + base::shortest(lines), "choose a smaller job.width");
     grid.height = static_cast<std::int64_t>(lines);
     // Lines are centred in the box.
     const double first[2] = {low[0] + 0.5 * grid.pixel, low[1] + 0.5 * (tall - (lines - 1) * grid.pixel)};

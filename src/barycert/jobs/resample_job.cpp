@@ -6,48 +6,43 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/run_files.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/resampled.hpp"
 #include "barycert/jobs/stream.hpp"
-#include "barycert/jobs/user_rows.hpp"
 
 namespace barycert {
 namespace {
 
+using jobs::refusal;
 using jobs::SampledMesh;
 using jobs::Stopwatch;
-
-Error wrong_axes(const std::string& option, int dimension, const std::string& expected, std::size_t found) {
-    return {.what = option + " does not fit the mesh",
-            .expected = fmt::format("{} for a mesh of dimension {}", expected, dimension),
-            .found = std::to_string(found)};
-}
 
 Result<Grid> grid_of(const ResampleJob& a, const Mesh& mesh) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     Bounds3 box = bounds_of_cells(mesh);
-    if (!a.bounds.empty()) {
-        if (a.bounds.size() != 2 * d)
-            return wrong_axes("job.bounds", mesh.dimension, fmt::format("{} numbers", 2 * d), a.bounds.size());
-        for (std::size_t k = 0; k < d; ++k) {
-            box.low[k] = a.bounds[2 * k];
-            box.high[k] = a.bounds[2 * k + 1];
-        }
+    const auto wrong_axes = [&](const char* member, const std::string& expected, std::size_t found) {
+        return refusal("", std::string(member) + " does not fit the mesh",
+                       fmt::format("{} for a mesh of dimension {}", expected, d), std::to_string(found));
+    };
+    if (!a.bounds.empty() && a.bounds.size() != 2 * d)
+        return wrong_axes("job.bounds", fmt::format("{} numbers", 2 * d), a.bounds.size());
+    for (std::size_t k = 0; !a.bounds.empty() && k < d; ++k) {
+        box.low[k] = a.bounds[2 * k];
+        box.high[k] = a.bounds[2 * k + 1];
     }
     if (!a.counts.empty()) {
         const bool one_layer = d == 2 && a.counts.size() == 3 && a.counts[2] == 1;
         if (a.counts.size() != d && !one_layer)
-            return wrong_axes("job.counts", mesh.dimension, fmt::format("{} numbers of points", d), a.counts.size());
+            return wrong_axes("job.counts", fmt::format("{} numbers of points", d), a.counts.size());
         std::array<std::int64_t, 3> counts{1, 1, 1};
-        for (std::size_t k = 0; k < d; ++k) counts[k] = a.counts[k];
+        std::copy_n(a.counts.begin(), d, counts.begin());
         return grid_over(mesh.dimension, counts, box.low, box.high);
     }
     if (a.spacing.size() != 1 && a.spacing.size() != d)
-        return wrong_axes("job.spacing", mesh.dimension, fmt::format("one number or {}", d), a.spacing.size());
+        return wrong_axes("job.spacing", fmt::format("one number or {}", d), a.spacing.size());
     std::array<double, 3> spacing{};
     for (std::size_t k = 0; k < d; ++k) spacing[k] = a.spacing[a.spacing.size() == 1 ? 0 : k];
     return grid_spaced(mesh.dimension, spacing, box.low, box.high);
@@ -65,19 +60,16 @@ std::vector<double> point_of(const Grid& grid, std::uint64_t i) {
 Status check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     const int targets = (job.counts.empty() ? 0 : 1) + (job.spacing.empty() ? 0 : 1) + (job.onto.empty() ? 0 : 1);
     if (targets != 1)
-        return Error{.what = targets == 0 ? "no target" : "more than one target",
-                     .expected = "one of job.counts, job.spacing and job.onto",
-                     .found = targets == 0 ? "none" : "several",
-                     .remedy = "`barycert resample --help` explains them"};
+        return refusal("", targets == 0 ? "no target" : "more than one target",
+                       "one of job.counts, job.spacing and job.onto", targets == 0 ? "none" : "several",
+                       "`barycert resample --help` explains them");
     if (!job.bounds.empty() && !job.onto.empty())
-        return Error{.what = "job.bounds cannot be combined with job.onto",
-                     .remedy = "bounds are for job.counts and job.spacing: leave them out"};
+        return refusal("", "job.bounds cannot be combined with job.onto", "", "",
+                       "bounds are for job.counts and job.spacing: leave them out");
     if (!job.weights.empty() && job.onto.empty())
-        return Error{.what = "job.weights needs job.onto here",
-                     .file = job.weights,
-                     .remedy =
-                         "for the points of a grid, write them to a file first (job.output grid.csv), and use "
-                         "`barycert sample --points grid.csv --weights`"};
+        return refusal(job.weights, "job.weights needs job.onto here", "", "",
+                       "for the points of a grid, write them to a file first (job.output grid.csv), and use `barycert "
+                       "sample --points grid.csv --weights`");
     if (job.onto.empty()) {
         if (Status known = jobs::check_grid_output(job); !known) return known;
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
@@ -103,11 +95,10 @@ Status onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& p
     SampleReport& report = mesh.report;
     const Grid& grid = *report.grid;
     Stopwatch watch, within;
-    const Result<TableFormat> format = user_format(mesh, mesh.format(), {});
-    if (!format) return format.error();
-    auto output = jobs::open_grid_sink(job, path, *format, grid);
+    auto output = open_user_rows(mesh, mesh.format(), {}, false, [&](const TableFormat& format) {
+        return jobs::open_grid_sink(job, path, format, grid, report.picture);
+    });
     if (!output) return output.error();
-    output->sink = user_rows(mesh, std::move(output->sink));
     double writing = 0;
     const bool refuse = job.options.outside.kind == Outside::error;
     const std::string what = fmt::format("points of {}", grid.point_count());
@@ -120,7 +111,7 @@ Status onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& p
         }
         report.nan_values += jobs::count_nan(rows);
         within.lap();
-        Status written = output->sink->write(rows);
+        Status written = (*output)->write(rows);
         writing += within.lap();
         mesh.tell(what, rows.first_row + rows.row_count());
         return written;
@@ -132,9 +123,8 @@ Status onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& p
         report.rows += grid.point_count();
     }
     report.seconds.sample += watch.lap() - writing;
-    Status committed = output->sink->commit();
+    Status committed = (*output)->commit();
     report.seconds.write += writing + watch.lap();
-    if (output->picture != nullptr) report.picture = *output->picture;
     return committed;
 }
 
@@ -155,61 +145,15 @@ Status onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
             if (!ready) return ready;
         }
         if (new_mesh && mesh.report.meshes == 2 && job.bounds.empty())
-            mesh.report.notes.push_back({Note::Kind::guessed,
-                                         "the grid of all steps lies in the box of the mesh of the first one: "
-                                         "job.bounds names another box",
-                                         job.mesh, true});
+            mesh.report.notes.push_back(
+                {Note::Kind::guessed,
+                 "the grid of all steps lies in the box of the mesh of the first one: job.bounds names another box",
+                 job.mesh, true});
         const std::string path = mesh.step_by_step() ? output_of_step(job.output, mesh.steps[i]) : job.output;
         if (Status done = onto_grid(mesh, job, path, new_mesh); !done) return done;
     }
     return Done{};
 }
-
-/// The nodes of another mesh.
-class NodesOfMesh final : public jobs::PointRows {
-public:
-    /// `again`: for steps with another mesh, which read them once more.
-    NodesOfMesh(const Mesh& other, bool again)
-        : PointRows(memory_points(other.points, other.dimension)), dimension_(other.dimension) {
-        if (again) nodes_ = other.points;
-    }
-    Status begin_again(const SampledMesh&) override {
-        points_ = memory_points(nodes_, dimension_);
-        return Done{};
-    }
-
-private:
-    std::vector<double> nodes_;
-    int dimension_;
-};
-
-/// Files of the other mesh with the fields, or rows.
-class OntoOutput final : public jobs::RowsOutput {
-public:
-    /// `further`: other steps follow the first.
-    OntoOutput(SampledMesh& mesh, Mesh& other, bool further) : mesh_(mesh), other_(other), further_(further) {}
-
-    Result<std::unique_ptr<TableSink>> open(const TableFormat& of_rows, const std::string& path) override {
-        const Result<TableFormat> format = user_format(mesh_, of_rows, {});
-        if (!format) return format.error();
-        // Of a series there would be integrals of each step.
-        const auto integrated = further_ ? std::vector<std::size_t>() : jobs::integrate_source(mesh_, of_rows);
-        Mesh geometry;
-        if (!integrated.empty()) geometry = jobs::geometry_of(other_);
-        auto sink = jobs::is_rows_output(path)
-                        ? jobs::open_rows(path, *format)
-                        : jobs::mesh_sink(further_ ? other_ : std::move(other_), path, *format, mesh_.report.notes);
-        if (!sink) return sink;
-        auto shown = user_rows(mesh_, std::move(*sink));
-        if (integrated.empty()) return shown;
-        return jobs::integrate_target(mesh_, std::move(geometry), integrated, std::move(shown));
-    }
-
-private:
-    SampledMesh& mesh_;
-    Mesh& other_;
-    bool further_;
-};
 
 Status onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
     mesh.tell("reading " + job.onto);
@@ -220,11 +164,9 @@ Status onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
     if (!other) return other.error();
     const int d = mesh.mesh().dimension;
     if (other->dimension != d)
-        return Error{.what = "the meshes have different dimensions",
-                     .file = job.onto,
-                     .expected = fmt::format("{}, as {} has", d, job.mesh),
-                     .found = std::to_string(other->dimension),
-                     .remedy = "resample between meshes of triangles, or between meshes of tetrahedra"};
+        return refusal(job.onto, "the meshes have different dimensions", fmt::format("{}, as {} has", d, job.mesh),
+                       std::to_string(other->dimension),
+                       "resample between meshes of triangles, or between meshes of tetrahedra");
     const auto curved = take_as_straight(*other, job.onto, job.curved);
     if (!curved) return curved.error();
     SampleReport& report = mesh.report;
@@ -232,27 +174,33 @@ Status onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
     report.from = PointsFrom::mesh;
     report.points = job.onto;
     const bool further = mesh.step_by_step() && mesh.steps.size() > 1;
-    NodesOfMesh nodes(*other, further);
+    auto points = memory_points(other->points, d);
+    jobs::RowSource nodes = jobs::rows_of_points(points);
+    nodes.begin_again = [&](const SampledMesh&) -> Status {
+        points = memory_points(other->points, d);
+        return Done{};
+    };
     report.seconds.read = watch.lap();
     note_the_other(mesh, job, *other);
     jobs::note_cell_fields(mesh, further);
-    OntoOutput output(mesh, *other, further);
-    return sample_rows(mesh, nodes, output);
+    // Files of the other mesh with the fields, or rows. Of a series there would be integrals of each step.
+    const auto open = [&](const TableFormat& format, const std::string& path) {
+        const auto open_sink = [&](const TableFormat& shown) {
+            return to_rows ? jobs::open_rows(path, shown)
+                           : jobs::mesh_sink(further ? *other : std::move(*other), path, shown, mesh.report.notes);
+        };
+        const auto open_rows = [&] { return open_user_rows(mesh, format, {}, false, open_sink); };
+        return further ? open_rows() : jobs::with_integrals(mesh, format, *other, open_rows);
+    };
+    return sample_rows(mesh, nodes, open);
 }
 
 }  // namespace
 
 Result<SampleReport> resample_files(const ResampleJob& job) {
-    const base::RunFiles files;
-    auto steps = jobs::find_steps(job);
-    if (!steps) return steps.error();
-    if (Status ok = check_job(job, *steps); !ok) return ok.error();
-    const jobs::ThreadLimit limit(job.options.threads);
-    SampledMesh mesh(job, std::move(*steps), "resample");
-    Status done = mesh.open();
-    if (done) done = job.onto.empty() ? onto_grid_in_steps(mesh, job) : onto_mesh(mesh, job);
-    if (!done) return done.error();
-    return mesh.finish();
+    return jobs::sample_mesh(
+        job, "resample", [&](const auto& steps) { return check_job(job, steps); },
+        [&](SampledMesh& mesh) { return job.onto.empty() ? onto_grid_in_steps(mesh, job) : onto_mesh(mesh, job); });
 }
 
 }  // namespace barycert

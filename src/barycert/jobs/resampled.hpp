@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,19 +16,15 @@
 
 namespace barycert::jobs {
 
-/// A sink of the blocks of a grid, in order; their views have no points.
-struct GridOutput {
-    std::unique_ptr<TableSink> sink;
-    const SliceCounts* picture = nullptr;  ///< of a picture, after the commit: what became of the values
-};
-
 /// What is wrong with the output of a grid, as far as its name and the options tell.
 Status check_grid_output(const ResampleJob& job);
 
-/// The output `path` of the job, by its suffix. Errors: a format that cannot hold these fields or that grid; a path
-/// that cannot be written.
-Result<GridOutput> open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format,
-                                  const Grid& grid);
+/// A sink of the blocks of a grid, in order, whose views have no points: the output `path` of the job, by its suffix.
+/// `picture` gets what became of the values of a picture, with the commit. Errors: a format that cannot hold these
+/// fields or that grid; a path that cannot be written.
+Result<std::unique_ptr<TableSink>> open_grid_sink(const ResampleJob& job, const std::string& path,
+                                                  const TableFormat& format, const Grid& grid,
+                                                  std::optional<SliceCounts>& picture);
 
 /// The files that such an output has; what is wrong with it, as far as its name tells.
 std::vector<std::string> files_of_mesh_output(const ResampleJob& job);
@@ -43,16 +41,11 @@ Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path,
 
 // What becomes of cell fields that are sampled at the nodes of another mesh.
 
-/// The columns of cell fields that are sampled as they are; their integrals over the mesh go into the report.
-/// Precondition: the mesh is prepared.
-std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& format);
-
-/// Nodes and cells, of which integrals are made.
-Mesh geometry_of(const Mesh& mesh);
-
-/// Gives the rows of all nodes of `geometry` to the sink; with the commit, the integrals over it go into the report.
-std::unique_ptr<TableSink> integrate_target(SampledMesh& mesh, Mesh geometry, const std::vector<std::size_t>& columns,
-                                            std::unique_ptr<TableSink> sink);
+/// Gives the rows of all nodes of `other` to the sink that is opened. Integrals of cell fields that are sampled as they
+/// are go into the report: over the mesh, which is prepared, and with the commit over the other one. `other` is not
+/// read any more when the sink is opened.
+Result<std::unique_ptr<TableSink>> with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
+                                                  const std::function<Result<std::unique_ptr<TableSink>>()>& open);
 
 /// That cell fields become values at nodes, if there are some, and of which there are no integrals: a note of the
 /// report.

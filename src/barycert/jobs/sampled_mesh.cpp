@@ -23,20 +23,18 @@
 namespace barycert::jobs {
 namespace {
 
-bool is_degenerate(const Mesh& mesh, std::size_t cell) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    std::array<const double*, 4> at{};
-    for (std::size_t i = 0; i <= d; ++i)
-        at[i] = mesh.points.data() + d * static_cast<std::size_t>(mesh.cells[(d + 1) * cell + i]);
-    const Sign sign = d == 2 ? orient2d(at[0], at[1], at[2]) : orient3d(at[0], at[1], at[2], at[3]);
-    return sign == Sign::zero;
-}
-
 std::uint64_t count_degenerate(const Mesh& mesh) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    const auto is_degenerate = [&](std::size_t cell) {
+        std::array<const double*, 4> at{};
+        for (std::size_t i = 0; i <= d; ++i)
+            at[i] = mesh.points.data() + d * static_cast<std::size_t>(mesh.cells[(d + 1) * cell + i]);
+        return (d == 2 ? orient2d(at[0], at[1], at[2]) : orient3d(at[0], at[1], at[2], at[3])) == Sign::zero;
+    };
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 14), std::uint64_t{0},
         [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t n) {
-            for (std::size_t c = range.begin(); c != range.end(); ++c) n += is_degenerate(mesh, c) ? 1 : 0;
+            for (std::size_t c = range.begin(); c != range.end(); ++c) n += is_degenerate(c) ? 1 : 0;
             return n;
         },
         std::plus<>());
@@ -62,8 +60,8 @@ std::string reason_of(const Locator& locator, std::uint64_t degenerate, bool cur
     if (locator.certified()) return curved ? "the mesh is certified for straight sides" : "the mesh is certified";
     if (contested == 0 && degenerate != 0) return "cells meet in common faces; degenerate ones are left out";
     return fmt::format(
-        "{} of {} cells may meet others beside common faces, and there other such cells are tested, too; "
-        "`{} check` tells more",
+        "{} of {} cells may meet others beside common faces, and there other such cells are tested, too; `{} check` "
+        "tells more",
         contested, locator.mesh().cell_count(), program);
 }
 
@@ -76,12 +74,10 @@ SampledMesh::SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std
         if (step.of_mesh) report.times.push_back(base::parse_double(step.time).value_or(0));
     }
     report.command = std::move(command);
-    report.mesh = job.mesh;
     report.output = job.output;
     report.weights = job.weights;
     report.rounding = job.options.rounding;
     report.outside = job.options.outside;
-    report.threads = thread_count(job.options.threads);
 }
 
 Status SampledMesh::open() {
@@ -92,11 +88,8 @@ Status SampledMesh::open() {
     if (Status added = add_fields_of_job(); !added) return added;
     if (Status chosen = choose_fields(); !chosen) return chosen;
     names_of_first_ = names_of_chosen();
-    report.notes = mesh_.notes;
+    report_mesh(job, mesh_, job.options.threads, report);
     note_labels(mesh_, job.fields, report.notes);
-    report.dimension = mesh_.dimension;
-    report.nodes = mesh_.point_count();
-    report.cells = mesh_.cell_count();
     report.seconds.mesh = watch.lap();
     return Done{};
 }
@@ -143,12 +136,11 @@ Status SampledMesh::go(const Step& step) {
     sampler_.reset();
     made_.clear();
     if (Status chosen = choose_fields(); !chosen) return chosen;
-    if (const std::string names = names_of_chosen(); names != names_of_first_) {
+    if (const std::string names = names_of_chosen(); names != names_of_first_)
         tell_once({{Note::Kind::left_out,
                     fmt::format("in step {} the fields of the first step: there they are {}, here {}", step.label,
                                 names_of_first_, names),
                     job.mesh, true}});
-    }
     Status built = another_mesh_ ? Status(Done{}) : build_sampler(part_ ? fields_of_part() : fields_);
     report.seconds.build += watch.lap();
     return built;
@@ -158,10 +150,8 @@ Status SampledMesh::go_to_mesh(const Step& step) {
     Result<Mesh> mesh = read(&step);
     if (!mesh) return mesh.error();
     if (mesh->dimension != mesh_.dimension)
-        return Error{.what = "step " + step.label + " has cells of another dimension",
-                     .file = job.mesh,
-                     .expected = std::to_string(mesh_.dimension) + ", as the first one has",
-                     .found = std::to_string(mesh->dimension)};
+        return refusal(job.mesh, "step " + step.label + " has cells of another dimension",
+                       std::to_string(mesh_.dimension) + ", as the first one has", std::to_string(mesh->dimension));
     another_mesh_ = mesh->points != mesh_.points || mesh->cells != mesh_.cells || mesh->mid_nodes != mesh_.mid_nodes ||
                     mesh->cell_numbers != mesh_.cell_numbers;
     if (another_mesh_) {
@@ -195,10 +185,8 @@ Status SampledMesh::go_to_fields(const Step& step) {
             return fmt::format("{} rows of {}", f.data.size() / components, counted(components, "component"));
         };
         if (read->data.size() != field.data.size() || read->components != field.components)
-            return Error{.what = "the steps of field \"" + step.files[i].name + "\" differ",
-                         .file = step.files[i].path,
-                         .expected = shape(field) + ", as in the first step",
-                         .found = shape(*read)};
+            return refusal(step.files[i].path, "the steps of field \"" + step.files[i].name + "\" differ",
+                           shape(field) + ", as in the first step", shape(*read));
         field.data = std::move(read->data);
     }
     tell_once(std::move(notes));
@@ -221,11 +209,10 @@ std::vector<std::string> SampledMesh::names_of_fields() const {
     if (step_by_step() || steps.empty()) return job.fields;
     std::vector<std::string> names;
     const auto of_steps = [&](const std::string& text) {
-        for (std::size_t s = 0; s < steps.front().files.size(); ++s) {
-            const std::string& series = steps.front().files[s].name;
-            if (!sample::with_other_name(text, series, series)) continue;
+        for (const FieldFile& series : steps.front().files) {
+            if (!sample::with_other_name(text, series.name, series.name)) continue;
             for (const Step& step : steps)
-                names.push_back(*sample::with_other_name(text, series, name_of_step(series, step)));
+                names.push_back(*sample::with_other_name(text, series.name, name_of_step(series.name, step)));
             return true;
         }
         return false;

@@ -7,9 +7,10 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "barycert/base/run_files.hpp"
 #include "barycert/io.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
@@ -124,5 +125,20 @@ private:
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
 };
+
+/// A whole job: its files checked by check(steps), the mesh opened, points sampled by sample(mesh).
+template <class Check, class Sample>
+Result<SampleReport> sample_mesh(const SamplingJob& job, const char* command, Check check, Sample sample) {
+    const base::RunFiles files;
+    auto steps = find_steps(job);
+    if (!steps) return steps.error();
+    if (Status ok = check(*steps); !ok) return ok.error();
+    const ThreadLimit limit(job.options.threads);
+    SampledMesh mesh(job, std::move(*steps), command);
+    Status done = mesh.open();
+    if (done) done = sample(mesh);
+    if (!done) return done.error();
+    return mesh.finish();
+}
 
 }  // namespace barycert::jobs

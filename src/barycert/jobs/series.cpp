@@ -18,6 +18,7 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/collection.hpp"
 #include "barycert/jobs/field_files.hpp"
+#include "barycert/jobs/job_files.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -63,6 +64,15 @@ LabelledFile labelled(const std::string& label, const FieldFile& series, const s
     return step;
 }
 
+/// FILE and COLUMN of FILE:COLUMN, split at the last colon; nothing where there is none.
+std::optional<FieldFile> without_column(FieldFile series) {
+    const std::size_t colon = series.path.rfind(':');
+    if (colon == std::string::npos || colon + 1 == series.path.size()) return std::nullopt;
+    series.column = series.path.substr(colon + 1);
+    series.path.resize(colon);
+    return series;
+}
+
 /// The steps of a .pvd or .vtu.series file, by their times.
 Result<std::vector<LabelledFile>> steps_of_file(const FieldFile& series) {
     const auto steps = read_series(series.path);
@@ -73,28 +83,25 @@ Result<std::vector<LabelledFile>> steps_of_file(const FieldFile& series) {
         const bool twice =
             std::any_of(found.begin(), found.end(), [&](const LabelledFile& other) { return other.first == label; });
         if (step.files.size() != 1 || twice)
-            return Error{.what = "step " + label + " of the series \"" + series.name + '"',
-                         .file = series.path,
-                         .expected = "one file",
-                         .found = twice ? "another one of the same time" : std::to_string(step.files.size()) + " files",
-                         .remedy = "gather the parts of a step in a .pvtu file"};
+            return refusal(series.path, "step " + label + " of the series \"" + series.name + '"', "one file",
+                           twice ? "another one of the same time" : std::to_string(step.files.size()) + " files",
+                           "gather the parts of a step in a .pvtu file");
         found.push_back(labelled(label, series, step.files.front()));
     }
-    if (found.empty()) return Error{.what = "no step in the series \"" + series.name + '"', .file = series.path};
+    if (found.empty()) return refusal(series.path, "no step in the series \"" + series.name + '"');
     return found;
 }
 
 /// Label and path of each file that the pattern matches.
 Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
     const std::string& pattern = series.path;
-    if (std::count(pattern.begin(), pattern.end(), '*') != 1)
-        return Error{
-            .what = "pattern of the series \"" + series.name + '"',
-            .file = pattern,
-            .expected =
-                "one *, where the files of the steps differ, such as 'step-*.npy', or a .pvd or .vtu.series file",
-            .found = fmt::format("{}", std::count(pattern.begin(), pattern.end(), '*')),
-            .remedy = "quote the pattern, so that the shell leaves it as it is; for one file write NAME=FILE"};
+    const auto stars = std::count(pattern.begin(), pattern.end(), '*');
+    if (stars != 1)
+        return refusal(
+            pattern, "pattern of the series \"" + series.name + '"',
+            "one *, where the files of the steps differ, such as 'step-*.npy', or a .pvd or .vtu.series file",
+            std::to_string(stars),
+            "quote the pattern, so that the shell leaves it as it is; for one file write NAME=FILE");
     // FOLDER/BEFORE*AFTER/REST: entries of one folder are looked at.
     const std::size_t star = pattern.find('*'), slash = pattern.rfind('/', star), next = pattern.find('/', star);
     const std::string folder = slash == std::string::npos ? "" : pattern.substr(0, slash + 1);
@@ -102,52 +109,36 @@ Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
     const std::string after = pattern.substr(star + 1, next == std::string::npos ? next : next - star - 1);
     const std::string rest = next == std::string::npos ? "" : pattern.substr(next);
     std::vector<LabelledFile> found;
-    std::error_code failed;
+    std::error_code failed, unknown;
     for (const std::string& entry : base::names_in_folder(folder.empty() ? "." : folder, failed)) {
         if (entry.size() < before.size() + after.size() || !entry.starts_with(before) || !entry.ends_with(after) ||
             (before.empty() && entry.starts_with('.')))
             continue;
-        std::error_code unknown;
         const std::string path = fmt::format("{}{}{}", folder, entry, rest);
         if (!rest.empty() && !fs::exists(path, unknown)) continue;
         found.push_back(
             labelled(entry.substr(before.size(), entry.size() - before.size() - after.size()), series, path));
     }
-    if (found.empty() && failed.value() == 0) {
-        // FILE:COLUMN, behind the *.
-        const std::size_t colon = pattern.rfind(':');
-        if (series.column.empty() && colon != std::string::npos && colon > star && colon + 1 != pattern.size()) {
-            FieldFile split = series;
-            split.path = pattern.substr(0, colon);
-            split.column = pattern.substr(colon + 1);
-            return matches_of(split);
-        }
-    }
+    const auto split = without_column(series);
+    if (found.empty() && failed.value() == 0 && series.column.empty() && split && split->path.size() > star)
+        return matches_of(*split);
     if (found.empty() || failed)
-        return Error{.what = "no file of the series \"" + series.name + '"',
-                     .file = pattern,
-                     .expected = "at least one file for the pattern",
-                     .found = failed ? failed.message() : "none",
-                     .remedy = "check the folder and the pattern"};
+        return refusal(pattern, "no file of the series \"" + series.name + '"', "at least one file for the pattern",
+                       failed ? failed.message() : "none", "check the folder and the pattern");
     std::sort(found.begin(), found.end(),
               [](const auto& a, const auto& b) { return naturally_before(a.first, b.first); });
     return found;
 }
 
 bool names_steps(const std::string& path) {
-    return io::has_suffix(path, ".pvd") || io::has_suffix(path, ".series");
+    return has_suffix_of(path, ".pvd .series");
 }
 
 /// FILE.pvd, or FILE.pvd:COLUMN; also of .vtu.series.
 std::optional<FieldFile> file_of_steps(const FieldFile& series) {
-    FieldFile file = series;
-    if (names_steps(file.path)) return file;
-    const std::size_t colon = file.path.rfind(':');
-    if (colon == std::string::npos || colon + 1 == file.path.size()) return std::nullopt;
-    file.column = file.path.substr(colon + 1);
-    file.path.resize(colon);
-    if (!names_steps(file.path)) return std::nullopt;
-    return file;
+    if (names_steps(series.path)) return series;
+    const auto split = without_column(series);
+    return split && names_steps(split->path) ? split : std::nullopt;
 }
 
 }  // namespace
@@ -168,12 +159,12 @@ Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
                 const auto name = [](bool there, const std::string& label) {
                     return there ? "step \"" + label + '"' : std::string("no further step");
                 };
-                return Error{
-                    .what = "the series \"" + series[s].name + "\" and \"" + series[0].name + "\" have different steps",
-                    .file = series[s].path,
-                    .expected = name(i < steps.size(), i < steps.size() ? steps[i].label : ""),
-                    .found = name(i < found->size(), i < found->size() ? (*found)[i].first : ""),
-                    .remedy = "name files that differ alike"};
+                return refusal(
+                    series[s].path,
+                    "the series \"" + series[s].name + "\" and \"" + series[0].name + "\" have different steps",
+                    name(i < steps.size(), i < steps.size() ? steps[i].label : ""),
+                    name(i < found->size(), i < found->size() ? (*found)[i].first : ""),
+                    "name files that differ alike");
             }
             steps[i].files.push_back((*found)[i].second);
         }
@@ -187,15 +178,12 @@ Result<std::vector<Step>> find_steps(const SamplingJob& job) {
     const bool both = !job.series.empty() && (job.all_steps || (place && series && !job.step.made()));
     if (!job.series.empty() && !both) return find_steps(job.series);
     if (both)
-        return Error{.what = "all steps of the mesh, and of series of fields",
-                     .file = job.mesh,
-                     .remedy = "choose one step of the mesh: job.step N"};
+        return refusal(job.mesh, "all steps of the mesh, and of series of fields", "", "",
+                       "choose one step of the mesh: job.step N");
     if (job.all_steps && !series) return io::no_series(job.mesh);
     if (job.all_steps && !place)
-        return Error{.what = "no name for the output of each step",
-                     .file = job.output,
-                     .expected = "{step} or {time} in job.output",
-                     .remedy = "such as job.output 'rows-{step}.csv'"};
+        return refusal(job.output, "no name for the output of each step", "{step} or {time} in job.output", "",
+                       "such as job.output 'rows-{step}.csv'");
     if (!place || !series) return std::vector<Step>();
     const auto all = read_series(job.mesh);
     if (!all) return all.error();
@@ -207,9 +195,8 @@ Result<std::vector<Step>> find_steps(const SamplingJob& job) {
         // Before there is an output of any step.
         for (const std::string& file : (*all)[i].files) {
             if (std::error_code failed; !fs::exists(file, failed))
-                return Error{.what = "no such file, which step " + std::to_string(i) + " of the series names",
-                             .file = file,
-                             .remedy = "restore it, or choose one step: job.step N"};
+                return refusal(file, "no such file, which step " + std::to_string(i) + " of the series names", "", "",
+                               "restore it, or choose one step: job.step N");
         }
         steps.push_back({.label = std::to_string(i), .time = base::shortest((*all)[i].time), .of_mesh = i});
     }
@@ -238,29 +225,20 @@ Status check_step_outputs(const std::vector<base::NamedFile>& inputs, const std:
                           const std::vector<Step>& steps) {
     // By device and inode: there may be thousands of each. What does not exist is no input.
     std::map<std::pair<dev_t, ino_t>, std::string> known;
-    const auto add = [&](const std::string& path, const std::string& what, const std::string** before) {
+    const auto add = [&](const std::string& path, const std::string& what) -> const std::string* {
         struct stat status {};
-        if (path == "-" || ::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return true;
+        if (path == "-" || ::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return nullptr;
         const auto [at, inserted] = known.emplace(std::pair(status.st_dev, status.st_ino), what);
-        *before = &at->second;
-        return inserted;
+        return inserted ? nullptr : &at->second;
     };
-    const std::string* before = nullptr;
-    for (const base::NamedFile& in : inputs) add(in.path, in.what, &before);
-    for (const Step& step : steps) {
-        for (const FieldFile& file : step.files) add(file.path, "field " + file.name, &before);
-    }
+    for (const base::NamedFile& in : inputs) add(in.path, in.what);
     std::set<std::string> names;
     for (const Step& step : steps) {
         const std::string path = output_of_step(output, step);
         if (!names.insert(path).second)
-            return Error{.what = "two steps have the same output",
-                         .file = path,
-                         .remedy = "put {step} into the name of job.output"};
-        if (!add(path, "job.output of another step", &before))
-            return Error{.what = "job.output would overwrite " + *before,
-                         .file = path,
-                         .remedy = "choose another name for the output"};
+            return refusal(path, "two steps have the same output", "", "", "put {step} into the name of job.output");
+        if (const std::string* const before = add(path, "job.output of another step"))
+            return refusal(path, "job.output would overwrite " + *before, "", "", "choose another name for the output");
     }
     return Done{};
 }

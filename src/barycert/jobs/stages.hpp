@@ -7,8 +7,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,114 +34,67 @@ inline std::size_t block_size(std::optional<std::uint64_t> count, int threads, s
 }
 
 /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in which
-/// they were read. At most one block a thread, and two more, are in memory. The first error in the order of blocks ends
-/// it all. A block has `size`, the rows that were read: 0 at the end.
-template <class Block>
-class Stages {
-public:
-    Stages() = default;
-    virtual ~Stages() = default;
-    Stages(const Stages&) = delete;
-    Stages& operator=(const Stages&) = delete;
-
-protected:
-    /// Fills the next block, which may have been another one before.
-    virtual Status read(Block& block) = 0;
-    virtual Status work(Block& block) const = 0;
-    virtual Status write(Block& block) = 0;
-
-    /// Reads the first block before the rest: it tells how to go on.
-    Status read_first() {
-        first_.emplace();
-        return read(*first_);
-    }
-    const Block& first() const { return *first_; }
-
-    /// All three, to the end. `threads`: 0 for as many as the machine has.
-    Status run(int threads) {
-        threads_ = locate::threads_of(threads);
-        locate::in_arena(threads_, [this] {
-            tbb::parallel_pipeline(
-                static_cast<std::size_t>(threads_) + 2,
-                tbb::make_filter<void, OnTheWay*>(tbb::filter_mode::serial_in_order,
-                                                  [this](tbb::flow_control& control) { return next(control); }) &
-                    tbb::make_filter<OnTheWay*, OnTheWay*>(tbb::filter_mode::parallel,
-                                                           [this](OnTheWay* b) { return done(b); }) &
-                    tbb::make_filter<OnTheWay*, void>(tbb::filter_mode::serial_in_order,
-                                                      [this](OnTheWay* b) { put(b); }));
-        });
-        if (error_) return *error_;
-        return Done{};
-    }
-
-    /// Of the work on all blocks, divided by the threads.
-    double seconds() const { return seconds_ / threads_; }
-
-private:
+/// they were read, on `threads` threads (0: as many as the machine has). At most one block a thread, and two more, are
+/// in memory, and filled again. The first error in the order of blocks ends it all. A block has `size`, the rows that
+/// were read: 0 at the end. `first` was read before. `busy` gets the seconds of the work, divided by the threads.
+template <class Block, class Read, class Work, class Write>
+Status in_stages(int threads, std::optional<Block> first, Read read, Work work, Write write, double& busy) {
     struct OnTheWay {
         Block block;
-        std::optional<Error> error;
+        Status state = Done{};
         double seconds = 0;
     };
-
-    OnTheWay* next(tbb::flow_control& control) {
+    const int workers = locate::threads_of(threads);
+    // Blocks leave in the order in which they came: before one comes, the last but so many has left.
+    std::vector<OnTheWay> ring(static_cast<std::size_t>(workers) + 2);
+    std::size_t taken = 0;             // of the reading stage alone
+    bool ended = false;                // likewise
+    std::atomic<bool> stopped{false};  // by the writing stage
+    Status all = Done{};               // of the writing stage alone
+    double seconds = 0;                // likewise
+    const auto next = [&](tbb::flow_control& control) -> OnTheWay* {
         const ExactEnvironment of_task;  // the arena is the caller's
-        if (ended_ || stopped_) {
+        if (ended || stopped) {
             control.stop();
             return nullptr;
         }
-        OnTheWay* const b = take();
-        b->error.reset();
-        if (first_) {
-            b->block = std::move(*first_);
-            first_.reset();
-        } else if (Status done = read(b->block); !done) {
-            b->error = done.error();
+        OnTheWay& b = ring[taken++ % ring.size()];
+        b.state = Done{};
+        if (first) {
+            b.block = *std::exchange(first, std::nullopt);
+        } else {
+            b.state = read(b.block);
         }
-        ended_ = b->error || b->block.size == 0;
-        return b;
-    }
-
-    OnTheWay* done(OnTheWay* b) {
+        ended = !b.state || b.block.size == 0;
+        return &b;
+    };
+    const auto done = [&](OnTheWay* b) {
         const ExactEnvironment of_task;
-        if (b->error || b->block.size == 0 || stopped_) return b;
+        if (!b->state || b->block.size == 0 || stopped) return b;
         Stopwatch watch;
-        if (Status done = work(b->block); !done) b->error = done.error();
+        b->state = work(b->block);
         b->seconds = watch.lap();
         return b;
-    }
-
-    void put(OnTheWay* b) {
+    };
+    const auto put = [&](OnTheWay* b) {
         const ExactEnvironment of_task;
-        if (!stopped_ && !b->error && b->block.size != 0) {
-            seconds_ += b->seconds;
-            if (Status done = write(b->block); !done) b->error = done.error();
+        if (stopped) return;
+        if (b->state && b->block.size != 0) {
+            seconds += b->seconds;
+            b->state = write(b->block);
         }
-        if (!stopped_ && b->error) {
-            error_ = std::move(b->error);
-            stopped_ = true;
-        }
-        const std::lock_guard lock(mutex_);
-        free_.push_back(b);
-    }
-
-    OnTheWay* take() {
-        const std::lock_guard lock(mutex_);
-        if (free_.empty()) return &blocks_.emplace_back();
-        OnTheWay* const b = free_.back();
-        free_.pop_back();
-        return b;
-    }
-
-    int threads_ = 1;
-    double seconds_ = 0;  // of the writing stage alone
-    std::mutex mutex_;
-    std::deque<OnTheWay> blocks_;
-    std::vector<OnTheWay*> free_;
-    std::optional<Block> first_;        // of the reading stage alone
-    bool ended_ = false;                // likewise
-    std::atomic<bool> stopped_{false};  // by the writing stage
-    std::optional<Error> error_;
-};
+        if (b->state) return;
+        all = b->state;
+        stopped = true;
+    };
+    locate::in_arena(workers, [&] {
+        using tbb::filter_mode;
+        tbb::parallel_pipeline(ring.size(), tbb::make_filter<void, OnTheWay*>(filter_mode::serial_in_order, next) &
+                                                tbb::make_filter<OnTheWay*, OnTheWay*>(filter_mode::parallel, done) &
+                                                tbb::make_filter<OnTheWay*, void>(filter_mode::serial_in_order, put));
+    });
+    busy += seconds / workers;
+    return all;
+}
 
 }  // namespace barycert::jobs

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,62 +19,57 @@ namespace barycert::jobs {
 /// Rows on their way, and what became of them.
 struct Block {
     Table rows;
-    std::vector<Mesh::Index> located;  ///< cells of the locator, where they are to be known again
-    NodeWeights weights;               ///< where they are wanted
-    std::uint64_t first = 0;           ///< points, or rows of a map, that came before
-    std::uint64_t size = 0;            ///< points
-    bool last = false;                 ///< as far as was known when it was read
+    std::optional<LocationCounts> locations;  ///< of rows whose owners were known: what the source counts
+    std::vector<Mesh::Index> located;         ///< cells of the locator, where they are to be known again
+    NodeWeights weights;                      ///< where they are wanted
+    std::uint64_t first = 0;                  ///< points, or rows of a map, that came before
+    std::uint64_t size = 0;                   ///< points
+    bool last = false;                        ///< as far as was known when it was read
     std::uint64_t nan_values = 0;
     std::optional<std::size_t> outside;  ///< the first row without a cell, where there may be none
 };
 
 /// Where rows come from.
-class RowSource {
-public:
-    virtual ~RowSource() = default;
-
-    /// Whether cells and features come with the points.
-    virtual bool located() const = 0;
-    virtual std::optional<std::uint64_t> count() const = 0;
-
+struct RowSource {
+    bool located = false;  ///< whether cells and features come with the points
+    bool counted = false;  ///< whether the report has these rows already
+    std::optional<std::uint64_t> count = {};
     /// Fills rows and size of the block: at most `most`, 0 at the end.
-    virtual Status read(std::size_t most, Block& block) = 0;
-
+    std::function<Status(std::size_t most, Block& block)> read = {};
     /// From the beginning, for a step with another mesh.
-    virtual Status begin_again(const SampledMesh& mesh) = 0;
-
-    /// Counts a block that was written in the report.
-    virtual void count(const Block& block, SampleReport& report) = 0;
+    std::function<Status(const SampledMesh& mesh)> begin_again = {};
 };
 
-/// Points that are to be located.
-class PointRows : public RowSource {
-public:
-    explicit PointRows(std::unique_ptr<PointSource> points) : points_(std::move(points)) {}
+/// Points that are to be located, to be read once. They must stay.
+RowSource rows_of_points(std::unique_ptr<PointSource>& points);
 
-    bool located() const override { return false; }
-    std::optional<std::uint64_t> count() const override { return points_->count(); }
-    Status read(std::size_t most, Block& block) override;
-    void count(const Block& block, SampleReport& report) override;
-
-protected:
-    std::unique_ptr<PointSource> points_;
-};
-
-/// Where rows go.
-class RowsOutput {
-public:
-    virtual ~RowsOutput() = default;
-
-    /// Opens what takes rows of that format, into an output of that name; nullptr: nowhere.
-    virtual Result<std::unique_ptr<TableSink>> open(const TableFormat& format, const std::string& path) = 0;
-};
+/// Opens what takes rows of that format, into an output of that name; nullptr: they go nowhere.
+using OpenRows = std::function<Result<std::unique_ptr<TableSink>>(const TableFormat& format, const std::string& path)>;
 
 /// All rows of the source into the output, and into a map and a matrix of weights where these are named; of a job that
 /// goes step by step, those of all steps, each into an output of its own. Rows come in the order of the points. Adds to
 /// the report. Error besides those of its parts: the policy is `error`, and a point is outside; it names the point and
 /// the file.
-Status sample_rows(SampledMesh& mesh, RowSource& source, RowsOutput& output, const std::string& map = {});
+Status sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& open, const std::string& map = {});
+
+// Rows as users know them.
+
+using OpenFormat = std::function<Result<std::unique_ptr<TableSink>>(const TableFormat& format)>;
+
+/// Opens an output by open(format of its rows) and returns what takes rows whose cells are those of the mesh, and gives
+/// it what users are to see: cells by the numbers that they have in their file, labels that the job asked for, and
+/// `carried` columns of the points. The report gets the names of these. The mesh must stay. A carried column that has
+/// the name of another one is an Error; with `all`, one that rows have anyway, as rows that another run wrote, is left
+/// out, and noted.
+Result<std::unique_ptr<TableSink>> open_user_rows(SampledMesh& mesh, TableFormat format,
+                                                  const std::vector<ColumnFormat>& carried, bool all,
+                                                  const OpenFormat& open);
+
+/// Takes rows, lets change(rows) put others in their place, which it keeps, and gives these to the sink.
+std::unique_ptr<TableSink> changed(std::unique_ptr<TableSink> sink, std::function<void(TableView& rows)> change);
+
+/// An output of rows; a terminal shows names and texts without control characters.
+Result<std::unique_ptr<TableSink>> open_rows(const std::string& path, const TableFormat& format);
 
 /// The policy `error` is looked at where the point and its file are known: options without it.
 SampleOptions without_refusal(SampleOptions options);

@@ -20,7 +20,6 @@
 #include "barycert/io.hpp"
 #include "barycert/jobs.hpp"
 #include "barycert/jobs/claimed_columns.hpp"
-#include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/stages.hpp"
 #include "barycert/locate/batch.hpp"
@@ -30,8 +29,8 @@
 namespace barycert {
 namespace {
 
-using jobs::ClaimedColumns;
 using jobs::Claims;
+using jobs::refusal;
 using jobs::Stopwatch;
 
 constexpr double tolerance_of_floats = 1e-6;
@@ -43,22 +42,6 @@ struct ResultBlock {
     std::uint64_t first = 0, size = 0;
     Verdicts found;
 };
-
-Status check_job(const VerifyJob& job) {
-    if (job.cell_base != 0 && job.cell_base != 1)
-        return Error{.what = "job.cell_base", .expected = "0 or 1", .found = std::to_string(job.cell_base)};
-    return jobs::check_files(job, {{"job.results", job.results}}, {});
-}
-
-/// All that was read of a file, to be read again with fewer columns.
-Result<std::unique_ptr<PointSource>> open_results(const VerifyJob& job, int dimension,
-                                                  const std::vector<std::string>& keep) {
-    PointOptions options;
-    options.columns = job.columns;
-    options.keep = keep;
-    options.nonfinite_points = job.options.nonfinite_points;
-    return open_points(job.results, dimension, options);
-}
 
 /// Is every number of the columns of values single precision? False if there is none.
 bool are_floats(const Claims& claims) {
@@ -103,7 +86,7 @@ bool may_be_of_iteration(const ValueErrors& e) {
                                        count(-19, single ? -7 : -12) <= e.values / 10);
 }
 
-class Verification final : jobs::Stages<ResultBlock> {
+class Verification {
 public:
     explicit Verification(const VerifyJob& job) : job_(job) {}
 
@@ -112,53 +95,49 @@ public:
         if (Status ok = read_all(); !ok) return ok.error();
         if (Status ok = build(); !ok) return ok.error();
         if (Status ok = compare(); !ok) return ok.error();
-        if (summary_.verdicts.rows == 0)
-            return Error{.what = "there are no results to verify",
-                         .file = job_.results == "-" ? "standard input" : job_.results,
-                         .expected = "a row for each point",
-                         .found = "no row",
-                         .remedy = "look at what should have written them: nothing was compared"};
-        for (WrongRow& row : summary_.verdicts.examples) {
+        if (report_.verdicts.rows == 0)
+            return refusal(job_.results == "-" ? "standard input" : job_.results, "there are no results to verify",
+                           "a row for each point", "no row",
+                           "look at what should have written them: nothing was compared");
+        for (WrongRow& row : report_.verdicts.examples) {
             row.exact.cell = mesh_.cell_number(row.exact.cell);
             if (row.claimed_cell >= static_cast<std::int64_t>(mesh_.cell_count())) continue;
             row.claimed_cell = mesh_.cell_number(static_cast<Mesh::Index>(row.claimed_cell));
         }
-        summary_.seconds.total = whole.lap();
-        return std::move(summary_);
+        report_.seconds.total = whole.lap();
+        return std::move(report_);
     }
 
 private:
+    Result<std::unique_ptr<PointSource>> open_results(const std::vector<std::string>& keep) const {
+        PointOptions options;
+        options.columns = job_.columns;
+        options.keep = keep;
+        options.nonfinite_points = job_.options.nonfinite_points;
+        return open_points(job_.results, mesh_.dimension, options);
+    }
+
     Status read_all() {
         Stopwatch watch;
-        Result<Mesh> mesh = jobs::open_mesh(job_, job_.options.threads, job_.step, summary_.curved);
-        if (!mesh) return mesh.error();
-        mesh_ = std::move(*mesh);
-        if (Status added = jobs::add_fields(job_.field_files, mesh_); !added) return added;
+        if (Status opened = jobs::open_mesh_with_fields(job_, job_.options.threads, mesh_, report_); !opened)
+            return opened;
         auto fields = sample::quantities_named(mesh_, job_.fields);
         if (!fields) return fields.error();
-        summary_.seconds.mesh = watch.lap();
-        summary_.mesh = job_.mesh;
-        summary_.results = job_.results;
-        summary_.program = job_.program;
-        summary_.nodes = mesh_.point_count();
-        summary_.cells = mesh_.cell_count();
-        summary_.dimension = mesh_.dimension;
-        summary_.notes = mesh_.notes;
-        summary_.threads = jobs::thread_count(job_.options.threads);
-        auto all = open_results(job_, mesh_.dimension, {"all"});
-        if (!all) return all.error();
-        auto columns = jobs::claimed_columns(job_, mesh_, *fields, (*all)->carried(), summary_.notes);
+        report_.seconds.mesh = watch.lap();
+        report_.results = job_.results;
+        report_.program = job_.program;
+        auto source = open_results({"all"});
+        if (!source) return source.error();
+        auto columns = jobs::claimed_columns(job_, mesh_, *fields, (*source)->carried(), report_.notes);
         if (!columns) return columns.error();
         columns_ = std::move(*columns);
-        // Standard input and pipes cannot be read twice.
-        source_ = std::move(*all);
+        // Standard input and pipes cannot be read twice; others are read again with fewer columns.
         std::error_code ignored;
-        if (!std::filesystem::is_regular_file(job_.results, ignored) && std::filesystem::exists(job_.results, ignored))
-            return Done{};
-        if (job_.results == "-") return Done{};
-        auto some = open_results(job_, mesh_.dimension, columns_.names());
-        if (!some) return some.error();
-        source_ = std::move(*some);
+        const bool once = job_.results == "-" || (std::filesystem::exists(job_.results, ignored) &&
+                                                  !std::filesystem::is_regular_file(job_.results, ignored));
+        if (!once) source = open_results(columns_.names());
+        if (!source) return source.error();
+        source_ = std::move(*source);
         return Done{};
     }
 
@@ -170,17 +149,29 @@ private:
         Result<Sampler> sampler = Sampler::build(*locator_, columns_.fields);
         if (!sampler) return sampler.error();
         sampler_.emplace(std::move(*sampler));
-        summary_.certified = locator_->certified();
-        summary_.contested_cells = locator_->contested_cells();
-        summary_.columns = sampler_->columns();
-        summary_.found_in = columns_.values;
-        summary_.cell_column = columns_.cell;
-        summary_.mask_column = columns_.mask;
-        summary_.seconds.build = watch.lap();
+        report_.certified = locator_->certified();
+        report_.contested_cells = locator_->contested_cells();
+        report_.columns = sampler_->columns();
+        report_.found_in = columns_.values;
+        report_.cell_column = columns_.cell;
+        report_.mask_column = columns_.mask;
+        report_.seconds.build = watch.lap();
+        report_.limits = job_.limits;
+        for (const RowVerdict kind : kinds_of_wrong) {
+            if (job_.limits.empty()) report_.limits.push_back({kind, 0});
+        }
+        for (const VerifyLimit& limit : job_.limits) {
+            if (report_.compared(limit.verdict)) continue;
+            const bool cells = limit.verdict == RowVerdict::wrong_cell;
+            return refusal(job_.results, "a rule that nothing could break: " + std::string(handle(limit.verdict)),
+                           cells ? "a column that names cells" : "a column of values of a field", "none",
+                           cells ? "name it with job.cell_column, or leave the rule out"
+                                 : "name it with job.values, or leave the rule out");
+        }
         return Done{};
     }
 
-    Status read(ResultBlock& block) override {
+    Status read(ResultBlock& block) {
         Stopwatch watch;
         block.points.clear();
         block.columns.clear();
@@ -190,23 +181,27 @@ private:
         source_->take_carried(block.columns);
         taken_ += *count;
         block.size = *count;
-        summary_.seconds.read += watch.lap();
+        report_.seconds.read += watch.lap();
         return Done{};
     }
 
-    Status work(ResultBlock& block) const override {
+    Status work(ResultBlock& block, const Verifier& verifier) const {
         const auto claims = jobs::claims_of(columns_, block.columns, mesh_, job_, block.first);
         if (!claims) return claims.error();
-        auto found = verifier_->verify({block.points, claims->cells, claims->inside, claims->values, block.first});
+        auto found = verifier.verify({block.points, claims->cells, claims->inside, claims->values, block.first});
         if (!found) return found.error();
         block.found = std::move(*found);
         return Done{};
     }
 
-    Status write(ResultBlock& block) override {
-        summary_.verdicts.add(block.found, job_.options.examples);
+    Status write(const ResultBlock& block) {
+        report_.verdicts.add(block.found, job_.options.examples);
         jobs::tell_stage(job_, "rows", block.first + block.size);
         return Done{};
+    }
+
+    void guess(std::string text) {
+        report_.notes.push_back({Note::Kind::guessed, std::move(text), job_.results, true});
     }
 
     /// Single precision is told by the first block.
@@ -214,140 +209,101 @@ private:
         if (job_.tolerance_given || options.exact) return;
         const auto claims = jobs::claims_of(columns_, first.columns, mesh_, job_, 0);
         if (!claims) return;
-        if (are_cut_to_six_digits(*claims)) {
-            cut_ = true;
-            summary_.notes.push_back({Note::Kind::guessed,
-                                      "values have six digits: what was cut off counts as an error; let the tool write "
-                                      "17 digits, of coordinates as well, or see job.tolerance",
-                                      job_.results, true});
-            return;
-        }
+        cut_ = are_cut_to_six_digits(*claims);
+        if (cut_)
+            return guess(
+                "values have six digits: what was cut off counts as an error; let the tool write 17 digits, of "
+                "coordinates as well, or see job.tolerance");
         if (!are_floats(*claims)) return;
         options.tolerance = tolerance_of_floats;
-        summary_.notes.push_back({Note::Kind::guessed,
-                                  "values are single precision: errors up to 1e-6 of the range count as right; "
-                                  "job.tolerance says otherwise",
-                                  job_.results, true});
+        guess(
+            "values are single precision: errors up to 1e-6 of the range count as right; job.tolerance says otherwise");
     }
 
     Status compare() {
         const int threads = job_.options.threads;
         size_ = jobs::block_size(source_->count(), threads, mesh_.cell_count());
-        if (Status first_read = read_first(); !first_read) return first_read;
+        ResultBlock first;
+        if (Status first_read = read(first); !first_read) return first_read;
         VerifyOptions options = job_.options;
         options.threads = 1;  // blocks go side by side
-        choose_tolerance(first(), options);
-        verifier_.emplace(*sampler_, options);
-        summary_.ranges = verifier_->ranges();
-        summary_.relative_to = verifier_->relative_to();
-        summary_.tolerance = options.tolerance;
-        summary_.exact = options.exact;
-        summary_.outside_value = options.outside_value;
-        summary_.verdicts.columns.resize(summary_.columns.size());
+        choose_tolerance(first, options);
+        const Verifier verifier(*sampler_, options);
+        report_.ranges = verifier.ranges();
+        report_.relative_to = verifier.relative_to();
+        report_.tolerance = options.tolerance;
+        report_.exact = options.exact;
+        report_.outside_value = options.outside_value;
+        report_.verdicts.columns.resize(report_.columns.size());
         locate::in_arena(threads,
                          [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
-        Status done = Stages::run(threads);
+        Status done = jobs::in_stages<ResultBlock>(
+            threads, std::move(first), [&](ResultBlock& block) { return read(block); },
+            [&](ResultBlock& block) { return work(block, verifier); }, [&](ResultBlock& block) { return write(block); },
+            report_.seconds.sample);
         Stopwatch watch;
-        if (done) done = Verifier(*sampler_, job_.options).measure(summary_.verdicts);
+        if (done) done = Verifier(*sampler_, job_.options).measure(report_.verdicts);
         for (const Note& note : source_->notes()) {
             // Which columns are not compared has been told.
-            if (note.kind != Note::Kind::left_out) summary_.notes.push_back(note);
+            if (note.kind != Note::Kind::left_out) report_.notes.push_back(note);
         }
         note_iteration();
-        summary_.seconds.sample = seconds() + watch.lap();
+        report_.seconds.sample += watch.lap();
         return done;
     }
 
     /// Curved sides and cut digits explain errors of that size as well, and are told.
     void note_iteration() {
-        const Verdicts& v = summary_.verdicts;
-        const auto& columns = v.columns;
-        if (mesh_.mid_nodes.empty() || summary_.curved.cells != 0 || cut_ || v.wrong_value == 0 ||
+        const std::vector<ValueErrors>& columns = report_.verdicts.columns;
+        if (mesh_.mid_nodes.empty() || report_.curved.cells != 0 || cut_ || report_.verdicts.wrong_value == 0 ||
             !std::all_of(columns.begin(), columns.end(), may_be_of_iteration))
             return;
         double most = 0;
         for (const ValueErrors& e : columns) most = std::max(most, e.max_relative);
-        summary_.notes.push_back(
-            {Note::Kind::guessed,
-             fmt::format("the errors are of the size of an iterative solver's tolerance: the largest is {:.2g} of the "
-                         "range, and few are as small as rounding; a tool that finds points in second-order cells by "
-                         "iteration leaves such errors (VTK stops at 1e-5); job.tolerance 1e-4 counts them as right",
-                         most),
-             job_.results, true});
+        guess(
+            fmt::format("the errors are of the size of an iterative solver's tolerance: the largest is {:.2g} of the "
+                        "range, and few are as small as rounding; a tool that finds points in second-order cells by "
+                        "iteration leaves such errors (VTK stops at 1e-5); job.tolerance 1e-4 counts them as right",
+                        most));
     }
 
     const VerifyJob& job_;
     Mesh mesh_;
-    ClaimedColumns columns_;
+    jobs::ClaimedColumns columns_;
     std::unique_ptr<PointSource> source_;
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
-    std::optional<Verifier> verifier_;
     std::uint64_t taken_ = 0;
     std::size_t size_ = 0;
     bool cut_ = false;  ///< values have six digits
-    VerifyReport summary_;
+    VerifyReport report_;
 };
-
-constexpr std::array<RowVerdict, 4> kinds_of_wrong{RowVerdict::missed, RowVerdict::invented, RowVerdict::wrong_cell,
-                                                   RowVerdict::wrong_value};
 
 }  // namespace
 
 Result<VerifyReport> verify_files(const VerifyJob& job) {
     const base::RunFiles run;
-    if (Status ok = check_job(job); !ok) return ok.error();
+    if (job.cell_base != 0 && job.cell_base != 1)
+        return Error{.what = "job.cell_base", .expected = "0 or 1", .found = std::to_string(job.cell_base)};
+    if (Status ok = jobs::check_files(job, {{"job.results", job.results}}, {}); !ok) return ok.error();
     const jobs::ThreadLimit limit(job.options.threads);
     return Verification(job).run();
-}
-
-std::vector<std::string> verify_limit_names() {
-    std::vector<std::string> names;
-    names.reserve(kinds_of_wrong.size());
-    for (const RowVerdict v : kinds_of_wrong) names.emplace_back(handle(v));
-    return names;
 }
 
 Result<VerifyLimit> parse_verify_limit(std::string_view text) {
     const ExactEnvironment environment;
     const base::NamedLimit limit = base::named_limit(text);
-    const auto* const kind = std::find_if(kinds_of_wrong.begin(), kinds_of_wrong.end(),
-                                          [&](RowVerdict v) { return handle(v) == limit.name; });
-    if (kind == kinds_of_wrong.end() || !limit.most || std::floor(*limit.most) != *limit.most || *limit.most > 0x1p53)
-        return Error{.what = "unknown rule",
-                     .expected = "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
-                     .found = '"' + std::string(text) + '"',
-                     .remedy = base::did_you_mean(limit.name, verify_limit_names())};
-    return VerifyLimit{*kind, static_cast<std::uint64_t>(*limit.most)};
-}
-
-std::vector<VerifyLimit> strict_limits() {
-    std::vector<VerifyLimit> all;
-    all.reserve(kinds_of_wrong.size());
-    for (const RowVerdict v : kinds_of_wrong) all.push_back({v, 0});
-    return all;
-}
-
-bool compared(const VerifyReport& summary, RowVerdict verdict) {
-    if (verdict == RowVerdict::wrong_cell) return !summary.cell_column.empty();
-    return verdict != RowVerdict::wrong_value || !summary.columns.empty();
-}
-
-Status check_limits(const VerifyReport& summary, const std::vector<VerifyLimit>& limits) {
-    for (const VerifyLimit& limit : limits) {
-        const bool cells = limit.verdict == RowVerdict::wrong_cell;
-        if (!compared(summary, limit.verdict))
-            return Error{.what = "a rule that nothing could break: " + std::string(handle(limit.verdict)),
-                         .file = summary.results,
-                         .expected = cells ? "a column that names cells" : "a column of values of a field",
-                         .found = "none",
-                         .remedy = cells ? "name it with job.cell_column, or leave the rule out"
-                                         : "name it with job.values, or leave the rule out"};
+    std::vector<std::string> names;
+    for (const RowVerdict kind : kinds_of_wrong) {
+        names.emplace_back(handle(kind));
+        if (names.back() == limit.name && limit.most && std::floor(*limit.most) == *limit.most && *limit.most <= 0x1p53)
+            return VerifyLimit{kind, static_cast<std::uint64_t>(*limit.most)};
     }
-    return Done{};
+    return refusal("", "unknown rule", "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
+                   '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
 }
 
-std::vector<VerifyLimit> exceeded(const Verdicts& verdicts, const std::vector<VerifyLimit>& limits) {
+std::vector<VerifyLimit> VerifyReport::exceeded() const {
     std::vector<VerifyLimit> all;
     std::copy_if(limits.begin(), limits.end(), std::back_inserter(all),
                  [&](const VerifyLimit& l) { return verdicts.of(l.verdict) > l.most; });

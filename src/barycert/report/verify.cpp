@@ -279,8 +279,7 @@ std::string verify_json(const VerifyReport& summary, const Environment& environm
     return data_text(d);
 }
 
-CiReport verify_outcomes(const VerifyReport& s, const std::vector<VerifyLimit>& limits,
-                         const Environment& environment) {
+CiReport verify_outcomes(const VerifyReport& s, const Environment& environment) {
     const ExactEnvironment exact;
     using State = CiOutcome::State;
     constexpr std::array<std::string_view, 5> meanings{
@@ -304,11 +303,11 @@ CiReport verify_outcomes(const VerifyReport& s, const std::vector<VerifyLimit>& 
                                    state == State::passed ? "" : message, s.results == "-" ? "" : s.results});
         };
         bool limited = false;
-        for (const VerifyLimit& limit : limits) {
-            if (limit.verdict != verdict || !compared(s, verdict)) continue;
+        for (const VerifyLimit& limit : s.limits) {
+            if (limit.verdict != verdict || !s.compared(verdict)) continue;
             limited = true;
             add(fmt::format("{} <= {}", rule, limit.most),
-                exceeded(s.verdicts, {limit}).empty() ? State::passed : State::failed);
+                s.verdicts.of(verdict) > limit.most ? State::failed : State::passed);
         }
         if (!limited && kinds[k].count != 0) add(rule, State::noted);
     }

@@ -51,12 +51,9 @@ Result<std::vector<BestHolder>> best_holders(const Sampler& sampler, const Claim
 namespace barycert {
 
 void ValueErrors::add(const ValueErrors& other) {
-    values += other.values;
-    identical += other.identical;
-    over += other.over;
-    missing += other.missing;
-    spurious += other.spurious;
-    floats += other.floats;
+    using E = ValueErrors;
+    for (const auto count : {&E::values, &E::identical, &E::over, &E::missing, &E::spurious, &E::floats})
+        this->*count += other.*count;
     max_ulps = std::max(max_ulps, other.max_ulps);
     max_relative = std::max(max_relative, other.max_relative);
     for (std::size_t i = 0; i < by_ulps.size(); ++i) by_ulps[i] += other.by_ulps[i];
@@ -64,20 +61,11 @@ void ValueErrors::add(const ValueErrors& other) {
 }
 
 void Verdicts::add(const Verdicts& other, std::size_t examples_of_each) {
-    rows += other.rows;
-    right += other.right;
-    missed += other.missed;
-    invented += other.invented;
-    wrong_cell += other.wrong_cell;
-    wrong_value += other.wrong_value;
-    inside += other.inside;
-    outside += other.outside;
-    not_finite += other.not_finite;
-    on_boundary += other.on_boundary;
-    missed_on_boundary += other.missed_on_boundary;
-    invented_zero += other.invented_zero;
-    several += other.several;
-    by_other_cell += other.by_other_cell;
+    using V = Verdicts;
+    for (const auto count :
+         {&V::rows, &V::right, &V::missed, &V::invented, &V::wrong_cell, &V::wrong_value, &V::inside, &V::outside,
+          &V::not_finite, &V::on_boundary, &V::missed_on_boundary, &V::invented_zero, &V::several, &V::by_other_cell})
+        this->*count += other.*count;
     if (columns.size() < other.columns.size()) columns.resize(other.columns.size());
     for (std::size_t c = 0; c < other.columns.size(); ++c) columns[c].add(other.columns[c]);
     examples.insert(examples.end(), other.examples.begin(), other.examples.end());

@@ -59,8 +59,7 @@ public:
         : sampler_(sampler), options_(verifier.options()), ranges_(verifier.ranges()), claimed_(claimed) {}
 
     Result<Verdicts> run() {
-        const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
-        const std::size_t rows = claimed_.points.size() / d;
+        const std::size_t rows = claimed_.points.size() / d_;
         found_.rows = rows;
         found_.columns.resize(ranges_.size());
         SampleOptions exact;
@@ -77,35 +76,33 @@ public:
 
 private:
     std::size_t columns() const { return ranges_.size(); }
+    const double* point(std::size_t row) const { return claimed_.points.data() + d_ * row; }
     const double* values(std::size_t row) const { return table_.values.data() + columns() * row; }
     const double* claims(std::size_t row) const { return claimed_.values.data() + columns() * row; }
 
-    bool has_no_value(std::size_t row) const {
-        if (columns() == 0) return false;
-        const double* const v = claims(row);
-        const bool all_nan = std::all_of(v, v + columns(), [](double x) { return std::isnan(x); });
-        if (all_nan) return true;
-        return options_.outside_value &&
-               std::all_of(v, v + columns(), [&](double x) { return x == *options_.outside_value; });
+    /// Whether it is so of each of the row's values; false if there are none.
+    template <class Is>
+    bool all_of(const double* row, Is is) const {
+        return columns() != 0 && std::all_of(row, row + columns(), is);
     }
 
     /// Does the row say that the point is inside?
     bool says_inside(std::size_t row) const {
         if (!claimed_.inside.empty()) return claimed_.inside[row] != 0;
         if (!claimed_.cells.empty()) return claimed_.cells[row] >= 0;
-        if (!has_no_value(row)) return true;
+        const auto is_nan = [](double x) { return std::isnan(x); };
+        const auto means_outside = [&](double x) { return x == *options_.outside_value; };
+        if (!all_of(claims(row), is_nan) && !(options_.outside_value && all_of(claims(row), means_outside)))
+            return true;
         // Where the exact values are NaN themselves, NaN says nothing.
-        const double* const v = values(row);
-        return table_.cells[row] >= 0 && std::all_of(v, v + columns(), [](double x) { return std::isnan(x); });
+        return table_.cells[row] >= 0 && all_of(values(row), is_nan);
     }
 
     bool names_wrong_cell(std::size_t row) {
         if (claimed_.cells.empty() || claimed_.cells[row] < 0 || claimed_.cells[row] == table_.cells[row]) return false;
-        const Mesh& mesh = sampler_.locator().mesh();
-        if (static_cast<std::uint64_t>(claimed_.cells[row]) >= mesh.cell_count()) return true;
-        const auto d = static_cast<std::size_t>(mesh.dimension);
+        if (static_cast<std::uint64_t>(claimed_.cells[row]) >= sampler_.locator().mesh().cell_count()) return true;
         std::array<double, 3> at{};
-        std::copy_n(claimed_.points.data() + d * row, d, at.begin());
+        std::copy_n(point(row), d_, at.begin());
         const locate::LocatorData& data = locate::LocatorData::of(sampler_.locator());
         const locate::Place place = data.places()[static_cast<std::size_t>(claimed_.cells[row])];
         return !locate::cell_signs(data.index, place, at.data(), tests_).contains();
@@ -113,20 +110,19 @@ private:
 
     void look_at(std::size_t row) {
         const bool inside = table_.cells[row] >= 0, said = says_inside(row);
+        const bool boundary = table_.features[row] != Feature::interior;
         ++(inside ? found_.inside : found_.outside);
-        const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
-        if (!inside && !base::all_finite({&claimed_.points[d * row], d})) ++found_.not_finite;
-        if (inside && table_.features[row] != Feature::interior) ++found_.on_boundary;
+        if (!inside && !base::all_finite({point(row), d_})) ++found_.not_finite;
+        found_.on_boundary += inside && boundary ? 1 : 0;
         if (!inside && !said) {
             ++found_.right;
         } else if (inside && !said) {
             ++found_.missed;
-            const bool boundary = table_.features[row] != Feature::interior;
             found_.missed_on_boundary += boundary ? 1 : 0;
             keep(row, RowVerdict::missed, boundary ? 0 : 1);
         } else if (!inside) {
             invent(row);
-        } else if (over(row, values(row)) && may_be_in_several(row)) {
+        } else if (over(row, values(row)) && (boundary || !sampler_.locator().certified())) {
             again_.push_back(row);
         } else {
             settle(row, values(row), 1);
@@ -135,8 +131,7 @@ private:
 
     void invent(std::size_t row) {
         ++found_.invented;
-        const double* const v = claims(row);
-        found_.invented_zero += columns() != 0 && std::all_of(v, v + columns(), [](double x) { return x == 0; });
+        found_.invented_zero += all_of(claims(row), [](double x) { return x == 0; }) ? 1 : 0;
         found_.invented_rows.push_back(wrong_row(row, RowVerdict::invented, 0));
     }
 
@@ -145,10 +140,6 @@ private:
             if (verify::compare(claims(row)[c], exact[c], ranges_[c]).over(options_)) return true;
         }
         return false;
-    }
-
-    bool may_be_in_several(std::size_t row) const {
-        return table_.features[row] != Feature::interior || !sampler_.locator().certified();
     }
 
     /// A row inside that says so, held against `exact`.
@@ -195,8 +186,7 @@ private:
     }
 
     WrongRow& keep(std::size_t row, RowVerdict verdict, double severity) {
-        found_.examples.push_back(wrong_row(row, verdict, severity));
-        return found_.examples.back();
+        return found_.examples.emplace_back(wrong_row(row, verdict, severity));
     }
 
     WrongRow wrong_row(std::size_t row, RowVerdict verdict, double severity) const {
@@ -204,8 +194,7 @@ private:
         wrong.verdict = verdict;
         wrong.row = claimed_.first_row + row;
         wrong.severity = severity;
-        const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
-        std::copy_n(claimed_.points.data() + d * row, d, wrong.point.begin());
+        std::copy_n(point(row), d_, wrong.point.begin());
         if (!claimed_.cells.empty()) wrong.claimed_cell = claimed_.cells[row];
         wrong.exact = {table_.cells[row], table_.features[row]};
         wrong.cells = table_.cells[row] >= 0 ? 1 : 0;
@@ -224,6 +213,7 @@ private:
     const VerifyOptions& options_;
     const std::vector<double>& ranges_;
     const ClaimedRows& claimed_;
+    std::size_t d_ = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
     Table table_;
     TierCounts tests_;
     std::vector<std::size_t> again_;
