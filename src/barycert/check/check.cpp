@@ -1,11 +1,10 @@
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/environment.hpp"
@@ -228,11 +227,8 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     CheckReport report;
     report.dimension = mesh.dimension;
-    // oneTBB prints a warning when asked for more than there are.
-    const int available = tbb::info::default_concurrency();
-    tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, available) : available);
-    arena.execute([&] {
-        report.threads = tbb::this_task_arena::max_concurrency();
+    report.threads = base::threads_of(options.threads);
+    base::in_arena(options.threads, mesh.cell_count(), [&] {
         const bool whole = Check(mesh, options).run(report);
         report.certificate = Certificate(whole ? Verdict::certified : Verdict::not_certified, mesh);
     });

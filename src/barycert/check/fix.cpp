@@ -1,11 +1,10 @@
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check/stages.hpp"
@@ -311,9 +310,7 @@ Result<Mesh> fix_mesh(const Mesh& mesh, const FixOptions& options, FixReport& re
         return Error{.what = "the distance within which nodes are merged is not one",
                      .expected = "a finite number from 0 on",
                      .found = base::shortest(options.merge_within)};
-    const int available = tbb::info::default_concurrency();
-    tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, available) : available);
-    return arena.execute([&] { return Fix(mesh, options, report).run(); });
+    return base::in_arena(options.threads, mesh.cell_count(), [&] { return Fix(mesh, options, report).run(); });
 }
 
 }  // namespace barycert

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/locate/batch.hpp"
@@ -30,7 +31,7 @@ inline std::size_t block_size(std::optional<std::uint64_t> count, int threads, s
     constexpr std::uint64_t min = std::uint64_t{1} << 12, blocks_a_thread = 4, cells_a_point = 16;
     const std::uint64_t max = std::max<std::uint64_t>(block_of_points, cells / cells_a_point);
     if (!count) return static_cast<std::size_t>(max);
-    const int workers = locate::threads_of(threads);
+    const int workers = base::threads_of(threads);
     return static_cast<std::size_t>(
         std::clamp<std::uint64_t>(*count / (blocks_a_thread * static_cast<std::uint64_t>(workers)), min, max));
 }
@@ -61,8 +62,8 @@ protected:
 
     /// All three, to the end. `threads`: 0 for as many as the machine has.
     Status run(int threads) {
-        threads_ = locate::threads_of(threads);
-        locate::in_arena(threads_, [this] {
+        threads_ = base::threads_of(threads);
+        base::in_arena(threads_, std::numeric_limits<std::size_t>::max(), [this] {
             tbb::parallel_pipeline(
                 static_cast<std::size_t>(threads_) + 2,
                 tbb::make_filter<void, OnTheWay*>(tbb::filter_mode::serial_in_order,

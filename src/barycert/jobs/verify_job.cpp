@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/named_limit.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/run_files.hpp"
@@ -244,8 +245,8 @@ private:
         summary_.exact = options.exact;
         summary_.outside_value = options.outside_value;
         summary_.verdicts.columns.resize(summary_.columns.size());
-        locate::in_arena(threads,
-                         [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
+        base::in_arena(threads, locator_->mesh().cell_count(),
+                       [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
         Status done = Stages::run(threads);
         Stopwatch watch;
         if (done) done = Verifier(*sampler_, job_.options).measure(summary_.verdicts);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -16,24 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/locate/finder.hpp"
 #include "barycert/locate/sorted_points.hpp"
 
 namespace barycert::locate {
-
-/// How many threads to use: those asked for, or all for 0; never more than the arena of the caller has.
-inline int threads_of(int threads) {
-    const int available = tbb::this_task_arena::max_concurrency();
-    return threads > 0 ? std::min(threads, available) : available;
-}
-
-/// Work on threads_of(threads) threads.
-template <class F>
-void in_arena(int threads, F&& work) {
-    tbb::task_arena arena(threads_of(threads));
-    arena.execute(std::forward<F>(work));
-}
 
 /// How many points are not finite.
 inline std::size_t count_not_finite(std::span<const double> points, std::size_t d) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/facets.hpp"
 #include "barycert/surface.hpp"
@@ -106,7 +107,7 @@ namespace barycert {
 
 Result<Surface> boundary(const Mesh& mesh, const CutOptions& options) {
     const ExactEnvironment environment;
-    return surface::in_arena(options.threads, [&]() -> Result<Surface> {
+    return base::in_arena(options.threads, mesh.cell_count(), [&]() -> Result<Surface> {
         if (Status good = surface::check_mesh(mesh, 0); !good) return good.error();
         if (!surface::indices_fit(mesh.cells, mesh.point_count())) return surface::bad_index();
         if (Status fit = surface::check_options(mesh, options); !fit) return fit.error();

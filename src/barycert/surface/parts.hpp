@@ -3,7 +3,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -36,15 +35,6 @@ Error bad_index();
 
 /// Those to be carried along.
 Status check_options(const Mesh& mesh, const CutOptions& options);
-
-/// Returns work() on `threads` threads, 0 for as many as the machine has, and never on more. They take over the
-/// floating-point environment of the caller.
-template <class Work>
-auto in_arena(int threads, Work&& work) {
-    const int available = tbb::this_task_arena::max_concurrency();
-    tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
-    return arena.execute(std::forward<Work>(work));
-}
 
 /// Copies the fields of cells to the cells of the surface, by mesh_cells.
 inline void carry_cell_fields(const CutOptions& options, Surface& surface) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
@@ -193,7 +194,7 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
 
     Status status = Done{};
     SampleCounts all;
-    locate::in_arena(options.threads, [&] {
+    base::in_arena(options.threads, data.index().cell_count() + layer * layers.size(), [&] {
         const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
         const Division division = divide(layers.size(), layer, room, threads);
         const std::size_t depth = division.depth, slabs = division.slabs;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
@@ -221,7 +222,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
     bool finite = true;
-    locate::in_arena(options.threads, [&] {
+    base::in_arena(options.threads, data_->index().cell_count() + out.cells.size(), [&] {
         const std::size_t count = out.cells.size(), block = locate::block_of(count, data_->index().cell_count());
         std::vector<SampleCounts> counts((count + block - 1) / block);
         const auto make = [&](std::size_t, std::size_t size) { return sample::SortedRows(*data_, options, size); };
@@ -275,7 +276,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     }
     constexpr std::size_t block = std::size_t{1} << 13;
     std::vector<SampleCounts> counts((count + block - 1) / block);
-    locate::in_arena(options.threads, [&] {
+    base::in_arena(options.threads, count, [&] {
         tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
             const std::size_t first = b * block, last = std::min(count, first + block);
             sample::ChunkSampler sampler(*data_, options, rows);
