@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "barycert/index/overlap.hpp"
-#include "barycert/index/overlapped.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/lanes.hpp"

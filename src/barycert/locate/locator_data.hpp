@@ -101,12 +101,12 @@ struct LocatorData {
         });
     }
     std::size_t bytes() const {
+        const auto made = [](const auto&... lazy) {
+            return (std::size_t{0} + ... + (lazy.made() != nullptr ? lazy.made()->bytes() : 0));
+        };
         return index.bytes() + proof.contested.size() * sizeof(std::uint64_t) +
-               (tree_.made() ? tree_.made()->bytes() : 0) + (nearest_tree_.made() ? nearest_tree_.made()->bytes() : 0) +
-               (coarse_.made() ? coarse_.made()->bytes() : 0) + (fine_.made() ? fine_.made()->bytes() : 0) +
-               (node_cells_.made() ? node_cells_.made()->bytes() : 0) +
-               (contested_cells_.made() ? contested_cells_.made()->bytes() : 0) +
-               (places_.made() ? places_.made()->size() * sizeof(Place) : 0);
+               made(tree_, nearest_tree_, coarse_, fine_, node_cells_, contested_cells_) +
+               (places_.made() != nullptr ? places_.made()->size() * sizeof(Place) : 0);
     }
 
 private:
