@@ -28,8 +28,8 @@ LOCATE = [
     ("contested_cells.cpp", "if (original(i) < original(j)) std::swap(i, j);", "if (i < j) std::swap(i, j);", "lower by place, not by number"),
     ("contested_cells.cpp", "cells_.size() + 7) / 8", "cells_.size()) / 8", "the last group of cells"),
     ("near_bounds.hpp", "sum_.error += size_x * size_y * roundings + min;", "", "no bound of the error"),
-    ("near_bounds.cpp", "slack += off * (2 * place.reach[k] + off) + min;", "", "the rounding of a projection"),
-    ("near_bounds.cpp", "if (!(max <= 0)) guess.gap = std::max(guess.gap, 2 * max);", "", "a guess taken for the nearest"),
+    ("near_bounds.hpp", "slack += off * (2 * place.reach[k] + off) + min;", "", "the rounding of a projection"),
+    ("near_bounds.hpp", "if (!(max <= 0)) guess.gap = std::max(guess.gap, 2 * max);", "", "a guess taken for the nearest"),
     ("nearest.cpp", "(excess >= 0 && number > found_.cell)", "(excess >= 0)", "of cells as near, not the lowest"),
     ("nearest.cpp", "(order == 0 && number > found_.cell)", "order == 0", "of cells as near, not the lowest"),
     ("nearest.cpp", "limited_ ? limit + 0x1p-1074L : 0", "limit", "a limit that is a distance rounded"),
@@ -46,8 +46,9 @@ LOCATE = [
     ("sorted_points.cpp", "finite &= find_bins", "finite = find_bins", "the last points alone"),
 ]
 SAMPLE = [
-    ("points/outside.cpp", "tiers.not_finite += used.not_finite != 0 ? 1 : 0;", ";", "a value that is not finite, uncounted"),
-    ("points/outside.cpp", "if (data.quadratic && snap && !data.at_points.empty()) at = rounded_projection(mesh, at, nodes);", "",
+    ("points/outside.cpp", "[](double x) { return std::isnan(x); }) ? 1 : 0;", "[](double x) { return std::isnan(x); }) ? 0 : 0;",
+     "a value that is not finite, uncounted"),
+    ("points/outside.cpp", "const bool asked = data.quadratic && !data.at_points.empty();", "const bool asked = false;",
      "gradients at the point, not at its projection"),
     ("points/sampler.cpp", "(data.point_components + 2) / 4", "data.point_components / 4", "the last group of components"),
     ("points/sampler.cpp", "late.component < 0) late.component", "true) late.component", "a component asked for again"),
@@ -55,8 +56,8 @@ SAMPLE = [
     ("grid/grid.cpp", "if (low[k] + (steps + 1) * spacing[k] <= high[k]) ++steps;", "", "a quotient rounded down"),
     ("grid/grid.cpp", "while (steps > 0 && low[k] + steps * spacing[k] > high[k]) --steps;", "", "a quotient rounded up"),
     ("grid/grid.cpp", "if (i == counts[axis] - 1 && i != 0) return last[axis];", "", "the last coordinate as a sum"),
-    ("grid/resample.cpp", "std::upper_bound(first, layers_.end(), high)", "std::lower_bound(first, layers_.end(), high)", "a layer on a cell's top"),
-    ("grid/resample.cpp", "* scale_ - slack_, to", "* scale_, to", "room for rounding"),
+    ("grid/resample.cpp", "std::upper_bound(first, layers.end(), high)", "std::lower_bound(first, layers.end(), high)", "a layer on a cell's top"),
+    ("grid/resample.cpp", "* scale - slack, to", "* scale, to", "room for rounding"),
     ("points/near_piece.hpp", "std::max_element(of_corner", "std::min_element(of_corner", "a cell's least weight as the rest"),
 ]
 AUDIT = [

@@ -191,14 +191,8 @@ int ExactWeights::compare(std::span<const double> values, double t) const {
 }
 
 bool ExactWeights::leave_out_not_finite(std::span<double> values) const {
-    const auto corners = static_cast<std::size_t>(count_);
-    bool none_has_part = true;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (std::isfinite(values[i])) continue;
-        values[i] = 0;
-        none_has_part = none_has_part && !has_part(static_cast<int>(i), values.size() > corners);
-    }
-    return none_has_part;
+    const bool quadratic = values.size() > static_cast<std::size_t>(count_);
+    return core::leave_out_not_finite(values, [&](int node) { return has_part(node, quadratic); });
 }
 
 /// The quadratic's shape functions are l (2 l - 1) at corners and 4 l l' between them.

@@ -10,13 +10,7 @@
 // are below 3 * 3 K: u (900 K^2 + 300 K + 2). E = u (1000 K^2 + 400 K + 8) bounds all of them, however the sums are
 // arranged, and also where nothing is rounded but S.
 //
-// Included once per SIMD target.
-#if defined(BARYCERT_SAMPLE_FILL_BOX_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef BARYCERT_SAMPLE_FILL_BOX_INL_HPP
-#undef BARYCERT_SAMPLE_FILL_BOX_INL_HPP
-#else
-#define BARYCERT_SAMPLE_FILL_BOX_INL_HPP
-#endif
+// Included once per SIMD target, in a chain that begins in fill_lanes.cpp: no guard is needed.
 
 #include <algorithm>
 #include <array>
@@ -25,7 +19,7 @@
 
 #include "barycert/core/gradient-inl.hpp"
 #include "barycert/core/lane_loop-inl.hpp"
-#include "barycert/sample/grid/raster_lanes.hpp"
+#include "barycert/sample/grid/fill_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::sample::HWY_NAMESPACE {
@@ -127,7 +121,7 @@ HWY_INLINE void set_places(D tag, const Raster& raster, PlaceRange layers, const
 //
 // Notation as above; v = 2^-24. Let f be the first point of the box by the spacing h, place by place
 // fl(origin + first h), and w' = fl(f - o); point n = (n_0, ...) of the box, n_k < N_k, has the coordinates f_k + n_k
-// h_k + d_k. `slack` bounds |d_k| / h_k, the roundings of f and w' included, many times over (raster_lanes.hpp). With L
+// h_k + d_k. `slack` bounds |d_k| / h_k, the roundings of f and w' included, many times over (Raster). With L
 // the function constant + sum_k S_k (x_k - o_k), without roundings, weight l of the point is L up to E, and so
 //     l = A + sum_k B_k n_k    up to 2 E + 1.01 slack sum_k |B_k|,    A = L(w') as computed, B_k = fl(S_k h_k):
 // A is rounded six times at most, in sums of numbers below 9.1 K, which is less than E; B_k once, by u |B_k| n_k, of
@@ -317,4 +311,3 @@ HWY_NOINLINE void find_open_points(const CellBlock<d>& cell, const BoxBlock<d>& 
 
 }  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-#endif

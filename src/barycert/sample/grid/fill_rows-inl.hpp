@@ -7,13 +7,7 @@
 // outside and taken off inside. Where |S_jx| X_x <= E, the weight is a_j up to E along the row, and nothing is solved:
 // certainly outside below -2 E, certainly inside above 2 E.
 //
-// Included once per SIMD target.
-#if defined(BARYCERT_SAMPLE_FILL_ROWS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
-#undef BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
-#else
-#define BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
-#endif
+// Included once per SIMD target, in a chain that begins in fill_lanes.cpp: no guard is needed.
 
 #include "barycert/sample/grid/fill_box-inl.hpp"
 
@@ -125,4 +119,3 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, const RowsBlock<
 
 }  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-#endif

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
@@ -15,11 +16,16 @@ namespace {
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
+Error along_axis(const char* what, std::size_t axis, std::string expected, std::string found) {
+    return {.what = std::string(what) + " of the grid along " + axis_names[axis],
+            .expected = std::move(expected),
+            .found = std::move(found)};
+}
+
 Status check_bounds(std::size_t axis, double low, double high) {
     if (std::isfinite(low) && std::isfinite(high) && low <= high && std::isfinite(high - low)) return Done{};
-    return Error{.what = std::string("bounds of the grid along ") + axis_names[axis],
-                 .expected = "finite numbers, min before max, with a finite difference",
-                 .found = base::shortest(low) + ", " + base::shortest(high)};
+    return along_axis("bounds", axis, "finite numbers, min before max, with a finite difference",
+                      base::shortest(low) + ", " + base::shortest(high));
 }
 
 Status check_dimension(int dimension) {
@@ -29,9 +35,7 @@ Status check_dimension(int dimension) {
 
 Status check_count(std::size_t axis, double count) {
     if (count >= 1 && count <= static_cast<double>(Grid::max_on_axis)) return Done{};
-    return Error{.what = std::string("points of the grid along ") + axis_names[axis],
-                 .expected = "1 to " + std::to_string(Grid::max_on_axis),
-                 .found = base::shortest(count)};
+    return along_axis("points", axis, "1 to " + std::to_string(Grid::max_on_axis), base::shortest(count));
 }
 
 /// A spacing for points from low to high. Who reads a VTI file of the grid computes low + i * spacing, each operation
@@ -68,9 +72,7 @@ Result<Grid> checked(const Grid& grid) {
         const double far = std::max(std::fabs(grid.origin[k]), std::fabs(grid.last[k]));
         const double apart = far - std::nextafter(far, 0);
         if (grid.spacing[k] < apart || grid.coordinate(k, grid.counts[k] - 2) >= grid.last[k])
-            return Error{.what = std::string("points of the grid along ") + axis_names[k],
-                         .expected = "few enough that their coordinates differ",
-                         .found = std::to_string(grid.counts[k])};
+            return along_axis("points", k, "few enough that their coordinates differ", std::to_string(grid.counts[k]));
     }
     return grid;
 }
@@ -102,9 +104,8 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
         grid.last[k] = high[k];
         grid.spacing[k] = spacing_between(low[k], high[k], counts[k]);
         if (!(grid.spacing[k] > 0))
-            return Error{.what = std::string("bounds of the grid along ") + axis_names[k],
-                         .expected = "ends far enough apart for " + std::to_string(counts[k]) + " points",
-                         .found = base::shortest(low[k]) + ", " + base::shortest(high[k])};
+            return along_axis("bounds", k, "ends far enough apart for " + std::to_string(counts[k]) + " points",
+                              base::shortest(low[k]) + ", " + base::shortest(high[k]));
     }
     return checked(grid);
 }
@@ -118,9 +119,7 @@ Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, co
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
         if (Status status = check_bounds(k, low[k], high[k]); !status) return status.error();
         if (!(spacing[k] > 0) || !std::isfinite(spacing[k]))
-            return Error{.what = std::string("spacing of the grid along ") + axis_names[k],
-                         .expected = "a positive number",
-                         .found = base::shortest(spacing[k])};
+            return along_axis("spacing", k, "a positive number", base::shortest(spacing[k]));
         // A quotient rounded down by an ulp must not lose the last point.
         double steps = std::floor((high[k] - low[k]) / spacing[k]);
         if (Status status = check_count(k, steps + 1); !status) return status.error();
