@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/raster/exact_point.hpp"
@@ -29,16 +31,11 @@ Status check(const Segment& s) {
                      .found = std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
                      .remedy = "give a number for each coordinate and attribute of each end"};
     }
-    for (std::size_t i = 0; i < s.a.size(); ++i) {
-        for (const auto& [end, x] : {std::pair("first", s.a[i]), {"second", s.b[i]}}) {
-            if (std::isfinite(x)) continue;
-            return Error{.what = "number " + std::to_string(i) + " of the " + end + " end",
-                         .expected = "a finite number",
-                         .found = std::to_string(x),
-                         .remedy = "leave the segment out"};
-        }
-    }
-    return Done{};
+    const std::size_t i = base::first_not_finite(s.a), k = base::first_not_finite(s.b);
+    if (i == s.a.size() && k == i) return Done{};
+    return base::not_finite(
+        "number " + std::to_string(std::min(i, k)) + " of the " + (i <= k ? "first" : "second") + " end",
+        i <= k ? s.a[i] : s.b[k], "leave the segment out");
 }
 
 /// What is left of a segment, exactly: each end is as given, or where a form is zero.

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/raster/edge.hpp"
@@ -14,13 +15,9 @@ Status check_vertices(std::span<const double> vertices) {
     if (vertices.size() != 6)
         return Error{
             .what = "number of coordinates of a triangle", .expected = "6", .found = std::to_string(vertices.size())};
-    for (std::size_t i = 0; i < 6; ++i) {
-        if (!std::isfinite(vertices[i]))
-            return Error{.what = "coordinate " + std::to_string(i % 2) + " of vertex " + std::to_string(i / 2),
-                         .expected = "a finite number",
-                         .found = std::to_string(vertices[i])};
-    }
-    return Done{};
+    const std::size_t i = base::first_not_finite(vertices);
+    if (i == vertices.size()) return Done{};
+    return base::not_finite("coordinate " + std::to_string(i % 2) + " of vertex " + std::to_string(i / 2), vertices[i]);
 }
 
 bool not_left_of(const Edge& edge, std::int32_t i, std::int32_t j) {

@@ -62,7 +62,9 @@ Result<std::size_t> fill_triangle(std::span<const double> vertices, std::span<co
     const auto fill = [&](auto rows) {
         std::size_t count = 0;
         raster::for_spans(t, out.size.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
-            rows.fill(j, first, last, out.data.data() + raster::row_offset(out, first, j));
+            const auto at = static_cast<std::size_t>(j) * static_cast<std::size_t>(out.size.width);
+            rows.fill(j, first, last,
+                      &out.data[(at + static_cast<std::size_t>(first)) * static_cast<std::size_t>(out.components)]);
             count += static_cast<std::size_t>(last - first);
         });
         return count;

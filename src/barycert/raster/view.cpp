@@ -175,15 +175,16 @@ std::vector<double> normalised_points(std::span<const double> points, int dimens
     return result;
 }
 
+/// Where points lie along an axis.
+Range along(const Vector3& axis, std::span<const double> points) {
+    Range range;
+    for (std::size_t i = 0; i < points.size(); i += 3) range.add(dot(axis, points.data() + i));
+    return points.empty() ? Range{0, 0} : range;
+}
+
 /// The camera that sees all normalised points, in perspective, as near as the window allows.
 Result<Matrix4> fitting_camera(std::span<const double> points, const ViewAxes& axes, double aspect) {
-    Range x, y, z;
-    for (std::size_t i = 0; i < points.size(); i += 3) {
-        x.add(dot(axes.right, points.data() + i));
-        y.add(dot(axes.up, points.data() + i));
-        z.add(dot(axes.towards, points.data() + i));
-    }
-    if (points.empty()) x = y = z = {0, 0};
+    const Range x = along(axes.right, points), y = along(axes.up, points), z = along(axes.towards, points);
     const double tangent = part * std::tan(0.5 * fovy * (std::numbers::pi / 180));
     // A point is in sight if its distance across is at most its distance along times the tangent.
     double distance = z.high + 0.1;
@@ -210,12 +211,7 @@ Result<Matrix4> fitting_camera(std::span<const double> points, const ViewAxes& a
 
 /// The same from above, without perspective.
 Result<Matrix4> fitting_map(std::span<const double> points, double aspect) {
-    Range x, y;
-    for (std::size_t i = 0; i < points.size(); i += 3) {
-        x.add(points[i]);
-        y.add(points[i + 1]);
-    }
-    if (points.empty()) x = y = {0, 0};
+    const Range x = along({1, 0, 0}, points), y = along({0, 1, 0}, points);
     double half = std::max(x.half() / aspect, y.half()) / part;
     if (!(half > 0)) half = 1;
     return orthographic(x.middle() - half * aspect, x.middle() + half * aspect, y.middle() - half, y.middle() + half,
