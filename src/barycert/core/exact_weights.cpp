@@ -183,10 +183,9 @@ int ExactWeights::compare(std::span<const double> values, double t) const {
     // A fifth product, of the denominator, beside the four of interpolate(): at most two bits more.
     Integer sum =
         Integer(sign_of(denominator) >= 0, magnitude(denominator, buffer)) * unit.multiple<Integer>(scaled(t));
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < count_; ++i)
         sum = sum + Integer(sign_of(i) < 0, magnitude(i, buffer)) *
                         unit.multiple<Integer>(scaled(values[static_cast<std::size_t>(i)]));
-    }
     return sum.sign() * orientation();
 }
 

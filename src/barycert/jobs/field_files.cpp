@@ -16,7 +16,7 @@
 #include "barycert/io/mesh_format.hpp"
 #include "barycert/io/point_table.hpp"
 #include "barycert/mesh/columns.hpp"
-#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -18,8 +18,7 @@
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/predicates.hpp"
-#include "barycert/sample/quantity/expression.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {
 namespace {

@@ -26,7 +26,7 @@
 #include "barycert/jobs/stages.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
-#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert {
 namespace {

@@ -153,12 +153,11 @@ public:
         const int layers = d == 3 ? cell.count[d - 1] : 1;
         for (int layer = 0; layer < layers; ++layer) {
             if constexpr (d == 3) row[2] = layer;
-            for (row[1] = 0; row[1] < cell.count[1]; ++row[1]) {
+            for (row[1] = 0; row[1] < cell.count[1]; ++row[1])
                 cell.columns(row, [&](int first, int last) {
                     set(row, static_cast<std::size_t>(first + cell.low[0]),
                         static_cast<std::size_t>(last + cell.low[0]));
                 });
-            }
         }
     }
 

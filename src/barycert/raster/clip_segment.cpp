@@ -19,18 +19,16 @@ struct Segment {
 };
 
 Status check(const Segment& s) {
-    if (s.dimension < 1 || s.dimension > 3) {
+    if (s.dimension < 1 || s.dimension > 3)
         return Error{.what = "dimension of a segment",
                      .expected = "1, 2 or 3",
                      .found = std::to_string(s.dimension),
                      .remedy = "choose another dimension"};
-    }
-    if (s.a.size() != s.b.size() || s.a.size() < static_cast<std::size_t>(s.dimension)) {
+    if (s.a.size() != s.b.size() || s.a.size() < static_cast<std::size_t>(s.dimension))
         return Error{.what = "the ends of a segment",
                      .expected = std::to_string(s.dimension) + " coordinates and as many attributes at both ends",
                      .found = std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
                      .remedy = "give a number for each coordinate and attribute of each end"};
-    }
     const std::size_t i = base::first_not_finite(s.a), k = base::first_not_finite(s.b);
     if (i == s.a.size() && k == i) return Done{};
     return base::not_finite(

@@ -111,12 +111,11 @@ unsigned beyond(const double* vertex) {
 }
 
 Status check_rows(std::span<const double> vertices) {
-    if (vertices.size() < 12 || vertices.size() % 3 != 0) {
+    if (vertices.size() < 12 || vertices.size() % 3 != 0)
         return Error{.what = "a triangle of other than three vertices",
                      .expected = "three rows of x, y, z, w and attributes, of equal length",
                      .found = std::to_string(vertices.size()) + " numbers",
                      .remedy = "give a number for each attribute of each vertex"};
-    }
     const std::size_t i = base::first_not_finite(vertices), row = vertices.size() / 3;
     if (i == vertices.size()) return Done{};
     return base::not_finite("number " + std::to_string(i % row) + " of vertex " + std::to_string(i / row), vertices[i],

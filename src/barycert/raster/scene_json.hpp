@@ -58,13 +58,12 @@ public:
 
     bool has(const char* name) const { return value_.contains(name); }
     SceneValue member(const char* name) const {
-        if (!has(name)) {
+        if (!has(name))
             throw Exception({.what = place_.empty() ? "the scene" : place_,
                              .file = path_,
                              .expected = std::string("a member \"") + name + '"',
                              .found = "none",
                              .remedy = scene_remedy});
-        }
         return {value_.at(name), place_ + '/' + name, path_};
     }
     SceneValue entry(std::size_t i) const { return {value_.at(i), place_ + '/' + std::to_string(i), path_}; }

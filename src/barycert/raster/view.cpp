@@ -326,12 +326,11 @@ Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& option
     const auto height = static_cast<std::size_t>(options.size.height);
     const io::ColourBar bar = raster::short_bar(scale.low, scale.high, std::max(height, io::min_bar_height));
     const auto bar_width = static_cast<std::int32_t>(with_bar ? bar.width() : 0);
-    if (with_bar && (height < io::min_bar_height || bar_width >= options.size.width)) {
+    if (with_bar && (height < io::min_bar_height || bar_width >= options.size.width))
         return raster::refusal(
             "there is no room for the colour bar",
             "more than " + std::to_string(bar_width) + " by " + std::to_string(io::min_bar_height - 1) + " pixels",
             std::to_string(options.size.width) + " by " + std::to_string(options.size.height));
-    }
     ViewCounts told{{}, scale.low, scale.high, 0};
     const Result<Scene> scene =
         raster::scene_of(surface, options, options.size.width - bar_width, scale, told.without_value);

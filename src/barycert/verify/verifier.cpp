@@ -12,7 +12,7 @@
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/verify.hpp"
 #include "barycert/verify/errors.hpp"
 

@@ -238,10 +238,9 @@ HWY_INLINE void visit_box(const CellBlock<d>& cell, const BoxBlock<d>& box, std:
     for (std::int32_t from = 0; from < rows; from += pattern.rows) {
         const V row = hn::Load(tag, pattern.row) + hn::Set(tag, static_cast<float>(from));
         V weight[d + 1];
-        for (int j = 0; j <= d; ++j) {
+        for (int j = 0; j <= d; ++j)
             weight[j] = hn::MulAdd(hn::Set(tag, box.step[j][1][l]), row,
                                    hn::MulAdd(hn::Set(tag, box.step[j][0][l]), column, hn::Set(tag, box.first[j][l])));
-        }
         const auto used = hn::FirstN(tag, static_cast<std::size_t>(std::min(pattern.rows, rows - from) * columns));
         weight[0] = hn::IfThenElse(used, weight[0], nowhere);
         auto place = hn::Load(whole, pattern.place) + hn::Set(whole, from << box_bits);

@@ -22,15 +22,15 @@ Error along_axis(const char* what, std::size_t axis, std::string expected, std::
             .found = std::move(found)};
 }
 
-Status check_bounds(std::size_t axis, double low, double high) {
-    if (std::isfinite(low) && std::isfinite(high) && low <= high && std::isfinite(high - low)) return Done{};
-    return along_axis("bounds", axis, "finite numbers, min before max, with a finite difference",
-                      base::shortest(low) + ", " + base::shortest(high));
-}
-
-Status check_dimension(int dimension) {
-    if (dimension == 2 || dimension == 3) return Done{};
-    return Error{.what = "dimension of the grid", .expected = "2 or 3", .found = std::to_string(dimension)};
+Status check_box(int dimension, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+    if (dimension != 2 && dimension != 3)
+        return Error{.what = "dimension of the grid", .expected = "2 or 3", .found = std::to_string(dimension)};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+        if (!(std::isfinite(low[k]) && std::isfinite(high[k]) && low[k] <= high[k] && std::isfinite(high[k] - low[k])))
+            return along_axis("bounds", k, "finite numbers, min before max, with a finite difference",
+                              base::shortest(low[k]) + ", " + base::shortest(high[k]));
+    }
+    return Done{};
 }
 
 Status check_count(std::size_t axis, double count) {
@@ -89,11 +89,10 @@ double Grid::coordinate(std::size_t axis, std::int64_t i) const {
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high) {
     const ExactEnvironment environment;
-    if (Status status = check_dimension(dimension); !status) return status.error();
     Grid grid;
     grid.dimension = dimension;
+    if (Status status = check_box(dimension, low, high); !status) return status.error();
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-        if (Status status = check_bounds(k, low[k], high[k]); !status) return status.error();
         if (Status status = check_count(k, static_cast<double>(counts[k])); !status) return status.error();
         grid.counts[k] = counts[k];
         if (counts[k] == 1) {
@@ -113,11 +112,10 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
 Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& low,
                          const std::array<double, 3>& high) {
     const ExactEnvironment environment;
-    if (Status status = check_dimension(dimension); !status) return status.error();
     Grid grid;
     grid.dimension = dimension;
+    if (Status status = check_box(dimension, low, high); !status) return status.error();
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-        if (Status status = check_bounds(k, low[k], high[k]); !status) return status.error();
         if (!(spacing[k] > 0) || !std::isfinite(spacing[k]))
             return along_axis("spacing", k, "a positive number", base::shortest(spacing[k]));
         // A quotient rounded down by an ulp must not lose the last point.

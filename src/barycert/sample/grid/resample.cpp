@@ -58,8 +58,9 @@ SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::
             const auto at = [&](std::size_t n) { return index.nodes[static_cast<std::size_t>(node[n])].at[axis]; };
             // In 2D the last corner repeats the first one.
             const double a = at(0), b = at(1), c = at(2), d = at(3);
-            const SlabRange r = slabs_between(raster, axis, static_cast<std::uint32_t>(depth), std::min(std::min(a, b), std::min(c, d)),
-                                              std::max(std::max(a, b), std::max(c, d)));
+            const SlabRange r =
+                slabs_between(raster, axis, static_cast<std::uint32_t>(depth), std::min(std::min(a, b), std::min(c, d)),
+                              std::max(std::max(a, b), std::max(c, d)));
             ranges[i] = r;
             all = {std::min(all.first, r.first), std::max(all.last, r.last)};
         }
@@ -122,8 +123,8 @@ sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
     return raster;
 }
 
-/// Layers a slab. Few slabs, for a cell that lies in two of them is looked at twice; of `room` points or one layer each;
-/// as many for each thread.
+/// Layers a slab. Few slabs, for a cell that lies in two of them is looked at twice; of `room` points or one layer
+/// each; as many for each thread.
 std::size_t slab_depth(std::size_t layers, std::size_t layer_size, std::size_t room, std::size_t threads) {
     const std::size_t fewest = parts_of(layers, std::max<std::size_t>(room / layer_size, 1));
     return parts_of(layers, std::min(parts_of(fewest, threads) * threads, layers));

@@ -16,9 +16,8 @@ std::uint64_t mesh_fingerprint(const Mesh& mesh) {
     const ExactEnvironment environment;
     std::uint64_t h = sample::map_step(0, static_cast<std::uint64_t>(mesh.dimension));
     h = sample::map_step(h, mesh.points.size());
-    for (const double x : mesh.points) {
+    for (const double x : mesh.points)
         h = sample::map_step(h, std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x));  // -0.0 is the same place
-    }
     h = sample::map_step(h, mesh.cells.size());
     for (std::size_t i = 0; i < mesh.cells.size(); i += 2) {
         const std::uint64_t low = static_cast<std::uint32_t>(mesh.cells[i]);

@@ -78,16 +78,13 @@ inline const char* map_row_fault(const double* point, int dimension, Mesh::Index
     for (int axis = 0; axis < dimension; ++axis) {
         if (cell != -1 && !std::isfinite(point[axis])) return "finite coordinates where there is a cell";
     }
-    if (cell < -1 || (cell >= 0 && static_cast<std::uint64_t>(cell) >= cell_count)) {
+    if (cell < -1 || (cell >= 0 && static_cast<std::uint64_t>(cell) >= cell_count))
         return "a cell of the mesh, or -1 for none";
-    }
     if (feature > static_cast<unsigned>(Feature::outside)) return "a feature: interior, face, edge, vertex or outside";
-    if ((cell == -1) != (feature == static_cast<unsigned>(Feature::outside))) {
+    if ((cell == -1) != (feature == static_cast<unsigned>(Feature::outside)))
         return "the feature outside with cell -1, and nowhere else";
-    }
-    if (dimension == 2 && feature == static_cast<unsigned>(Feature::face)) {
+    if (dimension == 2 && feature == static_cast<unsigned>(Feature::face))
         return "in two dimensions any feature but a face";
-    }
     return nullptr;
 }
 

@@ -53,32 +53,28 @@ struct MapReaderData {
         const auto begin = static_cast<std::size_t>(std::min<std::uint64_t>(size, map_header_size));
         if (Status filled = fill(0, begin); !filled) return filled;
         const std::size_t known = std::min(begin, map_magic.size());
-        if (size == 0 || std::string_view(bytes.data(), known) != map_magic.substr(0, known)) {
+        if (size == 0 || std::string_view(bytes.data(), known) != map_magic.substr(0, known))
             return Error{.what = "not a map",
                          .file = name,
                          .expected = "a file written by barycert as a map",
                          .found = size == 0 ? "an empty file" : "other bytes at its beginning",
                          .remedy = "name a map; the mesh and the points are other files"};
-        }
-        if (size < map_header_size) {
+        if (size < map_header_size)
             return damage("the map is cut off", "a header of " + std::to_string(map_header_size) + " bytes",
                           std::to_string(size));
-        }
         const char* const at = bytes.data();
         // First, for the rest of the header may mean something else in another version.
-        if (const auto version = get_little<std::uint32_t>(at + 8); version != map_version) {
+        if (const auto version = get_little<std::uint32_t>(at + 8); version != map_version)
             return Error{.what = "a map of another version",
                          .file = name,
                          .expected = "version " + std::to_string(map_version),
                          .found = "version " + std::to_string(version),
                          .remedy = "create the map again with this version, or read it with the version that wrote it"};
-        }
         constexpr std::size_t before = map_header_size - map_checksum_size;
         const bool whole = map_checksum({at, before}, 0) == get_little<std::uint64_t>(at + before);
         const auto dimension = static_cast<unsigned char>(at[12]), all = static_cast<unsigned char>(at[13]);
-        if (!whole || (dimension != 2 && dimension != 3) || all > 1 || get_little<std::uint16_t>(at + 14) != 0) {
+        if (!whole || (dimension != 2 && dimension != 3) || all > 1 || get_little<std::uint16_t>(at + 14) != 0)
             return damage("the header of the map is damaged", "the bytes that were written", "others");
-        }
         const auto word = [&](std::size_t i) { return get_little<std::uint64_t>(at + 16 + 8 * i); };
         head = {static_cast<int>(dimension), all == 1, word(0), word(1), word(2), word(3)};
         // A row takes more than a byte: no product below can overflow.
@@ -88,12 +84,11 @@ struct MapReaderData {
             expected += blocks * (map_block_size(head.dimension, map_block_rows) + map_checksum_size);
             if (rest != 0) expected += map_block_size(head.dimension, rest) + map_checksum_size;
         }
-        if (head.rows > size || expected != size) {
+        if (head.rows > size || expected != size)
             return damage(
                 head.rows > size || size < expected ? "the map is cut off" : "the map has bytes after its end",
                 head.rows > size ? std::to_string(head.rows) + " rows" : std::to_string(expected) + " bytes",
                 std::to_string(size) + (head.rows > size ? " bytes" : ""));
-        }
         offset = map_header_size;
         checksum = head.fingerprint;
         return Done{};
@@ -116,10 +111,9 @@ struct MapReaderData {
         const std::size_t length = map_block_size(head.dimension, count);
         if (Status filled = fill(offset, length + map_checksum_size); !filled) return filled;
         const std::uint64_t found = map_checksum({bytes.data(), length}, checksum);
-        if (found != get_little<std::uint64_t>(bytes.data() + length)) {
+        if (found != get_little<std::uint64_t>(bytes.data() + length))
             return damage("rows " + std::to_string(row) + " to " + std::to_string(row + count - 1) + " are damaged",
                           "the bytes that were written", "others");
-        }
         if (Status decoded = decode(count); !decoded) return decoded;
         checksum = found;
         offset += length + map_checksum_size;
@@ -146,10 +140,9 @@ struct MapReaderData {
             const auto feature = static_cast<unsigned char>(at[i]);
             const char* const fault =
                 map_row_fault(&block.points[dimension * i], head.dimension, block.cells[i], feature, head.cells);
-            if (fault != nullptr) {
+            if (fault != nullptr)
                 return damage("row " + std::to_string(row + i) + " is not valid in a map", fault,
                               "cell " + std::to_string(block.cells[i]) + ", feature " + std::to_string(feature));
-            }
             block.features[i] = static_cast<Feature>(feature);
         }
         return Done{};

@@ -6,9 +6,8 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/exact_tier.hpp"
 #include "barycert/quadratic.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::sample {
 namespace {
@@ -102,25 +101,19 @@ void ChunkSampler::interpolate_linear(const locate::PointRecord* points, std::si
 
 void ChunkSampler::interpolate_exactly(const locate::PointRecord& point, locate::Place cell) {
     const locate::CellIndex& index = data_.index();
-    const std::size_t corners = index.corners();
     const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
     const std::array<double, 12> vertices = locate::vertices_of(index, cell);
-    const core::ExactWeights weights(index.simplex, vertices.data(), point.at.data());
-    counts_.values.add(Tier::exact);
-    if (weights.degenerate()) {  // an owner never is, but a caller of evaluate() may name any cell
-        ++counts_.values.degenerate;
-        std::fill_n(row(point), data_.point_components, std::numeric_limits<double>::quiet_NaN());
-        return;
-    }
-    bool finite = true;
+    bool degenerate = false, finite = true;
     for (std::size_t c = 0; c < data_.point_components; ++c) {
-        std::array<double, 4> numbers{};
-        const std::span f(numbers.data(), corners);
-        for (std::size_t i = 0; i < corners; ++i) f[i] = data_.value_at(static_cast<std::size_t>(node[i]), c);
-        const bool usable = weights.leave_out_not_finite(f);
-        finite &= usable;
-        row(point)[c] = usable ? weights.interpolate(f) : std::numeric_limits<double>::quiet_NaN();
+        std::array<double, 4> f{};
+        for (std::size_t i = 0; i < index.corners(); ++i) f[i] = data_.value_at(static_cast<std::size_t>(node[i]), c);
+        const Value v = *interpolate(index.simplex, vertices.data(), point.at.data(), f.data());
+        row(point)[c] = v.value;
+        degenerate |= v.degenerate;  // an owner never is, but a caller of evaluate() may name any cell
+        finite &= v.degenerate || !std::isnan(v.value);
     }
+    counts_.values.add(Tier::exact);
+    counts_.values.degenerate += degenerate ? 1 : 0;
     counts_.values.not_finite += finite ? 0 : 1;
 }
 
@@ -159,10 +152,9 @@ void ChunkSampler::interpolate_second_order(const locate::PointRecord* points, s
     static_cast<void>(
         interpolate_quadratic(queries, mesh.mid_nodes, values, values_, &counts_.values, options_.rounding)
             .has_value());
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
         std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(data_.point_components * i), data_.point_components,
                     row(points[inside_[i].point]));
-    }
 }
 
 locate::Place ChunkSampler::outside(const locate::PointRecord& point) {

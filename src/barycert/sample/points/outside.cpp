@@ -106,10 +106,9 @@ void snapped_values(const SamplerData& data, Rounding rounding, const Nearest& n
     // The projection, each coordinate correctly rounded.
     std::array<double, 3> at = point;
     const bool asked = data.quadratic && !data.at_points.empty();
-    for (std::size_t k = 0; asked && k < static_cast<std::size_t>(mesh.dimension); ++k) {
+    for (std::size_t k = 0; asked && k < static_cast<std::size_t>(mesh.dimension); ++k)
         at[k] = vertex ? feature.at[0][k]
                        : projected(feature, point, [&](std::size_t i) { return feature.at[i][k]; }).value;
-    }
     set_rest_of_row(data, rounding, nearest.cell, at.data(), values);
 }
 

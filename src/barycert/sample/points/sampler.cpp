@@ -13,8 +13,7 @@
 #include "barycert/sample/points/chunk_sampler.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 #include "barycert/sample/points/sorted_rows.hpp"
-#include "barycert/sample/quantity/expression.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert {

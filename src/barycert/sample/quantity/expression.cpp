@@ -1,4 +1,4 @@
-#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -217,10 +217,9 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
                              .remedy = "name it once"};
         }
     }
-    if (const auto name = common_column(mesh, chosen)) {
+    if (const auto name = common_column(mesh, chosen))
         return Error{
             .what = "two columns have the same name", .found = '"' + *name + '"', .remedy = "choose one of them"};
-    }
     std::stable_sort(chosen.begin(), chosen.end(),
                      [&](const FieldChoice& a, const FieldChoice& b) { return rank(a) < rank(b); });
     return chosen;

@@ -1,4 +1,4 @@
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -17,7 +17,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/gradient.hpp"
 #include "barycert/mesh/consistency.hpp"
-#include "barycert/sample/quantity/expression.hpp"
 
 namespace barycert::sample {
 namespace {
