@@ -1,7 +1,13 @@
 // The spans of a triangle, on lanes: the crossings of several rows at once, by the filter of edge.hpp; a row that it
 // leaves undecided is asked exactly.
 //
-// Included once per SIMD target, by textured_lanes.cpp alone: no guard is needed.
+// Included once per SIMD target.
+#if defined(BARYCERT_RASTER_ROW_BLOCKS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BARYCERT_RASTER_ROW_BLOCKS_INL_HPP
+#undef BARYCERT_RASTER_ROW_BLOCKS_INL_HPP
+#else
+#define BARYCERT_RASTER_ROW_BLOCKS_INL_HPP
+#endif
 
 #include "barycert/core/simd_targets.hpp"
 // After the targets.
@@ -86,3 +92,4 @@ HWY_INLINE void for_row_blocks(const SortedTriangle& t, std::int32_t width, Draw
 }  // namespace HWY_NAMESPACE
 }  // namespace barycert::raster
 HWY_AFTER_NAMESPACE();
+#endif

@@ -10,7 +10,13 @@
 // are below 3 * 3 K: u (900 K^2 + 300 K + 2). E = u (1000 K^2 + 400 K + 8) bounds all of them, however the sums are
 // arranged, and also where nothing is rounded but S.
 //
-// Included once per SIMD target, in a chain that begins in fill_lanes.cpp: no guard is needed.
+// Included once per SIMD target.
+#if defined(BARYCERT_SAMPLE_FILL_BOX_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BARYCERT_SAMPLE_FILL_BOX_INL_HPP
+#undef BARYCERT_SAMPLE_FILL_BOX_INL_HPP
+#else
+#define BARYCERT_SAMPLE_FILL_BOX_INL_HPP
+#endif
 
 #include <algorithm>
 #include <array>
@@ -310,3 +316,4 @@ HWY_NOINLINE void find_open_points(const CellBlock<d>& cell, const BoxBlock<d>& 
 
 }  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+#endif

@@ -1,7 +1,13 @@
 // Internal: cells, a vector of them at a time, fill in the points that they hold: those with few points in their boxes
 // one by one, others rows of them.
 //
-// Included once per SIMD target, in a chain that begins in fill_lanes.cpp: no guard is needed.
+// Included once per SIMD target.
+#if defined(BARYCERT_SAMPLE_FILL_POINTS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BARYCERT_SAMPLE_FILL_POINTS_INL_HPP
+#undef BARYCERT_SAMPLE_FILL_POINTS_INL_HPP
+#else
+#define BARYCERT_SAMPLE_FILL_POINTS_INL_HPP
+#endif
 
 #include <algorithm>
 #include <array>
@@ -352,3 +358,4 @@ HWY_INLINE void fill_rows(D tag, const Filling<d>& to, const FillBlock<Values, d
 
 }  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+#endif

@@ -7,7 +7,13 @@
 // outside and taken off inside. Where |S_jx| X_x <= E, the weight is a_j up to E along the row, and nothing is solved:
 // certainly outside below -2 E, certainly inside above 2 E.
 //
-// Included once per SIMD target, in a chain that begins in fill_lanes.cpp: no guard is needed.
+// Included once per SIMD target.
+#if defined(BARYCERT_SAMPLE_FILL_ROWS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
+#undef BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
+#else
+#define BARYCERT_SAMPLE_FILL_ROWS_INL_HPP
+#endif
 
 #include "barycert/sample/grid/fill_box-inl.hpp"
 
@@ -119,3 +125,4 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, const RowsBlock<
 
 }  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+#endif

@@ -15,7 +15,13 @@
 //
 // What each axis contributes is found once a place, not once a point.
 //
-// Included once per SIMD target, in a chain that begins in fill_lanes.cpp: no guard is needed.
+// Included once per SIMD target.
+#if defined(BARYCERT_SAMPLE_FILL_VALUES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef BARYCERT_SAMPLE_FILL_VALUES_INL_HPP
+#undef BARYCERT_SAMPLE_FILL_VALUES_INL_HPP
+#else
+#define BARYCERT_SAMPLE_FILL_VALUES_INL_HPP
+#endif
 
 #include "barycert/sample/grid/fill_rows-inl.hpp"
 
@@ -223,3 +229,4 @@ struct PlainValues {
 
 }  // namespace barycert::sample::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+#endif
