@@ -29,8 +29,8 @@ struct ProbePoints {
     std::vector<vtkIdType> ids;
 };
 
-bool finite(const double* x) {
-    return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+bool finite(std::span<const double> numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
 }
 
 // Refers to the data set where its points are doubles.
@@ -41,10 +41,7 @@ ProbePoints probe_points(const ExactIndex& index, vtkDataSet& input, double tole
     if (auto* const set = vtkPointSet::SafeDownCast(&input); set != nullptr && index.normal < 0) {
         if (auto* const doubles = vtkDoubleArray::FastDownCast(set->GetPoints()->GetData())) {
             const std::span<const double> given(doubles->GetPointer(0), 3 * static_cast<std::size_t>(count));
-            if (std::all_of(given.begin(), given.end(), [](double x) { return std::isfinite(x); })) {
-                all.coordinates = given;
-                return all;
-            }
+            if (finite(given)) return {.coordinates = given, .own = {}, .ids = {}};
         }
     }
     const int d = index.mesh.dimension;
@@ -53,7 +50,7 @@ ProbePoints probe_points(const ExactIndex& index, vtkDataSet& input, double tole
     for (vtkIdType i = 0; i < count; ++i) {
         std::array<double, 3> x{}, point{};
         input.GetPoint(i, x.data());
-        if (!finite(x.data())) continue;
+        if (!finite(x)) continue;
         if (!index.project(x.data(), point.data()) &&
             !(std::abs(x[static_cast<std::size_t>(index.normal)] - index.plane) <= tolerance))
             continue;
@@ -96,7 +93,7 @@ std::optional<Grid> probe_grid(const ExactIndex& index, vtkDataSet& input) {
 
 Status sample_grid(const Sampler& sampler, const Grid& grid, const SampleOptions& options, ProbeArrays& arrays) {
     const auto nx = static_cast<std::uint64_t>(grid.counts[0]), ny = static_cast<std::uint64_t>(grid.counts[1]);
-    const Result<SampleCounts> counts = resample(sampler, grid, options, [&](const TableView& rows) -> Status {
+    const Result<SampleCounts> done = resample(sampler, grid, options, [&](const TableView& rows) -> Status {
         const auto place = [&](std::size_t row, double* point) {
             const std::uint64_t id = rows.first_row + row;
             point[0] = grid.coordinate(0, static_cast<std::int64_t>(id % nx));
@@ -106,8 +103,7 @@ Status sample_grid(const Sampler& sampler, const Grid& grid, const SampleOptions
         arrays.write(rows, nullptr, static_cast<vtkIdType>(rows.first_row), place);
         return Done{};
     });
-    if (!counts) return counts.error();
-    return Done{};
+    return done ? Status(Done{}) : done.error();
 }
 
 // In blocks, so that memory for rows does not grow with the number of points.
