@@ -94,10 +94,6 @@ void order_by_global_ids(vtkDataSet& data, ExactIndex& index) {
 
 }  // namespace
 
-bool has_global_ids(vtkDataSet& data) {
-    return data.GetCellData()->GetGlobalIds() != nullptr;
-}
-
 std::string fault_of_global_ids(vtkDataSet& data) {
     vtkDataArray& array = *data.GetCellData()->GetGlobalIds();
     const int type = array.GetDataType();

@@ -43,8 +43,7 @@ void forget_index(const vtkDataSet& data);
 
 // The numbers of cells in a mesh of which a data set is a piece: GlobalIds of the cell data.
 
-bool has_global_ids(vtkDataSet& data);
-/// Why these cannot be used; empty if they can.
+/// Why these, which are there, cannot be used; empty if they can.
 std::string fault_of_global_ids(vtkDataSet& data);
 /// Of each cell of the mesh.
 std::vector<std::int64_t> global_ids(vtkDataSet& data, const ExactIndex& index);

@@ -33,11 +33,6 @@ int plain_dimension(int type, Sides sides) {
     return type == VTK_TRIANGLE ? 2 : type == VTK_TETRA ? 3 : -1;
 }
 
-std::string type_name(int type) {
-    const char* const name = vtkCellTypes::GetClassNameFromTypeId(type);
-    return name != nullptr ? name : "a cell of type " + std::to_string(type);
-}
-
 // A data set of cells, whichever of the two it is.
 struct Cells {
     explicit Cells(vtkDataSet& all, Sides of = Sides::none)
@@ -95,7 +90,7 @@ std::string cell_dimension(vtkDataSet& data, int& dimension, Sides sides) {
     if (cells.points() == nullptr) return {};
     for (vtkIdType i = 0; i < cells.count; ++i) {
         const int type = data.GetCellType(i), its = plain_dimension(type, sides);
-        if (its < 0) return "cell " + std::to_string(i) + " is a " + type_name(type);
+        if (its < 0) return "cell " + std::to_string(i) + " is a " + vtkCellTypes::GetClassNameFromTypeId(type);
         dimension = std::max(dimension, its);
     }
     return {};

@@ -323,6 +323,15 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
     return hits.empty() ? 0 : 1;
 }
 
+// Whether the box of a cell meets another.
+static bool meets(vtkDataSet& data, vtkIdType cell, const double* box) {
+    double its[6];
+    data.GetCellBounds(cell, its);
+    for (int a = 0; a < 6; a += 2)
+        if (!(its[a] <= box[a + 1] && box[a] <= its[a + 1])) return false;
+    return true;
+}
+
 void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
     const ExactEnvironment environment;
     cells->Reset();
@@ -330,14 +339,8 @@ void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
     if (other == nullptr) return;
     vtkNew<vtkIdList> candidates;  // all cells of the buckets that the box meets
     other->FindCellsWithinBounds(bbox, candidates);
-    for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i) {
-        const vtkIdType cell = candidates->GetId(i);
-        double its[6];
-        DataSet->GetCellBounds(cell, its);
-        bool meets = true;
-        for (int a = 0; a < 6; a += 2) meets = meets && its[a] <= bbox[a + 1] && bbox[a] <= its[a + 1];
-        if (meets) cells->InsertNextId(cell);
-    }
+    for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i)
+        if (meets(*DataSet, candidates->GetId(i), bbox)) cells->InsertNextId(candidates->GetId(i));
 }
 
 void vtkBarycertLocator::FindCellsAlongLine(const double p1[3], const double p2[3], double tolerance,
@@ -355,11 +358,8 @@ void vtkBarycertLocator::FindCellsAlongPlane(const double origin[3], const doubl
 bool vtkBarycertLocator::InsideCellBounds(double x[3], vtkIdType cellId) {
     const ExactEnvironment environment;
     if (DataSet == nullptr || cellId < 0 || cellId >= DataSet->GetNumberOfCells()) return false;
-    double bounds[6];
-    DataSet->GetCellBounds(cellId, bounds);
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(bounds[2 * axis] <= x[axis] && x[axis] <= bounds[2 * axis + 1])) return false;
-    return true;
+    const double point[6] = {x[0], x[0], x[1], x[1], x[2], x[2]};
+    return meets(*DataSet, cellId, point);
 }
 
 void vtkBarycertLocator::GenerateRepresentation(int level, vtkPolyData* surface) {

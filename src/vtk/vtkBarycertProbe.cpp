@@ -74,8 +74,8 @@ int vtkBarycertProbe::RequestInformation(vtkInformation* request, vtkInformation
     using Pipeline = vtkStreamingDemandDrivenPipeline;
     vtkInformation* const source = inputs[1]->GetInformationObject(0);
     vtkInformation* const out = outputs->GetInformationObject(0);
-    if (source->Has(Pipeline::TIME_STEPS()) != 0) out->CopyEntry(source, Pipeline::TIME_STEPS());
-    if (source->Has(Pipeline::TIME_RANGE()) != 0) out->CopyEntry(source, Pipeline::TIME_RANGE());
+    for (vtkInformationDoubleVectorKey* const key : {Pipeline::TIME_STEPS(), Pipeline::TIME_RANGE()})
+        if (source->Has(key) != 0) out->CopyEntry(source, key);
     return Superclass::RequestInformation(request, inputs, outputs);
 }
 

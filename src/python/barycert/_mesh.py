@@ -93,8 +93,8 @@ class AllFields(MutableMapping):
 
     def _place(self, name: str, shape: Optional[Tuple[int, ...]] = None) -> Tuple[FieldData, str]:
         """The data that has the field, and its name there. Where a new one of that shape belongs."""
-        of, _, rest = str(name).partition(":")
-        named = [(self._of[of], rest)] if of in self._of and rest else []
+        of, colon, rest = str(name).partition(":")
+        named = [(self._of[of], rest)] if colon and of in self._of else []
         places = [(data, name) for data in self._of.values()]
         for data, own in places + named:
             if own in data:

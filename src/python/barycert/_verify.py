@@ -97,13 +97,9 @@ class Verification:
         return self.wrong == 0
 
     def __repr__(self) -> str:
-        kinds = (
-            (self.missed, "missed"),
-            (self.invented, "invented"),
-            (self.wrong_cell, "in a wrong cell"),
-            (self.wrong_value, "with a wrong value"),
-        )
-        found = ", ".join(f"{count} {text}" for count, text in kinds if count)
+        kinds = {"missed": self.missed, "invented": self.invented, "in a wrong cell": self.wrong_cell,
+                 "with a wrong value": self.wrong_value}  # fmt: skip
+        found = ", ".join(f"{count} {text}" for text, count in kinds.items() if count)
         return f"<barycert.Verification: {self.right} of {self.rows} rows right{': ' if found else ''}{found}>"
 
 
