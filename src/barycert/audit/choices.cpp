@@ -2,17 +2,11 @@
 
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <limits>
-#include <utility>
 
-#include "barycert/audit.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/named_limit.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/check.hpp"
-#include "barycert/io.hpp"
 
 namespace barycert {
 namespace {
@@ -227,13 +221,7 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
                          .remedy = "name one with job.mesh"};
     }
     w.reason = job.reason;
-    w.family = family.name;
-    w.seed = job.seed;
-    w.index = job.index;
-    CaseOrigin origin;
-    w.c = make_case(family, *simplex, job.seed, job.index, meshes, &origin);
-    w.mesh = origin.mesh;
-    w.cell = origin.cell;
+    make_case(family, *simplex, job.seed, job.index, meshes, &w);
     return w;
 }
 
