@@ -1,18 +1,9 @@
 /// What an audit found, as text, JSON and pictures; the catalogue and the families likewise.
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string>
-#include <variant>
-#include <vector>
-
-#include "barycert/audit.hpp"
 #include "barycert/audit_pictures.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/report.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert {
 

@@ -10,7 +10,7 @@ CHECK = [
     ("cells.cpp", "repeated = repeated || nodes[i] == nodes[j];", "repeated = nodes[i] == nodes[j];", "the last pair of nodes alone"),
     ("cells.cpp", "k < (d == 2 ? 1 : 3)", "k < 1", "on a line in one projection"),
     ("cells.cpp", "std::isnormal(volume) && ", "", "the shape of a cell from a subnormal volume"),
-    ("check.cpp", 't.condition != "P5" && ', "", "overlaps looked for where only P5 fails"),
+    ("check.cpp", ' && t.condition != "P5"', "", "overlaps looked for where only P5 fails"),
     ("check.cpp", "        ExactEnvironment::renew();\n", "", "what the caller's progress did to the environment stays"),
     ("conformity.cpp", "high / 2 - low / 2", "(high - low) / 2", "an extent that overflows"),
     ("conformity.cpp", "crossing == PlcRegion::Crossing::none && areas.equal()", "areas.equal()", "areas alone"),
@@ -61,13 +61,13 @@ SAMPLE = [
     ("points/near_piece.hpp", "std::max_element(of_corner", "std::min_element(of_corner", "a cell's least weight as the rest"),
 ]
 AUDIT = [
-    ("comparison.cpp", "r.claimed == Region::interior || r.claimed == Region::boundary", "r.claimed == Region::interior", "boundary is inside"),
-    ("comparison.cpp", "std::max({error, e, smallest})", "std::max(error, e)", "an error that underflows is none"),
-    ("comparison.cpp", "std::isfinite(difference) ? difference / scale : std::fabs(weights[i] / 2 - to / 2) / (scale / 2)", "difference / scale",
+    ("asking.cpp", "r.claimed == Region::interior || r.claimed == Region::boundary", "r.claimed == Region::interior", "boundary is inside"),
+    ("asking.cpp", "std::max({error, e, smallest})", "std::max(error, e)", "an error that underflows is none"),
+    ("asking.cpp", "std::isfinite(difference) ? difference / scale : std::fabs(weights[i] / 2 - to / 2) / (scale / 2)", "difference / scale",
      "a difference that overflows"),
-    ("comparison.cpp", "if (!std::isfinite(weights[i])) return std::numeric_limits<double>::infinity();", "", "weights that are no numbers"),
-    ("comparison.cpp", " || wrong_value || r.wrong()", " || r.wrong()", "a certificate for a wrong value"),
-    ("comparison.cpp", "if (!perfect || kernel.rule != RegionRule::sign) compare_regions", "if (!perfect) compare_regions", "a rule of its own"),
+    ("asking.cpp", "if (!std::isfinite(weights[i])) return std::numeric_limits<double>::infinity();", "", "weights that are no numbers"),
+    ("asking.cpp", " || wrong_value || r.wrong()", " || r.wrong()", "a certificate for a wrong value"),
+    ("asking.cpp", "if (!perfect || kernel.rule != RegionRule::sign) compare_regions", "if (!perfect) compare_regions", "a rule of its own"),
     ("statistics.cpp", "for (std::size_t e = 0; e < 4; ++e)", "for (std::size_t e = 0; e < 3; ++e)", "degenerate cases of other threads"),
     ("statistics.cpp", "(word & fraction) + step - 1) / step", "word & fraction) / step", "steps that are not begun"),
     ("statistics.cpp", "    not_run += other.not_run;\n", "", "not run by another thread"),
@@ -104,6 +104,6 @@ ROOMS = {
                          "SampleOrder.*", "ResampleCells.Slivers", "ResampleMeshes.AnyScale"]),
     # What decides whether a kernel is wrong, and by how much.
     "audit": Room("audit", 60, AUDIT, last=["contained.*", "gaps.*"],
-                  only=["asking.cpp", "block.cpp", "comparison.cpp", "drift.cpp", "judge.cpp", "prediction.cpp",
+                  only=["asking.cpp", "block.cpp", "drift.cpp", "judge.cpp",
                         "signs.cpp", "statistics.cpp", "thresholds.cpp"]),
 }

@@ -1,6 +1,6 @@
 // What programs read of audits, of the catalogue and of the families.
 
-#include "barycert/audit/witness_json.hpp"
+#include "barycert/audit/json_members.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/json_text.hpp"
 #include "barycert/environment.hpp"

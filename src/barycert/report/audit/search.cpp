@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "barycert/audit/witness_json.hpp"
+#include "barycert/audit/json_members.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/text.hpp"

@@ -88,7 +88,7 @@ void tell_answers(Document& d, const Replay& replay, const std::vector<KernelAns
         const Comparison& r = a.comparison;
         const Tone tone = r.wrong() ? Tone::bad : Tone::plain;
         d.say(row(a.kernel == replay.witness.kernel ? ">" : "", a.kernel, name(r.claimed),
-                  figures(brief(r.relative_error), brief(a.worst_weight_ulp), brief(r.value_ulp))),
+                  figures(brief(r.relative_error), brief(r.worst_weight_ulp()), brief(r.value_ulp))),
               tone);
         d.say(weights([&](std::size_t i) {
                   return !a.answered ? "-" : a.status != 0 ? "declared" : base::shortest(a.weights[i]);
