@@ -50,7 +50,7 @@ bool are_places(const std::vector<std::string>& columns);
 Result<PointColumns> choose_columns(const TableColumns& all, int dimension, const PointOptions& options);
 
 /// The end of what to do with a point that is not finite.
-inline constexpr const char* or_nan_for_it = ", or take NaN for its values: --nonfinite-points nan";
+inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
 
 /// A z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
 Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found);

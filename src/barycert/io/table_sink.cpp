@@ -6,7 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/row_sink.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 

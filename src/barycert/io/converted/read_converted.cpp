@@ -1,4 +1,4 @@
-#include "barycert/io/converted/read_converted.hpp"
+#include "barycert/io/formats.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

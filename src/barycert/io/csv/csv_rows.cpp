@@ -10,10 +10,9 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
-#include "barycert/io/csv/csv_types.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
-#include "barycert/io/tetgen/row_errors.hpp"
+#include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/mesh/columns.hpp"
 
@@ -167,7 +166,7 @@ Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePl
         const int role = layout.role_of[count];
         if (role == CsvLayout::must_be_empty && !field.empty())
             return refused("a value behind the last separator", "none, as in the first line", base::quoted(field),
-                           "say which columns are the coordinates, such as --columns 1,2,3");
+                           "say which columns are the coordinates, such as options.columns 1,2,3");
         if (role < 0) continue;
         if (role >= CsvLayout::first_kept) {
             const ColumnFormat& column = layout.kept[static_cast<std::size_t>(role - CsvLayout::first_kept)];

@@ -13,7 +13,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
-#include "barycert/io/csv/csv_types.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy_file.hpp"

@@ -4,7 +4,7 @@
 #include "barycert/base/large_pages.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
-#include "barycert/io/other_formats.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -57,12 +57,8 @@ bool take_node(Row& row, const TagIndex& nodes, Mesh::Index& node) {
     std::int64_t tag = 0;
     if (!row.tag(tag, "the tag of a node")) return false;
     node = nodes.find(tag);
-    if (node >= 0) return true;
-    return row.refuse({.what = "an unknown node",
-                       .expected = "the tag of a node of $Nodes",
-                       .remedy = "check that the file is complete",
-                       .has_number = true,
-                       .number = tag});
+    return node >= 0 ||
+           row.refuse({"an unknown node", "the tag of a node of $Nodes", tag, "check that the file is complete"});
 }
 
 /// What stands before the nodes of an element.
@@ -74,12 +70,8 @@ struct Head {
 template <class Row>
 bool take_head(Row& row, int version, const ElementBlock& block, Head& head) {
     if (!row.tag(head.tag, "the tag of an element")) return false;
-    if (version == 41 && head.tag < 0) {
-        return row.refuse({.what = "bad tag of an element",
-                           .expected = "a number that is not negative",
-                           .has_number = true,
-                           .number = head.tag});
-    }
+    if (version == 41 && head.tag < 0)
+        return row.refuse({"bad tag of an element", "a number that is not negative", head.tag});
     if (version != 22) return true;
     std::int64_t value = 0;
     for (int i = 0; Row::text && i < 2; ++i) {  // the type and the number of tags, which are known

@@ -6,7 +6,6 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 namespace {

@@ -7,7 +7,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/gmsh/cell_groups.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"

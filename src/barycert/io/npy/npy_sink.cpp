@@ -8,11 +8,9 @@
 #include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/column_source.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy_header.hpp"
-#include "barycert/io/npy/npy_types.hpp"
-#include "barycert/io/row_sink.hpp"
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {

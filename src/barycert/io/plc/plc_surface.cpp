@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/io/other_formats.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/plc/plc_text.hpp"
 
 namespace barycert::io {

@@ -11,7 +11,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 namespace {

@@ -198,10 +198,7 @@ Result<SurfaceFile> write_surface(const Surface& surface, const std::string& pat
     if (io::has_suffix(path, ".vtp")) return io::write_vtp(surface, path, data);
     if (io::has_suffix(path, ".ply")) return io::write_ply(surface, path);
     if (io::has_suffix(path, ".off")) return io::write_off(surface, path);
-    const std::size_t dot = path.find_last_of("./");
-    const bool suffix = dot != std::string::npos && path[dot] == '.';
-    return file_error(path, "unknown suffix of a surface", ".vtp, .ply or .off",
-                      suffix ? '"' + path.substr(dot) + '"' : "no suffix", "choose another name");
+    return io::unknown_suffix(path, "unknown suffix of a surface", ".vtp, .ply or .off", "choose another name");
 }
 
 }  // namespace barycert

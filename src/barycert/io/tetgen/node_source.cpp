@@ -5,10 +5,9 @@
 #include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/column_source.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
-#include "barycert/io/tetgen/row_errors.hpp"
 #include "barycert/io/tetgen/text_table.hpp"
 
 namespace barycert::io {
@@ -82,7 +81,7 @@ Status NodeSource::choose(const PointOptions& options) {
     const bool marker_as_coordinate = std::find(axes_.begin(), axes_.end(), values_.size()) != axes_.end();
     if (!marker_as_coordinate) return Done{};
     return file_error(table_.file, "a marker cannot be a coordinate", {}, {},
-                      "name coordinates or attributes in --columns");
+                      "name coordinates or attributes in options.columns");
 }
 
 /// Gives the row that was parsed.

@@ -1,4 +1,4 @@
-#include "barycert/io/tetgen/row_errors.hpp"
+#include "barycert/io/tetgen/text_table.hpp"
 
 #include <algorithm>
 #include <cctype>

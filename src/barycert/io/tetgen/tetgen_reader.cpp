@@ -27,7 +27,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/tetgen/row_errors.hpp"
 #include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 

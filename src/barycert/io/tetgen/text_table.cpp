@@ -6,9 +6,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/other_formats.hpp"
 #include "barycert/io/tetgen/integer_row.hpp"
-#include "barycert/io/tetgen/row_errors.hpp"
 
 namespace barycert::io {
 namespace {
