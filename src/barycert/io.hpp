@@ -321,8 +321,8 @@ Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions&
 /// Error: another suffix.
 Result<std::vector<std::string>> written_mesh_files(const std::string& path);
 
-// Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number; the
-// nodes of meshes.
+// Streams of points: CSV and NPY files, block by block, so that memory does not grow with their number; the nodes of
+// .node files and meshes.
 //
 // Coordinates are finite doubles (but see PointOptions) in the file's own unit; decimal numbers are rounded to nearest,
 // ties to even. What cannot be read without a guess is an Error, with file, line (of text), what was expected and
@@ -342,8 +342,9 @@ Result<std::vector<std::string>> written_mesh_files(const std::string& path);
 // NPY    Versions 1 to 3; numbers of any integer or floating type up to 64 bits, of either byte order. One array of
 //        shape (n, columns), in C or Fortran order, or a structured one of shape (n,): a field of several numbers is
 //        the columns NAME.0, NAME.1, ... An integer that no double represents is an Error.
-// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp. Columns: attribute0, attribute1, ...,
-// marker. meshes Any file that read_mesh takes. Columns: the fields of nodes, and marker. All of it is in memory.
+// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp. Columns: attribute0, attribute1, ..., marker.
+//        All of it is in memory.
+// meshes Any file that read_mesh takes. Columns: the fields of nodes, and marker. All of it is in memory.
 
 /// Which columns of a file of points are taken for what.
 struct PointOptions {

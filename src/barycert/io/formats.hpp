@@ -172,9 +172,14 @@ Result<Mesh> read_converted(const std::string& path, const std::string& format);
 /// The path and, of XDMF, the file of numbers that lies beside it.
 std::vector<std::string> converted_files(const std::string& path);
 
+/// Points that are in memory, with what their file says of each.
 struct PointTable : PointData {
     std::vector<std::string> unread;  ///< columns that nobody asked for, by name
+    bool of_nodes = false;            ///< of a .node file
 };
+
+/// As open_points chooses among columns: the coordinates x, y[, z]; NAME, or NAME.0, NAME.1, ... of each field; labels.
+Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options);
 
 /// Points and point arrays: integers of one component and texts as labels, all others as fields. Without `arrays` those
 /// of XML files are not read, and their names are in PointTable::unread.

@@ -82,7 +82,9 @@ public:
         for (std::size_t i = 0; chosen->zero && i < count; ++i) {
             const double z = number(places_[*chosen->zero], i);
             if (z != 0 && base::all_finite({&points[d * i], d}))
-                return off_plane(all_.file, 0, "point " + std::to_string(i) + ", counted from 0", base::shortest(z));
+                return off_plane(all_.file, 0,
+                                 (table_.of_nodes ? "node " : "point ") + std::to_string(i) + ", counted from 0",
+                                 base::shortest(z));
         }
         std::vector<Column> columns;
         for (PointColumns::Kept& kept : chosen->kept) columns.push_back(column(places_[kept.column], kept.name, count));
@@ -112,8 +114,10 @@ private:
         return {std::move(name), std::move(values)};
     }
     Error no_number(std::size_t column) const {
-        return file_error(all_.file, "a column of texts or large integers cannot be a coordinate", {},
-                          base::quoted(all_.names[column]), "name a column of numbers in options.columns");
+        return file_error(all_.file,
+                          table_.of_nodes ? "a marker cannot be a coordinate"
+                                          : "a column of texts or large integers cannot be a coordinate",
+                          {}, base::quoted(all_.names[column]), "name a column of numbers in options.columns");
     }
     Error not_finite(std::size_t column, std::size_t point) const {
         return file_error(all_.file, "a point that is not finite", "finite coordinates",
@@ -165,7 +169,7 @@ Source open_vtk_points(const std::string& path, int dimension, const PointOption
     Result<PointTable> table =
         read_vtk_table(path, !options.keep.empty() || !options.columns.empty(), options.nonfinite_points);
     if (!table) return table.error();
-    return Choice(*table, path).source(dimension, options);
+    return points_of_table(std::move(*table), path, dimension, options);
 }
 
 /// True if a file that a mesh may be in is there.
@@ -186,10 +190,14 @@ Source open_nodes(const std::string& path, int dimension, const PointOptions& op
     table.fields = std::move(mesh->point_fields);
     if (!mesh->point_markers.empty()) table.labels.push_back({"marker", std::move(mesh->point_markers)});
     table.notes = std::move(mesh->notes);
-    return Choice(table, path).source(dimension, options);
+    return points_of_table(std::move(table), path, dimension, options);
 }
 
 }  // namespace
+
+Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options) {
+    return Choice(table, file).source(dimension, options);
+}
 
 Result<PointTable> read_vtk_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
     return read_guarded(path, [&] { return read_table(path, arrays, nonfinite); });

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "barycert/base/large_pages.hpp"
 #include "barycert/base/mapped_file.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/mesh.hpp"
@@ -60,6 +61,7 @@ struct TextTable {
     int base = 0;
     bool base_is_given = false;  ///< by another file of the mesh
     std::vector<Columns> columns;
+    std::vector<double*> attributes;  ///< where the values of attributes go
     std::string surplus_remedy;  ///< what to mend if rows have more columns than the header tells
     std::string finite_remedy = "give every node and cell finite numbers";
     bool any_real = false;  ///< numbers may be nan and inf
@@ -85,13 +87,20 @@ Result<TextTable> open_table(const std::string& path, std::span<const char* cons
 /// Needs the columns and the base.
 Status check_room(const TextTable& table);
 
-/// Sets the columns and the base of a .node file of that dimension, by its header and its first row. Error: another
-/// number of markers; as check_room.
-Status settle_node_columns(TextTable& table, std::int64_t dimension);
+/// Room for the values of these columns, of which `step` or all go there.
+template <class T>
+T* room_for(std::vector<T>& values, Columns& columns, std::size_t rows) {
+    base::resize_large(values, rows * (columns.step == 0 ? columns.step = columns.count : columns.step));
+    return values.data();
+}
 
-/// Moves from the first field of row number `row` over its end, and puts the values where they belong. False: the row
-/// is not as it should be.
-bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row);
+/// Makes the fields of the attributes, which are the columns number 2.
+void make_attributes(TextTable& table, std::vector<Field>& fields);
+
+/// Sets the columns and the base of a .node file of that dimension, by its header and its first row, and makes room for
+/// their values. Error: another number of markers; as check_room.
+Status settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
+                           std::vector<Field>& fields, std::vector<std::int64_t>& markers);
 
 /// Parses the rows of all tables; the error of the first table that has one.
 Status parse_tables(std::span<TextTable* const> tables, int threads);
