@@ -46,6 +46,11 @@ auto read_guarded(const std::string& path, const Read& read) -> decltype(read())
     }
 }
 
+/// The fields of a line, parted by blanks or by a separator with blanks around it; an empty field where a separator has
+/// no neighbour.
+void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
+                std::vector<std::string_view>& fields);
+
 /// The line of a text in which `at` lies, from 1.
 inline std::size_t line_of(std::string_view text, const char* at) {
     return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;

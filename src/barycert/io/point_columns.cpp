@@ -80,8 +80,8 @@ Result<std::vector<std::size_t>> axes_asked_for(const TableColumns& all, int dim
         if (column >= all.names.size())
             return no_such_column(all, name, "name columns that are there, or say their places, from 1");
         if (std::find(axes.begin(), axes.end(), column) != axes.end())
-            return fault(all, "a column is named twice in options.columns", "a column for each axis", base::quoted(name),
-                         "name a column for each axis, in their order");
+            return fault(all, "a column is named twice in options.columns", "a column for each axis",
+                         base::quoted(name), "name a column for each axis, in their order");
         axes.push_back(column);
     }
     return axes;

@@ -6,9 +6,9 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/streams.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/table.hpp"
 
@@ -215,9 +215,8 @@ PointSource::~PointSource() = default;
 
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension, const PointOptions& options) {
     const ExactEnvironment environment;
-    if (dimension != 2 && dimension != 3) {
+    if (dimension != 2 && dimension != 3)
         return file_error(path, "points can have 2 or 3 coordinates", "2 or 3", std::to_string(dimension));
-    }
     if (io::is_vtk_points_file(path)) return io::open_vtk_points(path, dimension, options);
     const Result<io::FileFormat> format = io::format_of_points(path);
     if (!format) {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "barycert/io/streams.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/streams.hpp"
 
 namespace barycert::io {
 namespace {

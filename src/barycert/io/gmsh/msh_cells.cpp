@@ -3,8 +3,8 @@
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 
 namespace barycert::io {
 namespace {

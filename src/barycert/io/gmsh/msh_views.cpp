@@ -125,18 +125,16 @@ public:
 
     void finish(std::vector<Field>& fields) {
         const std::string name = base::quoted(field_.name);
-        if (lost_ != 0) {
+        if (lost_ != 0)
             note(Note::Kind::left_out, std::to_string(lost_) + " values of " + name + ", of what is no " + targets_.one,
                  placed_ == 0);
-        }
         if (lost_ == 0 && placed_ == 0) note(Note::Kind::left_out, "view " + name + ", which has no values", false);
         if (placed_ == 0) return;
-        if (placed_ != targets_.count) {
+        if (placed_ != targets_.count)
             note(Note::Kind::guessed,
                  "NaN for the values of " + name + " at " + std::to_string(targets_.count - placed_) + " of " +
                      std::to_string(targets_.count) + " " + targets_.many + ", which have none",
                  true);
-        }
         fields.push_back(std::move(field_));
     }
 
@@ -166,11 +164,10 @@ private:
                 continue;
             }
             const auto i = static_cast<std::size_t>(to[row]);
-            if (has_[i] == 2) {
+            if (has_[i] == 2)
                 return file_.error_at(view.section->name.data(),
                                       "two values of " + base::quoted(view.name) + " for one " + targets_.one,
                                       "each tag once in a section", "tag " + std::to_string(rows.tags[row]) + " again");
-            }
             has_[i] = 2;
             ++placed_;
             std::copy_n(&rows.values[row * components], components, &field_.data[i * components]);
@@ -232,10 +229,9 @@ Status read_msh_fields(const MshFile& file, const std::vector<MshView>& views, M
         const auto [it, added] = position.emplace(view.name, by_name.size());
         if (added) by_name.emplace_back();
         by_name[it->second].push_back(&view);
-        if (view.interpolated) {
+        if (view.interpolated)
             notes.push_back(
                 {Note::Kind::left_out, "the interpolation scheme of " + base::quoted(view.name), file.path(), true});
-        }
     }
     for (const std::vector<const MshView*>& same : by_name) {
         const std::optional<std::int64_t> chosen = choose_step(same, step, file.path(), notes);

@@ -5,8 +5,8 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
@@ -17,11 +17,10 @@ namespace {
 Status flatten(std::vector<double>& points, const std::string& path, const std::string& triangles) {
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
-        if (points[i + 2] != 0) {
+        if (points[i + 2] != 0)
             return file_error(path, "z of node " + std::to_string(i / 3) + " (from 0)",
                               "0, as the mesh is of triangles", base::shortest(points[i + 2]),
                               plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
-        }
         points[to++] = points[i];
         points[to++] = points[i + 1];
     }
@@ -128,9 +127,8 @@ Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
 }
 
 Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimension, int threads) {
-    if (dimension != 2 && dimension != 3) {
+    if (dimension != 2 && dimension != 3)
         return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
-    }
     return io::read_guarded(path, [&]() -> Result<std::vector<double>> {
         const Result<io::MshFile> file = io::MshFile::open(path, threads);
         if (!file) return file.error();

@@ -9,8 +9,8 @@
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/medit/medit_file.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/medit/medit_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 

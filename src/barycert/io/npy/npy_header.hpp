@@ -55,9 +55,18 @@ inline constexpr std::size_t npy_head = 12;
 /// The text of a header is at most this long: more has no meaning for an array of numbers.
 inline constexpr std::size_t longest_npy_text = std::size_t{1} << 20;
 
+/// Value i of a column stands at first + i * step, in bytes from the end of the header.
+struct NpyColumn {
+    std::string name;
+    NpyType type;
+    std::uint64_t first = 0, step = 0;
+};
+
 struct NpyHeader {
-    std::string descr;  ///< the type as it stands there: <f8; of a structured type the list
+    std::string descr;  ///< the type as it stands there: <f8
     bool structured = false;
+    std::vector<NpyColumn> fields;  ///< of a structured type, without steps
+    std::uint64_t item_size = 0;    ///< likewise, in bytes
     bool fortran_order = false;
     std::vector<std::uint64_t> shape;
 };
@@ -74,13 +83,6 @@ Result<NpyText> find_npy_text(std::string_view head, const std::string& file);
 
 /// From the text of the header, a Python dictionary of descr, fortran_order and shape; `latin1`: else it is UTF-8.
 Result<NpyHeader> parse_npy_text(std::string_view text, bool latin1, const std::string& file);
-
-/// Value i of a column stands at first + i * step, in bytes from the end of the header.
-struct NpyColumn {
-    std::string name;
-    NpyType type;
-    std::uint64_t first = 0, step = 0;
-};
 
 struct NpyTable {
     std::uint64_t rows = 0;

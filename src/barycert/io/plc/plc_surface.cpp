@@ -19,9 +19,8 @@ std::vector<std::int32_t> read_ring(PlcText& in, std::size_t nodes) {
     for (std::size_t k = 0; k < n; ++k) {
         const std::int32_t id = in.take_integer("a polygon's corner");
         // One more than the last is let through here: files that number from 1 exist.
-        if (id < 0 || static_cast<std::size_t>(id) > nodes) {
+        if (id < 0 || static_cast<std::size_t>(id) > nodes)
             in.fail("no such node", "0 to " + std::to_string(nodes - 1), std::to_string(id));
-        }
         ring.push_back(id);
     }
     return ring;
@@ -38,9 +37,7 @@ void settle_index_base(PlcText& in, Plc& plc) {
         }
     }
     if (static_cast<std::size_t>(max) < plc.point_count()) return;
-    if (min == 0) {
-        in.fail("no such node", "0 to " + std::to_string(plc.point_count() - 1), std::to_string(max));
-    }
+    if (min == 0) in.fail("no such node", "0 to " + std::to_string(plc.point_count() - 1), std::to_string(max));
     plc.index_base = 1;
     for (PlcFacet& facet : plc.facets) {
         for (std::int32_t& id : facet.polygons[0]) --id;
@@ -97,10 +94,9 @@ Plc read_binary_stl(const std::string& path, std::string_view bytes) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const std::size_t at = header + record * i + 12 * (corner + 1) + 4 * axis;
                 point[axis] = static_cast<double>(std::bit_cast<float>(little_endian(bytes.substr(at))));
-                if (!std::isfinite(point[axis])) {
+                if (!std::isfinite(point[axis]))
                     throw Exception(
                         file_error(path, "a coordinate of triangle " + std::to_string(i) + " is not finite"));
-                }
             }
             soup.add(point);
         }
@@ -137,9 +133,8 @@ PlyHeader read_ply_header(PlcText& in, const std::string& path) {
             const bool list = in.take("a type") == "list";
             if (element == "vertex") {
                 if (list) in.fail("cannot read a list at a vertex", "numbers", in.line());
-                if (name == "x" || name == "y" || name == "z") {
+                if (name == "x" || name == "y" || name == "z")
                     header.axis[static_cast<std::size_t>(name[0] - 'x')] = header.properties;
-                }
                 ++header.properties;
             }
         }

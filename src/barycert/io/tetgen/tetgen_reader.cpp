@@ -207,13 +207,12 @@ Status TetgenReader::prepare_neighbours() {
 Status TetgenReader::settle_mid_edge_order() {
     if (mesh_.mid_nodes.empty()) return Done{};
     const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
-    if (!vote) {
+    if (!vote)
         return header_error(cells_, "the order of the mid-edge nodes is unknown",
                             "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
                             "another order in most cells",
                             "check that the files belong together, or write the mesh again as " +
                                 std::to_string(mesh_.corners()) + "-node cells");
-    }
     mesh_.mid_edge_order = vote->order;
     if (vote->guessed)
         mesh_.notes.push_back({Note::Kind::guessed,

@@ -33,13 +33,6 @@ std::size_t component_count(const std::vector<Field>& fields) {
     return count;
 }
 
-void write_fields(RowOutput& out, const std::vector<Field>& fields, std::size_t row) {
-    for (const Field& field : fields) {
-        const auto components = static_cast<std::size_t>(field.components);
-        for (std::size_t i = row * components; i < (row + 1) * components; ++i) out.number(field.data[i]);
-    }
-}
-
 /// The numbers of a header, of which the first is how many rows there are; and these, each behind its own number.
 template <class Row>
 void write_table(RowOutput& out, const Mesh& mesh, std::initializer_list<std::size_t> header, const Row& row) {
@@ -64,8 +57,8 @@ void write_nodes(RowOutput& out, const Mesh& mesh) {
     const std::size_t markers = mesh.point_markers.empty() ? 0 : 1;
     write_table(out, mesh, {mesh.point_count(), dimension, component_count(mesh.point_fields), markers},
                 [&](std::size_t row) {
-                    for (std::size_t i = row * dimension; i < (row + 1) * dimension; ++i) out.number(mesh.points[i]);
-                    write_fields(out, mesh.point_fields, row);
+                    out.numbers(std::span(mesh.points).subspan(row * dimension, dimension));
+                    out.row_of(mesh.point_fields, row);
                     if (markers != 0) out.number(mesh.point_markers[row]);
                 });
 }
@@ -79,7 +72,7 @@ void write_cells(RowOutput& out, const Mesh& mesh) {
                     write_indices(out, mesh, mesh.cells, corners, row);
                     for (std::size_t k = 0; k < mids; ++k)
                         out.number(mesh.mid_nodes[row * mids + sequence[k]] + std::int64_t{mesh.index_base});
-                    write_fields(out, mesh.cell_fields, row);
+                    out.row_of(mesh.cell_fields, row);
                 });
 }
 

@@ -150,9 +150,8 @@ Status read_header(TextTable& table, std::span<const char* const> header_names) 
     Scanner scanner{table.begin(), table.end()};
     if (table.bytes.starts_with("\xEF\xBB\xBF")) scanner.at += 3;
     const std::string expected = std::string("a header that begins with the number of ") + header_names[0];
-    if (!scanner.next_row(table.end())) {
+    if (!scanner.next_row(table.end()))
         return header_error(table, "the file is empty", expected, "nothing", "write the file again");
-    }
     table.header_at = scanner.at;
     scanner.skip_line();
     table.body = scanner.at;
@@ -162,14 +161,12 @@ Status read_header(TextTable& table, std::span<const char* const> header_names) 
         const std::size_t i = table.header.size();
         std::int64_t value = 0;
         const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
-        if (i == header_names.size() && field != "BIN") {
+        if (i == header_names.size() && field != "BIN")
             return header_error(table, "too many numbers in the header",
                                 "at most " + std::to_string(header_names.size()), base::quoted(field),
                                 "remove it or put # before it");
-        }
-        if (!integer || value < 0 || value > max_count) {
+        if (!integer || value < 0 || value > max_count)
             return count_error(table, field, i < header_names.size() ? header_names[i] : "columns");
-        }
         table.header.push_back(value);
     }
     return Done{};

@@ -62,7 +62,7 @@ struct TextTable {
     bool base_is_given = false;  ///< by another file of the mesh
     std::vector<Columns> columns;
     std::vector<double*> attributes;  ///< where the values of attributes go
-    std::string surplus_remedy;  ///< what to mend if rows have more columns than the header tells
+    std::string surplus_remedy;       ///< what to mend if rows have more columns than the header tells
     std::string finite_remedy = "give every node and cell finite numbers";
     bool any_real = false;  ///< numbers may be nan and inf
 
