@@ -90,13 +90,11 @@ Result<std::vector<std::size_t>> axes_asked_for(const TableColumns& all, int dim
 Error not_clear(const TableColumns& all, int dimension) {
     const auto count = static_cast<std::size_t>(dimension);
     const std::string d = std::to_string(dimension);
-    if (all.named) {
-        if (all.names.size() >= count)
-            return fault(all, "the header does not name the coordinates", listed_names(dimension), listed(all.names),
-                         "say which they are, such as " + example(all, dimension, 0) + ", or use these names");
+    if (all.named)
         return fault(all, "the header does not name the coordinates", listed_names(dimension), listed(all.names),
-                     "use these column names, or start the file with numbers");
-    }
+                     all.names.size() >= count
+                         ? "say which they are, such as " + example(all, dimension, 0) + ", or use these names"
+                         : "use these column names, or start the file with numbers");
     const std::string found = std::to_string(all.names.size()) + " columns without names";
     if (all.names.size() < count)
         return fault(all, "too few columns for a point", d + ", for the mesh is " + d + "-dimensional", found,
@@ -119,7 +117,7 @@ Result<bool> keep_one(const TableColumns& all, const std::string& text, PointCol
         if (!column) return column.error();
     }
     if (*column == all.names.size()) return false;
-    if (std::find(out.axes.begin(), out.axes.end(), *column) != out.axes.end() || out.zero == *column)
+    if (out.is_coordinate(*column))
         return fault(all, "a column to keep is a coordinate", "another column", base::quoted(text),
                      "leave it out of options.keep: rows begin with the coordinates");
     out.kept.push_back({*column, std::move(name)});
@@ -127,16 +125,10 @@ Result<bool> keep_one(const TableColumns& all, const std::string& text, PointCol
 }
 
 Status keep_columns(const TableColumns& all, const std::vector<std::string>& keep, PointColumns& out) {
-    const auto is_axis = [&](std::size_t c) {
-        return out.zero == c || std::find(out.axes.begin(), out.axes.end(), c) != out.axes.end();
-    };
-    const auto missing = [&](const std::string& name) {
-        return no_such_column(all, name, "name columns that are there, or options.keep all");
-    };
     for (const std::string& text : keep) {
         if (text == "all") {
             for (std::size_t c = 0; c < all.names.size(); ++c) {
-                if (!is_axis(c)) out.kept.push_back({c, all.names[c]});
+                if (!out.is_coordinate(c)) out.kept.push_back({c, all.names[c]});
             }
             continue;
         }
@@ -146,7 +138,7 @@ Status keep_columns(const TableColumns& all, const std::vector<std::string>& kee
         for (const std::string& part : parts_of({text}, 0)) {
             const auto one = keep_one(all, part, out);
             if (!one) return one.error();
-            if (!*one) return missing(part);
+            if (!*one) return no_such_column(all, part, "name columns that are there, or options.keep all");
         }
     }
     std::set<std::string> names;
@@ -171,8 +163,7 @@ void note_the_others(const TableColumns& all, PointColumns& out) {
     std::vector<std::size_t> others;
     for (std::size_t c = 0; c < all.names.size(); ++c) {
         const bool kept = std::any_of(out.kept.begin(), out.kept.end(), [&](const auto& k) { return k.column == c; });
-        if (!kept && out.zero != c && std::find(out.axes.begin(), out.axes.end(), c) == out.axes.end())
-            others.push_back(c);
+        if (!kept && !out.is_coordinate(c)) others.push_back(c);
     }
     if (others.empty()) return;
     std::string text = others.size() == 1 ? "column " : "columns ", names;

@@ -1,6 +1,7 @@
 /// Which columns of a table are the coordinates of points, and which are carried through.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -34,6 +35,10 @@ struct PointColumns {
     std::optional<std::size_t> zero{};  ///< a z beside a mesh in the plane
     std::vector<Kept> kept{};
     Notes notes{};  ///< what is left out
+
+    bool is_coordinate(std::size_t column) const {
+        return zero == column || std::find(axes.begin(), axes.end(), column) != axes.end();
+    }
 };
 
 /// The places of x, y[, z], or of one of the other names that are known; nothing if none of them is there as a whole.

@@ -14,6 +14,7 @@
 
 #include "barycert/io/gmsh/msh_file.hpp"
 #include "barycert/io/gmsh/rows.hpp"
+#include "barycert/io.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
@@ -204,16 +205,12 @@ void note_cells(const MshCells& cells, const MshGroups& groups, const std::strin
 void label_cells(const MshFile& file, const MshElements& elements, MshCells cells, const MshGroups& groups, Mesh& mesh);
 
 /// The header of a section $NodeData, $ElementData or $ElementNodeData: a field, or a step in time of it.
-struct MshView {
+struct MshView : GmshStep {
     enum class Of : std::uint8_t { nodes, elements, element_nodes };
     Of of = Of::nodes;
     const MshSection* section = nullptr;
-    std::string name = {};
     bool interpolated = false;  ///< names an interpolation scheme
-    double time = 0;
-    std::int64_t step = 0;
-    int components = 1;
-    Run rows = {};  ///< of element_nodes: not set
+    Run rows = {};              ///< of element_nodes: not set
 };
 
 /// All such sections, in the order of the file. Error: what the grammar does not have.

@@ -43,9 +43,9 @@ void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes
     if (!text.empty()) notes.push_back({Note::Kind::left_out, text, file.path()});
     std::set<std::string> names;
     for (const MshView& view : views) {
-        if (view.of != MshView::Of::element_nodes || !names.insert(view.name).second) continue;
+        if (view.of != MshView::Of::element_nodes || !names.insert(view.field).second) continue;
         notes.push_back({Note::Kind::left_out,
-                         base::quoted(view.name) + " ($ElementNodeData): it has a value for each node of each element",
+                         base::quoted(view.field) + " ($ElementNodeData): it has a value for each node of each element",
                          file.path(), true});
     }
 }
@@ -119,8 +119,7 @@ Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
         if (!views) return views.error();
         std::vector<GmshStep> steps;
         for (const io::MshView& v : *views) {
-            if (v.of != io::MshView::Of::element_nodes)
-                steps.push_back({v.name, v.of == io::MshView::Of::elements, v.components, v.step, v.time});
+            if (v.of != io::MshView::Of::element_nodes) steps.push_back(v);
         }
         return steps;
     });
