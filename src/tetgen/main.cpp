@@ -41,10 +41,9 @@ Status check_output(const Options& options, const Plc& plc) {
     const std::filesystem::path stem(options.output);
     const std::filesystem::path folder = stem.has_parent_path() ? stem.parent_path() : ".";
     std::error_code code;
-    if (!std::filesystem::is_directory(folder, code)) {
+    if (!std::filesystem::is_directory(folder, code))
         return file_error(options.output, "cannot write the mesh", "a folder " + folder.string(),
                           std::filesystem::exists(folder, code) ? "a file" : "nothing");
-    }
     return Done{};
 }
 

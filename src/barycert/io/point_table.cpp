@@ -1,16 +1,14 @@
-#include "barycert/io/point_table.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <new>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/column_source.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/table.hpp"
 
@@ -84,7 +82,9 @@ public:
         for (std::size_t i = 0; chosen->zero && i < count; ++i) {
             const double z = number(places_[*chosen->zero], i);
             if (z != 0 && base::all_finite({&points[d * i], d}))
-                return off_plane(all_.file, 0, "point " + std::to_string(i) + ", counted from 0", base::shortest(z));
+                return off_plane(all_.file, 0,
+                                 (table_.of_nodes ? "node " : "point ") + std::to_string(i) + ", counted from 0",
+                                 base::shortest(z));
         }
         std::vector<Column> columns;
         for (PointColumns::Kept& kept : chosen->kept) columns.push_back(column(places_[kept.column], kept.name, count));
@@ -114,8 +114,10 @@ private:
         return {std::move(name), std::move(values)};
     }
     Error no_number(std::size_t column) const {
-        return file_error(all_.file, "a column of texts or large integers cannot be a coordinate", {},
-                          base::quoted(all_.names[column]), "name a column of numbers in --columns");
+        return file_error(all_.file,
+                          table_.of_nodes ? "a marker cannot be a coordinate"
+                                          : "a column of texts or large integers cannot be a coordinate",
+                          {}, base::quoted(all_.names[column]), "name a column of numbers in options.columns");
     }
     Error not_finite(std::size_t column, std::size_t point) const {
         return file_error(all_.file, "a point that is not finite", "finite coordinates",
@@ -163,27 +165,42 @@ Result<PointTable> read_table(const std::string& path, bool arrays, NonfinitePoi
     return table;
 }
 
-}  // namespace
-
-Result<std::unique_ptr<PointSource>> points_of_table(PointTable table, const std::string& file, int dimension,
-                                                     const PointOptions& options) {
-    return Choice(table, file).source(dimension, options);
-}
-
-Result<PointTable> read_vtk_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
-    try {
-        return read_table(path, arrays, nonfinite);
-    } catch (const std::bad_alloc&) {
-        return base::too_little_memory(path);
-    }
-}
-
-Result<std::unique_ptr<PointSource>> open_vtk_points(const std::string& path, int dimension,
-                                                     const PointOptions& options) {
+Source open_vtk_points(const std::string& path, int dimension, const PointOptions& options) {
     Result<PointTable> table =
         read_vtk_table(path, !options.keep.empty() || !options.columns.empty(), options.nonfinite_points);
     if (!table) return table.error();
     return points_of_table(std::move(*table), path, dimension, options);
+}
+
+/// True if a file that a mesh may be in is there.
+bool names_a_mesh(const std::string& path) {
+    const std::vector<std::string> files = mesh_files(path);
+    std::error_code ignored;
+    return std::any_of(files.begin(), files.end(),
+                       [&](const std::string& file) { return std::filesystem::exists(file, ignored); });
+}
+
+/// The nodes of a mesh.
+Source open_nodes(const std::string& path, int dimension, const PointOptions& options) {
+    Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false});
+    if (!mesh) return mesh.error();
+    PointTable table;
+    table.dimension = mesh->dimension;
+    table.points = std::move(mesh->points);
+    table.fields = std::move(mesh->point_fields);
+    if (!mesh->point_markers.empty()) table.labels.push_back({"marker", std::move(mesh->point_markers)});
+    table.notes = std::move(mesh->notes);
+    return points_of_table(std::move(table), path, dimension, options);
+}
+
+}  // namespace
+
+Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options) {
+    return Choice(table, file).source(dimension, options);
+}
+
+Result<PointTable> read_vtk_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
+    return read_guarded(path, [&] { return read_table(path, arrays, nonfinite); });
 }
 
 }  // namespace barycert::io
@@ -192,6 +209,32 @@ namespace barycert {
 
 std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimension) {
     return std::make_unique<io::TableSource>(std::move(points), dimension);
+}
+
+PointSource::~PointSource() = default;
+
+Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension, const PointOptions& options) {
+    const ExactEnvironment environment;
+    if (dimension != 2 && dimension != 3)
+        return file_error(path, "points can have 2 or 3 coordinates", "2 or 3", std::to_string(dimension));
+    if (io::is_vtk_points_file(path)) return io::open_vtk_points(path, dimension, options);
+    const Result<io::FileFormat> format = io::format_of_points(path);
+    if (!format) {
+        // A stem, or the file of a mesh; what is neither is told as a file of points that is not known.
+        if (io::names_a_mesh(path)) return io::open_nodes(path, dimension, options);
+        Error unknown = format.error();
+        unknown.expected =
+            "points (.csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh";
+        return unknown;
+    }
+    switch (*format) {
+        case io::FileFormat::csv:
+            return io::open_csv_source(path, dimension, options);
+        case io::FileFormat::npy:
+            return io::open_npy_source(path, dimension, options);
+        default:
+            return io::open_node_source(path, dimension, options);
+    }
 }
 
 }  // namespace barycert

@@ -1,4 +1,4 @@
-#include "barycert/io/npy/npy_types.hpp"
+#include "barycert/io/npy/npy_header.hpp"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/other_formats.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {

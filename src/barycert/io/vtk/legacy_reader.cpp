@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "barycert/io/other_formats.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/legacy_text.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 

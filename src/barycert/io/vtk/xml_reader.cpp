@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "barycert/io/other_formats.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 
