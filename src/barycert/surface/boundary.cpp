@@ -107,7 +107,7 @@ namespace barycert {
 
 Result<Surface> boundary(const Mesh& mesh, const CutOptions& options) {
     const ExactEnvironment environment;
-    return base::in_arena(options.threads, mesh.cell_count(), [&]() -> Result<Surface> {
+    return base::in_arena(options.threads, mesh.cells.size(), [&]() -> Result<Surface> {
         if (Status good = surface::check_mesh(mesh, 0); !good) return good.error();
         if (!surface::indices_fit(mesh.cells, mesh.point_count())) return surface::bad_index();
         if (Status fit = surface::check_options(mesh, options); !fit) return fit.error();

@@ -177,7 +177,7 @@ Result<Cut> cut_field(int dimension, const Mesh& mesh, const Field& field, doubl
                      .found = std::to_string(component)};
     if (!std::isfinite(value))
         return Error{.what = "the value to cut at", .expected = "a finite number", .found = base::shortest(value)};
-    return base::in_arena(options.threads, mesh.cell_count(), [&]() -> Result<Cut> {
+    return base::in_arena(options.threads, mesh.cells.size(), [&]() -> Result<Cut> {
         if (Status good = check_mesh(mesh, dimension); !good) return good.error();
         if (Status fit = check_options(mesh, options); !fit) return fit.error();
         return cut_at(mesh, FieldLevel(field, component, value), options);
@@ -209,7 +209,7 @@ Result<Cut> slice(const Mesh& mesh, const Plane& plane, const CutOptions& option
                      .expected = "four finite numbers, the normal not zero",
                      .found = base::shortest(plane.normal[0]) + ", " + base::shortest(plane.normal[1]) + ", " +
                               base::shortest(plane.normal[2]) + ", " + base::shortest(plane.offset)};
-    return base::in_arena(options.threads, mesh.cell_count(), [&]() -> Result<Cut> {
+    return base::in_arena(options.threads, mesh.cells.size(), [&]() -> Result<Cut> {
         if (Status good = surface::check_mesh(mesh, 3); !good) return good.error();
         if (Status fit = surface::check_options(mesh, options); !fit) return fit.error();
         return surface::cut_at(mesh, surface::PlaneLevel(mesh, plane), options);
