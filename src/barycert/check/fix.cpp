@@ -309,7 +309,7 @@ Result<Mesh> fix_mesh(const Mesh& mesh, const FixOptions& options, FixReport& re
         return Error{.what = "the distance within which nodes are merged is not one",
                      .expected = "a finite number from 0 on",
                      .found = base::shortest(options.merge_within)};
-    return base::in_arena(options.threads, mesh.cell_count(), [&] { return Fix(mesh, options, report).run(); });
+    return base::in_arena(options.threads, mesh.cells.size(), [&] { return Fix(mesh, options, report).run(); });
 }
 
 }  // namespace barycert

@@ -40,7 +40,7 @@ Error bad_index();
 template <class Work>
 auto on_good_input(const Mesh& mesh, int dimension, const CutOptions& options, Work&& work) {
     const ExactEnvironment environment;
-    return base::in_arena(options.threads, mesh.cell_count(), [&]() -> decltype(work()) {
+    return base::in_arena(options.threads, mesh.cells.size(), [&]() -> decltype(work()) {
         if (Status good = check_input(mesh, dimension, options); !good) return good.error();
         return work();
     });
