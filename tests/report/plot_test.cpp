@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "barycert/audit_report.hpp"
-#include "barycert/report/common/html.hpp"
 #include "barycert/report/common/picture.hpp"
 #include "small_audit.hpp"
 

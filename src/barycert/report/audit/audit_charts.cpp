@@ -1,17 +1,11 @@
 // Accuracy against speed, and sizes of errors, as markup of the audit's page.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "barycert/base/decades.hpp"
-#include "barycert/report/audit/audit_pictures.hpp"
 #include "barycert/report/audit/audit_words.hpp"
-#include "barycert/report/common/html.hpp"
 #include "barycert/report/common/picture.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
 namespace {

@@ -1,17 +1,13 @@
 // Pictures of signs, and maps of meshes, as markup of the audit's page.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/png/indexed_png.hpp"
-#include "barycert/report/audit/audit_pictures.hpp"
-#include "barycert/report/common/html.hpp"
-#include "barycert/report/common/terminal_text.hpp"
+#include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 namespace {

@@ -17,15 +17,11 @@ using Cells = std::array<Mesh::Index, 2>;
 /// Of exhibits with one kind of problem.
 constexpr std::size_t longest_queue = 200;
 
-bool has_a_place(const Mesh& mesh, Mesh::Index cell) {
-    return cell >= 0 && static_cast<std::size_t>(cell) < mesh.cell_count() &&
-           drawable(mesh, static_cast<std::size_t>(cell));
-}
-
 /// Without cells that cannot be drawn; sorted, the second -1 if there is one.
 Cells drawn_of(const Mesh& mesh, Cells cells) {
     for (Mesh::Index& c : cells) {
-        if (!has_a_place(mesh, c)) c = -1;
+        const auto cell = static_cast<std::size_t>(c);  // of -1 beyond all cells
+        if (cell >= mesh.cell_count() || !drawable(mesh, cell)) c = -1;
     }
     if (cells[0] == cells[1]) cells[1] = -1;
     if (cells[0] < 0 || (cells[1] >= 0 && cells[1] < cells[0])) std::swap(cells[0], cells[1]);
@@ -68,30 +64,27 @@ std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, st
     }
     std::sort_heap(worst.begin(), worst.end());
     std::vector<Exhibit> exhibits;
-    for (const auto& [angle, cell] : worst) {
-        const bool plane = mesh.dimension == 2;
-        exhibits.push_back(
-            {.cells = {cell, -1}, .what = fmt::format("smallest {}angle {:.4g}°", plane ? "" : "dihedral ", angle)});
-    }
+    const char* const kind = mesh.dimension == 2 ? "" : "dihedral ";
+    for (const auto& [angle, cell] : worst)
+        exhibits.push_back({.cells = {cell, -1}, .what = fmt::format("smallest {}angle {:.4g}°", kind, angle)});
     return exhibits;
 }
 
 std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t max) {
     // One queue a kind of problem; of pairs of cells, those with a witness first.
     std::vector<std::vector<Exhibit>> queues;
-    const auto open_queue = [&] { queues.emplace_back(); };
     const auto add = [&](Exhibit e) {
         if (e.cells[0] >= 0 && queues.back().size() < longest_queue) queues.back().push_back(std::move(e));
     };
     for (const bool overlap : {true, false}) {
-        open_queue();
+        queues.emplace_back();
         for (const CellContact& c : report.contacts) {
             if (c.overlap == overlap) add(of_contact(c, drawn_of(mesh, c.cells)));
         }
     }
     for (const Defect& f : report.defects) {
         if (!f.breaks()) continue;
-        open_queue();
+        queues.emplace_back();
         for (const DefectPlace& p : f.places) add(of_place(f.kind, p, drawn_of(mesh, p.cells)));
     }
     // First such as have only cells that were not shown yet; one cell may overlap many.
@@ -103,13 +96,12 @@ std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, s
             for (const std::vector<Exhibit>& queue : queues) {
                 if (round >= queue.size() || exhibits.size() == max) continue;
                 const Exhibit& e = queue[round];
-                if (pairs.contains(e.cells) || (others && (cells.contains(e.cells[0]) || cells.contains(e.cells[1]))))
+                if (pairs.contains(e.cells) ||
+                    (others && (cells.contains(e.cells[0]) || (e.cells[1] >= 0 && cells.contains(e.cells[1])))))
                     continue;
                 exhibits.push_back(e);
                 pairs.insert(e.cells);
-                for (const Mesh::Index c : e.cells) {
-                    if (c >= 0) cells.insert(c);
-                }
+                cells.insert(e.cells.begin(), e.cells.end());
             }
         }
     }

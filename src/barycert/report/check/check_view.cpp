@@ -21,6 +21,19 @@ Eigen::Matrix3d extents(const std::vector<Vector>& points) {
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors();
 }
 
+/// The directions to the other two corners of a tetrahedron, seen along an edge.
+std::array<Vector, 2> sides_at(Points t, std::array<std::size_t, 2> edge) {
+    const Vector along = unit(t[edge[1]] - t[edge[0]]);
+    std::array<Vector, 2> sides;
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (k == edge[0] || k == edge[1]) continue;
+        const Vector w = t[k] - t[edge[0]];
+        sides[n++] = unit(w - w.dot(along) * along);
+    }
+    return sides;
+}
+
 }  // namespace
 
 Vector unit(const Vector& a) {
@@ -29,15 +42,11 @@ Vector unit(const Vector& a) {
 }
 
 bool drawable(const Mesh& mesh, std::size_t cell) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    for (std::size_t i = 0; i <= d; ++i) {
-        const Mesh::Index node = mesh.cells[cell * (d + 1) + i];
-        if (node < 0 || static_cast<std::size_t>(node) >= mesh.point_count()) return false;
-        for (std::size_t k = 0; k < d; ++k) {
-            if (!std::isfinite(mesh.points[static_cast<std::size_t>(node) * d + k])) return false;
-        }
-    }
-    return true;
+    return std::ranges::all_of(nodes_of(mesh, cell), [&](Mesh::Index node) {
+        return node >= 0 && static_cast<std::size_t>(node) < mesh.point_count() &&
+               std::all_of(node_at(mesh, node), node_at(mesh, node) + mesh.dimension,
+                           [](double x) { return std::isfinite(x); });
+    });
 }
 
 Normalised::Normalised(int d, const std::vector<const double*>& points) : d_(d) {
@@ -75,36 +84,24 @@ View from_the_side(const std::vector<Vector>& points) {
     return {axes.col(2), axes.col(0), axes.col(2).cross(axes.col(0))};
 }
 
-std::array<std::size_t, 2> sharpest_edge(const std::vector<Vector>& t) {
+std::array<std::size_t, 2> sharpest_edge(Points t) {
     std::array<std::size_t, 2> sharpest{0, 1};
-    double smallest = std::numeric_limits<double>::infinity();
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = i + 1; j < 4; ++j) {
-            const View v = along_edge(t, {i, j});
-            std::array<double, 2> at{};
-            std::size_t n = 0;
-            for (std::size_t k = 0; k < 4; ++k) {
-                if (k == i || k == j) continue;
-                const Vector w = v(t[k] - t[i]);
-                at[n++] = std::atan2(w[1], w[0]);
-            }
-            const double angle = std::fabs(at[0] - at[1]);
-            if (angle < smallest) smallest = angle, sharpest = {i, j};
+            const auto [a, b] = sides_at(t, {i, j});
+            // Twice the sine of half the angle.
+            if (const double chord = (a - b).norm(); chord < least) least = chord, sharpest = {i, j};
         }
     }
     return sharpest;
 }
 
-View along_edge(const std::vector<Vector>& t, std::array<std::size_t, 2> edge) {
+View along_edge(Points t, std::array<std::size_t, 2> edge) {
     View v;
     v.z = unit(t[edge[1]] - t[edge[0]]);
-    // Half way between the directions to the other two, seen along the edge.
-    Vector open = Vector::Zero();
-    for (std::size_t k = 0; k < 4; ++k) {
-        if (k == edge[0] || k == edge[1]) continue;
-        const Vector w = t[k] - t[edge[0]];
-        open += unit(w - w.dot(v.z) * v.z);
-    }
+    const auto [a, b] = sides_at(t, edge);
+    Vector open = a + b;
     open -= open.dot(v.z) * v.z;
     if (open.squaredNorm() < 1e-20) {  // opposite to each other: 180 degrees
         Eigen::Index min = 0;
