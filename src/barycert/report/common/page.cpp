@@ -10,27 +10,22 @@
 
 namespace barycert::report {
 
-std::string xml_escaped(std::string_view text) {
+std::string html_escaped(std::string_view text) {
     std::string out;
-    for (const char c : text) {
+    while (!text.empty()) {
+        const std::size_t size = base::first_character(text).size;
+        const char c = text.front();
         const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        out += c == '&'   ? "&amp;"
+        out += size == 0  ? "\xef\xbf\xbd"
+               : c == '&' ? "&amp;"
                : c == '<' ? "&lt;"
                : c == '>' ? "&gt;"
                : c == '"' ? "&quot;"
-                          : std::string(1, control ? ' ' : c);
-    }
-    return out;
-}
-
-std::string html_escaped(std::string_view text) {
-    std::string valid;
-    while (!text.empty()) {
-        const std::size_t size = base::first_character(text).size;
-        valid += size == 0 ? std::string_view("\xef\xbf\xbd") : text.substr(0, size);
+               : control  ? " "
+                          : text.substr(0, size);
         text.remove_prefix(std::max<std::size_t>(size, 1));
     }
-    return xml_escaped(valid);
+    return out;
 }
 
 std::string html_name(std::string_view name) {

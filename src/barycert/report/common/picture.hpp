@@ -11,10 +11,8 @@ namespace barycert::report {
 
 // Text and bytes in HTML and XML.
 
-/// As an XML reader takes it back; control characters, which no XML may hold, become spaces.
-std::string xml_escaped(std::string_view text);
-
-/// As xml_escaped, and bytes that are no UTF-8 (a file's name may be anything) become U+FFFD.
+/// As an XML reader takes it back; control characters, which no XML may hold, become spaces, and bytes that are no
+/// UTF-8 (a file's name may be anything) U+FFFD.
 std::string html_escaped(std::string_view text);
 
 /// A name of words and dots: escaped, and where lines are short broken behind dots, not within words.
