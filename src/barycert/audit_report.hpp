@@ -110,9 +110,6 @@ std::string condition_plot(const AuditReport& report);
 
 // A worst-case search, and the mutation score of the families.
 
-struct SearchReport;  // audit_search.hpp
-struct MutantReport;  // audit_search.hpp
-
 /// The table of faults; below it the plainest case of each, with the command that replays it if a file of witnesses is
 /// named.
 std::string search_text(const SearchReport& report, const TerminalStyle& style);
