@@ -11,7 +11,6 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/output_file.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/png/indexed_png.hpp"
 
 namespace barycert::io {
 namespace {

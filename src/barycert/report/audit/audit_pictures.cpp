@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/png/indexed_png.hpp"
+#include "barycert/io/png/png_file.hpp"
 #include "barycert/report/audit/audit_pictures.hpp"
 #include "barycert/report/common/html.hpp"
 #include "barycert/report/common/terminal_text.hpp"
