@@ -12,7 +12,6 @@
 namespace barycert::io {
 namespace {
 
-constexpr const char* cut_off = "write the file again: it may be cut off";
 constexpr bool swap_bytes = std::endian::native == std::endian::little;
 
 /// An error shows no more of a file than tells what it is about.

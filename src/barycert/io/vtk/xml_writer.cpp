@@ -30,12 +30,6 @@ Compressor compressor_of(VtkData data) {
                                    : Compressor::none;
 }
 
-std::string_view name_of_compressor(Compressor compressor) {
-    constexpr std::array<std::string_view, 4> names{"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor",
-                                                    "vtkLZMADataCompressor"};
-    return names[static_cast<std::size_t>(compressor)];
-}
-
 template <class T>
 std::string_view bytes_of_words(const std::vector<T>& words) {
     return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(T)};
@@ -139,7 +133,7 @@ bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile&
     PatchedFile file(target);
     std::vector<std::uint64_t> places;
     write_elements(
-        f, name_of_compressor(compressor), [&](std::string_view text) { file.write(text); },
+        f, compressor_names[static_cast<std::size_t>(compressor)], [&](std::string_view text) { file.write(text); },
         [&](const OutArray&) {
             file.write(begin_of_offset);
             places.push_back(file.size());
