@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -90,21 +91,13 @@ public:
             if (count_ != 0) found.push_back({format, bytes.size() / number_bytes(format.type), bytes.data()});
         }
         // Each point a cell. Node numbers go up to 2^31 - 1.
-        const auto number = [](std::size_t i) { return i; };
-        const auto next = [](std::size_t i) { return i + 1; };
-        const auto vertex = [](std::size_t) { return vtk_vertex; };
-        const std::string points = std::to_string(count_);
-        return write_xml(
-            {.data_set = "UnstructuredGrid",
-             .piece = " NumberOfPoints=\"" + points + "\" NumberOfCells=\"" + points + "\"",
-             .sections = {{"PointData", std::move(found)},
-                          {"CellData", {}},
-                          {"Points", {array_of_points(points_.values<double>(), format_.dimension)}},
-                          {"Cells",
-                           {array_made<std::int32_t>({"connectivity", 1, NumberType::int32}, count_, number),
-                            array_made<std::int32_t>({"offsets", 1, NumberType::int32}, count_, next),
-                            array_made<std::uint8_t>({"types", 1, NumberType::uint8}, count_, vertex)}}}},
-            path_, format_.vtk_data);
+        return write_grid({.point_arrays = std::move(found),
+                           .cell_arrays = {},
+                           .points = array_of_points(points_.values<double>(), format_.dimension),
+                           .connectivity = array_made<std::int32_t>("connectivity", count_, std::identity()),
+                           .cells = count_,
+                           .type = vtk_vertex},
+                          path_, format_.vtk_data);
     }
 
 private:

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <limits>
 #include <utility>
 
 #include "barycert/base/output_file.hpp"
@@ -189,6 +190,24 @@ Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
         return file_error(path, "too little memory to compress the data", {}, {}, "free some memory");
     }
     return file.commit();
+}
+
+Status write_grid(OutGrid grid, const std::string& path, VtkData data) {
+    const auto end = [nodes = grid.nodes](std::size_t i) { return nodes * (i + 1); };
+    const auto type = [own = grid.type](std::size_t) { return own; };
+    const bool wide = grid.nodes * grid.cells > std::numeric_limits<std::int32_t>::max();
+    return write_xml({.data_set = "UnstructuredGrid",
+                      .piece = " NumberOfPoints=\"" + std::to_string(grid.points.count / 3) + "\" NumberOfCells=\"" +
+                               std::to_string(grid.cells) + "\"",
+                      .sections = {{"PointData", std::move(grid.point_arrays)},
+                                   {"CellData", std::move(grid.cell_arrays)},
+                                   {"Points", {std::move(grid.points)}},
+                                   {"Cells",
+                                    {std::move(grid.connectivity),
+                                     wide ? array_made<std::int64_t>("offsets", grid.cells, end)
+                                          : array_made<std::int32_t>("offsets", grid.cells, end),
+                                     array_made<std::uint8_t>("types", grid.cells, type)}}}},
+                     path, data);
 }
 
 }  // namespace barycert::io
