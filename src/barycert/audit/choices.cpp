@@ -8,7 +8,6 @@
 
 #include "barycert/audit.hpp"
 #include "barycert/audit_search.hpp"
-#include "barycert/base/named_limit.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"

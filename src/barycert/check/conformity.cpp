@@ -19,7 +19,7 @@
 #include "barycert/check/plc_facet.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/mesh/facets.hpp"
+#include "barycert/mesh/adjacency.hpp"
 
 namespace barycert::check {
 namespace {

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "barycert/base/folder.hpp"
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/converted/read_converted.hpp"
 #include "barycert/io/formats.hpp"

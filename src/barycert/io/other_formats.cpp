@@ -5,7 +5,6 @@
 #include <cctype>
 #include <string>
 
-#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "barycert/base/utf8.hpp"
+#include "barycert/base/text.hpp"
 
 namespace barycert::mesh {
 

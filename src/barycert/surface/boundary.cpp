@@ -5,7 +5,7 @@
 #include <array>
 
 #include "barycert/environment.hpp"
-#include "barycert/mesh/facets.hpp"
+#include "barycert/mesh/adjacency.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/surface/parts.hpp"
 

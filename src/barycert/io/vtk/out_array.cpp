@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "barycert/base/utf8.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 

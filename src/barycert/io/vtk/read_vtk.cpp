@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/base/mapped_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"

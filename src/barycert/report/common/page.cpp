@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "barycert/base/text.hpp"
-#include "barycert/base/utf8.hpp"
 #include "barycert/report/common/document.hpp"
 #include "barycert/report/common/html.hpp"
 #include "barycert/report/common/page_script.hpp"

@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::report {
