@@ -153,12 +153,10 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
     InputFile file;
     file.file_ = std::move(*opened);
     const bool pipe = S_ISFIFO(status.st_mode);
-    if (S_ISDIR(status.st_mode)) {
+    if (S_ISDIR(status.st_mode))
         return unfit(path, "a regular file or a pipe", "a folder", "name a file inside the folder");
-    }
-    if (!pipe && !S_ISREG(status.st_mode)) {
+    if (!pipe && !S_ISREG(status.st_mode))
         return unfit(path, "a regular file or a pipe", "a device", "save the data to a regular file first");
-    }
     // From now on a pipe waits for those who have it open, and has ended if nobody has.
     if (pipe && ::fcntl(file.file_.number, F_SETFL, 0) != 0) return read_failure(path, errno);
 
@@ -179,15 +177,13 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
         if (got < 0) return read_failure(path, errno);
         if (got == 0) break;
         have += static_cast<std::size_t>(got);
-        if (pipe && have > longest) {
+        if (pipe && have > longest)
             return unfit(path, "at most " + std::to_string(longest) + " bytes from a pipe", "more",
                          "save the data to a regular file first");
-        }
     }
-    if (pipe && have == 0) {
+    if (pipe && have == 0)
         return unfit(path, "data", "nothing: a pipe that nobody writes to",
                      "start its writer first, or name a regular file");
-    }
     bytes.resize(have);
     return bytes;
 }

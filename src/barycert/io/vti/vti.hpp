@@ -61,7 +61,6 @@ private:
     OutFile layout() const;
     bool put(std::uint64_t at, std::string_view bytes);
     Status commit_spools();
-    Error error(std::string what, std::string expected, std::string found) const;
 
     std::string path_;
     VtiGrid grid_;

@@ -177,21 +177,19 @@ void note_left_out(const TypeCounts& left_out, std::size_t ghosts, CellKind kind
                              counts_by_name(left_out, false, [](std::uint8_t) { return true; }),
                          path, true});
     }
-    if (ghosts != 0) {
+    if (ghosts != 0)
         notes.push_back({Note::Kind::left_out,
                          std::to_string(ghosts) + " ghost cells, which stand for cells of other pieces or are hidden "
                                                   "(vtkGhostType)",
                          path, true});
-    }
 }
 
 /// Notes on what concerns no array of points or cells.
 void note_the_rest(const RawGrid& grid, const std::string& path, Notes& notes) {
     note_narrow_points(grid, path, notes);
-    if (!grid.loose_arrays.empty()) {
+    if (!grid.loose_arrays.empty())
         notes.push_back({Note::Kind::left_out,
                          "arrays of neither points nor cells (field data): " + list_of(grid.loose_arrays), path});
-    }
     if (grid.has_steps)
         notes.push_back(
             {Note::Kind::left_out, "all steps but the first of arrays with several time steps", path, true});
@@ -271,11 +269,10 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
     std::size_t ghosts = 0;
     mesh.cell_numbers = kept_cells(grid, type->kind, left_out, ghosts);
     const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
-    if (cells == 0) {
+    if (cells == 0)
         return file_error(path, "the file contains no mesh", "cells of its own",
                           std::to_string(ghosts) + " ghost cells (vtkGhostType)",
                           "name the file of all pieces (.pvtu)");
-    }
     note_left_out(left_out, ghosts, type->kind, path, mesh.notes);
     copy_cells(grid, type->nodes, cells, mesh);
     if (type->nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
@@ -289,12 +286,12 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
         for (RawArray& array : grid.cell_arrays) make_field_of_doubles(array);
     }
     // Point markers are an array like any other but for its name and type.
-    for (std::size_t i = 0; i < grid.point_arrays.size(); ++i) {
-        RawArray& array = grid.point_arrays[i];
-        if (array.name != marker_name || array.integers() == nullptr || !array.fault.empty()) continue;
-        mesh.point_markers = std::move(*array.integers());
-        grid.point_arrays.erase(grid.point_arrays.begin() + static_cast<std::ptrdiff_t>(i));
-        break;
+    const auto markers = std::ranges::find_if(grid.point_arrays, [](RawArray& array) {
+        return array.name == marker_name && array.integers() != nullptr && array.fault.empty();
+    });
+    if (markers != grid.point_arrays.end()) {
+        mesh.point_markers = std::move(*markers->integers());
+        grid.point_arrays.erase(markers);
     }
     take_fields(grid.point_arrays, "point array", path, mesh.point_fields, nullptr, mesh.notes);
     take_fields(grid.cell_arrays, "cell array", path, mesh.cell_fields, &mesh.cell_labels, mesh.notes);

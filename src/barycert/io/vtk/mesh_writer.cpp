@@ -70,15 +70,16 @@ std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>&
     for (const Field& field : mesh.cell_fields) arrays.push_back(array_of_field(field));
     for (std::size_t i = 0; i < room.size(); ++i) {
         const auto& [name, values] = mesh.cell_labels[i];
-        if (const auto* const numbers = std::get_if<std::vector<std::int64_t>>(&values); numbers != nullptr) {
-            arrays.push_back(array_in_memory<std::int64_t>(name, *numbers));
-        } else if (const auto* const reals = std::get_if<std::vector<double>>(&values); reals != nullptr) {
-            arrays.push_back(array_in_memory<double>(name, *reals));
-        } else {
-            for (const std::string& text : std::get<std::vector<std::string>>(values))
-                room[i].append(text).push_back('\0');
-            arrays.push_back(array_in_memory<char>(name, room[i]));
-        }
+        std::visit(
+            [&, &name = name, &text = room[i]]<class T>(const std::vector<T>& all) {
+                if constexpr (std::is_same_v<T, std::string>) {
+                    for (const std::string& one : all) text.append(one).push_back('\0');
+                    arrays.push_back(array_in_memory<char>(name, text));
+                } else {
+                    arrays.push_back(array_in_memory<T>(name, all));
+                }
+            },
+            values);
     }
     return arrays;
 }

@@ -226,7 +226,7 @@ NumberFault read_words(std::string_view& text, std::size_t count, std::vector<To
         if (parts.empty()) return {NumberFault::Kind::too_few, done};
         if (read.size() < parts.size()) read.resize(parts.size());
         in_parallel(parts.size(), [&](std::size_t i) { read[i].read(parts[i], left); });
-        std::vector<std::size_t> places, taken;
+        std::vector<std::size_t> places;
         std::size_t size = values.size();
         bool ended = false;
         for (std::size_t i = 0; i < parts.size() && !ended; ++i) {
@@ -242,7 +242,6 @@ NumberFault read_words(std::string_view& text, std::size_t count, std::vector<To
                 if (fault.kind == NumberFault::Kind::no_number) return fault;
             }
             places.push_back(size);
-            taken.push_back(part.values.size());
             size += part.values.size();
             done += part.values.size();
             text.remove_prefix(static_cast<std::size_t>(part.end - text.data()));
@@ -250,8 +249,9 @@ NumberFault read_words(std::string_view& text, std::size_t count, std::vector<To
         }
         make_room(values, size - values.size());
         values.resize(size);
-        in_parallel(places.size(),
-                    [&](std::size_t i) { std::copy_n(read[i].values.data(), taken[i], values.data() + places[i]); });
+        in_parallel(places.size(), [&](std::size_t i) {
+            std::copy(read[i].values.begin(), read[i].values.end(), values.data() + places[i]);
+        });
     }
     return fault;
 }

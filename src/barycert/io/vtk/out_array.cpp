@@ -134,14 +134,12 @@ Status check_arrays(const std::string& path, const std::vector<ArrayFormat>& arr
     std::vector<std::string> names;
     for (const ArrayFormat& array : arrays) {
         if (array.name.empty()) return wrong_in_memory(path, "the name of an array", "one", "none");
-        if (!xml_attribute(array.name)) {
+        if (!xml_attribute(array.name))
             return wrong_in_memory(path, "the name of an array", "text in UTF-8 without control characters",
                                    '"' + array.name + '"');
-        }
-        if (array.components < 1) {
+        if (array.components < 1)
             return wrong_in_memory(path, "the components of array \"" + array.name + '"', "1 or more",
                                    std::to_string(array.components));
-        }
         names.push_back(array.name);
     }
     std::sort(names.begin(), names.end());

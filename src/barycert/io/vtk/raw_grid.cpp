@@ -56,14 +56,11 @@ std::size_t line_of(std::string_view bytes, std::size_t at) {
 Error number_error(const std::string& path, std::size_t line, const std::string& what, std::uint64_t count,
                    const NumberFault& fault) {
     const std::string number = "number " + std::to_string(fault.index) + " (from 0) of " + what;
-    switch (fault.kind) {
-        case NumberFault::Kind::too_few:
-            return {what, path, line, std::to_string(count) + " numbers", std::to_string(fault.index), cut_off};
-        case NumberFault::Kind::no_number:
-            return {number, path, line, "a number of the type of the array", in_quotes(fault.text)};
-        default:
-            return {number, path, line, "a number that fits what it stands for", fault.text};
-    }
+    if (fault.kind == NumberFault::Kind::too_few)
+        return {what, path, line, std::to_string(count) + " numbers", std::to_string(fault.index), cut_off};
+    if (fault.kind == NumberFault::Kind::no_number)
+        return {number, path, line, "a number of the type of the array", in_quotes(fault.text)};
+    return {number, path, line, "a number that fits what it stands for", fault.text};
 }
 
 Status read_numbers(RawArray& array, bool of_points, bool may_label,
@@ -162,17 +159,11 @@ void append_array(RawArray& to, RawArray& from) {
 
 /// `before`: rows that there are.
 void append_arrays(std::vector<RawArray>& to, std::vector<RawArray>& from, std::size_t before) {
-    const auto named = [](std::vector<RawArray>& arrays, const std::string& name) -> RawArray* {
-        for (RawArray& array : arrays) {
-            if (array.name == name) return &array;
-        }
-        return nullptr;
-    };
     for (RawArray& array : to) {
-        if (array.fault.empty() && named(from, array.name) == nullptr) array.fault = missing;
+        if (array.fault.empty() && std::ranges::count(from, array.name, &RawArray::name) == 0) array.fault = missing;
     }
     for (RawArray& array : from) {
-        if (RawArray* const known = named(to, array.name); known != nullptr) {
+        if (const auto known = std::ranges::find(to, array.name, &RawArray::name); known != to.end()) {
             append_array(*known, array);
         } else {
             if (before != 0 && array.fault.empty()) array.fault = missing;
@@ -203,10 +194,9 @@ void make_field_of_doubles(RawArray& array) {
 
 Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
     const std::size_t points = grid.point_count(), cells = grid.types.size(), nodes = grid.connectivity.size();
-    if (points + piece.point_count() > max_entities || cells + piece.types.size() > max_entities) {
+    if (points + piece.point_count() > max_entities || cells + piece.types.size() > max_entities)
         return file_error(path, "more points or cells than a mesh can have",
                           "at most " + std::to_string(max_entities) + " in all pieces");
-    }
     grid.narrow_points = grid.narrow_points || piece.narrow_points;
     grid.has_steps = grid.has_steps || piece.has_steps;
     grid.checked_nodes = (cells == 0 || grid.checked_nodes) && piece.checked_nodes;

@@ -129,12 +129,11 @@ private:
             if (!piece) return piece;
             if (Status s = io::append_piece(grid, std::move(*piece), path); !s) return s.error();
         }
-        if (!others.empty()) {
+        if (!others.empty())
             grid.notes.push_back(
                 {Note::Kind::left_out,
                  std::to_string(others.size()) + " blocks that are no unstructured grids: " + io::list_of(others), path,
                  true});
-        }
         if (part_ == io::Part::all) io::join_pieces(grid, path);
         return grid;
     }

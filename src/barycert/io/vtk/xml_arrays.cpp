@@ -183,12 +183,11 @@ Error XmlArrays::error(const XmlElement& array, const std::string& what, std::ui
 Result<Encoded> XmlArrays::encoded(const XmlElement& array, const std::string& what) const {
     if (array.attribute("format") != "appended") return Encoded(tree_.text_of(array), true);
     const std::optional<std::uint64_t> offset = parse_count(array.attribute("offset").value_or(""));
-    if (!offset.has_value() || *offset >= tree_.appended.size()) {
+    if (!offset.has_value() || *offset >= tree_.appended.size())
         return tree_.error(
             array, "the offset of " + what + " into the appended data",
             "less than " + std::to_string(tree_.appended.size()) + ", the bytes from there to the end of the file",
             in_quotes(array.attribute("offset").value_or("")), cut_off);
-    }
     return Encoded(tree_.appended.substr(static_cast<std::size_t>(*offset)), !tree_.appended_raw);
 }
 
@@ -214,13 +213,11 @@ Status XmlArrays::read(const XmlElement& array, const std::string& what, std::ui
                        NumberFault* fault) const {
     const std::optional<NumberType> type = type_of(array);
     const std::string_view format = array.attribute("format").value_or("ascii");
-    if (!type.has_value()) {
+    if (!type.has_value())
         return tree_.error(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
                            in_quotes(array.attribute("type").value_or("")));
-    }
-    if (format != "ascii" && format != "binary" && format != "appended") {
+    if (format != "ascii" && format != "binary" && format != "appended")
         return tree_.error(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
-    }
     NumberFault found;
     if (format == "ascii") {
         std::string_view text = tree_.text_of(array);
@@ -258,10 +255,9 @@ Status XmlArrays::read_texts(const XmlElement& array, const std::string& what, s
     if (fault) return error(array, what, count, fault);
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto found = static_cast<std::uint64_t>(std::count(all.begin(), all.end(), '\0'));
-    if (found != count || !all.ends_with('\0')) {
+    if (found != count || !all.ends_with('\0'))
         return tree_.error(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
                            std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
-    }
     for (std::size_t begin = 0; begin < all.size();) {
         const std::size_t end = all.find('\0', begin);
         texts.emplace_back(all.substr(begin, end - begin));

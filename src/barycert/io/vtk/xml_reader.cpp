@@ -65,11 +65,10 @@ private:
     Result<std::size_t> count_of(const XmlElement& piece, std::string_view key, std::size_t before) const {
         const std::optional<std::string_view> text = piece.attribute(key);
         const std::optional<std::uint64_t> count = parse_count(text.value_or(""));
-        if (!count.has_value() || *count > max_entities - before) {
+        if (!count.has_value() || *count > max_entities - before)
             return tree_.error(piece, "the attribute " + std::string(key),
                                "a count, at most " + std::to_string(max_entities) + " in all pieces",
                                text.has_value() ? in_quotes(*text) : "none");
-        }
         return static_cast<std::size_t>(*count);
     }
 
@@ -128,12 +127,11 @@ private:
         const XmlElement* const connectivity = array_named(cells, "connectivity");
         const XmlElement* const offsets = array_named(cells, "offsets");
         const XmlElement* const types = array_named(cells, "types");
-        if (connectivity == nullptr || offsets == nullptr || (types == nullptr && !is_polygons_)) {
+        if (connectivity == nullptr || offsets == nullptr || (types == nullptr && !is_polygons_))
             return tree_.error(
                 piece, "the cells of a piece",
                 is_polygons_ ? "arrays connectivity and offsets" : "arrays connectivity, offsets and types",
                 is_polygons_ ? "not both" : "not all three");
-        }
         if (!is_polygons_) {
             if (Status s = arrays_.read(*types, "the types of cells", count, grid.types); !s) return s;
         }
@@ -141,10 +139,9 @@ private:
         if (Status s = arrays_.read(*offsets, "the offsets of cells", count, grid.ends); !s) return s;
         std::int64_t end = 0;
         for (std::size_t i = cells_before; i < grid.ends.size(); ++i) {
-            if (grid.ends[i] < end) {
+            if (grid.ends[i] < end)
                 return tree_.error(*offsets, "the offsets of cells", "none below the one before it",
                                    std::to_string(grid.ends[i]) + " after " + std::to_string(end));
-            }
             end = grid.ends[i];
             grid.ends[i] += static_cast<std::int64_t>(nodes_before);
         }
@@ -197,10 +194,9 @@ private:
             }
             RawArray read;
             read.name = array.attribute("Name").value_or("");
-            if (!seen.insert(read.name).second) {
+            if (!seen.insert(read.name).second)
                 return tree_.error(array, "two arrays in one " + data.name, "different names",
                                    in_quotes(read.name) + " twice", "give them different names");
-            }
             if (Status s = read_array(array, data.name == "PointData", count, read); !s) return s;
             arrays.push_back(std::move(read));
         }

@@ -205,9 +205,8 @@ Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path) {
     if (mark != std::string_view::npos && tree.appended[mark] == '_') tree.appended.remove_prefix(mark + 1);
     const std::optional<std::string_view> encoding = element.attribute("encoding");
     tree.appended_raw = encoding == "raw";
-    if (encoding.has_value() && encoding != "raw" && encoding != "base64") {
+    if (encoding.has_value() && encoding != "raw" && encoding != "base64")
         return tree.error(element, "the encoding of the appended data", "raw or base64", std::string(*encoding));
-    }
     return tree;
 }
 
