@@ -60,7 +60,6 @@ private:
         : path_(path), grid_(grid), data_(data), arrays_(std::move(arrays)), file_(path) {}
     OutFile layout() const;
     bool put(std::uint64_t at, std::string_view bytes);
-    Status commit_spools();
 
     std::string path_;
     VtiGrid grid_;

@@ -121,24 +121,22 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
     return file_.status();
 }
 
-Status VtiWriter::commit_spools() {
-    OutFile file = layout();
-    for (std::size_t i = 0; i < arrays_.size(); ++i) {
-        if (Status done = spools_[i].finish(); !done) return done;
-        file.sections.front().arrays[i].bytes = spools_[i].values<char>().data();
-    }
-    return write_xml(file, path_, data_);
-}
-
 Status VtiWriter::commit() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
         if (places_[i].done != places_[i].size)
             return file_error(path_, "the bytes of array \"" + arrays_[i].name + '"', std::to_string(places_[i].size),
                               std::to_string(places_[i].done));
     }
-    if (data_ != VtkData::raw) return commit_spools();
-    put(tail_, appended_tail);
-    return file_.commit();
+    if (data_ == VtkData::raw) {
+        put(tail_, appended_tail);
+        return file_.commit();
+    }
+    OutFile file = layout();
+    for (std::size_t i = 0; i < arrays_.size(); ++i) {
+        if (Status done = spools_[i].finish(); !done) return done;
+        file.sections.front().arrays[i].bytes = spools_[i].values<char>().data();
+    }
+    return write_xml(file, path_, data_);
 }
 
 }  // namespace barycert::io

@@ -111,6 +111,7 @@ bool convert_number(From from, To& to) {
     if constexpr (std::is_floating_point_v<To>) {
         to = static_cast<To>(from);
         if constexpr (std::is_integral_v<From> && sizeof(From) == 8) {
+            if (std::in_range<std::int32_t>(from)) return true;  // as most are
             const std::uint64_t size =
                 from < From{0} ? std::uint64_t{0} - static_cast<std::uint64_t>(from) : static_cast<std::uint64_t>(from);
             return size == 0 || std::bit_width(size) - std::countr_zero(size) <= std::numeric_limits<To>::digits;
