@@ -87,11 +87,11 @@ Status unchanged(int descriptor, const FileState& then, const std::string& path)
                  .remedy = "read it again when its writer has finished"};
 }
 
-Result<std::size_t> InputFile::read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const {
+Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char> bytes, const std::string& path) {
     std::size_t done = 0;
     while (done < bytes.size()) {
         const ssize_t got =
-            ::pread(file_.number, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+            ::pread(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return read_failure(path, errno);
         if (got == 0) break;

@@ -50,6 +50,10 @@ struct FileState {
 /// Error: the file has another state than then.
 Status unchanged(int descriptor, const FileState& then, const std::string& path);
 
+/// Fills `bytes` from `offset` on and returns how many there were: fewer only where the file ends. `path`: for the Error
+/// if it cannot be read.
+Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char> bytes, const std::string& path);
+
 /// A regular file open for reading; closed at the end.
 class InputFile {
 public:
@@ -62,9 +66,10 @@ public:
     /// check_beginning() of its first block, and what the format says to it.
     Status check(Text text, const std::string& path, const Header& header = {}) const;
 
-    /// Fills `bytes` from `offset` on and returns how many there were: fewer only where the file ends. `path`: for the
-    /// Error if it cannot be read.
-    Result<std::size_t> read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const;
+    /// As base::read_at.
+    Result<std::size_t> read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const {
+        return base::read_at(file_.number, offset, bytes, path);
+    }
 
     /// In bytes, when it was opened.
     std::uint64_t size() const { return then_.size; }

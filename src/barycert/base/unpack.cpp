@@ -52,13 +52,9 @@ Status unpack(int& descriptor, const std::string& path) {
         ::pread(descriptor, magic.data(), magic.size(), 0) != 2 || magic != std::array<char, 2>{'\x1f', '\x8b'})
         return Done{};
     std::string packed(static_cast<std::size_t>(status.st_size), '\0');
-    for (std::size_t have = 0; have < packed.size();) {
-        const ssize_t got = ::pread(descriptor, packed.data() + have, packed.size() - have, static_cast<off_t>(have));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return read_failure(path, errno);
-        if (got == 0) packed.resize(have);  // it has become shorter
-        have += static_cast<std::size_t>(got);
-    }
+    const Result<std::size_t> there = read_at(descriptor, 0, packed, path);
+    if (!there) return there.error();
+    packed.resize(*there);  // it may have become shorter
     Descriptor plain(::memfd_create("barycert-unpacked", MFD_CLOEXEC));
     if (!plain) return read_failure(path, errno);
     // The last four bytes are the size of the last member, which is mostly the only one.
