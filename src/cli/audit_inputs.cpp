@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "barycert/base/folder.hpp"
 #include "barycert/base/named_file.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "command.hpp"
 #include "reports.hpp"

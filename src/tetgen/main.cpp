@@ -14,8 +14,8 @@
 #include <new>
 #include <sstream>
 
-#include "barycert/base/begun_files.hpp"
 #include "barycert/base/named_file.hpp"
+#include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"

@@ -8,7 +8,7 @@
 
 #include <vtkType.h>
 
-#include "barycert/pieces/indexed_piece.hpp"
+#include "barycert/pieces/piece.hpp"
 
 class vtkDataArray;
 class vtkDataSet;

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "barycert/audit_search.hpp"
-#include "barycert/base/named_limit.hpp"
 #include "barycert/base/nearest_name.hpp"
+#include "barycert/base/text.hpp"
 
 namespace barycert {
 namespace {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "barycert/audit/figures.hpp"
-#include "barycert/base/named_limit.hpp"
 #include "barycert/base/nearest_name.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {

@@ -18,7 +18,7 @@
 
 #include "barycert/check/plc_facet.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/mesh/facets.hpp"
+#include "barycert/mesh/adjacency.hpp"
 
 namespace barycert::check {
 namespace {

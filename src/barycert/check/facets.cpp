@@ -6,7 +6,7 @@
 #include "barycert/base/large_pages.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/index/proof.hpp"
-#include "barycert/mesh/facets.hpp"
+#include "barycert/mesh/adjacency.hpp"
 
 namespace barycert::check {
 namespace {

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <string>
 
-#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "barycert/base/run_files.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"

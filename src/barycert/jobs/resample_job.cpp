@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/run_files.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"

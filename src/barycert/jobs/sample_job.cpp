@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/run_files.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/stream.hpp"

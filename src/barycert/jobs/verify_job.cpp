@@ -13,9 +13,8 @@
 #include <utility>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/base/named_limit.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/run_files.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"

@@ -11,8 +11,8 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
+#include "barycert/io/png/panels.hpp"
 
 namespace barycert {
 namespace raster {

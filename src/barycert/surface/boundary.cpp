@@ -3,7 +3,8 @@
 #include <array>
 
 #include "barycert/base/large_pages.hpp"
-#include "barycert/mesh/facets.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/mesh/adjacency.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/surface/parts.hpp"
 

@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/base/run_files.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/converted/meshio_script.hpp"

@@ -11,8 +11,6 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/base/run_files.hpp"
-#include "barycert/base/unpack.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {

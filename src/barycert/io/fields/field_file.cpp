@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/base/mapped_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"

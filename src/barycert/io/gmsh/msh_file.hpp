@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/base/mapped_file.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/base/mapped_file.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/io.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-#include "barycert/base/utf8.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {

@@ -135,8 +135,7 @@ Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData
     for (const Field& f : s.cell_fields) of_cells.push_back(array_of_field(f));
     const bool named =
         std::any_of(s.cell_fields.begin(), s.cell_fields.end(), [](const Field& f) { return f.name == "cell"; });
-    if (!s.mesh_cells.empty() && !named)
-        of_cells.push_back(array_in_memory<Mesh::Index>({"cell", 1, NumberType::int32}, s.mesh_cells));
+    if (!s.mesh_cells.empty() && !named) of_cells.push_back(array_in_memory<Mesh::Index>("cell", s.mesh_cells));
     for (const auto* const arrays : {&of_points, &of_cells}) {
         std::vector<ArrayFormat> formats;
         for (const OutArray& a : *arrays) formats.push_back(a.format);
@@ -147,17 +146,17 @@ Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData
     // VTK's own indices are 64 bits wide: it takes these as they are.
     const auto node = [&s](std::size_t i) { return s.cells[i]; };
     const auto end = [n = s.corners()](std::size_t i) { return n * (i + 1); };
-    const OutFile file{
-        .data_set = "PolyData",
-        .attributes = {},
-        .piece = " NumberOfPoints=\"" + std::to_string(s.point_count()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
-                 (lines ? cells : "0") + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + (lines ? "0" : cells) + "\"",
-        .sections = {{"PointData", std::move(of_points)},
-                     {"CellData", std::move(of_cells)},
-                     {"Points", {array_of_points(s.points, s.dimension)}},
-                     {lines ? "Lines" : "Polys",
-                      {array_made<std::int64_t>({"connectivity", 1, NumberType::int64}, s.cells.size(), node),
-                       array_made<std::int64_t>({"offsets", 1, NumberType::int64}, s.cell_count(), end)}}}};
+    const OutFile file{.data_set = "PolyData",
+                       .attributes = {},
+                       .piece = " NumberOfPoints=\"" + std::to_string(s.point_count()) +
+                                "\" NumberOfVerts=\"0\" NumberOfLines=\"" + (lines ? cells : "0") +
+                                "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + (lines ? "0" : cells) + "\"",
+                       .sections = {{"PointData", std::move(of_points)},
+                                    {"CellData", std::move(of_cells)},
+                                    {"Points", {array_of_points(s.points, s.dimension)}},
+                                    {lines ? "Lines" : "Polys",
+                                     {array_made<std::int64_t>("connectivity", s.cells.size(), node),
+                                      array_made<std::int64_t>("offsets", s.cell_count(), end)}}}};
     if (Status written = write_xml(file, path, data); !written) return written.error();
     return SurfaceFile{};
 }

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/large_pages.hpp"
-#include "barycert/base/mapped_file.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"

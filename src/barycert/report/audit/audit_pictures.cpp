@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "barycert/io/png/indexed_png.hpp"
+#include "barycert/base/text.hpp"
+#include "barycert/io/png/png_file.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 #include "barycert/report/common/picture.hpp"
+#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "barycert/base/utf8.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/report/common/document.hpp"
 #include "barycert/report/common/page_style.hpp"
 #include "barycert/report/common/picture.hpp"

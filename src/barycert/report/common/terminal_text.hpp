@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::report {
