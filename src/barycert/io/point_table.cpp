@@ -131,15 +131,7 @@ private:
     std::vector<Place> places_;
 };
 
-}  // namespace
-
-Result<std::unique_ptr<PointSource>> points_of_table(PointTable table, const std::string& file, int dimension,
-                                                     const PointOptions& options) {
-    return Choice(table, file).source(dimension, options);
-}
-
-Result<std::unique_ptr<PointSource>> open_vtk_points(const std::string& path, int dimension,
-                                                     const PointOptions& options) {
+Source open_vtk_points(const std::string& path, int dimension, const PointOptions& options) {
     Result<PointTable> table =
         read_vtk_table(path, !options.keep.empty() || !options.columns.empty(), options.nonfinite_points);
     if (!table) return table.error();
