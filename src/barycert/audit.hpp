@@ -4,24 +4,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <numeric>
 
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/kernels.hpp"
-#include "barycert/mesh.hpp"
 #include "barycert/oracle.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert {
 
@@ -50,8 +39,7 @@ enum class Finding : std::uint8_t {
 inline constexpr std::size_t finding_count = 16;
 
 struct FindingText {
-    std::string_view name;
-    std::string_view meaning;
+    std::string_view name, meaning;
 };
 
 inline constexpr std::array<FindingText, finding_count> finding_texts{{
@@ -90,41 +78,48 @@ struct Comparison {
     std::array<std::uint8_t, finding_count> counts{};  ///< weights, or 1 for a case, per class of finding
     std::array<double, 4> weight_ulps{};               ///< error of each weight in ulps; -1 if undefined
     double value_ulp = -1;                             ///< error of the value in ulps; -1 if undefined
-    /// Max |weight - exact weight|, infinite if a weight is not finite or none was given; for a missed degenerate
-    /// simplex the max |weight|.
+    /// Max |weight - exact weight|, infinite without finite weights; for a missed degenerate simplex the max |weight|.
     double weight_error = 0;
-    /// The same relative to 1, or to the largest exact weight where that is more: max |weight - exact weight| / max(1,
-    /// max |exact weight|). Infinite if a weight is not finite or none was given; -1 if the simplex is degenerate.
+    /// The same over max(1, max |exact weight|); -1 if the simplex is degenerate.
     double relative_error = -1;
 
-    bool wrong() const {
-        for (const auto n : counts) {
-            if (n != 0) return true;
-        }
-        return false;
+    bool wrong() const { return counts != decltype(counts){}; }
+    double worst_weight_ulp() const { return *std::max_element(weight_ulps.begin(), weight_ulps.end()); }
+};
+
+/// How many numbers lie in each bin.
+template <std::size_t n>
+struct BinCounts {
+    static constexpr std::size_t bins = n;
+    std::array<std::uint64_t, n> counts{};
+
+    void merge(const BinCounts& other) {
+        for (std::size_t i = 0; i < n; ++i) counts[i] += other.counts[i];
+    }
+    std::uint64_t total() const { return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}); }
+
+    /// The first bin by which at least that many are reached, or the last.
+    std::size_t bin_reaching(std::uint64_t wanted) const {
+        std::size_t i = 0;
+        for (std::uint64_t seen = counts[0]; seen < wanted && i + 1 < n;) seen += counts[++i];
+        return i;
     }
 };
 
-/// Counts of non-negative numbers by magnitude. Bins are exact for the integers 0 to 16 and eight to an octave above,
-/// up to 2^128; larger numbers share the last.
-class LogHistogram {
-public:
-    void add(double x) { ++bins_[bin(x)]; }
-    void merge(const LogHistogram& other);
-    std::uint64_t total() const;
+/// Numbers >= 0 by magnitude. Bins are exact for the integers 0 to 16 and eight to an octave above, up to 2^128; larger
+/// numbers share the last.
+struct LogHistogram : BinCounts<1 + 8 * 128> {
+    void add(double x) { ++counts[bin(x)]; }
 
     /// The min bin edge that at least the given fraction of the numbers do not exceed; -1 if there are no numbers.
     double quantile(double fraction) const;
 
 private:
-    static constexpr std::size_t bin_count = 1 + 8 * 128;
     static std::size_t bin(double x);
     static double upper_edge(std::size_t bin);
-    std::array<std::uint64_t, bin_count> bins_{};
 };
 
-/// The max value and the case it came from; among equal values the first case, so the order of insertion does not
-/// matter.
+/// The max value and its case, of equal values the first: the order of insertion does not matter.
 struct WorstCase {
     double value = -1;
     std::uint64_t index = 0;  ///< of the case in its family
@@ -134,17 +129,13 @@ struct WorstCase {
     }
 };
 
-/// How large errors are, of one number a case: Comparison::relative_error.
-struct ErrorSizes {
-    static constexpr std::size_t bins = 23;
-    /// [0]: no error; [k]: 10^(k-19) <= error < 10^(k-18), [1] all smaller ones, [21] all larger ones; [22]: no finite
-    /// answer.
-    std::array<std::uint64_t, bins> counts{};
+/// How large errors are, of one number a case: Comparison::relative_error. [0]: no error; [k]: 10^(k-19) <= error <
+/// 10^(k-18), [1] all smaller ones, [21] all larger ones; [22]: no finite answer.
+struct ErrorSizes : BinCounts<23> {
     WorstCase worst;  ///< of the finite ones
 
     void add(double error, std::uint64_t index);  ///< below 0: not counted; infinite: no finite answer
     void merge(const ErrorSizes& other);
-    std::uint64_t total() const;
     std::uint64_t unanswered() const { return counts[bins - 1]; }
     /// The upper edge of the first bin by which at least that share of the cases with a finite answer is reached: 0,
     /// 1e-17, ..., 100, infinity. -1 if there are no such cases.
@@ -185,11 +176,9 @@ struct KernelStatistics {
     void merge(const KernelStatistics& other);
 };
 
-/// The error of a kernel as the condition number kappa of the cell predicts it, beside the error that was measured.
-///
-/// Where nothing under- or overflows, a kernel that works with differences of coordinates has weights within C * 2^-53
-/// * kappa of the exact ones for points of the cell, with a small constant C (weights.hpp). Cases are sorted by
-/// log2(kappa), one bit a bin.
+/// Errors of a kernel by the condition number kappa of the cell, one bit of log2(kappa) a bin. Where nothing under- or
+/// overflows, a kernel that works with differences of coordinates has weights within C * 2^-53 * kappa of the exact
+/// ones for points of the cell, with a small constant C (weights.hpp).
 class Prediction {
 public:
     static constexpr int last_bits = 1100;  ///< and more: above the log2 of every double
@@ -207,8 +196,8 @@ public:
 
     std::uint64_t cases() const;
 
-    /// The max error / (2^-53 kappa) over cases with kappa < 2^47, where the first-order prediction applies: the
-    /// constant C that would have held. -1 without such cases.
+    /// The C that would have held: the max error / (2^-53 kappa) over cases with kappa < 2^47, where the first-order
+    /// prediction applies. -1 without such cases.
     double worst_factor() const { return worst_factor_; }
 
     /// The non-empty bins, ascending.
@@ -241,39 +230,29 @@ public:
 
     bool supplies(Simplex s) const;
 
-    /// For recipes: the meshes as audit/mesh_draws.hpp has them.
+    /// For recipes: the meshes as audit/recipes.hpp has them.
     const std::vector<std::shared_ptr<const audit::PreparedMesh>>& meshes() const { return meshes_; }
 
 private:
     std::vector<std::shared_ptr<const audit::PreparedMesh>> meshes_;
 };
 
-/// Where in a mesh the simplex of a case comes from.
-struct CaseOrigin {
-    std::string mesh;        ///< its name; empty if the simplex comes from none
-    std::int64_t cell = -1;  ///< the number of its cell in the mesh's file, from 0
-};
-
-/// A recipe for cases; each family tests a particular way in which formulas fail.
-///
-/// Case number i of a family depends on (seed, family, simplex, i) and, for mesh families, on the meshes; on nothing
-/// else. Only correctly rounded operations are used (+ - * / sqrt and powers of two), so the same seed gives the same
-/// bits on every machine.
+/// A recipe for cases that tests a particular way in which formulas fail. Case i depends on (seed, family, simplex, i)
+/// and, for mesh families, on the meshes; on nothing else. Only correctly rounded operations are used (+ - * / sqrt and
+/// powers of two), so the same seed gives the same bits on every machine.
 struct Family {
     std::string name;
     std::string tests;       ///< what it tests, one line
     std::string parameters;  ///< the recipe with its numbers
-    bool needs_mesh = false;
     std::vector<Simplex> simplices;
-    bool perspective = false;  ///< its cases are for kernels with Kernel::perspective, and no others
 
     /// Fills `c` (its simplex is set, all else zero). `index` is the case's number.
-    using Recipe = void (*)(Case& c, base::Random& random, std::uint64_t index);
-    Recipe recipe = nullptr;
+    void (*recipe)(Case& c, base::Random& random, std::uint64_t index) = nullptr;
+    /// Of a family from meshes: returns the draw that the simplex is.
+    audit::Draw (*mesh_recipe)(base::Random& random, const MeshSource& meshes, Simplex s) = nullptr;
 
-    /// Returns the draw that the simplex is.
-    using MeshRecipe = audit::Draw (*)(base::Random& random, const MeshSource& meshes, Simplex s);
-    MeshRecipe mesh_recipe = nullptr;
+    bool needs_mesh = false;
+    bool perspective = false;  ///< its cases are for kernels with Kernel::perspective, and no others
 
     bool applies_to(Simplex s) const;
 };
@@ -283,10 +262,12 @@ const std::vector<Family>& all_families();
 
 std::vector<Family> families_matching(std::string_view glob);
 
-/// The case, and if wanted where it comes from. Preconditions: family.applies_to(s); family.needs_mesh implies
-/// meshes.supplies(s).
+struct Witness;
+
+/// `witness`, if given, is told the case and how it is made. Preconditions: family.applies_to(s); family.needs_mesh
+/// implies meshes.supplies(s).
 Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes,
-               CaseOrigin* origin = nullptr);
+               Witness* witness = nullptr);
 
 // Witnesses: cases that show a finding, their files, and what kernels answer to them today.
 
@@ -310,7 +291,6 @@ struct KernelAnswer {
     int status = 0;        ///< 1: declared degenerate
     std::array<double, 4> weights{};
     Comparison comparison;
-    double worst_weight_ulp = -1;
     std::string detail;  ///< what it did besides answering, in words; empty if nothing
 };
 
@@ -319,13 +299,11 @@ struct Replay {
     OracleAnswer exact;
     int affine_dimension = 0;  ///< of the simplex
 
-    /// Whether interpolation along auxiliary lines gives the barycentric weights, in rational numbers, or, for
-    /// perspective, ray casting the perspective-correct ones; `undefined` for segments and triangle3d.
+    /// Of interpolation along auxiliary lines or, for perspective, ray casting; `undefined` for segments and
+    /// triangle3d.
     IdentityVerdict identity = IdentityVerdict::undefined;
     std::vector<KernelAnswer> answers;  ///< of the kernels for such cases
-
-    /// Why the witness no longer shows its finding; empty if it does, or if it names no kernel or reason.
-    std::string not_reproduced;
+    std::string not_reproduced;  ///< why it no longer shows its finding; empty if it does, or names no kernel or reason
 };
 
 Replay replay_witness(const Witness& witness, const std::vector<Kernel>& kernels);
@@ -343,9 +321,9 @@ Result<std::vector<Witness>> read_witnesses(const std::string& path);
 
 /// Who says what is right.
 enum class OracleChoice : std::uint8_t {
-    /// The integers; before them, where no kernel of the same cases computes with it, barycert's own core where its
-    /// error bounds decide. A sample of what the core decided is put to the integers as well, and to CGAL a sample of
-    /// all, and all that took integers wider than the machine's.
+    /// The core where its error bounds decide, unless a kernel of the same cases computes with it; else the integers. A
+    /// sample of what the core decided is put to the integers as well, and to CGAL a sample of all, and all that took
+    /// integers wider than the machine's.
     automatic,
     integers,  ///< ask_oracle() alone
     cgal,      ///< ask_cgal() alone
@@ -357,29 +335,22 @@ constexpr std::string_view name(OracleChoice o) {
     return names[static_cast<std::size_t>(o)];
 }
 
-/// By whom cases were decided, and who was asked besides and said the same. A disagreement is an error of run_audit().
+/// Cases by who decided them, and by who confirmed that. A disagreement is an error of run_audit().
 struct OracleCounts {
-    std::uint64_t core = 0;           ///< cases decided by barycert's own core
-    std::uint64_t integers = 0;       ///< by the integers
-    std::uint64_t wide = 0;           ///< of these, with integers wider than the machine's
-    std::uint64_t cgal = 0;           ///< by CGAL
-    std::uint64_t also_integers = 0;  ///< cases decided by the core and confirmed by the integers
-    std::uint64_t also_cgal = 0;      ///< cases decided by the core or the integers and confirmed by CGAL
+    std::uint64_t core = 0, integers = 0, cgal = 0;
+    std::uint64_t wide = 0;                          ///< of the integers: wider ones than the machine's
+    std::uint64_t also_integers = 0, also_cgal = 0;  ///< confirmed by
 
     void add(const OracleCounts& other) {
-        core += other.core;
-        integers += other.integers;
-        wide += other.wide;
-        cgal += other.cgal;
-        also_integers += other.also_integers;
-        also_cgal += other.also_cgal;
+        using O = OracleCounts;
+        for (const auto count : {&O::core, &O::integers, &O::wide, &O::cgal, &O::also_integers, &O::also_cgal})
+            this->*count += other.*count;
     }
     friend bool operator==(const OracleCounts&, const OracleCounts&) = default;
 };
 
 struct AuditProgress {
-    std::uint64_t cases_done = 0;
-    std::uint64_t cases_total = 0;
+    std::uint64_t cases_done = 0, cases_total = 0;
     std::string family;
 };
 
@@ -409,11 +380,15 @@ struct KernelResult {
     std::vector<Witness> witnesses;  ///< the worst of each reason, in the order of Finding, worst_weight_ulp last
 };
 
-struct AuditReport {
+/// What each kind of run says of itself.
+struct AuditRun {
     Environment environment;
-    std::uint64_t seed = 0;
-    std::uint64_t count = 0;
+    std::uint64_t seed = 0, count = 0;
     int threads = 0;
+    double seconds = 0;
+};
+
+struct AuditReport : AuditRun {
     std::vector<std::string> meshes;
     std::vector<Verdict> verdicts;    ///< one per mesh
     std::vector<CurvedCells> curved;  ///< likewise: their cells were taken with straight sides
@@ -422,8 +397,7 @@ struct AuditReport {
     OracleChoice oracle = OracleChoice::automatic;
     OracleCounts oracles;                    ///< who decided these cases
     std::array<std::uint64_t, 4> regions{};  ///< number of cases per exact Region
-    double seconds = 0;
-    std::vector<KernelResult> kernels;  ///< worst first
+    std::vector<KernelResult> kernels;       ///< worst first
 };
 
 /// Errors: a floating-point environment in which results cannot be exact; no kernel; no family that applies; two
@@ -441,16 +415,13 @@ struct Threshold {
 
 /// A figure of a kernel that exceeds its threshold.
 struct Violation {
-    std::string kernel;
-    std::string figure;
-    double value = 0;
-    double limit = 0;
+    std::string kernel, figure;
+    double value = 0, limit = 0;
 };
 
-/// NAME is a class of finding (counts), `wrong_cases` or `any` (cases with any finding), `worst_weight_ulp`,
-/// `p999_weight_ulp`, `worst_value_ulp`, `p999_value_ulp`, `worst_partition_residual` or `worst_reproduction_residual`.
-/// NUMBER defaults to 0. Error sizes are taken over the cases that have one; if there are none because weights were not
-/// finite or the simplex was wrongly declared degenerate, they are infinite. Use them together with `any`.
+/// NAME or NAME>NUMBER, NUMBER 0 by default. NAME: a class of finding, `wrong_cases` or `any` (cases with a finding),
+/// an error in ulps or a residual: threshold_names(). Error sizes are taken over the cases that have one; without any,
+/// because weights were not finite or the simplex was wrongly declared degenerate, they are infinite.
 Result<Threshold> parse_threshold(std::string_view text);
 
 std::vector<Violation> violations(const AuditReport& report, const std::vector<Threshold>& rules);
@@ -458,10 +429,8 @@ std::vector<Violation> violations(const AuditReport& report, const std::vector<T
 /// The names that parse_threshold() accepts.
 std::vector<std::string> threshold_names();
 
-// An audit compared with an earlier one: what got worse, what got better.
-//
-// The same seed, count, families and meshes give the same cases, so that figures are compared exactly, case sampling
-// being the same on both sides: one wrong case more is one more. Of other cases nothing is said.
+// An audit compared with an earlier one. The same seed, count, families and meshes give the same cases, so that figures
+// are compared exactly: one wrong case more is one more. Of other cases nothing is said.
 
 /// The figures of one kernel in one family.
 struct BaselineEntry {
@@ -479,8 +448,7 @@ struct Baseline {
     std::vector<BaselineEntry> entries;
 };
 
-/// The names of the figures that are compared: wrong_cases, not_run, each class of finding, errors and residuals. Less
-/// is better of each.
+/// The figures that are compared: wrong_cases, not_run, classes of finding, errors, residuals. Less is better of each.
 const std::vector<std::string>& baseline_figures();
 
 /// Reads what `barycert audit --json` wrote. Errors: the file cannot be read, is not JSON or of another schema, or a
@@ -501,8 +469,8 @@ struct KernelChoice {
     std::optional<double> class_tolerance = {};  ///< of kernels that have no rule of their own
 };
 
-/// Of the catalogue, in its order, then those of the libraries. Error: a name that none has; a
-/// library that cannot be loaded; two with one name.
+/// Of the catalogue, in its order, then those of the libraries. Error: a name that none has; a library that cannot be
+/// loaded; two with one name.
 Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice);
 
 /// Exactly one: that of the library, or the one that the name has. Error also: both are given, or neither.
@@ -554,8 +522,7 @@ struct BaselineChange {
 
 struct BaselineComparison {
     std::uint64_t compared = 0;  ///< pairs of kernel and family
-    /// Of those: in which the kernel was given up on one side at least. There not_run alone is compared, and where it
-    /// was given up on both, nothing.
+    /// Of those: given up on one side at least. There not_run alone is compared; given up on both, nothing.
     std::uint64_t given_up = 0;
     std::uint64_t not_now = 0;           ///< pairs of the baseline that this audit does not have
     std::uint64_t not_before = 0;        ///< pairs of this audit that the baseline does not have

@@ -2,18 +2,8 @@
 /// triangles, and rules for texels.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "barycert/audit.hpp"
-#include "barycert/kernels.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert {
 
@@ -43,13 +33,19 @@ Case sign_case(Simplex s, bool perspective, int i, int j);
 /// case the exact picture.
 std::vector<SignPicture> sign_pictures(const std::vector<Kernel>& kernels);
 
-// Maps of a mesh: in which of its cells a kernel errs, and by how much.
-//
-// A mesh in the plane is seen whole; of one in space a plane section, normal to an axis, in which the cells that it
-// meets are seen. Each of these cells is asked for the same few points: one inside, one computed on each of its facets
-// and, beside each of these, one that is an ulp off in one coordinate.
+// Maps of a mesh: in which of its cells a kernel errs, and by how much. A mesh in the plane is seen whole, of one in
+// space a section normal to an axis. Each of the cells seen is asked for the same few points: one inside, one computed
+// on each of its facets and, beside each of these, one that is an ulp off in one coordinate.
 
-struct MeshMap {
+/// The plane of a picture.
+struct MeshFrame {
+    int axis = -1;  ///< of a section: coordinate `axis` is `at`; -1: the mesh lies in the plane
+    double at = 0;
+    std::array<std::size_t, 2> shown{0, 1};  ///< the axes to the right and upwards
+    std::size_t width = 0, height = 0;
+};
+
+struct MeshMap : MeshFrame {
     static constexpr std::size_t longer_side = 160, shortest_side = 32;  ///< pixels
     static constexpr std::size_t max_meshes = 4, max_kernels = 6;        ///< of mesh_maps()
 
@@ -57,11 +53,7 @@ struct MeshMap {
     std::string why_not;  ///< why there is no map; then all below is empty
     int dimension = 3;
 
-    // The picture: x to the right and y upwards; of a section the other two axes, in their order.
-    int axis = -1;  ///< of the section: coordinate `axis` is `at`; -1: the mesh lies in the plane
-    double at = 0;
-    std::array<double, 2> low{}, high{};
-    std::size_t width = 0, height = 0;
+    std::array<double, 2> low{}, high{};  ///< on the axes that are shown
     std::vector<std::int32_t> pixels;  ///< place in `cells` of the owner of the pixel's centre, -1: none; from the top
 
     std::vector<Mesh::Index> cells;  ///< those that are seen, ascending, by their numbers in the mesh's file
@@ -83,12 +75,10 @@ struct MeshMap {
 std::vector<MeshMap> mesh_maps(const std::vector<Kernel>& kernels, const MeshSource& meshes, std::uint64_t seed,
                                int threads = 0);
 
-// Drift: how far the value of an attribute moves away from the exact one as a triangle in a window grows.
-//
-// Cases are those of the family triangle.pixels: vertices on the grid of 1/256 pixel in boxes of 4, 8, ... 4096 pixels,
-// pixel centres in the triangle. Attributes are 1 to 2 at the vertices. The box lies at the origin and the triangle
-// fills an eighth of it at least, so that the steps tell, not the shape or the place. A kernel that steps from pixel to
-// pixel drifts; one that computes each pixel afresh does not.
+// Drift: how far the value of an attribute moves away from the exact one as a triangle in a window grows. Cases are
+// those of the family triangle.pixels: vertices on the grid of 1/256 pixel in boxes of 4, 8, ... 4096 pixels, pixel
+// centres in the triangle; attributes are 1 to 2 at the vertices. The box lies at the origin and the triangle fills an
+// eighth of it at least, so that the steps tell, not the shape or the place.
 
 struct DriftOptions {
     std::vector<Kernel> kernels;  ///< on triangles, without perspective
@@ -123,13 +113,11 @@ Result<DriftReport> measure_drift(const DriftOptions& options);
 /// Case `index` of a size: the same on every machine.
 Case drift_case(int size, std::uint64_t seed, std::uint64_t index);
 
-// The audit of rules that find the texel of a texture coordinate.
-//
-// A row of `size` texels covers the coordinates u from 0 to 1: texel k those from k / size up to (k + 1) / size, the
-// last one u = 1 too. What lies beyond belongs to the first or last texel (clamp) or to the copies of the row side by
-// side (repeat). The same holds of v and columns. A rule is code that computes k; it is held against exact integers on
-// coordinates where such code is known to fail: at and within a few ulps of the borders of texels, at and beyond both
-// ends, subnormal, huge.
+// The audit of rules that find the texel of a texture coordinate. A row of `size` texels covers the coordinates u from
+// 0 to 1: texel k those from k / size up to (k + 1) / size, the last one u = 1 too. What lies beyond belongs to the
+// first or last texel (clamp) or to the copies of the row side by side (repeat). Rules are held against exact integers
+// where such code is known to fail: at and within a few ulps of the borders of texels, at and beyond both ends,
+// subnormal, huge.
 
 enum class TexelWrap : std::uint8_t { clamp, repeat };
 

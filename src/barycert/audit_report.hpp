@@ -1,18 +1,9 @@
 /// What an audit found, as text, JSON and pictures; the catalogue and the families likewise.
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string>
-#include <variant>
-#include <vector>
-
-#include "barycert/audit.hpp"
 #include "barycert/audit_pictures.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/report.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert {
 
@@ -118,9 +109,6 @@ std::string families_json(const std::vector<Family>& families);
 std::string condition_plot(const AuditReport& report);
 
 // A worst-case search, and the mutation score of the families.
-
-struct SearchReport;  // audit_search.hpp
-struct MutantReport;  // audit_search.hpp
 
 /// The table of faults; below it the plainest case of each, with the command that replays it if a file of witnesses is
 /// named.

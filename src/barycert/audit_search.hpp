@@ -14,28 +14,14 @@
 /// (load_contained_kernel) may crash or hang: that is a finding, too, whose plainest case is the plainest that was met.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "barycert/audit.hpp"
-#include "barycert/check.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/kernels.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert {
 
 struct SearchProgress {
-    std::uint64_t steps_done = 0;
-    std::uint64_t steps_total = 0;  ///< as asked for
+    std::uint64_t steps_done = 0, steps_total = 0;
     double worst_weight_ulp = -1;
     std::uint64_t wrong_cases = 0;  ///< with a finding
 };
@@ -65,15 +51,11 @@ struct SearchFind {
     int plain_bits = 0;                                       ///< significant bits of all its coordinates together
 };
 
-struct SearchReport {
-    Environment environment;
+struct SearchReport : AuditRun {
     Kernel kernel;
-    std::uint64_t seed = 0;
     std::uint64_t steps_asked = 0, steps = 0, walks = 0;
     std::uint64_t plain_steps = 0;  ///< further cases, to make witnesses plain
     int min_exponent = 0, max_exponent = 0;
-    int threads = 0;
-    double seconds = 0;
     bool stopped = false;  ///< by time or by the user: the same options may give another result
     /// The kernel, in a process of its own, failed to answer too often: the rest of the steps was not made, and what
     /// was found depends on threads and time.
@@ -101,11 +83,9 @@ Witness plainest_witness(const Kernel& kernel, const Witness& witness, std::uint
 /// {"schema": 1, "witnesses": [...]} of the plain witnesses, for `barycert replay`.
 std::string witnesses_json(const SearchReport& report);
 
-// Gaps and overlaps: does a kernel give each point of a mesh to a cell that holds it, and to one only?
-//
-// Cells of a mesh are asked one by one, as a search does that tests cells until one says yes. At points on shared
-// faces, edges and vertices, and within a few ulps of them, a kernel that rounds may have no cell say yes (a gap: the
-// point is lost), several, or a cell that does not hold the point.
+// Gaps and overlaps: does a kernel give each point of a mesh to a cell that holds it, and to one only? Cells are asked
+// one by one. At points on shared faces, edges and vertices, and within a few ulps of them, a kernel that rounds may
+// have no cell say yes (a gap: the point is lost), several, or a cell that does not hold the point.
 
 /// When a cell claims a point.
 enum class ClaimRule : std::uint8_t {
@@ -115,12 +95,10 @@ enum class ClaimRule : std::uint8_t {
     own,       ///< as the kernel says: of kernels that classify, or have a tolerance
 };
 
-inline constexpr std::array<ClaimRule, 4> all_claim_rules{ClaimRule::strict, ClaimRule::exact, ClaimRule::tolerant,
-                                                          ClaimRule::own};
+inline constexpr std::array all_claim_rules{ClaimRule::strict, ClaimRule::exact, ClaimRule::tolerant, ClaimRule::own};
 
 constexpr std::string_view name(ClaimRule r) {
-    constexpr std::array<std::string_view, 4> names{"strict", "exact", "tolerant", "own"};
-    return names[static_cast<std::size_t>(r)];
+    return std::array<std::string_view, 4>{"strict", "exact", "tolerant", "own"}[static_cast<std::size_t>(r)];
 }
 
 /// What can go wrong at a point. The first four where a cell holds the point, the last where none does.
@@ -156,16 +134,17 @@ struct ClaimCounts {
     std::array<std::uint64_t, claim_fault_count> faults{};
 
     std::uint64_t of(ClaimFault f) const { return faults[static_cast<std::size_t>(f)]; }
+    void add(const ClaimCounts& other);
 };
 
 struct ClaimResult {
     std::string kernel;  ///< empty: exact arithmetic
     ClaimRule rule = ClaimRule::exact;
     std::array<ClaimCounts, 3> by_feature{};  ///< face, edge, vertex
-    /// Pairs of point and cell to which the kernel gave no answer: it ended, took too long, or had been given up for
-    /// that and was no longer asked. The cell does not claim the point then.
+    /// Pairs of point and cell without an answer, as the kernel ended, took too long, or had been given up: not
+    /// claimed.
     std::uint64_t unanswered = 0;
-    std::vector<std::pair<ClaimFault, ClaimWitness>> witnesses;  ///< the first of each fault
+    std::map<ClaimFault, ClaimWitness> witnesses;  ///< the first of each fault
 
     ClaimCounts total() const;
 };
@@ -179,17 +158,13 @@ struct GapsOptions {
     std::vector<ClaimRule> rules = {};  ///< no others are looked at; empty: all
 };
 
-struct GapsReport {
-    Environment environment;
+struct GapsReport : AuditRun {
     std::string mesh;
     int dimension = 3;
     Verdict verdict = Verdict::not_checked;
     CurvedCells curved;  ///< of the mesh: taken with straight sides
     Notes notes;         ///< of the file of the mesh
-    std::uint64_t seed = 0, count = 0;
-    int threads = 0;
     double tolerance = 0;
-    double seconds = 0;
     OracleCounts oracles;              ///< by pairs of point and cell
     std::vector<ClaimResult> results;  ///< exact arithmetic first, then the kernels as given, rule by rule
 };
@@ -218,11 +193,10 @@ Result<GapsLimit> parse_gaps_limit(std::string_view text);
 /// The features of ClaimResult::by_feature.
 inline constexpr std::array<Feature, 3> claim_features{Feature::face, Feature::edge, Feature::vertex};
 
-// The mutation score of the families: kernels with seeded faults, each beside the sound kernel that it was made from,
-// and the families whose figures tell them apart.
-//
-// A family that no mutant needs may be idle; a mutant that no family catches shows a gap. Faults are of kinds seen in
-// public code: a constant off by ten, a guard left out, vertices swapped, a term dropped, a tie decided the other way.
+// The mutation score of the families: which of them tell kernels with seeded faults from the sound ones that they were
+// made from. A family that no mutant needs may be idle; a mutant that no family catches shows a gap. Faults are of
+// kinds seen in public code: a constant off by ten, a guard left out, vertices swapped, a term dropped, a tie decided
+// the other way.
 
 struct Mutant {
     Kernel kernel;  ///< its name is the sound kernel's, "!" and the fault
@@ -247,11 +221,7 @@ struct MutantResult {
     std::vector<MutantCatch> catches;  ///< most telling first
 };
 
-struct MutantReport {
-    Environment environment;
-    std::uint64_t seed = 0, count = 0;
-    int threads = 0;
-    double seconds = 0;
+struct MutantReport : AuditRun {
     std::vector<MutantResult> mutants;
 
     std::uint64_t caught() const;

@@ -31,18 +31,9 @@
 /// cells takes ten microseconds to some milliseconds; CheckOptions::contacts limits their number.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "barycert/io.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert {
 
@@ -80,7 +71,7 @@ private:
 /// Second-order cells whose sides are not straight. They are taken with straight sides everywhere: what is said of them
 /// is exact for these, and for the file's own shapes only up to about `max_deviation`.
 ///
-/// The deviation of a mid-edge node is its distance from the middle of the two ends, in parts of their distance. It is
+/// The deviation of a mid-edge node is its distance from the middle of the two ends, over their distance. It is
 ///   nothing   up to 2^-49 of the largest coordinate of the ends, on each axis: a middle computed in double, or written
 ///             with 16 digits (derived in check/curved.cpp);
 ///   rounding  up to 1e-10 of the edge: what meshers and motions compute. Or up to one unit of the last place of the
@@ -265,9 +256,8 @@ Distribution distribution(const std::vector<double>& values);
 /// radius_edge, aspect, min_angle, max_angle; and problems, the sum of the bits of DefectSet.
 std::vector<Field> measure_fields(const CellMeasures& measures);
 
-/// A point that two cells share. `point` is rounded to double; if `exact`, the rounded point is itself shared, which
-/// weight_signs can confirm. `fraction` is the point as "numerator/denominator" per coordinate, in lowest terms unless
-/// it has more than 4096 bits; where it would have more and `exact` holds, it is `point` as fractions.
+/// A point that two cells share, rounded; if `exact`, the rounded point is itself shared. `fraction`: the exact point
+/// as "numerator/denominator", in lowest terms unless it has more than 4096 bits, then that of `point` if `exact`.
 struct CommonPoint {
     std::array<double, 3> point{};
     bool exact = false;
@@ -282,9 +272,9 @@ struct CellContact {
     CommonPoint common;
 };
 
-/// Is the mesh locally Delaunay? An interior facet is locally Delaunay if the apex of neither cell lies strictly inside
-/// the circumsphere of the other (exact). A partition of a convex domain all of whose interior facets are so is a
-/// Delaunay triangulation (Delaunay's lemma); with a boundary or facets to respect, a constrained one.
+/// An interior facet is locally Delaunay if the apex of neither cell lies strictly inside the circumsphere of the other
+/// (exact). A partition of a convex domain all of whose interior facets are so is a Delaunay triangulation (Delaunay's
+/// lemma); with a boundary or facets to respect, a constrained one.
 struct DelaunayReport {
     std::uint64_t facets = 0;       ///< interior facets tested: of two cells that are not degenerate
     std::uint64_t violations = 0;   ///< not locally Delaunay
@@ -368,8 +358,7 @@ struct CheckReport {
 
     CurvedCells curved;  ///< of cells that were taken with straight sides, as far as they have others
     Certificate certificate;
-    std::vector<Defect>
-        defects;  ///< those found, first those that break the certificate, each in the order of DefectKind
+    std::vector<Defect> defects;  ///< first those that break the certificate, each in the order of DefectKind
 
     std::uint64_t positive = 0, negative = 0, degenerate = 0;  ///< cells by exact orientation
     std::uint64_t parts = 0;                                   ///< connected over facets

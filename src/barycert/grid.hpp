@@ -31,9 +31,9 @@ struct Grid {
     std::uint64_t point_count() const { return layer_size() * static_cast<std::uint64_t>(counts[2]); }
 };
 
-/// Returns the grid from low to high, ends included. An axis of one point has it in the middle. In 2D the third entries
-/// are ignored. Returns an Error if the dimension is neither 2 nor 3, a count is below 1 or above max_on_axis, there
-/// are more than 2^62 points, or bounds are not finite and ascending (low < high where there are several points).
+/// The grid from low to high, ends included. An axis of one point has it in the middle. In 2D third entries are ignored.
+/// Error: another dimension than 2 or 3; a count below 1 or above max_on_axis, more than 2^62 points; bounds that are
+/// not finite and ascending (low < high where there are several points).
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high);
 
@@ -54,15 +54,13 @@ Bounds3 bounds_of_cells(const Mesh& mesh);
 // Fields on a regular grid, cell by cell: each cell finds the grid points that it contains, which is many times faster
 // than locating each point.
 
-/// Takes some layers of a grid (2D: some lines), whole, in the order of the grid's points: `first_row` is the number of
-/// the first point, `points` is empty. The view is gone after the call. Calls come one after the other, but from any
-/// thread, while others fill the next layers.
+/// Takes some layers of a grid (2D: lines), whole, in the order of the grid's points: `first_row` is the number of the
+/// first point, `points` is empty. The view is gone after the call. Calls come in order, from any thread.
 using GridSink = std::function<Status(const TableView&)>;
 
 /// Passes to `sink` the rows that Sampler::sample returns for the points of the grid, bit for bit, and returns their
-/// counts. (LocationCounts::tests, and which tier decided a value, may differ.) Blocks come in order; memory is that of
-/// a few layers for each thread, and once more. Works on every mesh without a certificate. Returns the Errors of
-/// Sampler::sample, and that of `sink`, after which it stops.
+/// counts. (LocationCounts::tests, and which tier decided a value, may differ.) Memory is that of a few layers for each
+/// thread, and once more. Errors of Sampler::sample, and that of `sink`, after which it stops.
 Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                               const GridSink& sink);
 

@@ -21,30 +21,27 @@ namespace barycert {
 // Gmsh's .msh files: meshes in and out. read_mesh and write_mesh come here for what ends in .msh.
 
 struct GmshReadOptions {
-    /// Which step in time fields are read of; not set: of each field its first one. A field with a single step is read
-    /// in any case.
+    /// Which step in time fields are read of; not set: the first of each. A field with a single step is read anyway.
     std::optional<std::int64_t> step = {};
     int threads = 0;  ///< 0: as many as the machine has
 };
 
 /// Reads a .msh file of version 4.1, 4.0 or 2.x, text or binary of either byte order.
 ///
-/// - Tetrahedra make a mesh of dimension 3. Where there are no cells of dimension 3, triangles make one of dimension 2,
-///   and all nodes must have z = 0. All cells are of order 1 or all of order 2.
+/// - Tetrahedra make a mesh of dimension 3; where nothing has dimension 3, triangles one of dimension 2, with z = 0.
+/// All
+///   cells are of order 1 or all of order 2.
 /// - Elements of a lower dimension are left out, with a Note; `cell_numbers` are positions among all elements.
 /// - Nodes stand in the order of the file whatever their tags, those of no cell included.
-/// - Cell fields "gmsh:physical" (the tag of the cell's physical group, 0 for none; absent if no cell has one) and
-///   "gmsh:geometrical" (that of its entity; absent if it is 1 for all cells, or 0 for all). Cell labels
-///   "gmsh:physical_name", if a group of cells has a name, and "gmsh:tag", the elements' tags, unless they are 1, 2, 3,
-///   ... in the order of the file.
+/// - Cell fields "gmsh:physical" (the tag of the cell's group, 0 for none; absent if no cell has one) and
+///   "gmsh:geometrical" (that of its entity; absent if 1 for all cells, or 0). Cell labels "gmsh:physical_name", if a
+///   group of cells has a name, and "gmsh:tag", the elements' tags, unless they are 1, 2, 3, ... in their order.
 /// - $NodeData and $ElementData become fields of the view's name. Nodes and cells without a value have NaN.
-/// - What else there is (values at the nodes of each element, interpolation schemes, periodic nodes) is left out, with
-/// a
-///   Note.
+/// - What else there is (values at the nodes of elements, interpolation schemes, periodic nodes) is left out: Notes.
 ///
-/// Error: the file is missing, cut off, contradicts itself, has a coordinate that is not finite, two nodes with one
-/// tag, an element with an unknown node, cells of other types (they are named), no cells, or triangles off the plane z
-/// = 0; memory is short. Memory is bounded by a multiple of the file's size.
+/// Error: the file is missing, cut off, contradicts itself, has a coordinate that is not finite, a tag of two nodes, an
+/// unknown node, cells of other types (which are named), no cells, or triangles off the plane z = 0; memory is short.
+/// Memory is bounded by a multiple of the file's size.
 Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options = {});
 
 /// One section of values of a .msh file.
@@ -74,16 +71,15 @@ struct GmshWriteOptions {
 /// Writes nodes, cells, and fields as $NodeData and $ElementData. Every double reads back to the same bits; in text,
 /// NaN loses its payload.
 ///
-/// - The cell field "gmsh:physical" becomes physical groups, named by the cell labels "gmsh:physical_name", and
+/// - The cell field "gmsh:physical" becomes groups, named by the cell labels "gmsh:physical_name", and
 ///   "gmsh:geometrical" the entities. Where that cannot be (tags that are no integers of 32 bits; in 4.1, an entity in
-///   several groups), they are written as $ElementData, which read_gmsh gives back just so. In 4.1 each group needs an
-///   entity: without "gmsh:geometrical" they are numbered from 1, and read_gmsh gives them as that field.
-/// - Elements have the tags of the label "gmsh:tag" if these are positive and differ, or else the numbers of the cells
-///   in the file they came from, from 1.
+///   several groups), they are $ElementData, which reads back the same. In 4.1 each group needs an entity: without
+///   "gmsh:geometrical" they are numbered from 1, and read_gmsh gives them as that field.
+/// - Elements have the tags of the label "gmsh:tag" if these are positive and differ, else cell_numbers from 1.
 /// - point_markers become $NodeData "marker". Faces, neighbours and other labels are not written.
 ///
-/// The file appears whole or not at all. Error: the mesh is inconsistent; two fields of one kind have the same name, or
-/// one has a line break or a quote in it; the file cannot be written.
+/// The file appears whole or not at all. Error: the mesh is inconsistent; a name of two fields of one kind, or with a
+/// line break or a quote in it; the file cannot be written.
 Status write_gmsh(const Mesh& mesh, const std::string& path, const GmshWriteOptions& options = {});
 
 // Files of VTK: meshes, points and series. VTK itself is not needed.
@@ -97,33 +93,30 @@ struct StepChoice {
     bool made() const { return number || time || last; }
 };
 
-/// Reads a mesh: an unstructured grid or polygon data in XML (.vtu, .vtp) or in the legacy format (.vtk); the pieces of
-/// a partitioned one (.pvtu), of the blocks of a multiblock data set (.vtm, .vtpd, .vtpc); a step of a series
-/// (.pvd, .vtu.series, .vtp.series). Which of them it is, is told by its first bytes. ASCII, base64, raw, compressed by
-/// zlib, LZ4 or LZMA, of either byte order, in one piece or several.
+/// Reads an unstructured grid or polygon data in XML (.vtu, .vtp) or in the legacy format (.vtk); the pieces of a
+/// partitioned one (.pvtu) or of a multiblock data set (.vtm, .vtpd, .vtpc); a step of a series (.pvd, .vtu.series,
+/// .vtp.series). Which it is, is told by its first bytes. ASCII, base64, raw, compressed by zlib, LZ4 or LZMA, of
+/// either byte order.
 ///
-/// - Tetrahedra make a mesh of dimension 3. Where there are none, triangles make one of dimension 2, and all points
-///   must have z = 0. All cells are linear or all are quadratic (VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE), whose
-///   mid-edge nodes go to mid_nodes.
+/// - Tetrahedra make a mesh of dimension 3; where there are none, triangles one of dimension 2, with z = 0. All cells
+///   are linear or all are quadratic (VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE).
 /// - Vertices, lines and, beside tetrahedra, triangles are left out, as are ghost cells (vtkGhostType: duplicate,
 ///   refined, hidden), with their rows of the cell arrays. cell_numbers then says which cells of the file stay; those
 ///   of several files count on.
-/// - Of a collection with unstructured grids, polygon data and other grids are left out; where there are none, polygon
-///   data are the mesh.
-/// - Nodes of pieces are kept as they are. Where the file gives their global numbers (GlobalIds, GlobalNodeId), nodes
-///   of one number and place are one.
-/// - Arrays of any numeric type and any number of components become fields of the same name, exactly. Strings of cells,
-///   and 64-bit integers of one component that no doubles represent, become cell_labels. Other arrays are left out: of
-///   strings of points, without a name, missing in one of the pieces. Of arrays with time steps the first is read.
-/// - A point array "marker" of 64-bit integers, one a point, becomes point_markers: write_vtk keeps them there.
+/// - Of a collection with unstructured grids all else is left out; where there are none, polygon data are the mesh.
+/// - Nodes of pieces are kept as they are; of one global number (GlobalIds, GlobalNodeId) and place they are one.
+/// - Arrays of numbers of any type become fields of the same name, exactly. Strings of cells, and 64-bit integers of
+/// one
+///   component that no doubles represent, become cell_labels. Other arrays are left out: strings of points, without a
+///   name, missing in one of the pieces. Of arrays with time steps the first is read.
+/// - A point array "marker" of 64-bit integers, one a point, becomes point_markers.
 ///
 /// Mesh::notes tells what was left out or converted (float32 to double), and where pieces may share nodes.
 ///
-/// Error: a step is chosen, and there is no series, or no such step; the file, or one that it names, is missing, cut
-/// off, contradicts itself, has a coordinate that is not finite,
-/// an index that is no point, more than 2147483647 points or cells, cells of other types (they are named), no cells of
-/// its dimension, or triangles off the plane z = 0; XML with a document type; memory is short. Memory is bounded by
-/// what the file holds once it is decompressed.
+/// Error: a step is chosen, and there is none; the file, or one that it names, is missing, cut off, contradicts itself,
+/// has a coordinate that is not finite, an index that is no point, more than 2147483647 points or cells, cells of other
+/// types (which are named), no cells, or triangles off the plane z = 0; XML with a document type; memory is short.
+/// Memory is bounded by what the file holds once it is decompressed.
 Result<Mesh> read_vtk(const std::string& path, const StepChoice& step = {});
 
 /// The path and, of a file that names files, theirs.
@@ -156,46 +149,39 @@ struct SeriesStep {
 };
 
 /// The steps of a series (.pvd, or ParaView's .vtu.series) in the order of the file: entries of one time that follow
-/// each other are one step. Error: no such file; no well-formed XML, another kind; an entry without a file, a time that
-/// is no finite number.
+/// each other are one step. Error: no such file, or no series; an entry without a file; a time that is not finite.
 Result<std::vector<SeriesStep>> read_series(const std::string& path);
 
 /// Writes the mesh as its path ends: .vtu as write_vtu does; .vtk in the legacy format, binary (`data` raw) or as text
 /// (ascii). read_vtk reads the same mesh from either, to the bits of every double, but for faces, neighbours and the
 /// index base; in ascii a NaN loses its payload.
 ///
-/// A legacy file is of version 4.2, which every reader of the format knows, and of 5.1 from 2^31 numbers of cells on.
-/// It appears whole or not at all and is written as it is made. Names of fields may hold any bytes.
+/// A legacy file is of version 4.2, and of 5.1 from 2^31 numbers of cells on. Names of fields may hold any bytes.
 ///
-/// Error: an ending that is neither; compression of a legacy file, which knows none; as write_vtu, but for what
-/// concerns XML; in a legacy file a name that takes more than 200 bytes there (all but letters and digits may take
-/// three), which VTK's own readers would not read, or the name METADATA or NULL_ARRAY, which mean something else there.
+/// Error: another ending; compression of a legacy file; as write_vtu, but for what concerns XML; in a legacy file a
+/// name that takes more than 200 bytes there (all but letters and digits may take three), which VTK's own readers
+/// refuse, or METADATA or NULL_ARRAY, which mean something else there.
 Status write_vtk(const Mesh& mesh, const std::string& path, VtkData data = VtkData::raw);
 
-/// Writes points, cells and fields as one piece of XML (unstructured grid), for every reader of VTU files.
+/// Writes points, cells and fields as one piece of XML (unstructured grid).
 ///
-/// - Triangles get z = 0. Where there are mid-edge nodes, cells are quadratic ones. Corners keep their order, so a cell
-///   of negative volume stays one.
-/// - Fields are Float64 arrays under their own names, with their components; any value may be in them, NaN and infinity
-///   too. point_markers are an Int64 array "marker"; cell labels are Int64 and String arrays. Faces and neighbours have
-///   no place in the format.
+/// - Triangles get z = 0. Cells with mid-edge nodes are quadratic ones. Corners keep their order.
+/// - Fields are Float64 arrays of any values, NaN and infinity too. point_markers are an Int64 array "marker"; cell
+///   labels are Int64 and String arrays. Faces and neighbours have no place in the format.
 /// - Every double reads back to the same bits, NaNs with their payloads (but in ascii, and VTK's own reader of ascii
 ///   knows no NaN), and the same mesh gives the same bytes on any number of threads.
 ///
-/// The file appears whole or not at all; beside the mesh little memory is taken.
-///
-/// Error: the mesh is inconsistent; a field has no name, the name of another one of its kind (of "marker", where there
-/// are markers), or a name that XML cannot hold (not UTF-8, or control characters but for tab and line breaks); a label
-/// that holds a zero byte; the file cannot be written; memory is short.
+/// The file appears whole or not at all. Error: the mesh is inconsistent; a field has no name, that of another one of
+/// its kind (or "marker", where there are markers), or one that XML cannot hold (not UTF-8, or control characters but
+/// for tab and line breaks); a label that holds a zero byte; the file cannot be written; memory is short.
 Status write_vtu(const Mesh& mesh, const std::string& path, VtkData data = VtkData::raw);
 
 // Piecewise linear complexes (PLCs): polygons in space that bound and cut the region to be meshed.
 //
-// barycert reads PLC files itself and hands TetGen arrays: TetGen's own loaders read `010` as 8 and `1.0D+03` as 1,
-// shift columns at a `nan`, ignore node numbers and crash on truncated files.
-// In: .poly .smesh (nodes in the file or in STEM.node), .off, .stl (text or binary), .ply (text). Counts are
-// checked against the file's size, so memory stays within a small multiple of it. A number with which the file ends is
-// refused, for more digits may have been cut. Indices in memory are 0-based.
+// TetGen gets arrays: its own loaders read `010` as 8 and `1.0D+03` as 1, shift columns at a `nan`, ignore node numbers
+// and crash on truncated files. In: .poly .smesh (nodes in the file or in STEM.node), .off, .stl (text or binary), .ply
+// (text). Memory stays within a small multiple of the file's size. A number with which the file ends is refused, for
+// more digits may have been cut. Indices in memory are 0-based.
 
 struct PlcFacet {
     std::vector<std::vector<std::int32_t>> polygons;  ///< rings of nodes; a ring of two is a segment
@@ -259,17 +245,15 @@ struct SliceCounts {
     double low = 0, high = 0;      ///< the range; NaN if nothing is drawn and none was given
 };
 
-/// Writes the slice as 8-bit RGBA in sRGB with colours of colour_map.hpp; the file appears whole or not at all.
+/// Writes the slice as 8-bit RGBA in sRGB; the file appears whole or not at all.
 ///
 /// One pixel a value, the second coordinate upwards: values[0] is at the lower left. Where aspect is not 1, columns or
 /// lines are repeated so that the picture has the shape of the plane: round(width * aspect) columns if it is above 1,
 /// else round(height / aspect) lines, each showing the value whose place holds its middle.
-/// The range is divided into 256 equal parts, a colour each; its ends have the first and the last colour. If all that
-/// is drawn has one value, or the range is one number, that has the colour in the middle. The bar is a white panel of
-/// its own beside the slice; a slice less than 25 pixels high is made so high by transparent lines below it. Without a
-/// range there is no bar. Title and scale are a white panel below both; a title that is too long is cut, and there is
-/// no scale where there is no place for it. The scale is a line of 1, 2 or 5 times a power of ten, rounded to pixels,
-/// with that number.
+/// The range is divided into 256 equal parts, a colour each; its ends have the first and the last colour. A range of
+/// one number has the colour in the middle. Without a range there is no bar. The bar is a white panel beside the slice,
+/// which transparent lines below it make at least 25 pixels high. Title and scale are a white panel below both: a title
+/// that is too long is cut; a scale, a line of 1, 2 or 5 times a power of ten, is there where there is place for it.
 ///
 /// `counts`: if given, set. Errors: sizes that do not fit together, no value at all, more than a million pixels a side;
 /// an aspect or a range that is none; a file that cannot be written.
@@ -286,10 +270,9 @@ struct ReadOptions {
     StepChoice step = {};    ///< of a series; Error: one is chosen, and there is no series
 };
 
-/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh, or
-/// Medit, .mesh and .meshb; and VTK's .vtu, .vtk, .vtp, .pvtu, .vtm, .pvd and .vtu.series. The format is told
-/// by the first bytes, or else by the suffix. Returns an Error if it cannot be read: a file of another format is named
-/// as what it is, with the command that converts it.
+/// Reads a mesh: TetGen's or Triangle's files by their stem or any one of them; a file of Gmsh, .msh, or Medit, .mesh
+/// and .meshb; VTK's .vtu, .vtk, .vtp, .pvtu, .vtm, .pvd and .vtu.series. The format is told by the first bytes, or
+/// else by the suffix. Error: a file of another format is named as what it is, with the command that converts it.
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
 
 /// The paths of all files that read_mesh(path) may read.
@@ -321,29 +304,29 @@ Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions&
 /// Error: another suffix.
 Result<std::vector<std::string>> written_mesh_files(const std::string& path);
 
-// Streams of points: CSV, NPY and .node files, block by block, so that memory does not grow with their number; the
-// nodes of meshes.
+// Streams of points: CSV and NPY files, block by block, so that memory does not grow with their number; the nodes of
+// .node files and meshes.
 //
-// Coordinates are finite doubles (but see PointOptions) in the file's own unit; decimal numbers are rounded to nearest,
-// ties to even. What cannot be read without a guess is an Error, with file, line (of text), what was expected and
-// found, a remedy.
+// Coordinates are finite doubles (but see PointOptions); decimal numbers are rounded to nearest, ties to even. What
+// cannot be read without a guess is an Error.
 //
-// Which columns are the coordinates: those that PointOptions names; or x, y, z; Points:0, Points:1, Points:2; or
-// Points_0, Points_1, Points_2, in any case and any place; or, in a file that names none, all columns, if they are as
-// many as the dimension. Beside a mesh in the plane a column z must be 0 throughout.
+// The coordinates are the columns that PointOptions names; or x, y, z; Points:0, Points:1, Points:2; or Points_0,
+// Points_1, Points_2, in any case and any place; or, in a file that names none, all columns, if they are as many as the
+// dimension. Beside a mesh in the plane a column z must be 0 throughout.
 //
 // CSV    (also .txt .dat .xyz .tsv, and what comes from a pipe) One point a line, in UTF-8. The first line settles the
-// separator: the first of semicolon, comma and tab that
-//        it holds outside quotes, or else blanks. It is a header if it names the coordinates, or if none of its fields
-//        is a number. Every line has as many fields as the first. Fields may stand in double quotes. Blank lines, and
-//        lines that begin with #, are passed over. Lines end in LF or CR LF; the last may lack its end, but not where
-//        the file would end within a value that is read: 0.2 may be the beginning of 0.25. At most 1 MiB a line. A
-//        named pipe is waited for.
+//        separator: the first of semicolon, comma and tab that it holds outside quotes, or else blanks. It is a header
+//        if it names the coordinates, or if none of its fields is a number. Every line has as many fields. Fields may
+//        stand in double quotes. Blank lines, and lines that begin with #, are passed over. Lines end in LF or CR LF;
+//        the last may lack its end, but not where the file would end within a value that is read: 0.2 may be the
+//        beginning of 0.25. At most 1 MiB a line. A named pipe is waited for.
 // NPY    Versions 1 to 3; numbers of any integer or floating type up to 64 bits, of either byte order. One array of
 //        shape (n, columns), in C or Fortran order, or a structured one of shape (n,): a field of several numbers is
 //        the columns NAME.0, NAME.1, ... An integer that no double represents is an Error.
 // .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp. Columns: attribute0, attribute1, ...,
-// marker. meshes Any file that read_mesh takes. Columns: the fields of nodes, and marker. All of it is in memory.
+// marker.
+//        All of it is in memory.
+// meshes Any file that read_mesh takes. Columns: the fields of nodes, and marker. All of it is in memory.
 
 /// Which columns of a file of points are taken for what.
 struct PointOptions {
@@ -351,8 +334,8 @@ struct PointOptions {
     /// commas between them. Empty: see above.
     std::vector<std::string> columns = {};
 
-    /// Those that are carried through: names, or "all" of the others; NEW=NAME gives a column another name. Columns of
-    /// files that name none are column1, column2, ... One text may hold several, with commas between them.
+    /// Those that are carried through, likewise, or "all" of the others; NEW=NAME gives a column another name. Columns
+    /// of files that name none are column1, column2, ...
     std::vector<std::string> keep = {};
 
     /// nan: points that are not finite are given as they are, and an empty field of a CSV file as NaN. Not for nodes of
@@ -375,25 +358,23 @@ public:
     /// The number of points, where it is known before the end.
     virtual std::optional<std::uint64_t> count() const = 0;
 
-    /// Appends the coordinates of up to `max_points` points to `out`, point after point, and returns how many: fewer
-    /// than `max_points` only at the end, 0 after it. On an Error the points before the fault may have been appended;
-    /// the source gives nothing but that Error from then on.
+    /// Appends the coordinates of up to `max_points` points to `out` and returns how many: fewer only at the end, 0
+    /// after it. On an Error the points before the fault may have been appended; it comes again from then on.
     virtual Result<std::size_t> read(std::size_t max_points, std::vector<double>& out) = 0;
 
     /// The columns that are carried through.
     virtual std::vector<ColumnFormat> carried() const { return {}; }
 
-    /// Puts the carried columns of the points of the last read() into `columns`, a value a point; afterwards the
-    /// source has them no longer. It may use the memory of what was in `columns` again.
+    /// Moves the carried columns of the points of the last read() to `columns`, a value a point.
     virtual void take_carried(std::vector<Column>& columns) { columns.clear(); }
 
     /// What of the file is left out, converted or guessed. Known when opened.
     virtual Notes notes() const { return {}; }
 };
 
-/// Opens the points of a CSV, NPY or .node file, of a mesh, or of VTK's files with or without cells (read_vtk_points in
-/// io.hpp); "-" is CSV from the standard input. `dimension`: 2 or 3. Returns an Error if the file cannot be read, is
-/// of an unknown kind, or has another dimension, or if there are no such columns.
+/// Opens the points of a CSV, NPY or .node file, of a mesh, or of VTK's files with or without cells (read_vtk_points);
+/// "-" is CSV from the standard input. `dimension`: 2 or 3. Error: the file cannot be read, is of an unknown kind, or
+/// has another dimension; there are no such columns.
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension,
                                                  const PointOptions& options = {});
 
@@ -402,9 +383,8 @@ std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimen
 
 // Sampled values, row by row, into CSV and NPY files that appear whole or not at all.
 //
-// CSV  A header line x,y[,z],cell,feature,NAME...[,distance][,CARRIED...], then a line a row. Numbers are in the
-// shortest
-//      decimal form that reads back to the same bits; nan, inf, -inf. Names and texts that hold a comma, a quote or a
+// CSV  A header line x,y[,z],cell,feature,NAME...[,distance][,CARRIED...], then a line a row. Numbers are in their
+//      shortest form that reads back to the same bits; nan, inf, -inf. Names and texts that hold a comma, a quote or a
 //      line end, or that begin or end with a blank, are quoted, and quotes in them doubled.
 // NPY  One structured array: x, y[, z] float64, cell int64, feature bytes of 8, each column float64, [distance
 //      float64], carried columns int64, float64, or text: U, characters, if ColumnFormat::max_characters is not 0, else
@@ -434,8 +414,8 @@ public:
     virtual Status commit() = 0;
 };
 
-/// Opens a CSV, NPY or .vtu file by the suffix of the path; "-" is CSV on the standard output. Returns an Error if the
-/// suffix is another one, the path cannot be written, or NPY names would be refused by NumPy.
+/// Opens a CSV, NPY or .vtu file by the suffix of the path; "-" is CSV on the standard output. Error: another suffix;
+/// the path cannot be written; NumPy would refuse a name.
 Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format);
 
 }  // namespace barycert

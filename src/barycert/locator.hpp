@@ -18,9 +18,9 @@
 ///
 /// Method. While the index is made it is proved of each cell, if it is so, that all others meet it in common faces or
 /// not at all (doc/theorem.md). Points are sorted along a space-filling curve and walk, on SIMD lanes, to a cell that
-/// certainly contains them. Integers decide what the filter of signs leaves undecided; the cells around a face, edge or
-/// vertex follow from the mesh's connectivity. Where a walk ends at the boundary, or in a cell of which it is not
-/// proved, every cell whose box contains the point is tested. Points where no cell is near are outside at once.
+/// certainly contains them; integers decide what the filter leaves open, connectivity gives the cells around a face,
+/// edge or vertex. Where a walk ends at the boundary, or in a cell of which nothing is proved, every cell whose box has
+/// the point is tested. Points where no cell is near are outside at once.
 #pragma once
 
 #include <cstddef>
@@ -78,8 +78,7 @@ struct BuildOptions {
 class Locator {
 public:
     /// Proves while it indexes where points can be found by walks. The mesh must stay as it is and outlive the locator.
-    /// Time O(n log n); see CheckOptions for what thin cells may cost. Returns an Error if the mesh is inconsistent:
-    /// indices out of range, coordinates that are not finite, sizes that do not fit.
+    /// Time O(n log n); see CheckOptions for what thin cells may cost. Error: an inconsistent mesh.
     static Result<Locator> build(const Mesh& mesh, const BuildOptions& options = {});
     static Result<Locator> build(Mesh&&, const BuildOptions& = {}) = delete;
 
@@ -109,8 +108,8 @@ public:
     Result<Location> locate(const double* point, Mesh::Index hint = -1) const;
 
     /// Locates many points: sets cells[i] and features[i] for point i. `threads`: 0 for as many as the machine has.
-    /// Returns an Error if sizes do not fit, or a coordinate is not finite (it names the point), unless such points are
-    /// to be outside. The output is then unspecified.
+    /// Error, and the output unspecified: sizes that do not fit; a coordinate that is not finite, unless such points are
+    /// to be outside.
     Status locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
                   LocationCounts* counts = nullptr, int threads = 0,
                   NonfinitePoints nonfinite = NonfinitePoints::error) const;
@@ -124,10 +123,9 @@ public:
     Result<Table> locate_all(std::span<const double> points, int threads = 0,
                              NonfinitePoints nonfinite = NonfinitePoints::error) const;
 
-    /// Returns the nearest point of all cells that are not degenerate, if its rounded distance is at most `limit`; none
-    /// if `limit` is negative or NaN. Takes some microseconds to some hundred; more where many cells are equally near
-    /// up to 1e-13 of the size of the mesh, because these are compared in integers. Returns an Error if a coordinate is
-    /// not finite.
+    /// The nearest point of all cells that are not degenerate, if its rounded distance is at most `limit`; none if that
+    /// is negative or NaN. Takes some microseconds to some hundred; more where many cells are equally near up to 1e-13
+    /// of the size of the mesh: these are compared in integers. Error: a coordinate that is not finite.
     Result<Nearest> nearest(const double* point, double limit) const;
 
 private:

@@ -18,10 +18,6 @@
 /// degenerate.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-
 #include "barycert/simplex.hpp"
 
 namespace barycert {

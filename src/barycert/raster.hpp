@@ -47,9 +47,8 @@ struct PixelSpan {
     friend bool operator==(PixelSpan, PixelSpan) = default;
 };
 
-/// Appends the pixels of the raster that the triangle covers (R1), from the bottom row to the top. `vertices`: x and y
-/// of three vertices. Returns an Error, and appends nothing, if there are not six numbers, one is not finite, or the
-/// size is refused.
+/// Appends the pixels that the triangle covers (R1), from the bottom row up. `vertices`: x and y of three. Error, and
+/// nothing appended: not six finite numbers, or a size that is refused.
 Status cover_triangle(RasterSize size, std::span<const double> vertices, std::vector<PixelSpan>& spans);
 
 /// How values are interpolated. All three cover the same pixels.
@@ -71,15 +70,13 @@ Result<PixelValues> empty_pixels(RasterSize size, int components);
 
 struct FillOptions {
     FillMethod method = FillMethod::barycentric;
-
     /// `correct`: each value is the exact one at the pixel's centre, rounded once; with FillMethod::barycentric only.
     Rounding rounding = Rounding::plain;
 };
 
-/// Sets the values of the pixels that the triangle covers and returns their number. `vertices`: x and y of three
-/// vertices; `values`: out.components numbers a vertex, vertex after vertex. With Rounding::plain, and coordinates and
-/// values below 2^100, a value differs from the exact one by at most fill_error(...). Returns an Error, and changes
-/// nothing, if the numbers are too few or many or a coordinate is not finite.
+/// Sets the values of the pixels that the triangle covers and returns their number. `values`: out.components numbers a
+/// vertex, vertex after vertex. With Rounding::plain, and coordinates and values below 2^100, a value is off by at most
+/// fill_error(...). Error, and nothing changed: too few or many numbers, or a coordinate that is not finite.
 Result<std::size_t> fill_triangle(std::span<const double> vertices, std::span<const double> values, PixelValues& out,
                                   const FillOptions& options = {});
 
@@ -89,8 +86,8 @@ double fill_error(std::span<const double> vertices, std::span<const double> valu
 
 // Pictures of pixels, their PNG files, and textures.
 //
-// A pixel is red, green, blue and opacity of 8 bits each, in sRGB, not multiplied by the opacity. Rows go upwards: row
-// 0 is the lowest, as of pixels, and as v does. Files have their rows from the top: reading and writing turn them.
+// A pixel is red, green, blue and opacity of 8 bits each, in sRGB, not multiplied by the opacity. Row 0 is the lowest;
+// files have their rows from the top: reading and writing turn them.
 
 using Rgba = std::array<std::uint8_t, 4>;  ///< red, green, blue, opacity
 
@@ -124,13 +121,12 @@ Result<Image> blank_image(std::int32_t width, std::int32_t height, Rgba colour);
 Status check_image(const Image& image);
 
 /// Reads a PNG file of any colour type, depth and interlacing as 8-bit RGBA: 16 bits are rounded to 8, greys and
-/// palettes become colours, a pixel without opacity is opaque. Numbers are taken as they are, whatever gamma or profile
-/// the file names. Returns an Error if the file cannot be read, is no PNG file, is damaged or cut short, or has more
-/// than max_image_pixels: memory is bounded by these, and by what a file of its size can hold.
+/// palettes become colours, a pixel without opacity is opaque; gamma and profiles are not looked at. Error: no readable
+/// whole PNG file, or more than max_image_pixels. Memory is bounded by these, and by what a file of its size can hold.
 Result<Image> read_png(const std::string& path);
 
-/// Writes 8-bit RGBA in sRGB; the file appears whole or not at all. Returns an Error as check_image does, if a side is
-/// longer than a million, or if the file cannot be written.
+/// Writes 8-bit RGBA in sRGB; the file appears whole or not at all. Error: as check_image; a side above a million; the
+/// file cannot be written.
 Status write_png(const std::string& path, const Image& image);
 
 /// What lies beyond the picture.
@@ -151,23 +147,21 @@ struct Texture {
     Filter filter = Filter::nearest;
 };
 
-/// The colour at (u, v): u runs along the width, v along the height, (0, 0) is the lower left corner of the picture and
-/// (1, 1) the upper right one. Requires an image that check_image accepts.
+/// The colour at (u, v), from (0, 0) at the lower left corner to (1, 1) at the upper right one. Requires an image that
+/// check_image accepts. Any doubles are safe: NaN counts as 0; infinity as the rim it lies beyond, with repeat and
+/// mirror as 0.
 ///
-/// Any doubles are safe: no texel outside the image is read, at u = 1 and v = 1 neither. NaN counts as 0; infinity as
-/// the rim it lies beyond, with repeat and mirror as 0.
-///
-/// Filter::nearest is exact: texel i holds i <= u * width < i + 1, for the product without rounding. Texels are half
-/// open, so that u = 1 is the last texel with clamp and mirror, and the first with repeat.
-/// Filter::bilinear rounds each component to the nearest of 256 steps, halves upwards; with clamp and mirror it is the
-/// texel's own colour at its centre and between the rim and the first centre.
+/// Filter::nearest is exact: texel i holds i <= u * width < i + 1, for the product without rounding; u = 1 is the last
+/// texel with clamp and mirror, and the first with repeat. Filter::bilinear rounds each component to the nearest of 256
+/// steps, halves upwards; with clamp and mirror it is the texel's own colour at its centre and between the rim and the
+/// first centre.
 Rgba texel(const Texture& texture, double u, double v);
 
 /// A picture of 2 by 2 texels: below red and green, above blue and yellow.
 Image four_colours();
 
-/// A chequered picture of cells * cells squares, each of texels * texels texels, dark at the lower left. Returns an
-/// Error if a number is less than 1 or the picture would have too many pixels.
+/// A chequered picture of cells * cells squares, each of texels * texels texels, dark at the lower left. Error: a number
+/// below 1, or too many pixels.
 Result<Image> checkerboard(std::int32_t cells, std::int32_t texels);
 
 // Many textured triangles, fast: exact coverage, texture coordinates on SIMD lanes, one texel a pixel. No depth, no
@@ -185,10 +179,9 @@ struct TexturedVertex {
 /// Texture coordinates are computed in fixed point or single precision. For pictures and textures of up to 1024 by
 /// 1024, coordinates u and v in [-1, 2] and depths that differ by a factor of up to 16 in a triangle they are off by
 /// less than 2^-8 of a texel: so near to the border of two texels the neighbour may be taken. They may differ that much
-/// between SIMD targets. No texel outside the texture is read, whatever the numbers.
-///
-/// Returns an Error, and draws nothing, if the number of vertices is no multiple of 3, a number is not finite, w <= 0
-/// with perspective, the filter is not Filter::nearest, or check_image refuses the image or the texture.
+/// between SIMD targets. No texel outside the texture is read, whatever the numbers. Error, and nothing drawn: a number
+/// of vertices that is no multiple of 3, one that is not finite, w <= 0 with perspective, another filter than
+/// Filter::nearest, or what check_image refuses.
 Result<std::size_t> draw_textured(Image& image, const Texture& texture, std::span<const TexturedVertex> vertices,
                                   bool perspective = true);
 
@@ -228,8 +221,8 @@ struct ClippedSegment {
 };
 
 /// Clips the segment from a to b, each a row of `dimension` coordinates (1 to 3) and any attributes. What lies on a
-/// bound is inside. Returns an Error if the rows differ in length or are shorter than the dimension, or a number is not
-/// finite (bounds of a box may be infinite).
+/// bound is inside. Error: rows that differ in length or are too short; a number that is not finite (bounds of a box may
+/// be infinite).
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound);
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
@@ -250,8 +243,8 @@ inline constexpr int max_clipped_vertices = 9;
 /// Clips a triangle in homogeneous coordinates, before the division, to the volume -w <= x, y, z <= w; all of it has
 /// w >= 0, and what is behind the eye never wraps around. `vertices`: three rows of x, y, z, w and any attributes, one
 /// after the other. `polygon` is replaced by the rows of the part inside, a convex polygon with the triangle's order of
-/// vertices: the three of the triangle (inside), 3 to max_clipped_vertices (cut), or none. Returns an Error, and leaves
-/// `polygon` as it was, if the rows are shorter than 4 or a number is not finite.
+/// vertices: the three of the triangle (inside), 3 to max_clipped_vertices (cut), or none. Error, and `polygon` as it
+/// was: rows shorter than 4, or a number that is not finite.
 Result<Clip> clip_triangle(std::span<const double> vertices, std::vector<double>& polygon);
 
 }  // namespace barycert

@@ -99,17 +99,16 @@ struct FieldChoice {
     std::string name = {};                 ///< of the columns; empty: that of the field
 };
 
-/// The fields of these names, or what is made of them, as Sampler::build chooses them (empty: all fields as they are).
-/// Reads of the mesh its fields, its dimension and whether it has nodes at mid-edges; its fields must stay. Returns an
-/// Error if there is no such field, or if one is chosen twice.
+/// The fields of these names, or what is made of them, as Sampler::build chooses them. Reads of the mesh its fields,
+/// which must stay, its dimension and whether it has nodes at mid-edges. Error: no such field, or one chosen twice.
 Result<std::vector<FieldChoice>> choose_fields(const Mesh& mesh, const std::vector<std::string>& names);
 
 /// Thread-safe: any number of threads may sample at the same time.
 class Sampler {
 public:
-    /// A sampler of the fields of these names, or of what is made of them (empty: all fields as they are). It owns its
-    /// locator, which proves the mesh while it indexes it. The mesh must stay as it is and outlive the sampler. Returns
-    /// an Error if the mesh is inconsistent, has no such field, or a field does not fit it.
+    /// A sampler of the fields of these names, or of what is made of them (empty: all fields as they are), with a
+    /// locator of its own. The mesh must stay as it is and outlive the sampler. Error: an inconsistent mesh, no such
+    /// field, or one that does not fit.
     static Result<Sampler> build(const Mesh& mesh, const std::vector<std::string>& fields = {},
                                  const BuildOptions& options = {});
     static Result<Sampler> build(Mesh&&, const std::vector<std::string>& = {}, const BuildOptions& = {}) = delete;
@@ -139,9 +138,8 @@ public:
                   std::size_t first_point = 0) const;
 
     /// The same for rows whose owners are known: point i lies in rows.cells[i], or outside if that is -1, with the
-    /// feature rows.features[i]. So Locator::locate once serves many fields, and every cell of Locator::locate_all can
-    /// have its row. In a degenerate cell point fields are NaN, and counted. Returns an Error besides if a cell is out
-    /// of range, or that of a point that is not finite.
+    /// feature rows.features[i], as of Locator::locate or locate_all. In a degenerate cell point fields are NaN, and
+    /// counted. Error besides: a cell out of range, or that of a point that is not finite.
     Status evaluate(std::span<const double> points, const SampleOptions& options, Table& rows,
                     std::size_t first_point = 0) const;
 
@@ -169,8 +167,8 @@ struct NodeWeights {
 ///
 /// Points outside have no weights, unless the policy is `nearest` (within its limit: those of the nearest point of the
 /// mesh, which on cells of second order has its barycentric weights rounded first) or `extrapolate` (those of the
-/// function of the nearest cell) and the point is finite. Works on the calling thread. Returns an Error if sizes do not
-/// fit, a cell is out of range or degenerate, or a coordinate of a point in a cell is not finite.
+/// function of the nearest cell) and the point is finite. Works on the calling thread. Error: sizes that do not fit; a
+/// cell out of range or degenerate; a point in a cell that is not finite.
 Result<NodeWeights> node_weights(const Locator& locator, const TableView& rows, const OutsidePolicy& outside = {});
 
 }  // namespace barycert

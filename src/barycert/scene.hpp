@@ -72,7 +72,6 @@ enum class Interpolation : std::uint8_t {
 struct Scene {
     RasterSize size;
     Rgba background{255, 255, 255, 255};
-
     std::vector<double> positions;            ///< x, y, z, w of each vertex; w is 1 for a point
     std::vector<double> colours;              ///< red, green, blue of each vertex, or empty
     std::vector<double> texture_coordinates;  ///< u, v of each vertex, or empty
@@ -81,10 +80,8 @@ struct Scene {
     std::optional<Texture> texture;           ///< needs texture_coordinates
     FillMethod method = FillMethod::barycentric;
     Interpolation interpolation = Interpolation::perspective;
-
     /// `correct`: positions in clip space, window coordinates, depths and attributes are each the exact function of
-    /// what they are computed from, rounded once. With FillMethod::barycentric, and not with
-    /// Interpolation::projected_z.
+    /// what they are computed from, rounded once. With FillMethod::barycentric; not with Interpolation::projected_z.
     Rounding rounding = Rounding::plain;
 };
 
@@ -103,13 +100,11 @@ struct RenderCounts {
     friend bool operator==(const RenderCounts&, const RenderCounts&) = default;
 };
 
-/// Draws the scene. `counts`: if given, set. `attributes`: if given, set to what the picture's colours were made of: at
-/// each pixel red, green, blue (if the scene has colours), then u, v (if it has texture coordinates); NaN where no
-/// triangle is. A NaN in a colour, which only projected_z gives, is drawn as 0.
-///
-/// Returns an Error if the size is refused (also: more than max_image_pixels), arrays do not fit together, an index is
-/// out of range, a number is not finite or becomes so in clip space, or what is asked for does not go together. A scene
-/// without triangles is its background.
+/// Draws the scene; without triangles it is its background. `counts`: if given, set. `attributes`: if given, set to what
+/// colours were made of: at each pixel red, green, blue (if the scene has colours), then u, v (if it has texture
+/// coordinates); NaN where no triangle is. A NaN in a colour, which only projected_z gives, is drawn as 0. Error: a size
+/// that is refused (also: more than max_image_pixels); arrays or choices that do not fit together; an index out of
+/// range; a number that is not finite, or not in clip space.
 Result<Image> render(const Scene& scene, RenderCounts* counts = nullptr, PixelValues* attributes = nullptr);
 
 /// Reads a scene from a JSON file; doc/rendering.md describes its members. Files that it names are relative to its
@@ -121,9 +116,8 @@ std::vector<std::string> scene_files(const std::string& path);
 
 // A picture of a surface: lit, coloured by values, from a camera that fits it, with a colour bar.
 //
-// Colours are those of colour_map.hpp, 256 equal parts of the range, and are looked up at each pixel with the value
-// interpolated there: no colour appears that is not in the map. Light falls from the upper left behind the viewer, on
-// both sides of a triangle alike (Lambert): the colours of the map are multiplied by 0.35 to 1.
+// Colours are those of colour_map.hpp, 256 equal parts of the range, looked up at each pixel with the value interpolated
+// there, times 0.35 to 1: light falls from the upper left behind the viewer, on both sides of a triangle (Lambert).
 
 /// Triangles, by their points: in space, or in the plane (then they are drawn from above, without light).
 struct SurfaceView {
@@ -137,11 +131,9 @@ struct SurfaceView {
 struct ViewOptions {
     RasterSize size{800, 600};  ///< of the whole picture
     Rgba background{255, 255, 255, 255};
-
     /// Where the camera stands, in degrees: azimuth from the x axis towards the y axis, elevation above the xy plane.
     /// The z axis points up in the picture. Not for the plane.
     double azimuth = 30, elevation = 25;
-
     /// The values of the first and the last colour; without it, the least and the greatest of the values.
     std::optional<std::pair<double, double>> range = {};
     bool bar = true;  ///< a colour bar to the right, if there are values; its numbers have four digits
@@ -155,8 +147,8 @@ struct ViewCounts {
     std::uint64_t without_value = 0;  ///< triangles drawn in grey, for a value of theirs is not finite
 };
 
-/// Draws the surface as large as it fits. Returns an Error if spans do not fit together, an index is out of range, a
-/// coordinate, angle or range is none, or the size is refused or leaves no room beside the bar.
+/// Draws the surface as large as it fits. Error: spans that do not fit together; an index, coordinate, angle or range
+/// that is none; a size that is refused or leaves no room beside the bar.
 Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& options = {}, ViewCounts* counts = nullptr);
 
 /// The scene that draw_surface draws, without the bar.

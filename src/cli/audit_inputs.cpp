@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "barycert/audit_report.hpp"
-#include "barycert/base/folder.hpp"
 #include "barycert/base/named_file.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "reports.hpp"
 

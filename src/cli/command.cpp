@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "barycert/base/output_file.hpp"
-#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::cli {

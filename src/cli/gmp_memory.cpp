@@ -9,7 +9,7 @@
 #include <mutex>
 #include <new>
 
-#include "barycert/base/begun_files.hpp"
+#include "barycert/base/output_file.hpp"
 #include "command.hpp"
 #include "options/want_of_memory.hpp"
 

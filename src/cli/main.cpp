@@ -15,9 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/base/begun_files.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/run_files.hpp"
+#include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "command.hpp"

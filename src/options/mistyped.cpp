@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::cli {

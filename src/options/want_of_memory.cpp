@@ -8,7 +8,7 @@
 #include <new>
 #include <string_view>
 
-#include "barycert/base/begun_files.hpp"
+#include "barycert/base/output_file.hpp"
 
 namespace barycert::cli {
 namespace {

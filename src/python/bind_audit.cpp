@@ -1,7 +1,3 @@
-#include "bindings.hpp"
-
-#ifdef BARYCERT_WITH_AUDIT
-
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -19,6 +15,16 @@
 #include "mesh_object.hpp"
 
 namespace barycert::python {
+
+template <>
+inline constexpr Words<OracleChoice> words<OracleChoice> = named<OracleChoice>("oracle", OracleChoice::automatic,
+                                                                               OracleChoice::integers,
+                                                                               OracleChoice::cgal, OracleChoice::both);
+template <>
+inline constexpr Words<Simplex> words<Simplex> = named<Simplex>("simplex of the kernel", Simplex::segment,
+                                                                Simplex::triangle, Simplex::triangle3d,
+                                                                Simplex::tetrahedron);
+
 namespace {
 
 /// A kernel in Python. Kernels are plain functions without data of their own, so there is one place for the callable:
@@ -74,15 +80,6 @@ int call_kernel(const double* vertices, const double* point, double* weights) {
     return 0;
 }
 
-Simplex simplex_by_name(const std::string& word) {
-    const auto simplex = simplex_named(word);
-    if (!simplex)
-        throw Exception({.what = "simplex of the kernel",
-                         .expected = "segment, triangle, triangle3d or tetrahedron",
-                         .found = word});
-    return *simplex;
-}
-
 void be_tolerant(Kernel& kernel, std::optional<double> tolerance) {
     if (!tolerance) return;
     kernel.rule = RegionRule::tolerant;
@@ -125,28 +122,19 @@ std::vector<T> matching(const std::vector<std::string>& globs, std::vector<T> (*
     return all;
 }
 
-OracleChoice oracle_by_name(const std::string& word) {
-    for (const OracleChoice o :
-         {OracleChoice::automatic, OracleChoice::integers, OracleChoice::cgal, OracleChoice::both}) {
-        if (name(o) == word) return o;
-    }
-    throw Exception({.what = "oracle", .expected = "automatic, integers, cgal or both", .found = word});
-}
-
 /// `function`: a callable, or None.
-std::shared_ptr<AuditReport> audit(const py::object& function, const std::string& simplex, const std::string& name,
+std::shared_ptr<AuditReport> audit(const py::object& function, Simplex simplex, const std::string& name,
                                    bool declares_degenerate, std::optional<double> tolerance,
                                    const std::vector<std::string>& libraries, const std::vector<std::string>& catalogue,
                                    bool contained, std::uint64_t count, std::uint64_t seed,
                                    const std::vector<std::string>& families,
                                    const std::vector<std::pair<std::string, const MeshObject*>>& meshes, int threads,
-                                   const std::string& oracle, const py::object& progress_callable) {
-    const Progress progress(progress_callable);
+                                   OracleChoice oracle, const Progress& progress) {
     AuditOptions options;
     options.count = count;
     options.seed = seed;
     options.threads = threads;
-    options.oracle = oracle_by_name(oracle);
+    options.oracle = oracle;
     options.families = matching(families, families_matching, "family", "families");
     if (families.empty())
         std::copy_if(all_families().begin(), all_families().end(), std::back_inserter(options.families),
@@ -154,8 +142,8 @@ std::shared_ptr<AuditReport> audit(const py::object& function, const std::string
     options.progress = [&](const AuditProgress& p) { progress.tell(p.family, p.cases_done, p.cases_total); };
     Callable callable;
     if (!function.is_none()) {
-        callable = {function, simplex_by_name(simplex), {}};
-        options.kernels.push_back(kernel_of(callable.simplex, name, declares_degenerate, tolerance));
+        callable = {function, simplex, {}};
+        options.kernels.push_back(kernel_of(simplex, name, declares_degenerate, tolerance));
         // Python runs one thread at a time; and in this one it sees Ctrl-C.
         options.threads = 1;
     }
@@ -210,15 +198,3 @@ void bind_audit(py::module_& module) {
 }
 
 }  // namespace barycert::python
-
-#else
-
-namespace barycert::python {
-
-void bind_audit(pybind11::module_& module) {
-    module.attr("has_audit") = false;
-}
-
-}  // namespace barycert::python
-
-#endif

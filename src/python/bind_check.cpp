@@ -23,8 +23,7 @@ struct BoundReport {
 using Shared = std::shared_ptr<BoundReport>;
 
 Shared check_of(const MeshObject& mesh, bool delaunay, std::size_t examples, std::size_t contacts, bool verdict_only,
-                int threads, py::object callable) {
-    const Progress progress(std::move(callable));
+                int threads, const Progress& progress) {
     CheckOptions options{.threads = threads,
                          .delaunay = delaunay,
                          .examples = examples,
@@ -54,12 +53,11 @@ py::list defects_of(const CheckReport& report) {
         const DefectText& text = defect_text(defect.kind);
         py::list places;
         for (const DefectPlace& place : defect.places)
-            places.append(py::make_tuple(used(place.cells), used(place.nodes), std::string(place.detail),
-                                         used(place.other_nodes), place.distance));
-        defects.append(py::dict("kind"_a = std::string(text.name), "count"_a = defect.count,
-                                "at_least"_a = defect.at_least, "breaks"_a = defect.breaks(),
-                                "condition"_a = std::string(text.condition), "text"_a = std::string(text.text),
-                                "remedy"_a = std::string(defect.remedy()), "places"_a = places));
+            places.append(py::make_tuple(used(place.cells), used(place.nodes), place.detail, used(place.other_nodes),
+                                         place.distance));
+        defects.append(py::dict("kind"_a = text.name, "count"_a = defect.count, "at_least"_a = defect.at_least,
+                                "breaks"_a = defect.breaks(), "condition"_a = text.condition, "text"_a = text.text,
+                                "remedy"_a = defect.remedy(), "places"_a = places));
     }
     return defects;
 }
@@ -75,63 +73,50 @@ py::tuple fix_of(const MeshObject& mesh, double merge_within, bool nodes, bool c
     }
     py::list merged, dropped, fields;
     for (const MergedNode& m : done.merged) merged.append(py::make_tuple(m.node, m.into, m.moved));
-    for (const DroppedCell& c : done.dropped)
-        dropped.append(py::make_tuple(c.cell, std::string(defect_text(c.why).name)));
+    for (const DroppedCell& c : done.dropped) dropped.append(py::make_tuple(c.cell, defect_text(c.why).name));
     for (const MergedField& f : done.fields) fields.append(py::make_tuple(f.name, f.differ, f.max_difference));
     return py::make_tuple(std::move(*fixed), py::dict("merged"_a = merged, "dropped"_a = dropped,
                                                       "turned"_a = done.turned, "fields"_a = fields));
 }
 
-py::list contacts_of(const CheckReport& report, int dimension) {
+py::list contacts_of(const CheckReport& report, std::size_t dimension) {
     py::list contacts;
     for (const CellContact& contact : report.contacts) {
-        py::list point, fraction;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-            point.append(contact.common.point[k]);
-            fraction.append(contact.common.fraction[k]);
-        }
-        contacts.append(py::dict("cells"_a = py::make_tuple(contact.cells[0], contact.cells[1]),
-                                 "overlap"_a = contact.overlap, "dimension"_a = contact.dimension,
-                                 "point"_a = py::tuple(point), "exact"_a = contact.common.exact,
-                                 "fraction"_a = py::tuple(fraction)));
+        contacts.append(
+            py::dict("cells"_a = tuple_of(contact.cells, 2), "overlap"_a = contact.overlap,
+                     "dimension"_a = contact.dimension, "point"_a = tuple_of(contact.common.point, dimension),
+                     "exact"_a = contact.common.exact, "fraction"_a = tuple_of(contact.common.fraction, dimension)));
     }
     return contacts;
 }
 
 py::dict measures_of(const Shared& bound) {
     const CellMeasures& m = bound->report.measures;
+    const std::pair<const char*, const std::vector<double>&> all[] = {
+        {"volume", m.volume}, {"condition", m.condition}, {"radius_edge", m.radius_edge},
+        {"aspect", m.aspect}, {"min_angle", m.min_angle}, {"max_angle", m.max_angle}};
     py::dict measures;
-    const auto add = [&](const char* name, const auto& numbers) {
+    if (!m.orientation.empty()) measures["orientation"] = view(m.orientation, bound);
+    for (const auto& [name, numbers] : all)
         if (!numbers.empty()) measures[name] = view(numbers, bound);
-    };
-    add("orientation", m.orientation);
-    add("volume", m.volume);
-    add("condition", m.condition);
-    add("radius_edge", m.radius_edge);
-    add("aspect", m.aspect);
-    add("min_angle", m.min_angle);
-    add("max_angle", m.max_angle);
     return measures;
 }
 
 }  // namespace
 
 void bind_check(py::module_& module) {
+    using Bound = const BoundReport&;
+    using Text = const std::string&;
     py::class_<BoundReport, Shared>(module, "CheckReport")
-        .def_property_readonly("verdict",
-                               [](const BoundReport& r) { return std::string(name(r.report.certificate.verdict())); })
-        .def_property_readonly("certified", [](const BoundReport& r) { return r.report.certified(); })
-        .def_property_readonly("defects", [](const BoundReport& r) { return defects_of(r.report); })
+        .def_property_readonly("verdict", [](Bound r) { return name(r.report.certificate.verdict()); })
+        .def_property_readonly("certified", [](Bound r) { return r.report.certified(); })
+        .def_property_readonly("defects", [](Bound r) { return defects_of(r.report); })
         .def_property_readonly("contacts",
-                               [](const BoundReport& r) { return contacts_of(r.report, r.geometry->mesh.dimension); })
+                               [](Bound r) { return contacts_of(r.report, r.geometry->mesh.corners() - 1); })
         .def_property_readonly("measures", &measures_of)
-        .def("text", [](const BoundReport& r,
-                        const std::string& name) { return check_text(r.report, r.geometry->mesh, name, {}); })
-        .def("json", [](const BoundReport& r,
-                        const std::string& name) { return check_json(r.report, name, measure_environment()); })
-        .def("html", [](const BoundReport& r, const std::string& name) {
-            return check_html(r.report, r.geometry->mesh, name);
-        });
+        .def("text", [](Bound r, Text name) { return check_text(r.report, r.geometry->mesh, name, {}); })
+        .def("json", [](Bound r, Text name) { return check_json(r.report, name, measure_environment()); })
+        .def("html", [](Bound r, Text name) { return check_html(r.report, r.geometry->mesh, name); });
     module.def("check", &check_of);
     module.def("fix", &fix_of);
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,64 +16,40 @@
 namespace barycert::python {
 namespace {
 
-/// `rounding`: correct or plain.
-SampleOptions sample_options(const std::string& outside, double fill, double limit, const std::string& rounding,
-                             int threads, const std::string& nonfinite) {
-    if (rounding != "correct" && rounding != "plain")
-        throw Exception({.what = "rounding of values (rounding=)", .expected = "correct or plain", .found = rounding});
-    return {.rounding = rounding == "plain" ? Rounding::plain : Rounding::correct,
-            .outside = outside_policy(outside, fill, limit),
+SampleOptions sample_options(Outside outside, double fill, double limit, Rounding rounding, int threads,
+                             NonfinitePoints nonfinite) {
+    return {.rounding = rounding,
+            .outside = {.kind = outside, .fill = fill, .limit = limit},
             .threads = threads,
-            .nonfinite_points = nonfinite_points(nonfinite)};
+            .nonfinite_points = nonfinite};
 }
 
-/// Values (n, columns) at points (n, dimension): ask(points, number of the first, rows) sets those of some points.
-template <class Ask>
-py::array values_at(const BoundSampler& bound, const Given<double>& points, const SampleOptions& options,
-                    const py::object& callable, const Ask& ask) {
-    const std::size_t d = static_cast<std::size_t>(bound.geometry->mesh.dimension),
-                      count = static_cast<std::size_t>(points.size()) / d, columns = bound.sampler.columns().size();
-    const std::span<const double> all = span_of(points);
-    // Where points cost next to nothing, so many to begin with that sorting them pays.
+/// Values (n, columns) at points (n, dimension), whose owners may be known.
+py::array sample(const BoundSampler& bound, const Given<double>& points, const SampleOptions& options,
+                 const Progress& progress, const std::optional<Given<Mesh::Index>>& cells,
+                 const std::optional<Given<std::uint8_t>>& features) {
+    const std::size_t count = points.rows(), columns = bound.sampler.columns().size();
     const bool near = options.outside.kind == Outside::nearest || options.outside.kind == Outside::extrapolate;
-    const std::size_t first_size =
-        near || !bound.sampler.locator().certified() ? smallest_first_block : largest_first_block;
+    const std::size_t first_size = first_block(!near && bound.sampler.locator().certified());
     const bool one_block = count <= first_size;  // whose values are not copied
     Table rows;
     Array<double> out(Shape{one_block ? 0 : extent(count), extent(columns)});
     double* const values = out.mutable_data();
-    in_blocks(
-        Progress(callable), "points", count,
-        [&](std::size_t first, std::size_t n) {
-            check(ask(all.subspan(d * first, d * n), first, rows));
-            if (!one_block) std::copy_n(rows.values.data(), n * columns, values + first * columns);
-        },
-        first_size);
-    if (one_block) return owned(std::move(rows.values), {extent(count), extent(columns)});
+    const auto block = [&](std::size_t first, std::size_t n) {
+        if (cells) {
+            const std::span<const Mesh::Index> owners = cells->part(first, n);
+            rows.cells.assign(owners.begin(), owners.end());
+            rows.features.clear();
+            for (const std::uint8_t f : features->part(first, n)) rows.features.push_back(static_cast<Feature>(f));
+            check(bound.sampler.evaluate(points.part(first, n), options, rows, first));
+        } else {
+            check(bound.sampler.sample(points.part(first, n), options, rows, first));
+        }
+        if (!one_block) std::copy_n(rows.values.data(), n * columns, values + first * columns);
+    };
+    in_blocks(progress, "points", count, block, first_size);
+    if (one_block) return owned(std::move(rows.values), columns);
     return out;
-}
-
-py::array sample(const BoundSampler& bound, const Given<double>& points, const SampleOptions& options,
-                 const py::object& callable) {
-    return values_at(bound, points, options, callable,
-                     [&](std::span<const double> some, std::size_t first, Table& rows) {
-                         return bound.sampler.sample(some, options, rows, first);
-                     });
-}
-
-/// The same for points whose owners are known.
-py::array evaluate(const BoundSampler& bound, const Given<double>& points, const Given<Mesh::Index>& cells,
-                   const Given<std::uint8_t>& features, const SampleOptions& options, const py::object& callable) {
-    const auto d = static_cast<std::size_t>(bound.geometry->mesh.dimension);
-    return values_at(bound, points, options, callable,
-                     [&](std::span<const double> some, std::size_t first, Table& rows) {
-                         const std::span<const Mesh::Index> owners = span_of(cells).subspan(first, some.size() / d);
-                         rows.cells.assign(owners.begin(), owners.end());
-                         rows.features.clear();
-                         for (std::size_t i = 0; i < owners.size(); ++i)
-                             rows.features.push_back(static_cast<Feature>(features.data()[first + i]));
-                         return bound.sampler.evaluate(some, options, rows, first);
-                     });
 }
 
 /// Of that many axes; entries of others do not matter.
@@ -89,12 +66,10 @@ py::array coordinates(const Grid& grid, std::size_t k) {
 }
 
 /// Values (points of the grid, columns), x fastest.
-py::array on_grid(const BoundSampler& bound, const Grid& grid, const SampleOptions& options,
-                  const py::object& callable) {
+py::array on_grid(const BoundSampler& bound, const Grid& grid, const SampleOptions& options, const Progress& progress) {
     const std::size_t columns = bound.sampler.columns().size(), total = grid.point_count();
     Array<double> out(Shape{extent(total), extent(columns)});
     double* const values = out.mutable_data();
-    const Progress progress(callable);
     std::exception_ptr raised;
     const auto sink = [&](const TableView& rows) -> Status {
         const auto first = static_cast<std::size_t>(rows.first_row);
@@ -130,8 +105,8 @@ void bind_sampler(py::module_& module) {
     py::class_<Grid>(module, "Grid").def(py::init(&grid_of)).def("coordinates", &coordinates);
     py::class_<BoundSampler, std::shared_ptr<BoundSampler>>(module, "Sampler")
         .def_property_readonly("fields", &fields_of)
-        .def("sample", &sample)
-        .def("evaluate", &evaluate)
+        .def("sample", &sample, py::arg("points"), py::arg("options"), py::arg("progress"),
+             py::arg("cells") = py::none(), py::arg("features") = py::none())
         .def("on_grid", &on_grid);
     module.def("bounds", [](const MeshObject& mesh) {
         const Bounds3 box = bounds_of_cells(mesh.mesh());

@@ -17,18 +17,15 @@ namespace {
 using namespace pybind11::literals;
 
 template <class T>
-std::span<const T> part(const std::optional<Given<T>>& array, std::size_t columns, std::size_t first, std::size_t n) {
-    if (!array) return {};
-    return span_of(*array).subspan(columns * first, columns * n);
+std::span<const T> part(const std::optional<Given<T>>& array, std::size_t first, std::size_t n) {
+    return array ? array->part(first, n) : std::span<const T>();
 }
 
 py::dict row_of(const WrongRow& row, std::size_t dimension, const std::vector<std::string>& columns) {
-    py::list point;
-    for (std::size_t k = 0; k < dimension; ++k) point.append(row.point[k]);
     const bool value = !columns.empty();
     const bool compared = value && (row.verdict == RowVerdict::wrong_value || row.verdict == RowVerdict::wrong_cell);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    return py::dict("verdict"_a = std::string(name(row.verdict)), "row"_a = row.row, "point"_a = py::tuple(point),
+    return py::dict("verdict"_a = name(row.verdict), "row"_a = row.row, "point"_a = tuple_of(row.point, dimension),
                     "claimed_cell"_a = row.claimed_cell, "cell"_a = row.exact.cell,
                     "feature"_a = static_cast<int>(row.exact.feature), "cells"_a = row.cells,
                     "column"_a = value ? columns[row.column] : std::string(), "claimed"_a = value ? row.claimed : none,
@@ -46,8 +43,7 @@ py::dict dict_of(const Verdicts& v, const BoundSampler& bound, const std::vector
                                 "spurious"_a = e.spurious, "max_ulps"_a = e.max_ulps,
                                 "max_relative"_a = e.max_relative));
     }
-    for (const WrongRow& row : v.examples)
-        examples.append(row_of(row, static_cast<std::size_t>(bound.geometry->mesh.dimension), names));
+    for (const WrongRow& row : v.examples) examples.append(row_of(row, bound.geometry->mesh.corners() - 1, names));
     return py::dict("rows"_a = v.rows, "right"_a = v.right, "missed"_a = v.missed, "invented"_a = v.invented,
                     "wrong_cell"_a = v.wrong_cell, "wrong_value"_a = v.wrong_value, "inside"_a = v.inside,
                     "outside"_a = v.outside, "on_boundary"_a = v.on_boundary,
@@ -58,23 +54,20 @@ py::dict dict_of(const Verdicts& v, const BoundSampler& bound, const std::vector
 py::dict verify(const BoundSampler& bound, const Given<double>& points, const std::optional<Given<std::int64_t>>& cells,
                 const std::optional<Given<std::uint8_t>>& inside, const std::optional<Given<double>>& values,
                 double tolerance, bool exact, std::optional<double> outside_value, std::size_t examples, int threads,
-                const py::object& callable, const std::string& nonfinite) {
+                const Progress& progress, NonfinitePoints nonfinite) {
     const Verifier verifier(bound.sampler, {.tolerance = tolerance,
                                             .exact = exact,
                                             .outside_value = outside_value,
                                             .examples = examples,
                                             .threads = threads,
-                                            .nonfinite_points = nonfinite_points(nonfinite)});
-    const std::size_t d = static_cast<std::size_t>(bound.geometry->mesh.dimension),
-                      columns = bound.sampler.columns().size(), count = static_cast<std::size_t>(points.size()) / d;
-    const std::span<const double> all = span_of(points);
+                                            .nonfinite_points = nonfinite});
     Verdicts verdicts;
-    verdicts.columns.resize(columns);
-    in_blocks(Progress(callable), "rows", count, [&](std::size_t first, std::size_t n) {
-        verdicts.add(take(verifier.verify({.points = all.subspan(d * first, d * n),
-                                           .cells = part(cells, 1, first, n),
-                                           .inside = part(inside, 1, first, n),
-                                           .values = part(values, columns, first, n),
+    verdicts.columns.resize(bound.sampler.columns().size());
+    in_blocks(progress, "rows", points.rows(), [&](std::size_t first, std::size_t n) {
+        verdicts.add(take(verifier.verify({.points = points.part(first, n),
+                                           .cells = part(cells, first, n),
+                                           .inside = part(inside, first, n),
+                                           .values = part(values, first, n),
                                            .first_row = first})),
                      examples);
     });

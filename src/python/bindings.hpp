@@ -6,12 +6,15 @@
 #include <pybind11/pybind11.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -42,12 +45,44 @@ inline void check(const Status& status) {
     if (!status) throw Exception(status.error());
 }
 
-// Options by the words of Python's arguments; an Error of another word.
+/// Arguments that are words in Python; any other word is an Error. Entries without a word do not count.
+template <class T>
+struct Words {
+    const char* what;
+    std::array<std::pair<std::string_view, T>, 5> all;
 
-/// nan, raise, fill, nearest or extrapolate.
-OutsidePolicy outside_policy(const std::string& outside, double fill, double limit);
-/// error or nan.
-NonfinitePoints nonfinite_points(const std::string& nonfinite);
+    T at(std::string_view word) const {
+        std::string expected;
+        for (std::size_t i = 0; i < all.size() && !all[i].first.empty(); ++i) {
+            if (all[i].first == word) return all[i].second;
+            const bool last = i + 1 == all.size() || all[i + 1].first.empty();
+            expected.append(i == 0 ? "" : last ? " or " : ", ").append(all[i].first);
+        }
+        throw Exception({.what = what, .expected = std::move(expected), .found = std::string(word)});
+    }
+};
+template <class T>
+inline constexpr Words<T> words{};
+/// The words are the values' names.
+template <class T, class... Value>
+constexpr Words<T> named(const char* what, Value... values) {
+    return {what, {{{name(values), values}...}}};
+}
+
+template <>
+inline constexpr Words<Outside> words<Outside>{"what points outside get (outside=)",
+                                               {{{"nan", Outside::nan},
+                                                 {"raise", Outside::error},
+                                                 {"fill", Outside::fill},
+                                                 {"nearest", Outside::nearest},
+                                                 {"extrapolate", Outside::extrapolate}}}};
+template <>
+inline constexpr Words<NonfinitePoints> words<NonfinitePoints>{
+    "what points that are not finite get (nonfinite_points=)",
+    {{{"error", NonfinitePoints::error}, {"nan", NonfinitePoints::nan}}}};
+template <>
+inline constexpr Words<Rounding> words<Rounding>{"rounding of values (rounding=)",
+                                                 {{{"correct", Rounding::correct}, {"plain", Rounding::plain}}}};
 
 // Arrays of NumPy as spans, and vectors as arrays of NumPy, without copies.
 
@@ -58,12 +93,15 @@ using Array = py::array_t<T, py::array::c_style>;
 template <class T>
 struct Given : Array<T> {
     using Array<T>::Array;
-};
 
-template <class T>
-std::span<const T> span_of(const Array<T>& array) {
-    return {array.data(), static_cast<std::size_t>(array.size())};
-}
+    std::size_t rows() const { return static_cast<std::size_t>(this->shape(0)); }
+    std::size_t columns() const { return this->ndim() < 2 ? 1 : static_cast<std::size_t>(this->shape(1)); }
+    std::span<const T> all() const { return {this->data(), static_cast<std::size_t>(this->size())}; }
+    /// Rows [first, first + n).
+    std::span<const T> part(std::size_t first, std::size_t n) const {
+        return all().subspan(columns() * first, columns() * n);
+    }
+};
 
 using Shape = std::vector<py::ssize_t>;
 
@@ -80,22 +118,36 @@ py::capsule keeper(T&& thing) {
     return owner;
 }
 
-/// An array that owns the vector.
+/// Of rows of so many columns; 0: one axis.
+inline Shape shape_of(std::size_t size, std::size_t columns) {
+    if (columns == 0) return {extent(size)};
+    return {extent(size / columns), extent(columns)};
+}
+
+/// An array that owns the vector. Features become their numbers.
 template <class T>
-py::array owned(std::vector<T>&& numbers, Shape shape = {}) {
-    if (shape.empty()) shape = {extent(numbers.size())};
-    const T* const data = numbers.data();
-    return Array<T>(std::move(shape), data, keeper(std::move(numbers)));
+py::array owned(std::vector<T>&& numbers, std::size_t columns = 0) {
+    using Number = std::conditional_t<std::is_enum_v<T>, std::uint8_t, T>;
+    static_assert(sizeof(Number) == sizeof(T));
+    Shape shape = shape_of(numbers.size(), columns);
+    const auto* const data = reinterpret_cast<const Number*>(numbers.data());
+    return Array<Number>(std::move(shape), data, keeper(std::move(numbers)));
 }
 
 /// An array that looks at memory which `owner` keeps; it cannot be written to.
 template <class T>
 py::array view(const std::vector<T>& numbers, std::shared_ptr<const void> owner, std::size_t columns = 0) {
-    Shape shape{extent(numbers.size() / std::max<std::size_t>(columns, 1))};
-    if (columns > 0) shape.push_back(extent(columns));
-    Array<T> array(std::move(shape), numbers.data(), keeper(std::move(owner)));
+    Array<T> array(shape_of(numbers.size(), columns), numbers.data(), keeper(std::move(owner)));
     array.attr("setflags")(py::arg("write") = false);
     return array;
+}
+
+/// The first n of all.
+template <class All>
+py::tuple tuple_of(const All& all, std::size_t n) {
+    py::tuple tuple(n);
+    for (std::size_t i = 0; i < n; ++i) tuple[i] = all[i];
+    return tuple;
 }
 
 // Long work: without the interpreter's lock, with Ctrl-C and progress between blocks.
@@ -103,7 +155,7 @@ py::array view(const std::vector<T>& numbers, std::shared_ptr<const void> owner,
 /// Who is told of progress: None, or a callable of (stage, done, total); total 0: not counted.
 class Progress {
 public:
-    explicit Progress(py::object callable) : callable_(std::move(callable)) {}
+    explicit Progress(py::object callable = py::none()) : callable_(std::move(callable)) {}
 
     /// To be called without the lock. Throws what a signal handler or the callable raised.
     void tell(std::string_view stage, std::size_t done, std::size_t total) const {
@@ -117,13 +169,15 @@ private:
 };
 
 /// Points that cost next to nothing begin with so many that sorting them pays; all else begins with few.
-inline constexpr std::size_t smallest_first_block = 4096, largest_first_block = std::size_t{1} << 20;
+constexpr std::size_t first_block(bool cheap) {
+    return cheap ? std::size_t{1} << 20 : 4096;
+}
 
 /// body(first, count) for parts of [0, total), without the lock. Parts grow and shrink such that one takes some tenths
 /// of a second, after which Ctrl-C is noticed.
 template <class Body>
 void in_blocks(const Progress& progress, std::string_view stage, std::size_t total, const Body& body,
-               std::size_t size = smallest_first_block) {
+               std::size_t size = first_block(false)) {
     using Clock = std::chrono::steady_clock;
     using std::chrono_literals::operator""ms;
     constexpr std::size_t smallest = 64;
@@ -142,8 +196,10 @@ void in_blocks(const Progress& progress, std::string_view stage, std::size_t tot
 
 }  // namespace barycert::python
 
+namespace pybind11::detail {
+
 template <class T>
-struct pybind11::detail::pyobject_caster<barycert::python::Given<T>> {
+struct pyobject_caster<barycert::python::Given<T>> {
     PYBIND11_TYPE_CASTER(barycert::python::Given<T>, const_name("numpy.ndarray"));
     bool load(handle from, bool) {
         if (!barycert::python::Array<T>::check_(from)) return false;
@@ -151,3 +207,28 @@ struct pybind11::detail::pyobject_caster<barycert::python::Given<T>> {
         return true;
     }
 };
+
+template <>
+struct type_caster<barycert::python::Progress> {
+    PYBIND11_TYPE_CASTER(barycert::python::Progress, const_name("progress"));
+    bool load(handle from, bool) {
+        value = barycert::python::Progress(reinterpret_borrow<object>(from));
+        return true;
+    }
+};
+
+template <class T>
+struct WordCaster {
+    PYBIND11_TYPE_CASTER(T, const_name("str"));
+    bool load(handle from, bool convert) {
+        make_caster<std::string> word;
+        if (!word.load(from, convert)) return false;
+        value = barycert::python::words<T>.at(cast_op<std::string&>(word));
+        return true;
+    }
+};
+template <class T>
+requires(std::is_enum_v<T> && !barycert::python::words<T>.all[0].first.empty()) struct type_caster<T> : WordCaster<T> {
+};
+
+}  // namespace pybind11::detail

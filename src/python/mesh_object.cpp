@@ -7,8 +7,7 @@ namespace {
 
 /// `choices` may lie in `fields`.
 std::shared_ptr<BoundSampler> made(std::shared_ptr<Geometry> geometry, std::shared_ptr<const Mesh> fields,
-                                   const std::vector<FieldChoice>& choices, const py::object& callable) {
-    const Progress progress(callable);
+                                   const std::vector<FieldChoice>& choices, const Progress& progress) {
     const py::gil_scoped_release unlocked;
     Sampler sampler = take(Sampler::build(geometry->locator(progress), choices));
     return std::make_shared<BoundSampler>(BoundSampler{std::move(geometry), std::move(fields), std::move(sampler)});
@@ -48,10 +47,10 @@ Mesh MeshObject::whole() const {
     return all;
 }
 
-std::shared_ptr<BoundSampler> MeshObject::sampler(const std::vector<std::string>& names, const py::object& callable) {
+std::shared_ptr<BoundSampler> MeshObject::sampler(const std::vector<std::string>& names, const Progress& progress) {
     if (last_ && last_names_ == names) return last_;
     const std::shared_ptr<const Mesh> fields = fields_;
-    std::shared_ptr<BoundSampler> sampler = made(geometry_, fields, take(choose_fields(*fields, names)), callable);
+    std::shared_ptr<BoundSampler> sampler = made(geometry_, fields, take(choose_fields(*fields, names)), progress);
     if (fields == fields_) {
         last_names_ = names;
         last_ = sampler;
@@ -59,12 +58,12 @@ std::shared_ptr<BoundSampler> MeshObject::sampler(const std::vector<std::string>
     return sampler;
 }
 
-std::shared_ptr<BoundSampler> MeshObject::sampler_of(std::optional<Field> field, const py::object& callable) const {
+std::shared_ptr<BoundSampler> MeshObject::sampler_of(std::optional<Field> field, const Progress& progress) const {
     const auto fields = std::make_shared<Mesh>();
     if (field) fields->point_fields.push_back(std::move(*field));
     std::vector<FieldChoice> choices;
     for (const Field& one : fields->point_fields) choices.push_back({.field = &one});
-    return made(geometry_, fields, choices, callable);
+    return made(geometry_, fields, choices, progress);
 }
 
 }  // namespace barycert::python

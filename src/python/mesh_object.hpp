@@ -39,6 +39,11 @@ public:
     const std::shared_ptr<Geometry>& geometry() const { return geometry_; }
     const Mesh& mesh() const { return geometry_->mesh; }
     std::size_t dimension() const { return static_cast<std::size_t>(mesh().dimension); }
+    Simplex simplex() const { return mesh().dimension == 2 ? Simplex::triangle : Simplex::tetrahedron; }
+    const Locator& locator(const Progress& progress) const {
+        const py::gil_scoped_release unlocked;
+        return geometry_->locator(progress);
+    }
 
     /// A mesh that has the fields alone, and what names of quantities need to know.
     std::shared_ptr<const Mesh> fields() const { return fields_; }
@@ -49,9 +54,9 @@ public:
     Mesh whole() const;
 
     /// Of the fields with these names, or all; the last one is kept.
-    std::shared_ptr<BoundSampler> sampler(const std::vector<std::string>& names, const py::object& callable);
+    std::shared_ptr<BoundSampler> sampler(const std::vector<std::string>& names, const Progress& progress);
     /// Of a field of nodes that the mesh does not have; or of none.
-    std::shared_ptr<BoundSampler> sampler_of(std::optional<Field> field, const py::object& callable) const;
+    std::shared_ptr<BoundSampler> sampler_of(std::optional<Field> field, const Progress& progress) const;
 
 private:
     std::shared_ptr<Geometry> geometry_;

@@ -1,11 +1,9 @@
 // barycert._core: the library as Python sees it. See barycert/__init__.py.
-#include <array>
 #include <exception>
 
 #include "bindings.hpp"
 
 namespace barycert::python {
-
 namespace {
 
 /// Lives as long as the process, as types of exceptions do.
@@ -18,12 +16,13 @@ void set_error(const Error& error) {
             PyUnicode_DecodeUTF8(s.data(), static_cast<Py_ssize_t>(s.size()), "backslashreplace"));
     };
     const py::object exception = py::handle(error_type)(text(error.message()));
-    exception.attr("what") = text(error.what);
-    exception.attr("file") = text(error.file);
+    const std::pair<const char*, const std::string&> parts[] = {{"what", error.what},
+                                                                {"file", error.file},
+                                                                {"expected", error.expected},
+                                                                {"found", error.found},
+                                                                {"remedy", error.remedy}};
+    for (const auto& [name, part] : parts) exception.attr(name) = text(part);
     exception.attr("line") = error.line;
-    exception.attr("expected") = text(error.expected);
-    exception.attr("found") = text(error.found);
-    exception.attr("remedy") = text(error.remedy);
     PyErr_SetObject(error_type, exception.ptr());
 }
 
@@ -57,29 +56,6 @@ void bind_errors(py::module_& module) {
 }
 
 }  // namespace
-
-OutsidePolicy outside_policy(const std::string& outside, double fill, double limit) {
-    constexpr std::array<std::pair<std::string_view, Outside>, 5> words{{{"nan", Outside::nan},
-                                                                         {"raise", Outside::error},
-                                                                         {"fill", Outside::fill},
-                                                                         {"nearest", Outside::nearest},
-                                                                         {"extrapolate", Outside::extrapolate}}};
-    for (const auto& [word, kind] : words) {
-        if (word == outside) return {kind, fill, limit};
-    }
-    throw Exception({.what = "what points outside get (outside=)",
-                     .expected = "nan, raise, fill, nearest or extrapolate",
-                     .found = outside});
-}
-
-NonfinitePoints nonfinite_points(const std::string& nonfinite) {
-    if (nonfinite != "error" && nonfinite != "nan")
-        throw Exception({.what = "what points that are not finite get (nonfinite_points=)",
-                         .expected = "error or nan",
-                         .found = nonfinite});
-    return nonfinite == "nan" ? NonfinitePoints::nan : NonfinitePoints::error;
-}
-
 }  // namespace barycert::python
 
 PYBIND11_MODULE(_core, module) {
@@ -93,5 +69,8 @@ PYBIND11_MODULE(_core, module) {
     bind_check(module);
     bind_simplex(module);
     bind_verify(module);
+    module.attr("has_audit") = false;
+#ifdef BARYCERT_WITH_AUDIT
     bind_audit(module);
+#endif
 }

@@ -17,7 +17,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "barycert/base/begun_files.hpp"
+#include "barycert/base/output_file.hpp"
 
 namespace barycert {
 namespace {

@@ -14,8 +14,8 @@
 #include <new>
 #include <sstream>
 
-#include "barycert/base/begun_files.hpp"
 #include "barycert/base/named_file.hpp"
+#include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
@@ -41,10 +41,9 @@ Status check_output(const Options& options, const Plc& plc) {
     const std::filesystem::path stem(options.output);
     const std::filesystem::path folder = stem.has_parent_path() ? stem.parent_path() : ".";
     std::error_code code;
-    if (!std::filesystem::is_directory(folder, code)) {
+    if (!std::filesystem::is_directory(folder, code))
         return file_error(options.output, "cannot write the mesh", "a folder " + folder.string(),
                           std::filesystem::exists(folder, code) ? "a file" : "nothing");
-    }
     return Done{};
 }
 

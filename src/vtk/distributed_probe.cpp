@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <vtkBitArray.h>
+#include <vtkCellData.h>
 #include <vtkCommunicator.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
@@ -201,7 +202,7 @@ private:
             if (!ready) return ready;
             if (source_ == nullptr) source_ = vtkSmartPointer<vtkUnstructuredGrid>::New();
             if (std::string fault = cell_dimension(*source_, facts_.dimension); !fault.empty()) return not_exact(fault);
-            facts_.numbered = has_global_ids(*source_);
+            facts_.numbered = source_->GetCellData()->GetGlobalIds() != nullptr;
             if (facts_.dimension >= 2 && facts_.numbered) {
                 if (std::string fault = fault_of_global_ids(*source_); !fault.empty())
                     return Error{.what = "the source cannot be probed by several processes: " + fault};

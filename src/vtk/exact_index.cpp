@@ -37,12 +37,12 @@ Cache& cache() {
     return the;
 }
 
-std::shared_ptr<const ExactIndex> cached(const vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time) {
+// The index of the first entry that fits.
+template <class Fits>
+std::shared_ptr<const ExactIndex> find(Fits&& fits) {
     const std::lock_guard lock(cache().access);
-    // Times of modification never come twice: an address that is used again has another.
-    for (const Entry& entry : cache().entries)
-        if (entry.data == &data && entry.time == time && entry.shape == shape) return entry.index;
-    return nullptr;
+    const auto entry = std::find_if(cache().entries.begin(), cache().entries.end(), fits);
+    return entry != cache().entries.end() ? entry->index : nullptr;
 }
 
 // Called when an observer dies: with its data set, also where VTK's garbage collector deletes that without an event.
@@ -77,14 +77,6 @@ void remember(vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time,
     command->Delete();
 }
 
-// One that was made for the same cells: of a shallow copy, or before point data changed.
-std::shared_ptr<const ExactIndex> made_before(const ExactIndex& index) {
-    const std::lock_guard lock(cache().access);
-    for (const Entry& entry : cache().entries)
-        if (entry.index->locator && same_cells(*entry.index, index)) return entry.index;
-    return nullptr;
-}
-
 // Of cells of the data set.
 std::vector<std::int64_t> all_global_ids(vtkDataSet& data) {
     vtkNew<vtkTypeInt64Array> ids;
@@ -101,10 +93,6 @@ void order_by_global_ids(vtkDataSet& data, ExactIndex& index) {
 }
 
 }  // namespace
-
-bool has_global_ids(vtkDataSet& data) {
-    return data.GetCellData()->GetGlobalIds() != nullptr;
-}
 
 std::string fault_of_global_ids(vtkDataSet& data) {
     vtkDataArray& array = *data.GetCellData()->GetGlobalIds();
@@ -137,18 +125,22 @@ void forget_index(const vtkDataSet& data) {
 }
 
 std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Shape& shape) {
-    const vtkMTimeType time = data.GetMTime();
+    // Times of modification never come twice: an address that is used again has another.
+    const auto same = [&data, &shape, time = data.GetMTime()](const Entry& entry) {
+        return entry.data == &data && entry.time == time && entry.shape == shape;
+    };
     const ExactEnvironment environment;
-    if (std::shared_ptr<const ExactIndex> found = cached(data, shape, time)) return found;
+    if (std::shared_ptr<const ExactIndex> found = find(same)) return found;
     const std::lock_guard lock(cache().making);
-    if (std::shared_ptr<const ExactIndex> found = cached(data, shape, time)) return found;
+    if (std::shared_ptr<const ExactIndex> found = find(same)) return found;
 
     auto made = std::make_shared<ExactIndex>();
     made->reason = read_simplices(data, *made, shape);
     if (shape.by_numbers && made->reason.empty()) order_by_global_ids(data, *made);
     std::shared_ptr<const ExactIndex> index = made;
     if (made->reason.empty() && !made->mesh.cells.empty()) {
-        if (std::shared_ptr<const ExactIndex> before = made_before(*made)) {
+        // One that was made for the same cells: of a shallow copy, or before point data changed.
+        if (auto before = find([&](const Entry& e) { return e.index->locator && same_cells(*e.index, *made); })) {
             index = std::move(before);
         } else if (const Status built = made->build(); !built) {
             made->reason = built.error().message();

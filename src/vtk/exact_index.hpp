@@ -8,8 +8,9 @@
 
 #include <vtkType.h>
 
-#include "barycert/pieces/indexed_piece.hpp"
+#include "barycert/pieces/piece.hpp"
 
+class vtkDataArray;
 class vtkDataSet;
 
 namespace barycert::in_vtk {
@@ -42,8 +43,7 @@ void forget_index(const vtkDataSet& data);
 
 // The numbers of cells in a mesh of which a data set is a piece: GlobalIds of the cell data.
 
-bool has_global_ids(vtkDataSet& data);
-/// Why these cannot be used; empty if they can.
+/// Why these, which are there, cannot be used; empty if they can.
 std::string fault_of_global_ids(vtkDataSet& data);
 /// Of each cell of the mesh.
 std::vector<std::int64_t> global_ids(vtkDataSet& data, const ExactIndex& index);
@@ -62,6 +62,9 @@ std::string cell_dimension(vtkDataSet& data, int& dimension, Sides sides = Sides
 /// Sets mesh, ids, normal, plane and axes of `index`, or returns why the data set has no mesh of simplices: a clause.
 std::string read_simplices(vtkDataSet& data, ExactIndex& index, const pieces::Shape& shape = {},
                            Sides sides = Sides::none);
+
+/// The numbers of an array as doubles, tuple after tuple.
+std::vector<double> doubles_of(vtkDataArray& array);
 
 /// Of the nodes of its triangles, ghost cells left out. Requires a data set in which cell_dimension finds no fault.
 pieces::Box box_of_triangles(vtkDataSet& data);

@@ -12,7 +12,6 @@
 #include <vtkCharArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
-#include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -56,17 +55,14 @@ T once_rounded(double value, Side&& side) {
     }
 }
 
+bool is_real(vtkAbstractArray& array) {
+    return array.GetDataType() == VTK_DOUBLE || array.GetDataType() == VTK_FLOAT;
+}
+
 Field field_of(vtkDataArray& array, std::size_t number, bool& exact) {
-    Field field{.name = std::to_string(number), .components = array.GetNumberOfComponents(), .data = {}};
-    field.data.resize(static_cast<std::size_t>(array.GetNumberOfValues()));
-    if (!field.data.empty()) {
-        vtkNew<vtkDoubleArray> doubles;
-        doubles->SetNumberOfComponents(field.components);
-        doubles->SetArray(field.data.data(), array.GetNumberOfValues(), 1);
-        doubles->InsertTuples(0, array.GetNumberOfTuples(), 0, &array);
-    }
-    const bool real = array.GetDataType() == VTK_DOUBLE || array.GetDataType() == VTK_FLOAT;
-    exact = real || std::all_of(field.data.begin(), field.data.end(), [](double x) { return std::abs(x) <= 0x1p53; });
+    Field field{std::to_string(number), array.GetNumberOfComponents(), doubles_of(array)};
+    exact = is_real(array) ||
+            std::all_of(field.data.begin(), field.data.end(), [](double x) { return std::abs(x) <= 0x1p53; });
     return field;
 }
 
@@ -93,10 +89,7 @@ vtkAbstractArray* array_in(vtkDataSetAttributes& attributes, const char* name, i
 
 void prepare(vtkAbstractArray& array, vtkIdType count, double outside) {
     array.SetNumberOfTuples(count);
-    if (auto* const data = vtkDataArray::SafeDownCast(&array)) {
-        const bool real = data->GetDataType() == VTK_DOUBLE || data->GetDataType() == VTK_FLOAT;
-        data->Fill(real ? outside : 0);
-    }
+    if (auto* const data = vtkDataArray::SafeDownCast(&array)) data->Fill(is_real(array) ? outside : 0);
 }
 
 ProbeArrays::ProbeArrays(const ExactIndex& index, vtkDataSet& source, vtkDataSet& output, bool categorical,

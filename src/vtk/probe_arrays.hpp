@@ -64,8 +64,7 @@ private:
         std::size_t column;  ///< the first in a row
     };
     struct Copied {
-        vtkAbstractArray* from;
-        vtkAbstractArray* to;
+        vtkAbstractArray *from, *to;
     };
     struct Row {
         vtkIdType point;

@@ -20,49 +20,18 @@ namespace barycert::in_vtk {
 
 namespace {
 
-/// The points of a data set, as a sampler takes them.
-struct ProbePoints {
-    std::span<const double> coordinates;  ///< on the axes of the mesh, `dimension` a point
-    std::vector<double> own;              ///< behind `coordinates`, if these had to be made
-    /// Of each point in the data set; empty: all of them. Those that are not finite, or farther off the plane of the
-    /// mesh than the tolerance, have no place here.
-    std::vector<vtkIdType> ids;
-};
-
-bool finite(const double* x) {
-    return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+bool finite(std::span<const double> numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
 }
 
-// Refers to the data set where its points are doubles.
-ProbePoints probe_points(const ExactIndex& index, vtkDataSet& input, double tolerance) {
-    ProbePoints all;
-    const vtkIdType count = input.GetNumberOfPoints();
-    if (count == 0) return all;
-    if (auto* const set = vtkPointSet::SafeDownCast(&input); set != nullptr && index.normal < 0) {
-        if (auto* const doubles = vtkDoubleArray::FastDownCast(set->GetPoints()->GetData())) {
-            const std::span<const double> given(doubles->GetPointer(0), 3 * static_cast<std::size_t>(count));
-            if (std::all_of(given.begin(), given.end(), [](double x) { return std::isfinite(x); })) {
-                all.coordinates = given;
-                return all;
-            }
-        }
-    }
-    const int d = index.mesh.dimension;
-    all.own.reserve(static_cast<std::size_t>(d) * static_cast<std::size_t>(count));
-    all.ids.reserve(static_cast<std::size_t>(count));
-    for (vtkIdType i = 0; i < count; ++i) {
-        std::array<double, 3> x{}, point{};
-        input.GetPoint(i, x.data());
-        if (!finite(x.data())) continue;
-        if (!index.project(x.data(), point.data()) &&
-            !(std::abs(x[static_cast<std::size_t>(index.normal)] - index.plane) <= tolerance))
-            continue;
-        all.own.insert(all.own.end(), point.begin(), point.begin() + d);
-        all.ids.push_back(i);
-    }
-    if (static_cast<vtkIdType>(all.ids.size()) == count) all.ids.clear();
-    all.coordinates = all.own;
-    return all;
+// The points of the data set where they are finite doubles already, on the axes of the mesh; else empty.
+std::span<const double> own_coordinates(const ExactIndex& index, vtkDataSet& input) {
+    auto* const set = vtkPointSet::SafeDownCast(&input);
+    if (set == nullptr || index.normal >= 0 || input.GetNumberOfPoints() == 0) return {};
+    auto* const doubles = vtkDoubleArray::FastDownCast(set->GetPoints()->GetData());
+    if (doubles == nullptr) return {};
+    const std::span<const double> all(doubles->GetPointer(0), 3 * static_cast<std::size_t>(input.GetNumberOfPoints()));
+    return finite(all) ? all : std::span<const double>();
 }
 
 // The points of an image as a grid that has them to the bit, x fastest; none if it is no image along the axes.
@@ -96,7 +65,7 @@ std::optional<Grid> probe_grid(const ExactIndex& index, vtkDataSet& input) {
 
 Status sample_grid(const Sampler& sampler, const Grid& grid, const SampleOptions& options, ProbeArrays& arrays) {
     const auto nx = static_cast<std::uint64_t>(grid.counts[0]), ny = static_cast<std::uint64_t>(grid.counts[1]);
-    const Result<SampleCounts> counts = resample(sampler, grid, options, [&](const TableView& rows) -> Status {
+    const Result<SampleCounts> done = resample(sampler, grid, options, [&](const TableView& rows) -> Status {
         const auto place = [&](std::size_t row, double* point) {
             const std::uint64_t id = rows.first_row + row;
             point[0] = grid.coordinate(0, static_cast<std::int64_t>(id % nx));
@@ -106,23 +75,39 @@ Status sample_grid(const Sampler& sampler, const Grid& grid, const SampleOptions
         arrays.write(rows, nullptr, static_cast<vtkIdType>(rows.first_row), place);
         return Done{};
     });
-    if (!counts) return counts.error();
-    return Done{};
+    return done ? Status(Done{}) : done.error();
 }
 
-// In blocks, so that memory for rows does not grow with the number of points.
-Status sample_points(const Sampler& sampler, const ProbePoints& points, const SampleOptions& options,
-                     ProbeArrays& arrays) {
-    constexpr std::size_t block = std::size_t{1} << 20;
-    const auto d = static_cast<std::size_t>(sampler.locator().mesh().dimension);
-    const std::size_t count = points.coordinates.size() / d;
+// In blocks, so that memory does not grow with the number of points. Points that are not finite, or farther off the
+// plane of the mesh than the tolerance, are left out.
+Status sample_points(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, const SampleOptions& options,
+                     double tolerance, ProbeArrays& arrays) {
+    constexpr vtkIdType block = vtkIdType{1} << 20;
+    const auto d = static_cast<std::size_t>(index.mesh.dimension);
+    const std::span<const double> all = own_coordinates(index, input);
+    std::vector<double> copied;
+    std::vector<vtkIdType> ids;
     Table rows;
-    for (std::size_t first = 0; first < count; first += block) {
-        const auto some = points.coordinates.subspan(d * first, d * std::min(block, count - first));
-        if (Status done = sampler.sample(some, options, rows, first); !done) return done;
+    for (vtkIdType first = 0, count = input.GetNumberOfPoints(); first < count; first += block) {
+        const vtkIdType last = first + std::min(block, count - first);
+        copied.clear();
+        ids.clear();
+        for (vtkIdType i = first; all.empty() && i < last; ++i) {
+            std::array<double, 3> x{}, point{};
+            input.GetPoint(i, x.data());
+            if (!finite(x)) continue;
+            if (!index.project(x.data(), point.data()) &&
+                !(std::abs(x[static_cast<std::size_t>(index.normal)] - index.plane) <= tolerance))
+                continue;
+            copied.insert(copied.end(), point.begin(), point.begin() + index.mesh.dimension);
+            ids.push_back(i);
+        }
+        const auto from = static_cast<std::size_t>(first), size = static_cast<std::size_t>(last - first);
+        const std::span<const double> some =
+            all.empty() ? std::span<const double>(copied) : all.subspan(d * from, d * size);
+        if (Status done = sampler.sample(some, options, rows, from); !done) return done;
         const auto place = [&](std::size_t row, double* point) { std::copy_n(some.data() + d * row, d, point); };
-        const vtkIdType* const ids = points.ids.empty() ? nullptr : points.ids.data() + first;
-        arrays.write(rows.view(), ids, static_cast<vtkIdType>(first), place);
+        arrays.write(rows.view(), all.empty() ? ids.data() : nullptr, first, place);
     }
     return Done{};
 }
@@ -132,7 +117,7 @@ Status sample_points(const Sampler& sampler, const ProbePoints& points, const Sa
 Status sample_data_set(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, const SampleOptions& options,
                        double tolerance, ProbeArrays& arrays) {
     if (const std::optional<Grid> grid = probe_grid(index, input)) return sample_grid(sampler, *grid, options, arrays);
-    return sample_points(sampler, probe_points(index, input, tolerance), options, arrays);
+    return sample_points(sampler, index, input, options, tolerance, arrays);
 }
 
 }  // namespace barycert::in_vtk

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <limits>
 
-#include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkCellTypes.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
+#include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
@@ -28,80 +27,58 @@ bool is_quadratic(int type) {
 
 // Dimension of cells that may stand beside simplices and are left out there: 0 to 2; 3 tetrahedra; -1 all others.
 int plain_dimension(int type, Sides sides) {
+    if (type == VTK_EMPTY_CELL || type == VTK_VERTEX || type == VTK_POLY_VERTEX) return 0;
+    if (type == VTK_LINE || type == VTK_POLY_LINE) return 1;
     if (is_quadratic(type) && sides == Sides::straight) return type == VTK_QUADRATIC_TRIANGLE ? 2 : 3;
-    switch (type) {
-        case VTK_EMPTY_CELL:
-        case VTK_VERTEX:
-        case VTK_POLY_VERTEX:
-            return 0;
-        case VTK_LINE:
-        case VTK_POLY_LINE:
-            return 1;
-        case VTK_TRIANGLE:
-            return 2;
-        case VTK_TETRA:
-            return 3;
-        default:
-            return -1;
-    }
-}
-
-std::string type_name(int type) {
-    const char* const name = vtkCellTypes::GetClassNameFromTypeId(type);
-    return name != nullptr ? name : "a cell of type " + std::to_string(type);
-}
-
-std::vector<double> coordinates(vtkPoints& points) {
-    const auto count = static_cast<std::size_t>(points.GetNumberOfPoints());
-    std::vector<double> all(3 * count);
-    vtkDataArray* const data = points.GetData();
-    if (auto* doubles = vtkDoubleArray::FastDownCast(data)) {
-        std::copy_n(doubles->GetPointer(0), all.size(), all.begin());
-    } else if (auto* floats = vtkFloatArray::FastDownCast(data)) {
-        std::copy_n(floats->GetPointer(0), all.size(), all.begin());
-    } else {
-        for (std::size_t i = 0; i < count; ++i) data->GetTuple(static_cast<vtkIdType>(i), all.data() + 3 * i);
-    }
-    return all;
+    return type == VTK_TRIANGLE ? 2 : type == VTK_TETRA ? 3 : -1;
 }
 
 // A data set of cells, whichever of the two it is.
 struct Cells {
-    explicit Cells(vtkDataSet& data, Sides of = Sides::none)
-        : sides(of),
-          grid(vtkUnstructuredGrid::SafeDownCast(&data)),
-          surface(vtkPolyData::SafeDownCast(&data)),
-          ghosts(data.GetCellGhostArray()),
-          count(data.GetNumberOfCells()) {
+    explicit Cells(vtkDataSet& all, Sides of = Sides::none)
+        : data(all),
+          sides(of),
+          grid(vtkUnstructuredGrid::SafeDownCast(&all)),
+          surface(vtkPolyData::SafeDownCast(&all)),
+          count(all.GetNumberOfCells()) {
         if (surface != nullptr && surface->NeedToBuildCells()) surface->BuildCells();
     }
     vtkPoints* points() const { return grid != nullptr ? grid->GetPoints() : surface->GetPoints(); }
-    int type(vtkIdType cell) const { return grid != nullptr ? grid->GetCellType(cell) : surface->GetCellType(cell); }
     /// Calls `take(cell, size, nodes)` for each cell of that dimension that is no ghost.
     template <class Take>
     void each(int dimension, Take&& take) const {
+        vtkUnsignedCharArray* const ghosts = data.GetCellGhostArray();
         for (vtkIdType i = 0; i < count; ++i) {
-            if (plain_dimension(type(i), sides) != dimension) continue;
+            if (plain_dimension(data.GetCellType(i), sides) != dimension) continue;
             if (ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0) continue;
             vtkIdType size = 0;
             const vtkIdType* nodes = nullptr;
-            if (grid != nullptr) {
+            if (grid != nullptr)
                 grid->GetCellPoints(i, size, nodes);
-            } else {
+            else
                 surface->GetCellPoints(i, size, nodes);
-            }
             take(i, size, nodes);
         }
     }
 
+    vtkDataSet& data;
     Sides sides;
     vtkUnstructuredGrid* grid;
     vtkPolyData* surface;
-    vtkUnsignedCharArray* ghosts;
     vtkIdType count;
 };
 
 }  // namespace
+
+std::vector<double> doubles_of(vtkDataArray& array) {
+    std::vector<double> all(static_cast<std::size_t>(array.GetNumberOfValues()));
+    if (all.empty()) return all;
+    vtkNew<vtkDoubleArray> doubles;
+    doubles->SetNumberOfComponents(array.GetNumberOfComponents());
+    doubles->SetArray(all.data(), array.GetNumberOfValues(), 1);
+    doubles->InsertTuples(0, array.GetNumberOfTuples(), 0, &array);
+    return all;
+}
 
 std::string cell_dimension(vtkDataSet& data, int& dimension, Sides sides) {
     dimension = -1;
@@ -112,8 +89,8 @@ std::string cell_dimension(vtkDataSet& data, int& dimension, Sides sides) {
     if (cells.count > most || data.GetNumberOfPoints() > most) return "it has more than 2147483647 points or cells";
     if (cells.points() == nullptr) return {};
     for (vtkIdType i = 0; i < cells.count; ++i) {
-        const int type = cells.type(i), its = plain_dimension(type, sides);
-        if (its < 0) return "cell " + std::to_string(i) + " is a " + type_name(type);
+        const int type = data.GetCellType(i), its = plain_dimension(type, sides);
+        if (its < 0) return "cell " + std::to_string(i) + " is a " + vtkCellTypes::GetClassNameFromTypeId(type);
         dimension = std::max(dimension, its);
     }
     return {};
@@ -135,7 +112,7 @@ std::string read_simplices(vtkDataSet& data, ExactIndex& index, const pieces::Sh
     ids.reserve(static_cast<std::size_t>(cells.count));
     std::string reason;
     cells.each(dimension, [&](vtkIdType cell, vtkIdType size, const vtkIdType* nodes) {
-        const bool quadratic = is_quadratic(cells.type(cell));
+        const bool quadratic = is_quadratic(data.GetCellType(cell));
         if (size != (quadratic ? nodes_of_quadratic : corners) && reason.empty())
             reason =
                 "cell " + std::to_string(cell) + " has " + std::to_string(size) + (quadratic ? " nodes" : " vertices");
@@ -151,7 +128,7 @@ std::string read_simplices(vtkDataSet& data, ExactIndex& index, const pieces::Sh
         mesh.mid_edge_order = MidEdgeOrder::vtk;
     }
     if (static_cast<vtkIdType>(ids.size()) != cells.count) index.ids = std::move(ids);
-    mesh.points = coordinates(*cells.points());
+    mesh.points = doubles_of(*cells.points()->GetData());
     if (dimension == 2 && !index.flatten(shape.normal)) return "its triangles do not lie in one plane across an axis";
     return {};
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <vtkCellArray.h>
@@ -52,14 +53,14 @@ vtkSmartPointer<Array> array_of(const char* name, const All& all, Of&& of) {
 }
 
 // One value a cell of the data set: of(i) for cell i of the mesh, `other` for cells that are not in it.
-template <class Array, class T, class Of>
-void add_cell_array(vtkDataSet& output, const ExactIndex& index, const char* name, T other, Of&& of) {
+template <class Array, class Of>
+void add_cell_array(vtkDataSet& output, const ExactIndex& index, std::string_view name, Of&& of, double other = 0) {
     vtkNew<Array> array;
-    array->SetName(name);
+    array->SetName(std::string(name).c_str());
     array->SetNumberOfValues(output.GetNumberOfCells());
-    array->Fill(static_cast<double>(other));
+    array->Fill(other);
     for (std::size_t i = 0; i < index.mesh.cell_count(); ++i)
-        array->SetValue(index.id(static_cast<Mesh::Index>(i)), static_cast<T>(of(i)));
+        array->SetValue(index.id(static_cast<Mesh::Index>(i)), static_cast<typename Array::ValueType>(of(i)));
     output.GetCellData()->AddArray(array);
 }
 
@@ -95,49 +96,38 @@ std::string places_of(const Defect& defect, const ExactIndex& index) {
 void add_measures(const CheckReport& report, const ExactIndex& index, vtkDataSet& output) {
     const CellMeasures& measures = report.measures;
     for (const Field& field : measure_fields(measures)) {
-        const char* const name = field.name.c_str();
         const auto value = [&](std::size_t i) { return field.data[i]; };
         if (field.name == "orientation")
-            add_cell_array<vtkSignedCharArray, signed char>(output, index, name, 0, value);
+            add_cell_array<vtkSignedCharArray>(output, index, field.name, value);
         else if (field.name == "problems")
-            add_cell_array<vtkUnsignedIntArray, unsigned int>(output, index, name, 0, value);
+            add_cell_array<vtkUnsignedIntArray>(output, index, field.name, value);
         else
-            add_cell_array<vtkDoubleArray>(output, index, name, std::numeric_limits<double>::quiet_NaN(), value);
+            add_cell_array<vtkDoubleArray>(output, index, field.name, value, std::numeric_limits<double>::quiet_NaN());
     }
     DefectSet found = 0;
     for (const DefectSet some : measures.defects) found |= some;
     for (const DefectText& text : defect_texts) {
         const DefectSet bit = defect_bit(text.kind);
-        if ((found & bit) == 0) continue;
-        add_cell_array<vtkUnsignedCharArray, unsigned char>(
-            output, index, std::string(text.name).c_str(), 0,
-            [&](std::size_t i) { return (measures.defects[i] & bit) != 0; });
+        if ((found & bit) != 0)
+            add_cell_array<vtkUnsignedCharArray>(output, index, text.name,
+                                                 [&](std::size_t i) { return (measures.defects[i] & bit) != 0; });
     }
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
 }
 
 // A row a defect.
 void fill_defects(const std::vector<Defect>& all, const ExactIndex& index, vtkTable& table) {
-    const auto texts = [&](const char* name, auto&& of) {
-        table.AddColumn(array_of<vtkStringArray>(name, all, [&](const Defect& d) { return std::string(of(d)); }));
+    const auto add = [&]<class Array>(const char* name, Array*, auto&& of) {
+        table.AddColumn(array_of<Array>(name, all, of));
     };
-    const auto flags = [&](const char* name, auto&& of) {
-        table.AddColumn(array_of<vtkUnsignedCharArray>(name, all, [&](const Defect& d) { return flag(of(d)); }));
-    };
-    texts("defect", [](const Defect& d) { return defect_text(d.kind).name; });
-    table.AddColumn(
-        array_of<vtkTypeInt64Array>("count", all, [](const Defect& d) { return static_cast<vtkTypeInt64>(d.count); }));
-    flags("at_least", [](const Defect& d) { return d.at_least; });
-    flags("breaks", [](const Defect& d) { return d.breaks(); });
-    texts("meaning", [](const Defect& d) { return defect_text(d.kind).text; });
-    texts("remedy", [](const Defect& d) { return d.remedy(); });
-    texts("places", [&](const Defect& d) { return places_of(d, index); });
+    constexpr vtkStringArray* text = nullptr;
+    constexpr vtkUnsignedCharArray* flags = nullptr;
+    add("defect", text, [](const Defect& d) { return std::string(defect_text(d.kind).name); });
+    add("count", static_cast<vtkTypeInt64Array*>(nullptr), [](const Defect& d) { return vtkTypeInt64(d.count); });
+    add("at_least", flags, [](const Defect& d) { return flag(d.at_least); });
+    add("breaks", flags, [](const Defect& d) { return flag(d.breaks()); });
+    add("meaning", text, [](const Defect& d) { return std::string(defect_text(d.kind).text); });
+    add("remedy", text, [](const Defect& d) { return std::string(d.remedy()); });
+    add("places", text, [&](const Defect& d) { return places_of(d, index); });
 }
 
 // A vertex for each pair of cells that meet where they must not.
@@ -169,14 +159,12 @@ vtkBarycertCheck::vtkBarycertCheck() {
     SetNumberOfOutputPorts(3);
 }
 
-vtkBarycertCheck::~vtkBarycertCheck() = default;
-
 void vtkBarycertCheck::PrintSelf(ostream& os, vtkIndent indent) {
     Superclass::PrintSelf(os, indent);
-    os << indent << "Delaunay: " << (Delaunay != 0 ? "On" : "Off") << "\n";
-    os << indent << "Examples: " << Examples << "\n";
-    os << indent << "Contacts: " << Contacts << "\n";
-    os << indent << "Certified: " << (Certified ? "yes" : "no") << "\n";
+    os << indent << "Delaunay: " << (Delaunay != 0 ? "On" : "Off") << "\n"
+       << indent << "Examples: " << Examples << "\n"
+       << indent << "Contacts: " << Contacts << "\n"
+       << indent << "Certified: " << (Certified ? "yes" : "no") << "\n";
 }
 
 vtkTable* vtkBarycertCheck::GetDefects() {
@@ -226,11 +214,9 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     }
     // The report's text names cells by their ids.
     index.mesh.cell_numbers.assign(index.ids.begin(), index.ids.end());
-    CheckOptions options;
-    options.delaunay = Delaunay != 0;
-    options.examples = static_cast<std::size_t>(Examples);
-    options.contacts = static_cast<std::size_t>(Contacts);
-    const CheckReport report = check_mesh(index.mesh, options);
+    const CheckReport report = check_mesh(index.mesh, {.delaunay = Delaunay != 0,
+                                                       .examples = static_cast<std::size_t>(Examples),
+                                                       .contacts = static_cast<std::size_t>(Contacts)});
     Certified = report.certified();
 
     output->ShallowCopy(input);
@@ -242,8 +228,12 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     std::size_t verdict = 0;
     for (int line = 0; line < (message(report.curved).empty() ? 0 : 2); ++line) verdict = text.find('\n', verdict) + 1;
     if (!Certified) vtkWarningMacro("" << text.substr(verdict, text.find('\n', verdict) - verdict));
+    vtkNew<vtkStringArray> lines;
+    lines->SetName("barycert_check");
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines->InsertNextValue(line);
     vtkFieldData& told = *output->GetFieldData();
-    told.AddArray(array_of<vtkStringArray>("barycert_check", lines_of(text), [](const std::string& s) { return s; }));
+    told.AddArray(lines);
     told.AddArray(array_of<vtkUnsignedCharArray>("certified", std::array{Certified}, flag));
     fill_defects(report.defects, index, *defects);
     fill_contacts(report.contacts, index, *points);

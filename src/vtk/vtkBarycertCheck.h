@@ -58,7 +58,7 @@ public:
 
 protected:
     vtkBarycertCheck();
-    ~vtkBarycertCheck() override;
+    ~vtkBarycertCheck() override = default;
 
     int FillOutputPortInformation(int port, vtkInformation* info) override;
     int RequestDataObject(vtkInformation* request, vtkInformationVector** inputs,
@@ -66,9 +66,6 @@ protected:
     int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
-    vtkBarycertCheck(const vtkBarycertCheck&) = delete;
-    void operator=(const vtkBarycertCheck&) = delete;
-
     vtkTypeBool Delaunay = 0;
     int Examples = 10, Contacts = 20;
     bool Certified = false;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -125,6 +126,12 @@ const in_vtk::ExactIndex* vtkBarycertLocator::Ready() {
     return internals_->built;
 }
 
+// The index if it answers.
+const in_vtk::ExactIndex* vtkBarycertLocator::ExactOne() {
+    const in_vtk::ExactIndex* const index = Ready();
+    return index != nullptr && index->exact() ? index : nullptr;
+}
+
 // VTK's locator, for what barycert does not answer. Null if there is no data set, or nothing in it.
 vtkStaticCellLocator* vtkBarycertLocator::Other() {
     if (Ready() == nullptr || DataSet->GetNumberOfCells() == 0) return nullptr;
@@ -143,8 +150,7 @@ vtkStaticCellLocator* vtkBarycertLocator::Other() {
 }
 
 bool vtkBarycertLocator::GetExact() {
-    const in_vtk::ExactIndex* const index = Ready();
-    return index != nullptr && index->exact();
+    return ExactOne() != nullptr;
 }
 
 std::string vtkBarycertLocator::GetReason() {
@@ -178,9 +184,8 @@ static void set_parametric(const std::array<double, 4>& weights, int count, doub
 
 vtkIdType vtkBarycertLocator::FindCell(double x[3]) {
     const ExactEnvironment environment;
-    const in_vtk::ExactIndex* const index = Ready();
-    if (index == nullptr) return -1;
-    if (index->exact()) return index->id(index->owner(x));
+    if (const in_vtk::ExactIndex* const index = ExactOne()) return index->id(index->owner(x));
+    if (DataSet == nullptr) return -1;
     vtkNew<vtkGenericCell> cell;
     std::array<double, 3> pcoords{};
     std::vector<double> weights(static_cast<std::size_t>(DataSet->GetMaxCellSize()));
@@ -197,9 +202,8 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
                                        double* weights) {
     const ExactEnvironment environment;
     subId = 0;
-    const in_vtk::ExactIndex* const index = Ready();
-    if (index == nullptr) return -1;
-    if (!index->exact()) {
+    const in_vtk::ExactIndex* const index = ExactOne();
+    if (index == nullptr) {
         vtkStaticCellLocator* const other = Other();
         return other != nullptr ? other->FindCell(x, tol2, cell, pcoords, weights) : -1;
     }
@@ -228,8 +232,7 @@ void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint
 void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint[3], vtkGenericCell* cell,
                                           vtkIdType& cellId, int& subId, double& dist2) {
     cellId = -1;
-    const in_vtk::ExactIndex* const index = Ready();
-    if (index != nullptr && !index->exact()) {
+    if (ExactOne() == nullptr) {
         if (vtkStaticCellLocator* const other = Other())
             other->FindClosestPoint(x, closestPoint, cell, cellId, subId, dist2);
         return;
@@ -250,13 +253,11 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
                                                            vtkGenericCell* cell, vtkIdType& cellId, int& subId,
                                                            double& dist2, int& inside) {
     cellId = -1;
-    const in_vtk::ExactIndex* const index = Ready();
-    if (index == nullptr) return 0;
-    if (!index->exact()) {
+    const in_vtk::ExactIndex* const index = ExactOne();
+    if (index == nullptr) {
         vtkStaticCellLocator* const other = Other();
-        return other == nullptr
-                   ? 0
-                   : other->FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2, inside);
+        if (other == nullptr) return 0;
+        return other->FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2, inside);
     }
     const ExactEnvironment environment;
     const pieces::Closest found = index->closest(x, radius);
@@ -296,35 +297,39 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
     if (cellIds != nullptr) cellIds->Reset();
     vtkNew<vtkIdList> candidates;
     FindCellsAlongLine(p1, p2, tol, candidates);
-    struct Hit {
-        double t;
-        vtkIdType cell;
-        std::array<double, 3> x;
-        bool operator<(const Hit& other) const { return std::pair(t, cell) < std::pair(other.t, other.cell); }
-    };
-    std::vector<Hit> hits;
+    std::vector<std::tuple<double, vtkIdType, std::array<double, 3>>> hits;  // how far along the line, cell, point
     const double along[3] = {p2[0] - p1[0], p2[1] - p1[1], p2[2] - p1[2]};
     for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i) {
-        Hit hit{0, candidates->GetId(i), {}};
-        std::array<double, 3> pcoords{};
+        const vtkIdType id = candidates->GetId(i);
+        std::array<double, 3> x{}, pcoords{};
+        double t = 0;
         int sub_id = 0;
         bool met = false;
         if (cell != nullptr) {
-            DataSet->GetCell(hit.cell, cell);
-            met = cell->IntersectWithLine(p1, p2, tol, hit.t, hit.x.data(), pcoords.data(), sub_id) != 0;
+            DataSet->GetCell(id, cell);
+            met = cell->IntersectWithLine(p1, p2, tol, t, x.data(), pcoords.data(), sub_id) != 0;
         } else {
             double bounds[6];
-            DataSet->GetCellBounds(hit.cell, bounds);
-            met = vtkBox::IntersectBox(bounds, p1, along, hit.x.data(), hit.t, tol) != 0;
+            DataSet->GetCellBounds(id, bounds);
+            met = vtkBox::IntersectBox(bounds, p1, along, x.data(), t, tol) != 0;
         }
-        if (met) hits.push_back(hit);
+        if (met) hits.emplace_back(t, id, x);
     }
     std::sort(hits.begin(), hits.end());
-    for (const Hit& hit : hits) {
-        if (points != nullptr) points->InsertNextPoint(hit.x.data());
-        if (cellIds != nullptr) cellIds->InsertNextId(hit.cell);
+    for (const auto& [t, id, x] : hits) {
+        if (points != nullptr) points->InsertNextPoint(x.data());
+        if (cellIds != nullptr) cellIds->InsertNextId(id);
     }
     return hits.empty() ? 0 : 1;
+}
+
+// Whether the box of a cell meets another.
+static bool meets(vtkDataSet& data, vtkIdType cell, const double* box) {
+    double its[6];
+    data.GetCellBounds(cell, its);
+    for (int a = 0; a < 6; a += 2)
+        if (!(its[a] <= box[a + 1] && box[a] <= its[a + 1])) return false;
+    return true;
 }
 
 void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
@@ -334,14 +339,8 @@ void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
     if (other == nullptr) return;
     vtkNew<vtkIdList> candidates;  // all cells of the buckets that the box meets
     other->FindCellsWithinBounds(bbox, candidates);
-    for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i) {
-        const vtkIdType cell = candidates->GetId(i);
-        double its[6];
-        DataSet->GetCellBounds(cell, its);
-        bool meets = true;
-        for (int a = 0; a < 6; a += 2) meets = meets && its[a] <= bbox[a + 1] && bbox[a] <= its[a + 1];
-        if (meets) cells->InsertNextId(cell);
-    }
+    for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i)
+        if (meets(*DataSet, candidates->GetId(i), bbox)) cells->InsertNextId(candidates->GetId(i));
 }
 
 void vtkBarycertLocator::FindCellsAlongLine(const double p1[3], const double p2[3], double tolerance,
@@ -359,11 +358,8 @@ void vtkBarycertLocator::FindCellsAlongPlane(const double origin[3], const doubl
 bool vtkBarycertLocator::InsideCellBounds(double x[3], vtkIdType cellId) {
     const ExactEnvironment environment;
     if (DataSet == nullptr || cellId < 0 || cellId >= DataSet->GetNumberOfCells()) return false;
-    double bounds[6];
-    DataSet->GetCellBounds(cellId, bounds);
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(bounds[2 * axis] <= x[axis] && x[axis] <= bounds[2 * axis + 1])) return false;
-    return true;
+    const double point[6] = {x[0], x[0], x[1], x[1], x[2], x[2]};
+    return meets(*DataSet, cellId, point);
 }
 
 void vtkBarycertLocator::GenerateRepresentation(int level, vtkPolyData* surface) {

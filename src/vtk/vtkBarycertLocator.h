@@ -106,11 +106,9 @@ protected:
     void ReportReferences(vtkGarbageCollector* collector) override;
 
 private:
-    vtkBarycertLocator(const vtkBarycertLocator&) = delete;
-    void operator=(const vtkBarycertLocator&) = delete;
-
     struct Internals;
     const barycert::in_vtk::ExactIndex* Ready();
+    const barycert::in_vtk::ExactIndex* ExactOne();
     vtkStaticCellLocator* Other();
 
     std::unique_ptr<Internals> internals_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <vtkCellData.h>
 #include <vtkCharArray.h>
@@ -36,19 +38,18 @@ vtkBarycertProbe::~vtkBarycertProbe() {
 
 void vtkBarycertProbe::PrintSelf(ostream& os, vtkIndent indent) {
     Superclass::PrintSelf(os, indent);
-    const auto line = [&](const char* name, bool on) { os << indent << name << ": " << (on ? "On" : "Off") << "\n"; };
-    line("CategoricalData", CategoricalData != 0);
-    line("SpatialMatch", SpatialMatch != 0);
-    line("PassCellArrays", PassCellArrays != 0);
-    line("PassPointArrays", PassPointArrays != 0);
-    line("PassFieldArrays", PassFieldArrays != 0);
-    line("ComputeTolerance", ComputeTolerance);
-    line("OutsideIsNaN", OutsideIsNaN);
-    os << indent << "Tolerance: " << Tolerance << "\n";
-    os << indent << "ValidPointMaskArrayName: " << (ValidPointMaskArrayName ? ValidPointMaskArrayName : "(none)")
-       << "\n";
-    os << indent << "ValidPoints: " << ValidPoints->GetNumberOfTuples() << "\n";
-    os << indent << "Exact: " << (Exact ? "yes" : "no") << "\n";
+    const std::pair<const char*, bool> settings[] = {{"CategoricalData", CategoricalData != 0},
+                                                     {"SpatialMatch", SpatialMatch != 0},
+                                                     {"PassCellArrays", PassCellArrays != 0},
+                                                     {"PassPointArrays", PassPointArrays != 0},
+                                                     {"PassFieldArrays", PassFieldArrays != 0},
+                                                     {"ComputeTolerance", ComputeTolerance},
+                                                     {"OutsideIsNaN", OutsideIsNaN}};
+    for (const auto& [name, on] : settings) os << indent << name << ": " << (on ? "On" : "Off") << "\n";
+    os << indent << "Tolerance: " << Tolerance << "\n"
+       << indent << "ValidPointMaskArrayName: " << MaskName() << "\n"
+       << indent << "ValidPoints: " << ValidPoints->GetNumberOfTuples() << "\n"
+       << indent << "Exact: " << (Exact ? "yes" : "no") << "\n";
 }
 
 void vtkBarycertProbe::SetSourceData(vtkDataObject* source) {
@@ -73,8 +74,8 @@ int vtkBarycertProbe::RequestInformation(vtkInformation* request, vtkInformation
     using Pipeline = vtkStreamingDemandDrivenPipeline;
     vtkInformation* const source = inputs[1]->GetInformationObject(0);
     vtkInformation* const out = outputs->GetInformationObject(0);
-    if (source->Has(Pipeline::TIME_STEPS()) != 0) out->CopyEntry(source, Pipeline::TIME_STEPS());
-    if (source->Has(Pipeline::TIME_RANGE()) != 0) out->CopyEntry(source, Pipeline::TIME_RANGE());
+    for (vtkInformationDoubleVectorKey* const key : {Pipeline::TIME_STEPS(), Pipeline::TIME_RANGE()})
+        if (source->Has(key) != 0) out->CopyEntry(source, key);
     return Superclass::RequestInformation(request, inputs, outputs);
 }
 
@@ -114,10 +115,13 @@ int vtkBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** inputs
     }
     const std::shared_ptr<const in_vtk::ExactIndex> index = in_vtk::exact_index(*source);
     Exact = index->exact();
-    if (!Exact)
+    if (!Exact) {
         vtkWarningMacro(
             "not exact with this source, a vtkProbeFilter with a vtkStaticCellLocator answers: " << index->reason);
-    if (!(Exact ? Sample(*index, input, source, output) : AskVTK(input, source, output))) return 0;
+        AskVTK(input, source, output);
+    } else if (!Sample(*index, input, source, output)) {
+        return 0;
+    }
     PassArrays(input, output);
     return 1;
 }
@@ -131,11 +135,9 @@ bool vtkBarycertProbe::Sample(const in_vtk::ExactIndex& index, vtkDataSet* input
     }
     const double tolerance = ComputeTolerance ? 0 : Tolerance;
     const vtkIdType count = input->GetNumberOfPoints();
-    const char* const mask_name = ValidPointMaskArrayName != nullptr ? ValidPointMaskArrayName : "vtkValidPointMask";
-    in_vtk::ProbeArrays arrays(index, *source, *output, CategoricalData != 0, mask_name);
-    arrays.allocate(count, OutsideIsNaN ? std::numeric_limits<double>::quiet_NaN() : 0);
-    for (const std::string& name : arrays.inexact())
-        vtkWarningMacro("the point array " << name << " has integers beyond 2^53: they become doubles first");
+    in_vtk::ProbeArrays arrays(index, *source, *output, CategoricalData != 0, MaskName());
+    arrays.allocate(count, OutsideValue());
+    WarnOfInexact(arrays.inexact());
     if (!index.locator || count == 0) return true;
 
     SampleOptions options;
@@ -144,17 +146,27 @@ bool vtkBarycertProbe::Sample(const in_vtk::ExactIndex& index, vtkDataSet* input
         arrays.number_cells();
     }
     const Result<Sampler> sampler = Sampler::build(*index.locator, arrays.choices());
-    if (!sampler) {
-        vtkErrorMacro("" << sampler.error().message());
-        return false;
-    }
-    const Status done = in_vtk::sample_data_set(*sampler, index, *input, options, tolerance, arrays);
+    const Status done = sampler ? in_vtk::sample_data_set(*sampler, index, *input, options, tolerance, arrays)
+                                : Status(sampler.error());
     if (!done) {
         vtkErrorMacro("" << done.error().message());
         return false;
     }
     ListValidPoints(*arrays.mask());
     return true;
+}
+
+const char* vtkBarycertProbe::MaskName() const {
+    return ValidPointMaskArrayName != nullptr ? ValidPointMaskArrayName : "vtkValidPointMask";
+}
+
+double vtkBarycertProbe::OutsideValue() const {
+    return OutsideIsNaN ? std::numeric_limits<double>::quiet_NaN() : 0;
+}
+
+void vtkBarycertProbe::WarnOfInexact(const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+        vtkWarningMacro("the point array " << name << " has integers beyond 2^53: they become doubles first");
 }
 
 void vtkBarycertProbe::ListValidPoints(vtkCharArray& mask) {
@@ -165,7 +177,7 @@ void vtkBarycertProbe::ListValidPoints(vtkCharArray& mask) {
         if (valid[i] != 0) ValidPoints->InsertNextValue(i);
 }
 
-bool vtkBarycertProbe::AskVTK(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output) {
+void vtkBarycertProbe::AskVTK(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output) {
     vtkNew<vtkProbeFilter> probe;
     vtkNew<vtkStaticCellLocator> locator;
     probe->SetInputData(input);
@@ -178,7 +190,6 @@ bool vtkBarycertProbe::AskVTK(vtkDataSet* input, vtkDataSet* source, vtkDataSet*
     probe->Update();
     output->GetPointData()->ShallowCopy(probe->GetOutput()->GetPointData());
     ValidPoints->DeepCopy(probe->GetValidPoints());
-    return true;
 }
 
 void vtkBarycertProbe::PassArrays(vtkDataSet* input, vtkDataSet* output) {

@@ -21,6 +21,9 @@
 #ifndef vtkBarycertProbe_h
 #define vtkBarycertProbe_h
 
+#include <string>
+#include <vector>
+
 #include <vtkDataSetAlgorithm.h>
 #include <vtkNew.h>
 
@@ -100,17 +103,17 @@ protected:
     int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputs,
                             vtkInformationVector* outputs) override;
 
+    const char* MaskName() const;
+    double OutsideValue() const;
+    void WarnOfInexact(const std::vector<std::string>& names);
     void ListValidPoints(vtkCharArray& mask);
     void PassArrays(vtkDataSet* input, vtkDataSet* output);
 
     bool Exact = false;
 
 private:
-    vtkBarycertProbe(const vtkBarycertProbe&) = delete;
-    void operator=(const vtkBarycertProbe&) = delete;
-
     bool Sample(const barycert::in_vtk::ExactIndex& index, vtkDataSet* input, vtkDataSet* source, vtkDataSet* output);
-    bool AskVTK(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output);
+    void AskVTK(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output);
 
     vtkTypeBool CategoricalData = 0, SpatialMatch = 0;
     vtkTypeBool PassCellArrays = 0, PassPointArrays = 0, PassFieldArrays = 1;

@@ -36,9 +36,6 @@ protected:
     int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
-    vtkBarycertTetGenReader(const vtkBarycertTetGenReader&) = delete;
-    void operator=(const vtkBarycertTetGenReader&) = delete;
-
     char* FileName = nullptr;
 };
 

@@ -1,6 +1,5 @@
 #include "vtkPBarycertProbe.h"
 
-#include <limits>
 #include <string>
 
 #include <vtkCharArray.h>
@@ -34,12 +33,12 @@ vtkPBarycertProbe::~vtkPBarycertProbe() {
 
 void vtkPBarycertProbe::PrintSelf(ostream& os, vtkIndent indent) {
     Superclass::PrintSelf(os, indent);
-    os << indent << "Controller: " << Controller << "\n";
-    os << indent << "PointsSent: " << PointsSent << "\n";
-    os << indent << "PointsReceived: " << PointsReceived << "\n";
-    os << indent << "BytesSent: " << BytesSent << "\n";
-    os << indent << "BytesGathered: " << BytesGathered << "\n";
-    os << indent << "NumberOfPartners: " << NumberOfPartners << "\n";
+    os << indent << "Controller: " << Controller << "\n"
+       << indent << "PointsSent: " << PointsSent << "\n"
+       << indent << "PointsReceived: " << PointsReceived << "\n"
+       << indent << "BytesSent: " << BytesSent << "\n"
+       << indent << "BytesGathered: " << BytesGathered << "\n"
+       << indent << "NumberOfPartners: " << NumberOfPartners << "\n";
 }
 
 vtkExecutive* vtkPBarycertProbe::CreateDefaultExecutive() {
@@ -105,14 +104,10 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
                       .remedy = "leave ComputeTolerance on"};
     in_vtk::Processes processes(Controller);
     pieces::Exchange exchange(processes);
-    const char* const mask_name = GetValidPointMaskArrayName();
     in_vtk::ProbeReport report;
-    const Status done =
-        in_vtk::probe_pieces(exchange,
-                             {.categorical = GetCategoricalData() != 0,
-                              .outside = GetOutsideIsNaN() ? std::numeric_limits<double>::quiet_NaN() : 0,
-                              .mask = mask_name != nullptr ? mask_name : "vtkValidPointMask"},
-                             ready, input, source, output, report);
+    const Status done = in_vtk::probe_pieces(
+        exchange, {.categorical = GetCategoricalData() != 0, .outside = OutsideValue(), .mask = MaskName()}, ready,
+        input, source, output, report);
     PointsSent = static_cast<vtkIdType>(report.points_sent);
     PointsReceived = static_cast<vtkIdType>(report.points_received);
     BytesSent = static_cast<vtkIdType>(exchange.sent());
@@ -125,8 +120,7 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
         vtkErrorMacro("" << done.error().message());
         return 0;
     }
-    for (const std::string& name : report.inexact)
-        vtkWarningMacro("the point array " << name << " has integers beyond 2^53: they become doubles first");
+    WarnOfInexact(report.inexact);
     if (report.numbered_by_ranks && exchange.rank() == 0)
         vtkWarningMacro(
             "the cells of some source have no global ids: they are numbered by process, and owners of points on seams "

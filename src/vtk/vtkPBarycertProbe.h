@@ -63,9 +63,6 @@ protected:
     int RequestData(vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
-    vtkPBarycertProbe(const vtkPBarycertProbe&) = delete;
-    void operator=(const vtkPBarycertProbe&) = delete;
-
     vtkMultiProcessController* Controller = nullptr;
     vtkIdType PointsSent = 0, PointsReceived = 0, BytesSent = 0, BytesGathered = 0;
     int NumberOfPartners = 0;

@@ -1,6 +1,5 @@
 // One kernel's answer against the oracle's: every class of finding, one at a time.
 
-#include "barycert/audit/comparison.hpp"
 #include "barycert/audit.hpp"
 #include "barycert/audit/asking.hpp"
 #include "barycert/environment.hpp"

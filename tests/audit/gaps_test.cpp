@@ -135,8 +135,8 @@ TEST(gaps, a_report_does_not_depend_on_threads) {
     for (std::size_t k = 0; k < one.results.size(); ++k) {
         EXPECT_EQ(one.results[k].total().faults, four.results[k].total().faults);
         ASSERT_EQ(one.results[k].witnesses.size(), four.results[k].witnesses.size());
-        for (std::size_t w = 0; w < one.results[k].witnesses.size(); ++w)
-            EXPECT_EQ(one.results[k].witnesses[w].second.point, four.results[k].witnesses[w].second.point);
+        for (const auto& [fault, w] : one.results[k].witnesses)
+            EXPECT_EQ(w.point, four.results[k].witnesses.at(fault).point);
     }
 }
 

@@ -11,7 +11,7 @@
 
 #include "audit_helpers.hpp"
 #include "barycert/audit/gap_points.hpp"
-#include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit/recipes.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/random.hpp"
 

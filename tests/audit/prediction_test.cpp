@@ -1,5 +1,5 @@
 #include "barycert/audit.hpp"
-#include "barycert/audit/comparison.hpp"
+#include "barycert/audit/asking.hpp"
 #include "barycert/base/random.hpp"
 
 #include <gtest/gtest.h>

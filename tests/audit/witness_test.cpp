@@ -1,7 +1,7 @@
 // Witnesses: they show what they say, and survive a file bit for bit.
 
 #include "barycert/audit.hpp"
-#include "barycert/audit/comparison.hpp"
+#include "barycert/audit/asking.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "audit_helpers.hpp"
-#include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit/recipes.hpp"
 #include "barycert/audit_report.hpp"
 
 namespace barycert::audit {

@@ -1,6 +1,6 @@
 // Names in a folder.
 
-#include "barycert/base/folder.hpp"
+#include "barycert/base/nearest_name.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/base/mapped_file.hpp"
-
 namespace barycert {
 namespace {
 

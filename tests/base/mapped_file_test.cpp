@@ -1,4 +1,4 @@
-#include "barycert/base/mapped_file.hpp"
+#include "barycert/base/input_file.hpp"
 
 #include <sys/stat.h>
 

@@ -1,4 +1,4 @@
-#include "barycert/base/named_limit.hpp"
+#include "barycert/base/text.hpp"
 
 #include <gtest/gtest.h>
 

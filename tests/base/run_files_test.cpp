@@ -1,4 +1,3 @@
-#include "barycert/base/run_files.hpp"
 
 #include <filesystem>
 #include <memory>

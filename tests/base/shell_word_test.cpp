@@ -1,4 +1,4 @@
-#include "barycert/base/shell_word.hpp"
+#include "barycert/base/text.hpp"
 
 #include <gtest/gtest.h>
 

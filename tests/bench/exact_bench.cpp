@@ -362,8 +362,8 @@ std::vector<T> same_on_all_targets(const TargetTable& table, std::size_t count, 
 }
 
 template <class Batch>
-std::vector<WeightSigns> verified_signs(const TargetTable& table, const Batch& batch, const std::vector<WeightSigns>& right,
-                                        TierCounts& tiers) {
+std::vector<WeightSigns> verified_signs(const TargetTable& table, const Batch& batch,
+                                        const std::vector<WeightSigns>& right, TierCounts& tiers) {
     auto found = same_on_all_targets<WeightSigns>(
         table, right.size(), tiers, [&](auto out, TierCounts* t) { weight_signs(batch, out, t).value(); });
     require(found == right, "signs differ from CGAL's");

@@ -44,9 +44,10 @@ bool check(const Case& c) {
     }
     // The last tier by itself: mostly it is not asked.
     double weights[3], depth[1], values[1];
-    EXPECT_TRUE(core::exact_perspective_weights(v, c.point.data(), weights));
-    EXPECT_TRUE(core::exact_perspective_depth(v, c.point.data(), depth));
-    EXPECT_TRUE(core::exact_perspective_values(v, c.point.data(), c.values.data(), 1, values));
+    using core::PerspectiveAnswer, core::exact_perspective;
+    EXPECT_TRUE(exact_perspective(PerspectiveAnswer::weights, v, c.point.data(), nullptr, 1, weights));
+    EXPECT_TRUE(exact_perspective(PerspectiveAnswer::depth, v, c.point.data(), nullptr, 1, depth));
+    EXPECT_TRUE(exact_perspective(PerspectiveAnswer::values, v, c.point.data(), c.values.data(), 1, values));
     EXPECT_EQ(testing_cases::bits(depth[0]), testing_cases::bits(z->value));
     EXPECT_EQ(testing_cases::bits(values[0]), testing_cases::bits(f->value));
     Q value(0);

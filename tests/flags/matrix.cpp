@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "barycert/audit.hpp"
-#include "barycert/audit/comparison.hpp"
+#include "barycert/audit/asking.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/kernels.hpp"
 #include "barycert/oracle.hpp"

@@ -1,11 +1,10 @@
 // Which reader a file goes to, and what is said of files that none reads.
-#include "barycert/io/mesh_format.hpp"
+#include "barycert/io/formats.hpp"
 
 #include <cstdlib>
 #include <filesystem>
 
 #include "barycert/io.hpp"
-#include "barycert/io/other_formats.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {

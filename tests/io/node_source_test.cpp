@@ -37,7 +37,7 @@ TEST(NodeSource, refused) {
             {1, "bad dimension in the header", "2, for the mesh is 2-dimensional", "4", "dimension of the mesh"});
     refused("2 3 0 0\n1 0 0 0\n2 0 0 0.5\n", 2,
             {0, "a point off the plane z = 0: node 1, counted from 0", "z = 0, for the mesh is 2D", "0.5",
-             "--columns x,y"});
+             "options.columns x,y"});
     refused("1 2 0 0\n1 0 0\n", 3,
             {1, "bad dimension in the header", "3, for the mesh is 3-dimensional", "2", nullptr});
     refused("1 3 0 2\n1 0 0 0 1 1\n", 3, {1, "bad number of markers in the header", "0 or 1", "2", nullptr});

@@ -96,7 +96,7 @@ TEST(NpySource, shapes_that_are_refused) {
                        {0, what, "(n, 3), for the mesh is 3-dimensional", "(9,)", "a.reshape(-1, 3)"});
     expect_npy_refused(shaped("()"), 3, {0, what, nullptr, "()", nullptr});
     expect_npy_refused(shaped("(3, 3)"), 2,
-                       {0, what, "(n, 2), for the mesh is 2-dimensional", "(3, 3)", "--columns 1,2"});
+                       {0, what, "(n, 2), for the mesh is 2-dimensional", "(3, 3)", "options.columns 1,2"});
     expect_npy_refused(shaped("(3, 2)"), 3, {0, what, nullptr, "(3, 2)", "a.T"});
     expect_npy_refused(shaped("(4, 2)"), 3, {0, what, nullptr, "(4, 2)", "a row of 3 coordinates"});
     expect_npy_refused(shaped("(3, 3, 1)"), 3, {0, what, nullptr, "(3, 3, 1)", nullptr});

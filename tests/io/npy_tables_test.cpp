@@ -41,14 +41,14 @@ TEST(NpyTables, fields_by_their_names) {
         EXPECT_EQ(read->formats[2], (ColumnFormat{"w", Column::Type::text, 8, 2}));
     }
     EXPECT_EQ(read_carried_bytes("p.npy", bytes, 3, as_it_is).value().note_texts(),
-              "left out: columns id, n, w; --keep id,n,w carries them through\n"
+              "left out: columns id, n, w; options.keep id,n,w carries them through\n"
               "converted: coordinates of type <f4 to double, exactly\n");
     EXPECT_EQ(read_carried_bytes("p.npy", bytes, 2, {.columns = {"id,Z"}}).value().points,
               (std::vector<double>{-7, 0.5, 8, -0.0}));
     EXPECT_EQ(read_carried_bytes("p.npy", bytes, 2, {.columns = {"3,1"}}).value().points,
               (std::vector<double>{1.25, -7, 5e-324, 8}));
     expect_refused(bytes, 2, as_it_is,
-                   {0, "a point off the plane z = 0: row 0, counted from 0", nullptr, "0.5", "--columns x,y"});
+                   {0, "a point off the plane z = 0: row 0, counted from 0", nullptr, "0.5", "options.columns x,y"});
     expect_refused(bytes, 3, {.columns = {"x,y,n"}},
                    {0, "cannot read points of that type", nullptr, "\"|S3\"", nullptr});
     expect_refused(bytes, 3, {.columns = {"x,y,h"}},
@@ -72,7 +72,7 @@ TEST(NpyTables, fields_of_several_values_and_holes) {
         npy_bytes(structured("[('x', '<f8'), ('y', '<f8'), ('none', '<f8', (0,))]", "(1,)"), packed(1.0, 2.0));
     expect_refused(empty, 2, all, {0, "column \"none\" cannot be carried through", nullptr, nullptr, nullptr});
     expect_refused(bytes, 2, as_it_is,
-                   {0, "the header does not name the coordinates", nullptr, nullptr, "--columns p.0,p.1"});
+                   {0, "the header does not name the coordinates", nullptr, nullptr, "options.columns p.0,p.1"});
 }
 
 TEST(NpyTables, integers_are_exact_or_refused) {
@@ -103,7 +103,7 @@ TEST(NpyTables, integers_are_exact_or_refused) {
     EXPECT_EQ(read_carried_bytes("p.npy", npy_bytes(fields, packed(1.0, 2.0, INT64_MAX)), 2, all).value().text(0),
               "n:i 9223372036854775807");
     expect_refused(npy_bytes(fields, packed(1.0, 2.0, std::uint64_t{1} << 63)), 2, all,
-                   {0, "row 0 of column \"n\"", "an integer below 2^63", nullptr, "--keep"});
+                   {0, "row 0 of column \"n\"", "an integer below 2^63", nullptr, "options.keep"});
     const std::string text = structured("[('x', '<f8'), ('y', '<f8'), ('n', '<U1')]", "(1,)");
     expect_refused(npy_bytes(text, packed(1.0, 2.0, char32_t{0xD800})), 2, all,
                    {0, "row 0 of column \"n\"", "characters of Unicode", nullptr, nullptr});
@@ -122,7 +122,7 @@ TEST(NpyTables, columns_of_an_array_by_number) {
     }
     expect_refused(
         npy_bytes(npy_dictionary("<f8", shape), rows), 3, as_it_is,
-        {0, "an array of another shape", "(n, 3), for the mesh is 3-dimensional", "(2, 4)", "--columns 1,2,3"});
+        {0, "an array of another shape", "(n, 3), for the mesh is 3-dimensional", "(2, 4)", "options.columns 1,2,3"});
 }
 
 TEST(NpyTables, types_that_are_no_table) {

@@ -15,9 +15,9 @@
 
 #include "barycert/base/random.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
-#include "barycert/io/png/indexed_png.hpp"
+#include "barycert/io/png/panels.hpp"
+#include "barycert/io/png/png_file.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::io {

@@ -22,13 +22,13 @@ TEST(PointColumns, without_names_nothing_is_guessed) {
     const char* const what = "it is not clear which columns are the coordinates";
     expect_refused("p.csv", "1,2,3,4\n", 3, none,
                    {1, what, "3 columns, or names for them", "4 columns without names",
-                    "--columns 1,2,3, or --columns 2,3,4, ..., or put a header line x,y,z,... first"});
+                    "options.columns 1,2,3, or options.columns 2,3,4, ..., or put a header line x,y,z,... first"});
     expect_refused("p.csv", "1,2,3\n", 2, none,
-                   {1, what, "2 columns, or names for them", "3 columns without names", "--columns 1,2, or"});
-    expect_refused("p.csv", "1,2,3,4,5,6,7\n", 3, none, {1, what, nullptr, nullptr, "--columns 5,6,7"});
-    expect_refused("p.csv", "1,2,3,a\n", 3, none, {1, what, nullptr, nullptr, "--columns 1,2,3"});
+                   {1, what, "2 columns, or names for them", "3 columns without names", "options.columns 1,2, or"});
+    expect_refused("p.csv", "1,2,3,4,5,6,7\n", 3, none, {1, what, nullptr, nullptr, "options.columns 5,6,7"});
+    expect_refused("p.csv", "1,2,3,a\n", 3, none, {1, what, nullptr, nullptr, "options.columns 1,2,3"});
     expect_refused("p.csv", "1,2,3,\n4,5,6,7\n", 3, none,
-                   {2, "a value behind the last separator", "none, as in the first line", "\"7\"", "--columns 1,2,3"});
+                   {2, "a value behind the last separator", "none, as in the first line", "\"7\"", "options.columns 1,2,3"});
     EXPECT_EQ(points_of("1,2,3,\n4,5,6,\n", 3, none), (std::vector<double>{1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(points_of("1;2;3; ;\n4;5;6;;\"\"\n", 3, none), (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }
@@ -46,9 +46,9 @@ TEST(PointColumns, by_number_and_by_name) {
     const std::string header = "lon,lat,h\n1,2,3\n";
     expect_refused(
         "p.csv", header, 3, none,
-        {1, "the header does not name the coordinates", nullptr, "\"lon\", \"lat\", \"h\"", "--columns lon,lat,h"});
+        {1, "the header does not name the coordinates", nullptr, "\"lon\", \"lat\", \"h\"", "options.columns lon,lat,h"});
     expect_refused("p.csv", header, 3, {.columns = {"lon,lat"}},
-                   {1, "--columns does not fit the mesh", "3 columns, for the mesh is 3-dimensional", "2", nullptr});
+                   {1, "options.columns does not fit the mesh", "3 columns, for the mesh is 3-dimensional", "2", nullptr});
     expect_refused("p.csv", header, 3, {.columns = {"lon,lat,alt"}},
                    {1, "no such column", "\"alt\"", "\"lon\", \"lat\", \"h\"", "name columns that are there"});
     expect_refused("p.csv", header, 3, {.columns = {"1,2,4"}}, {1, "no such column", "\"4\"", nullptr, nullptr});
@@ -56,7 +56,7 @@ TEST(PointColumns, by_number_and_by_name) {
                    {1, "no such column", nullptr, nullptr, nullptr});
     expect_refused("p.csv", header, 3, {.columns = {"0,1,2"}}, {1, "no such column", "\"0\"", nullptr, nullptr});
     expect_refused("p.csv", header, 3, {.columns = {"1,2,1"}},
-                   {1, "a column is named twice in --columns", nullptr, "\"1\"", nullptr});
+                   {1, "a column is named twice in options.columns", nullptr, "\"1\"", nullptr});
     expect_refused("p.csv", "a,b,a\n1,2,3\n", 2, {.columns = {"a,b"}},
                    {1, "two columns have the same name", "one column \"a\"", "two", "rename"});
     expect_refused("p.csv", "1,2,a,4\n", 3, {.columns = {"2,3,4"}}, {1, "bad coordinate y", nullptr, "\"a\"", nullptr});
@@ -68,7 +68,7 @@ TEST(PointColumns, in_the_plane_z_is_zero_or_left_out) {
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->points, (std::vector<double>{1, 2, 3, 4}));
     EXPECT_EQ(read->note_texts(), "left out: column z, which must be 0 throughout, for the mesh is 2D\n");
-    const Expected off{3, "a point off the plane z = 0", "z = 0, for the mesh is 2D", "\"5e-324\"", "--columns x,y"};
+    const Expected off{3, "a point off the plane z = 0", "z = 0, for the mesh is 2D", "\"5e-324\"", "options.columns x,y"};
     expect_refused("p.csv", "x,y,z\n1,2,0\n3,4,5e-324\n", 2, none, off);
     expect_refused("p.csv", "x y z n\n1 2 0 a\n3 4 5e-324 b\n", 2, {.columns = {}, .keep = {"n"}}, off);
     expect_refused("p.csv", "x,y,z\n1,2,a\n", 2, none, {2, "bad coordinate z", nullptr, nullptr, nullptr});
@@ -91,9 +91,9 @@ TEST(PointColumns, columns_are_carried_through_as_they_stand) {
     ASSERT_TRUE(some) << some.error().message();
     EXPECT_EQ(some->text(0), "t:t 1.50||1e400|nan");
     EXPECT_EQ(some->text(1), "number:t 007|-0|9|12");
-    EXPECT_EQ(some->note_texts(), "left out: column name; --keep name carries it through\n");
+    EXPECT_EQ(some->note_texts(), "left out: column name; options.keep name carries it through\n");
     Result<CarriedPoints> nothing = read_carried_bytes("p.csv", text, 3, none);
-    EXPECT_EQ(nothing.value().note_texts(), "left out: columns id, name, t; --keep id,name,t carries them through\n");
+    EXPECT_EQ(nothing.value().note_texts(), "left out: columns id, name, t; options.keep id,name,t carries them through\n");
     Result<CarriedPoints> unnamed =
         read_carried_bytes("p.csv", "5;1;2;3\n", 3, {.columns = {"2,3,4"}, .keep = {"column1"}});
     EXPECT_EQ(unnamed.value().text(0), "column1:t 5");
@@ -109,7 +109,7 @@ TEST(PointColumns, columns_that_cannot_be_kept) {
     };
     EXPECT_EQ(read_carried_bytes("p.csv", text, 2, {.columns = {}, .keep = {"a,b"}}).value().text(0), "a,b:t 4");
     EXPECT_EQ(read_carried_bytes("p.csv", text, 2, {.columns = {}, .keep = {"c=a,b"}}).value().text(0), "c:t 4");
-    refused({"m"}, {1, "no such column", "\"m\"", "\"x\", \"y\", \"n\", \"a,b\"", "--keep all"});
+    refused({"m"}, {1, "no such column", "\"m\"", "\"x\", \"y\", \"n\", \"a,b\"", "options.keep all"});
     refused({""}, {1, "no such column", "\"\"", nullptr, nullptr});
     refused({"x"}, {1, "a column to keep is a coordinate", nullptr, "\"x\"", nullptr});
     refused({"n,n"}, {1, "a column to keep is named twice", nullptr, "\"n\"", nullptr});
@@ -234,7 +234,7 @@ TEST(PointColumns, of_node_files) {
     EXPECT_EQ(flat.value().points, (std::vector<double>{1, 2, 4, 5}));
     EXPECT_EQ(flat.value().text(0), "m:i 3 -4");
     EXPECT_EQ(flat.value().note_texts(),
-              "left out: columns attribute0, attribute1; --keep attribute0,attribute1 carries them through\n");
+              "left out: columns attribute0, attribute1; options.keep attribute0,attribute1 carries them through\n");
     EXPECT_EQ(read_carried_bytes("p.node", text, 2, {.columns = {"attribute0,y"}}).value().points,
               (std::vector<double>{7, 2, 8, 5}));
     expect_refused("p.node", text, 3, {.columns = {"x,y,marker"}},
@@ -255,7 +255,7 @@ TEST(PointColumns, of_meshes) {
         EXPECT_EQ(read->text(1), "marker:i 5 6 7 8");
     }
     expect_error(read_carried(folder / "m", 2, {}), "/m",
-                 {0, "a point off the plane z = 0: point 3, counted from 0", nullptr, "1", "--columns x,y"});
+                 {0, "a point off the plane z = 0: point 3, counted from 0", nullptr, "1", "options.columns x,y"});
     EXPECT_EQ(read_carried(folder / "m", 2, {.columns = {"y,z"}}).value().points,
               (std::vector<double>{0, 0, 0, 0, 1, 0, 0, 1}));
     expect_error(read_carried(folder / "m", 3, {.columns = {"x,y,marker"}}), "/m",

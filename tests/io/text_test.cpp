@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "barycert/io/png/caption.hpp"
+#include "barycert/io/png/panels.hpp"
 
 namespace barycert::io {
 namespace {

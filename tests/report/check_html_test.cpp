@@ -11,7 +11,6 @@
 
 #include "barycert/report.hpp"
 #include "barycert/report/check/check_pictures.hpp"
-#include "barycert/report/common/html.hpp"
 #include "barycert/report/common/picture.hpp"
 #include "check_meshes.hpp"
 #include "lines.hpp"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "barycert/audit_report.hpp"
-#include "barycert/report/common/html.hpp"
 #include "barycert/report/common/picture.hpp"
 #include "small_audit.hpp"
 
@@ -98,7 +97,7 @@ TEST(Svg, TicksAreRoundAndFew) {
 }
 
 TEST(Svg, NamesCannotBreakOut) {
-    EXPECT_EQ(report::xml_escaped("a<b>&\"c\n\x01"), "a&lt;b&gt;&amp;&quot;c  ");
+    EXPECT_EQ(report::html_escaped("a<b>&\"c\n\x01"), "a&lt;b&gt;&amp;&quot;c  ");
     report::Picture svg(10, 10, "\"/><script>");
     svg.text({0, 0}, "</text><script>", "");
     EXPECT_EQ(std::move(svg).finish().find("<script"), std::string::npos);

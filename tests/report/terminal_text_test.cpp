@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "barycert/report/common/document.hpp"
+
 namespace barycert::report {
 namespace {
 
@@ -61,8 +63,10 @@ TEST(percent, zero_and_hundred_only_when_they_are) {
 }
 
 TEST(colours, only_when_on) {
-    EXPECT_EQ(Colours(false).bold("x") + Colours(false).bad("x") + Colours(false).good("x"), "xxx");
-    EXPECT_EQ(Colours(true).bold("x"), "\033[1mx\033[0m");
+    Document d;
+    for (const Tone tone : {Tone::plain, Tone::good, Tone::bad, Tone::strong, Tone::soft}) d.say("x", tone);
+    EXPECT_EQ(terminal_text(d, false), "x\nx\nx\nx\nx\n");
+    EXPECT_EQ(terminal_text(d, true), "x\n\033[32mx\033[0m\n\033[31mx\033[0m\n\033[1mx\033[0m\n\033[2mx\033[0m\n");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "audit/audit_helpers.hpp"
-#include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit/recipes.hpp"
 #include "barycert/audit_report.hpp"
 
 namespace barycert::audit {

@@ -42,7 +42,7 @@ TEST(NamedCases, AreAnsweredRightByExactKernels) {
                 if (!a.kernel.ends_with("exact")) continue;
                 ++exact;
                 EXPECT_FALSE(a.comparison.wrong()) << path << ": " << w.reason << ", " << a.kernel;
-                EXPECT_LE(a.worst_weight_ulp, 0) << path << ": " << w.reason << ", " << a.kernel;
+                EXPECT_LE(a.comparison.worst_weight_ulp(), 0) << path << ": " << w.reason << ", " << a.kernel;
             }
             EXPECT_EQ(exact, 1U) << path;
         }

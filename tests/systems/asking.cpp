@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <fstream>
 
-#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/sampler.hpp"
 #include "scratch.hpp"

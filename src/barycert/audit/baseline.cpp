@@ -1,13 +1,9 @@
-#include "barycert/audit.hpp"
 
-#include <algorithm>
-#include <map>
 #include <set>
-#include <utility>
 
 #include "barycert/audit/figures.hpp"
 #include "barycert/audit/json_members.hpp"
-#include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit/recipes.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -21,13 +17,12 @@ using Regions = std::array<std::uint64_t, 4>;
 
 /// As the JSON has it: the largest double stands for what is beyond.
 std::vector<double> figures_of(const KernelStatistics& s) {
-    std::vector<double> f{static_cast<double>(s.wrong_cases), static_cast<double>(s.not_run)};
-    for (const std::uint64_t n : s.counts) f.push_back(static_cast<double>(n));
-    for (const ErrorFigure& figure : error_figures) {
-        const double x = figure.of(s);
-        f.push_back(x >= 0 ? std::min(x, 0x1.fffffffffffffp+1023) : -1);
+    std::vector<double> values;
+    for (const Figure& figure : figures()) {
+        const double x = figure.value(s);
+        values.push_back(x >= 0 ? std::min(x, 0x1.fffffffffffffp+1023) : -1);
     }
-    return f;
+    return values;
 }
 
 Regions regions_of(const KernelStatistics& s) {
@@ -98,9 +93,8 @@ void BaselineComparison::add(BaselineChange change) {
 
 const std::vector<std::string>& baseline_figures() {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> n{"wrong_cases", "not_run"};
-        for (const FindingText& f : finding_texts) n.emplace_back(f.name);
-        for (const ErrorFigure& f : error_figures) n.emplace_back(f.name);
+        std::vector<std::string> n;
+        for (const Figure& f : figures()) n.push_back(f.name);
         return n;
     }();
     return names;

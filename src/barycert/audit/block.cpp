@@ -1,17 +1,12 @@
 #include "barycert/audit/block.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
-#include <span>
 
 #include "barycert/audit/asking.hpp"
-#include "barycert/audit/comparison.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/oracle.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,14 +1,7 @@
 /// One block of cases: make, ask, run each kernel against the clock, compare.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <vector>
-
-#include "barycert/audit.hpp"
 #include "barycert/audit/judge.hpp"
-#include "barycert/kernels.hpp"
 
 namespace barycert::audit {
 

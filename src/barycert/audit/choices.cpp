@@ -2,17 +2,11 @@
 
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <limits>
-#include <utility>
 
-#include "barycert/audit.hpp"
 #include "barycert/audit_search.hpp"
-#include "barycert/base/named_limit.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/check.hpp"
-#include "barycert/io.hpp"
 
 namespace barycert {
 namespace {
@@ -44,15 +38,11 @@ Result<std::vector<Item>> chosen(const std::vector<std::string>& globs, All all,
     return items;
 }
 
-/// A mesh whose cells are taken with straight sides, as far as they may.
-Result<Mesh> cells_of(const std::string& path, int threads, Curved curved, Notes& notes) {
-    Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = threads});
-    if (!mesh) return mesh;
-    if (curved == Curved::refuse) {
-        const auto straight = take_as_straight(*mesh, path, curved);
-        if (!straight) return straight.error();
-    }
-    notes.insert(notes.end(), mesh->notes.begin(), mesh->notes.end());
+/// A mesh whose cells are taken with straight sides, as far as they may. Throws an Exception.
+Mesh cells_of(const std::string& path, int threads, Curved curved, Notes& notes) {
+    Mesh mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = threads}).value();
+    if (curved == Curved::refuse) take_as_straight(mesh, path, curved).value();
+    notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
     return mesh;
 }
 
@@ -63,16 +53,15 @@ Certificate certificate_of(const Mesh& mesh, int threads) {
     return check_mesh(mesh, options).certificate;
 }
 
-Result<MeshSource> source_of(const std::vector<NamedMesh>& meshes, bool certify, int threads, Curved curved,
-                             Notes& notes) {
+/// Throws an Exception.
+MeshSource source_of(const std::vector<NamedMesh>& meshes, bool certify, int threads, Curved curved, Notes& notes) {
     MeshSource source;
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     for (const NamedMesh& named : meshes) {
-        Result<Mesh> mesh = cells_of(named.path, threads, curved, notes);
-        if (!mesh) return mesh.error();
-        if (mesh->cell_count() == 0) return Error{.what = "the mesh has no cells", .file = named.path};
-        const Certificate certificate = certify ? certificate_of(*mesh, threads) : Certificate();
-        arena.execute([&] { source.add(named.name, std::move(*mesh), certificate); });
+        Mesh mesh = cells_of(named.path, threads, curved, notes);
+        if (mesh.cell_count() == 0) throw Exception({.what = "the mesh has no cells", .file = named.path});
+        const Certificate certificate = certify ? certificate_of(mesh, threads) : Certificate();
+        arena.execute([&] { source.add(named.name, std::move(mesh), certificate); });
     }
     return source;
 }
@@ -147,48 +136,40 @@ Result<std::vector<Family>> choose_families(const std::vector<std::string>& name
     return chosen<Family>(names, families_matching, "family", "`barycert families` lists them; * and ? are wildcards");
 }
 
-Result<PreparedAudit> prepare_audit(const AuditJob& job) {
+Result<PreparedAudit> prepare_audit(const AuditJob& job) try {
     PreparedAudit out{.options = job.options, .meshes = {}, .baseline = {}, .libraries = {}, .notes = {}};
-    auto kernels = choose_kernels(job.kernels);
-    if (!kernels) return kernels.error();
-    out.options.kernels = std::move(*kernels);
-    auto families = choose_families(job.families);
-    if (!families) return families.error();
-    out.options.families = std::move(*families);
+    out.options.kernels = choose_kernels(job.kernels).value();
+    out.options.families = choose_families(job.families).value();
     const bool wanted = std::any_of(out.options.families.begin(), out.options.families.end(),
                                     [](const Family& f) { return f.needs_mesh; });
-    if (wanted || job.meshes_asked) {
-        auto meshes = source_of(job.meshes, job.check, job.options.threads, job.curved, out.notes);
-        if (!meshes) return meshes.error();
-        out.meshes = std::move(*meshes);
-    }
+    if (wanted || job.meshes_asked)
+        out.meshes = source_of(job.meshes, job.check, job.options.threads, job.curved, out.notes);
     if (!job.baseline.empty()) {
-        Result<Baseline> baseline = read_baseline(job.baseline);
-        if (!baseline) return baseline.error();
-        if (const Status ok = check_comparable(*baseline, out.options, out.meshes); !ok) return ok.error();
-        out.baseline = std::move(*baseline);
+        out.baseline = read_baseline(job.baseline).value();
+        check_comparable(*out.baseline, out.options, out.meshes).value();
     }
     // Libraries' kernels stand behind those of the catalogue, in their order.
     const std::vector<std::string>& libraries = job.kernels.libraries;
     for (std::size_t i = 0; i < libraries.size(); ++i)
         out.libraries[out.options.kernels[out.options.kernels.size() - libraries.size() + i].name] = libraries[i];
     return out;
+} catch (const Exception& e) {
+    return e.error();
 }
 
-Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels) {
+Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels) try {
     if (!job.reason.empty() && !finding_named(job.reason))
         return Error{.what = "job.reason of a case that is generated",
                      .expected = "a class of finding",
                      .found = '"' + job.reason + '"',
                      .remedy = "leave it out to see the answer whatever it is"};
-    const auto families = choose_families({job.family});
-    if (!families) return families.error();
-    if (families->size() != 1 || families->front().name != job.family)
+    const std::vector<Family> families = choose_families({job.family}).value();
+    if (families.size() != 1 || families.front().name != job.family)
         return Error{
             .what = "job.family must name one family",
             .found = '"' + job.family + '"',
             .remedy = base::did_you_mean(job.family, names_of(all_families()), "`barycert families` lists them")};
-    const Family& family = families->front();
+    const Family& family = families.front();
     std::optional<Simplex> simplex = simplex_named(job.simplex);
     if (!job.simplex.empty() && !simplex) {
         std::vector<std::string> names;
@@ -219,22 +200,16 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
     MeshSource meshes;
     if (family.needs_mesh) {
         Notes notes;
-        auto loaded = source_of(job.meshes, false, 0, Curved::straight, notes);
-        if (!loaded) return loaded.error();
-        meshes = std::move(*loaded);
+        meshes = source_of(job.meshes, false, 0, Curved::straight, notes);
         if (!meshes.supplies(*simplex))
             return Error{.what = "no mesh supplies a " + std::string(name(*simplex)),
                          .remedy = "name one with job.mesh"};
     }
     w.reason = job.reason;
-    w.family = family.name;
-    w.seed = job.seed;
-    w.index = job.index;
-    CaseOrigin origin;
-    w.c = make_case(family, *simplex, job.seed, job.index, meshes, &origin);
-    w.mesh = origin.mesh;
-    w.cell = origin.cell;
+    make_case(family, *simplex, job.seed, job.index, meshes, &w);
     return w;
+} catch (const Exception& e) {
+    return e.error();
 }
 
 Status check_search_rules(const std::vector<Threshold>& rules) {
@@ -256,15 +231,16 @@ std::vector<Violation> violations(const SearchReport& report, const std::vector<
     return all;
 }
 
-Result<GapsReport> gaps_file(const GapsJob& job) {
+Result<GapsReport> gaps_file(const GapsJob& job) try {
     Notes notes;
-    const Result<Mesh> mesh = cells_of(job.mesh, job.options.threads, job.curved, notes);
-    if (!mesh) return mesh.error();
+    const Mesh mesh = cells_of(job.mesh, job.options.threads, job.curved, notes);
     const Verdict verdict =
-        job.check ? certificate_of(*mesh, job.options.threads).verdict_on(*mesh) : Verdict::not_checked;
-    Result<GapsReport> report = find_gaps(job.options, *mesh, job.mesh, verdict);
-    if (report) report->notes = std::move(notes);
+        job.check ? certificate_of(mesh, job.options.threads).verdict_on(mesh) : Verdict::not_checked;
+    GapsReport report = find_gaps(job.options, mesh, job.mesh, verdict).value();
+    report.notes = std::move(notes);
     return report;
+} catch (const Exception& e) {
+    return e.error();
 }
 
 Result<GapsLimit> parse_gaps_limit(std::string_view text) {

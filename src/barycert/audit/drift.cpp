@@ -1,13 +1,7 @@
 #include "barycert/audit_pictures.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <span>
-
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/recipes.hpp"
-#include "barycert/base/random.hpp"
-#include "barycert/base/ulp.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/oracle.hpp"
 

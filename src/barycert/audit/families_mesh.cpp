@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "barycert/audit/mesh_draws.hpp"
 #include "barycert/audit/recipes.hpp"
 
 namespace barycert::audit {
@@ -92,49 +91,34 @@ void vertex_of_neighbour(Draw& draw, base::Random& random) {
         draw.simplex.point[static_cast<std::size_t>(axis)] = other.vertex(i, axis);
 }
 
-Family family(const char* name, const char* tests, const char* parameters, Family::MeshRecipe recipe,
-              std::vector<Simplex> simplices) {
-    Family f;
-    f.name = std::string("mesh.") + name;
-    f.tests = tests;
-    f.parameters = parameters;
-    f.needs_mesh = true;
-    f.simplices = std::move(simplices);
-    f.mesh_recipe = recipe;
-    return f;
-}
-
 }  // namespace
 
 std::vector<Family> mesh_families() {
-    const std::vector<Simplex> all(all_simplices.begin(), all_simplices.end());
-    const std::vector<Simplex> faced{Simplex::tetrahedron};
-    const std::vector<Simplex> edged{Simplex::triangle, Simplex::triangle3d, Simplex::tetrahedron};
     return {
-        family("inside", "ordinary points inside a cell: what most users compute",
-               "fl(sum w_i v_i), w even over the simplex", drawn<draw_any, point_in_face<0>>, all),
-        family("centroids", "points whose exact weights are almost equal", "fl(fl(sum v_i) / n)",
-               drawn<draw_any, point_at_centroid>, all),
-        family("faces", "points computed on a face: after rounding most are beside it",
-               "fl(sum w_i v_i) over three vertices", drawn<draw_any, shuffle, point_in_face<1>>, faced),
-        family("edges", "points computed on an edge", "fl(w_0 v_0 + w_1 v_1)", drawn<draw_any, shuffle, point_on_edge>,
-               edged),
-        family("vertices", "vertices: all weights but one are exactly zero", "the vertex itself",
-               drawn<draw_any, shuffle, point_at_vertex>, all),
-        family("faces.ulp", "points one ulp off a face", "mesh.faces, one coordinate moved by one ulp",
-               drawn<draw_any, shuffle, point_in_face<1>, nudge>, faced),
-        family("edges.ulp", "points one ulp off an edge", "mesh.edges, one coordinate moved by one ulp",
-               drawn<draw_any, shuffle, point_on_edge, nudge>, edged),
-        family("vertices.ulp", "points one ulp off a vertex", "mesh.vertices, one coordinate moved by one ulp",
-               drawn<draw_any, shuffle, point_at_vertex, nudge>, all),
-        family("hull.near", "points just outside the mesh", "from the hull outwards by 2^-50 to 2^-4 of the height",
-               drawn<draw_at_hull, point_in_face<1>, step_outwards>, {Simplex::triangle, Simplex::tetrahedron}),
-        family("hull.far", "points far outside: large weights that cancel", "up to 2^20 bounding boxes away",
-               drawn<draw_at_hull, point_far_away>, {Simplex::triangle, Simplex::tetrahedron}),
-        family("neighbours", "points of a neighbouring cell", "fl(sum w_i v_i) of a neighbouring cell",
-               drawn<draw_any, point_in_neighbour>, all),
-        family("neighbours.vertices", "vertices of a neighbouring cell: exact zeros, and points clearly outside",
-               "a vertex of a neighbouring cell", drawn<draw_any, vertex_of_neighbour>, all),
+        {"mesh.inside", "ordinary points inside a cell: what most users compute",
+         "fl(sum w_i v_i), w even over the simplex", every, nullptr, drawn<draw_any, point_in_face<0>>},
+        {"mesh.centroids", "points whose exact weights are almost equal", "fl(fl(sum v_i) / n)", every, nullptr,
+         drawn<draw_any, point_at_centroid>},
+        {"mesh.faces", "points computed on a face: after rounding most are beside it",
+         "fl(sum w_i v_i) over three vertices", tetrahedron_only, nullptr, drawn<draw_any, shuffle, point_in_face<1>>},
+        {"mesh.edges", "points computed on an edge", "fl(w_0 v_0 + w_1 v_1)", sided, nullptr,
+         drawn<draw_any, shuffle, point_on_edge>},
+        {"mesh.vertices", "vertices: all weights but one are exactly zero", "the vertex itself", every, nullptr,
+         drawn<draw_any, shuffle, point_at_vertex>},
+        {"mesh.faces.ulp", "points one ulp off a face", "mesh.faces, one coordinate moved by one ulp", tetrahedron_only,
+         nullptr, drawn<draw_any, shuffle, point_in_face<1>, nudge>},
+        {"mesh.edges.ulp", "points one ulp off an edge", "mesh.edges, one coordinate moved by one ulp", sided, nullptr,
+         drawn<draw_any, shuffle, point_on_edge, nudge>},
+        {"mesh.vertices.ulp", "points one ulp off a vertex", "mesh.vertices, one coordinate moved by one ulp", every,
+         nullptr, drawn<draw_any, shuffle, point_at_vertex, nudge>},
+        {"mesh.hull.near", "points just outside the mesh", "from the hull outwards by 2^-50 to 2^-4 of the height",
+         solid, nullptr, drawn<draw_at_hull, point_in_face<1>, step_outwards>},
+        {"mesh.hull.far", "points far outside: large weights that cancel", "up to 2^20 bounding boxes away", solid,
+         nullptr, drawn<draw_at_hull, point_far_away>},
+        {"mesh.neighbours", "points of a neighbouring cell", "fl(sum w_i v_i) of a neighbouring cell", every, nullptr,
+         drawn<draw_any, point_in_neighbour>},
+        {"mesh.neighbours.vertices", "vertices of a neighbouring cell: exact zeros, and points clearly outside",
+         "a vertex of a neighbouring cell", every, nullptr, drawn<draw_any, vertex_of_neighbour>},
     };
 }
 

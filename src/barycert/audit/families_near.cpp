@@ -1,10 +1,8 @@
 // Families of points near or on a facet of an ordinary simplex, where sums of products cancel.
 
-#include <cmath>
 #include <cstddef>
 
 #include "barycert/audit/recipes.hpp"
-#include "barycert/base/random.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -108,34 +106,30 @@ void near_facet(Case& c, base::Random& random, std::uint64_t) {
 
 std::vector<Family> near_families() {
     return {
-        built("random", "random simplices and points, for comparison", "all coordinates U[-1,1)", ordinary, every),
-        built("random.inside", "random simplices, points inside", "U[-1,1), point fl(sum w_i v_i)", ordinary_inside,
-              every),
-        built("ulp-grid.1", "points on a grid of one ulp around an edge",
-              "p = (.5,.5) + 2^-53 (i,j), 256 x 256; edge (12,12)(24,24)", ulp_grid<1>, triangle_only),
-        built("ulp-grid.2", "the same around a nearly diagonal edge",
-              "p = (.50000000000002531,.5000000000000171) + 2^-53 (i,j); edge (17.3)^2 "
-              "(24.00000000000005,24.0000000000000517765)",
-              ulp_grid<2>, triangle_only),
-        built("ulp-grid.3", "the same around an edge of rounded decimals",
-              "p = (.5,.5) + 2^-53 (i,j); edge (8.8)^2 (12.1)^2", ulp_grid<3>, triangle_only),
-        built("diagonal", "points on or near the diagonal through an edge",
-              "edge (12)^n (24)^n, others U[0,48), point (.5 + 5e-14 U)^n", diagonal, solid),
-        built("coplanar", "points computed in the plane of a facet", "a + s(b-a) + t(c-a), s,t U[-1,2)", coplanar,
-              solid),
-        built("anisotropic-plane", "facet planes with products of very different magnitude",
-              "x = U 2^[0,20), y = U 2^-[0,20), z = -(n0 x + n1 y)/n2; in 2D y = -n0 x/n1", anisotropic_plane, solid),
-        built("offset.2^17", "cells far from the origin: absolute coordinates cancel", "2^17 + U[0,1)", offset<17>,
-              every),
-        built("offset.2^20", "the same, farther out", "2^20 + U[0,1)", offset<20>, every),
-        built("on-facet", "points computed on a facet, in the unit cube", "U[0,1), fl(sum w_i v_i) over n-1 vertices",
-              on_facet<0>, sided),
-        built("on-facet.offset", "the same at 1000, where differences are exact", "1000 + U[0,1)", on_facet<1000>,
-              sided),
-        built("near-facet.1e-13", "points at height 1e-13 above or below a facet", "U[-1,1), h = +-1e-13",
-              near_facet<13>, sided),
-        built("near-facet.1e-14", "the same at 1e-14", "U[-1,1), h = +-1e-14", near_facet<14>, sided),
-        built("near-facet.1e-15", "the same at 1e-15", "U[-1,1), h = +-1e-15", near_facet<15>, sided),
+        {"random", "random simplices and points, for comparison", "all coordinates U[-1,1)", every, ordinary},
+        {"random.inside", "random simplices, points inside", "U[-1,1), point fl(sum w_i v_i)", every, ordinary_inside},
+        {"ulp-grid.1", "points on a grid of one ulp around an edge",
+         "p = (.5,.5) + 2^-53 (i,j), 256 x 256; edge (12,12)(24,24)", triangle_only, ulp_grid<1>},
+        {"ulp-grid.2", "the same around a nearly diagonal edge",
+         "p = (.50000000000002531,.5000000000000171) + 2^-53 (i,j); edge (17.3)^2 "
+         "(24.00000000000005,24.0000000000000517765)",
+         triangle_only, ulp_grid<2>},
+        {"ulp-grid.3", "the same around an edge of rounded decimals",
+         "p = (.5,.5) + 2^-53 (i,j); edge (8.8)^2 (12.1)^2", triangle_only, ulp_grid<3>},
+        {"diagonal", "points on or near the diagonal through an edge",
+         "edge (12)^n (24)^n, others U[0,48), point (.5 + 5e-14 U)^n", solid, diagonal},
+        {"coplanar", "points computed in the plane of a facet", "a + s(b-a) + t(c-a), s,t U[-1,2)", solid, coplanar},
+        {"anisotropic-plane", "facet planes with products of very different magnitude",
+         "x = U 2^[0,20), y = U 2^-[0,20), z = -(n0 x + n1 y)/n2; in 2D y = -n0 x/n1", solid, anisotropic_plane},
+        {"offset.2^17", "cells far from the origin: absolute coordinates cancel", "2^17 + U[0,1)", every, offset<17>},
+        {"offset.2^20", "the same, farther out", "2^20 + U[0,1)", every, offset<20>},
+        {"on-facet", "points computed on a facet, in the unit cube", "U[0,1), fl(sum w_i v_i) over n-1 vertices", sided,
+         on_facet<0>},
+        {"on-facet.offset", "the same at 1000, where differences are exact", "1000 + U[0,1)", sided, on_facet<1000>},
+        {"near-facet.1e-13", "points at height 1e-13 above or below a facet", "U[-1,1), h = +-1e-13", sided,
+         near_facet<13>},
+        {"near-facet.1e-14", "the same at 1e-14", "U[-1,1), h = +-1e-14", sided, near_facet<14>},
+        {"near-facet.1e-15", "the same at 1e-15", "U[-1,1), h = +-1e-15", sided, near_facet<15>},
     };
 }
 

@@ -1,10 +1,8 @@
-// Families of simplices of bad shape: flat, thin, on lattices, degenerate.
+// Families of simplices of bad shape: flat, thin, on lattices, degenerate; and of coordinates at the ends of the range.
 
-#include <cmath>
 #include <cstddef>
 
 #include "barycert/audit/recipes.hpp"
-#include "barycert/base/random.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -93,29 +91,69 @@ void nearly_degenerate(Case& c, base::Random& random, std::uint64_t) {
     move_by_ulp(c, c.vertices[moved], static_cast<int>(moved) % space_dimension(c.simplex), random);
 }
 
+// At the ends of the range of doubles, where products and differences under- and overflow.
+
+template <int exponent>
+void scaled(Case& c, base::Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return std::ldexp(random.uniform(-1, 1), exponent); });
+}
+
+void subnormal(Case& c, base::Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return random.integer(-4096, 4096) * 0x1p-1074; });
+}
+
+void huge(Case& c, base::Random& random, std::uint64_t) {
+    fill(c, random, [&](int) { return random.uniform(-1, 1) * 0.999 * 0x1p1023 * 2; });
+}
+
+void mixed_scale(Case& c, base::Random& random, std::uint64_t) {
+    fill(c, random, [&](int axis) {
+        return std::ldexp(random.uniform(-1, 1), axis == 0 ? 512 : axis == 1 ? -512 : 0);
+    });
+}
+
+// Products that underflow to zero in one term and are large in another: a filter whose bound ignores underflow
+// certifies a wrong sign here.
+void filter_underflow(Case& c, base::Random& random, std::uint64_t) {
+    const auto m = [&] { return random.uniform(0.5, 2); };
+    set_vertex(c, 0, {std::ldexp(m(), -537), 0, std::ldexp(m(), 600)});
+    set_vertex(c, 1, {std::ldexp(m(), -537), 0, std::ldexp(m(), 600)});
+    set_vertex(c, 2, {0, std::ldexp(m(), -537), 0});
+    set_vertex(c, 3, {std::ldexp(m(), 600), std::ldexp(m(), 600), std::ldexp(m(), -537)});
+    random_values(c, random);
+}
+
 }  // namespace
 
 std::vector<Family> shape_families() {
     return {
-        built("sliver.1e-12", "flat cells: a small divisor magnifies every error",
-              "height 1e-12, point fl(sum w_i v_i)", sliver<12>, sided),
-        built("sliver.1e-13", "the same at 1e-13", "height 1e-13", sliver<13>, sided),
-        built("sliver.1e-14", "the same at 1e-14", "height 1e-14", sliver<14>, sided),
-        built("sliver.1e-15", "the same at 1e-15: the height is a few ulps", "height 1e-15", sliver<15>, sided),
-        built("needle", "cells with one very short edge", "two vertices 2^-10 to 2^-40 apart", needle, every),
-        built("cap", "cells with a vertex close to the opposite facet", "height 2^-10 to 2^-40", cap, sided),
-        built("lattice.tenths", "ties in decimals that rounding breaks", "0.1 k, k in 0..4", lattice_tenths, every),
-        built("lattice.integers", "exact zeros, and exactly degenerate cells", "k in 0..4", lattice_integers, every),
-        built("midpoints", "ties: values midway between two doubles",
-              "k 2^-20, |k| <= 2^20; amid an edge; values U[1,2)", midpoints, every),
-        built("degenerate.point", "degenerate cells: all vertices coincide", "small integers times 2^[-20,20]",
-              degenerate<0>, every),
-        built("degenerate.line", "degenerate cells: all vertices on one line",
-              "a + s u, small integers times 2^[-20,20]", degenerate<1>, sided),
-        built("degenerate.plane", "degenerate cells: all vertices in one plane",
-              "a + s u + t v, small integers times 2^[-20,20]", degenerate<2>, tetrahedron_only),
-        built("nearly-degenerate", "cells one ulp away from degenerate",
-              "a flat simplex times 0.1, one coordinate moved by one ulp", nearly_degenerate, every),
+        {"sliver.1e-12", "flat cells: a small divisor magnifies every error", "height 1e-12, point fl(sum w_i v_i)",
+         sided, sliver<12>},
+        {"sliver.1e-13", "the same at 1e-13", "height 1e-13", sided, sliver<13>},
+        {"sliver.1e-14", "the same at 1e-14", "height 1e-14", sided, sliver<14>},
+        {"sliver.1e-15", "the same at 1e-15: the height is a few ulps", "height 1e-15", sided, sliver<15>},
+        {"needle", "cells with one very short edge", "two vertices 2^-10 to 2^-40 apart", every, needle},
+        {"cap", "cells with a vertex close to the opposite facet", "height 2^-10 to 2^-40", sided, cap},
+        {"lattice.tenths", "ties in decimals that rounding breaks", "0.1 k, k in 0..4", every, lattice_tenths},
+        {"lattice.integers", "exact zeros, and exactly degenerate cells", "k in 0..4", every, lattice_integers},
+        {"midpoints", "ties: values midway between two doubles", "k 2^-20, |k| <= 2^20; amid an edge; values U[1,2)",
+         every, midpoints},
+        {"degenerate.point", "degenerate cells: all vertices coincide", "small integers times 2^[-20,20]", every,
+         degenerate<0>},
+        {"degenerate.line", "degenerate cells: all vertices on one line", "a + s u, small integers times 2^[-20,20]",
+         sided, degenerate<1>},
+        {"degenerate.plane", "degenerate cells: all vertices in one plane",
+         "a + s u + t v, small integers times 2^[-20,20]", tetrahedron_only, degenerate<2>},
+        {"nearly-degenerate", "cells one ulp away from degenerate",
+         "a flat simplex times 0.1, one coordinate moved by one ulp", every, nearly_degenerate},
+        {"subnormal", "subnormal coordinates: every product is zero", "k 2^-1074, |k| <= 4096", every, subnormal},
+        {"small", "products of three coordinates underflow", "U[-1,1) 2^-400", every, scaled<-400>},
+        {"tiny", "products of two coordinates underflow", "U[-1,1) 2^-540", every, scaled<-540>},
+        {"large", "products overflow, differences do not", "U[-1,1) 2^600", every, scaled<600>},
+        {"huge", "differences and products overflow", "U[-1,1) 0.999 2^1024", every, huge},
+        {"mixed-scale", "axes of very different scales", "axes times 2^512, 2^-512, 1", every, mixed_scale},
+        {"filter-underflow", "filters whose error bound ignores underflow",
+         "face at 2^-537 and 2^600, point at its plane's origin", tetrahedron_only, filter_underflow},
     };
 }
 

@@ -1,12 +1,9 @@
 // Families of triangles in window coordinates: those whose points are pixel centres and whose vertices lie on the grid
 // of 1/256 of a pixel that rasterisers round to, and those in perspective.
 
-#include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include "barycert/audit/recipes.hpp"
-#include "barycert/base/random.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -107,12 +104,6 @@ void outside(Case& c, base::Random& random, std::uint64_t) {
     random_values(c, random);
 }
 
-Family of_perspective(const char* name, const char* tests, const char* parameters, Family::Recipe recipe) {
-    Family f = built(name, tests, parameters, recipe, triangle_only);
-    f.perspective = true;
-    return f;
-}
-
 }  // namespace
 
 void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int window) {
@@ -132,26 +123,25 @@ void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int w
 
 std::vector<Family> raster_families() {
     return {
-        built("triangle.pixels", "pixel centres in and on the edges of triangles of 4 to 4096 pixels: steps add up",
-              "vertices k/256 in a box of 2^[2,12] pixels, point (i + 1/2, j + 1/2), half of them on an edge", pixels,
-              triangle_only),
+        {"triangle.pixels", "pixel centres in and on the edges of triangles of 4 to 4096 pixels: steps add up",
+         "vertices k/256 in a box of 2^[2,12] pixels, point (i + 1/2, j + 1/2), half of them on an edge", triangle_only,
+         pixels},
     };
 }
 
 std::vector<Family> perspective_families() {
     return {
-        of_perspective("perspective.ordinary", "triangles of a window with depths of like size, points inside",
-                       "x, y U[0,1024), w U[1,10), point fl(sum w_i v_i)", perspective_ordinary),
-        of_perspective("perspective.depth-ratio", "depths up to 10^6 apart: a weight may be all but 0 or 1",
-                       "x, y U[0,1024), w U[1,2) 2^[0,19], point fl(sum w_i v_i)", depth_ratio),
-        of_perspective("perspective.pixel-edges",
-                       "pixel centres on edges: a weight is exactly zero, whatever the depths",
-                       "triangle.pixels on an edge, w U[1,10)", pixel_edges),
-        of_perspective("perspective.edge-on", "triangles seen nearly edge-on: flat in the window, not in space",
-                       "x, y U[0,1024), the last vertex at 2^-[10,40] of the window from the opposite side, w U[1,10)",
-                       edge_on),
-        of_perspective("perspective.outside", "points outside: towards the horizon 1/Z goes through zero",
-                       "x, y U[0,1024), w U[1,10), point U[-1024,2048)", outside),
+        {"perspective.ordinary", "triangles of a window with depths of like size, points inside",
+         "x, y U[0,1024), w U[1,10), point fl(sum w_i v_i)", triangle_only, perspective_ordinary},
+        {"perspective.depth-ratio", "depths up to 10^6 apart: a weight may be all but 0 or 1",
+         "x, y U[0,1024), w U[1,2) 2^[0,19], point fl(sum w_i v_i)", triangle_only, depth_ratio},
+        {"perspective.pixel-edges", "pixel centres on edges: a weight is exactly zero, whatever the depths",
+         "triangle.pixels on an edge, w U[1,10)", triangle_only, pixel_edges},
+        {"perspective.edge-on", "triangles seen nearly edge-on: flat in the window, not in space",
+         "x, y U[0,1024), the last vertex at 2^-[10,40] of the window from the opposite side, w U[1,10)", triangle_only,
+         edge_on},
+        {"perspective.outside", "points outside: towards the horizon 1/Z goes through zero",
+         "x, y U[0,1024), w U[1,10), point U[-1024,2048)", triangle_only, outside},
     };
 }
 

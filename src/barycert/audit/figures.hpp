@@ -1,24 +1,18 @@
-/// The figures of a kernel that measure errors.
+/// The figures of a kernel.
 #pragma once
-
-#include <array>
 
 #include "barycert/audit.hpp"
 
 namespace barycert::audit {
 
-struct ErrorFigure {
-    const char* name;                       ///< as in reports and rules
-    double (*of)(const KernelStatistics&);  ///< -1 where there is no error to measure
+struct Figure {
+    std::string name;                                      ///< as in reports and rules
+    std::function<double(const KernelStatistics&)> value;  ///< -1 where there is no error to measure
 };
 
-inline constexpr std::array<ErrorFigure, 6> error_figures{
-    {{"worst_weight_ulp", [](const KernelStatistics& s) { return s.weight_ulp.value; }},
-     {"p999_weight_ulp", [](const KernelStatistics& s) { return s.p999_weight_ulp(); }},
-     {"worst_value_ulp", [](const KernelStatistics& s) { return s.value_ulp.value; }},
-     {"p999_value_ulp", [](const KernelStatistics& s) { return s.p999_value_ulp(); }},
-     {"worst_partition_residual", [](const KernelStatistics& s) { return s.partition_residual.value; }},
-     {"worst_reproduction_residual", [](const KernelStatistics& s) { return s.reproduction_residual.value; }}}};
-inline constexpr std::size_t ulp_figures = 4;  ///< the first: not the residuals
+/// wrong_cases, not_run, each class of finding; errors in ulps, residuals. Less is better of each.
+const std::vector<Figure>& figures();
+inline constexpr std::size_t first_finding = 2, first_error = first_finding + finding_count,
+                             first_residual = first_error + 4;
 
 }  // namespace barycert::audit

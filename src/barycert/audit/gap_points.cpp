@@ -1,10 +1,8 @@
 #include "barycert/audit/gap_points.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "barycert/audit/recipes.hpp"
-#include "barycert/base/random.hpp"
 #include "barycert/mesh/adjacency.hpp"
 
 namespace barycert::audit {

@@ -1,11 +1,6 @@
 /// Points on what cells share, and the cells around them.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
-#include <span>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/gap_points.hpp"
@@ -44,12 +43,8 @@ bool before(const ClaimWitness& a, const ClaimWitness& b) {
 }
 
 void keep_first(ClaimResult& result, ClaimFault fault, const ClaimWitness& witness) {
-    for (auto& [kind, kept] : result.witnesses) {
-        if (kind != fault) continue;
-        if (before(witness, kept)) kept = witness;
-        return;
-    }
-    result.witnesses.emplace_back(fault, witness);
+    const auto [kept, is_new] = result.witnesses.try_emplace(fault, witness);
+    if (!is_new && before(witness, kept->second)) kept->second = witness;
 }
 
 class Finder {
@@ -155,11 +150,7 @@ private:
 };
 
 void merge(ClaimResult& to, const ClaimResult& from) {
-    for (std::size_t f = 0; f < 3; ++f) {
-        to.by_feature[f].inside += from.by_feature[f].inside;
-        to.by_feature[f].outside += from.by_feature[f].outside;
-        for (std::size_t k = 0; k < claim_fault_count; ++k) to.by_feature[f].faults[k] += from.by_feature[f].faults[k];
-    }
+    for (std::size_t f = 0; f < 3; ++f) to.by_feature[f].add(from.by_feature[f]);
     to.unanswered += from.unanswered;
     for (const auto& [fault, witness] : from.witnesses) keep_first(to, fault, witness);
 }
@@ -198,13 +189,15 @@ Result<std::vector<Claimant>> claimants_of(const GapsOptions& options, Simplex s
 
 }  // namespace
 
+void ClaimCounts::add(const ClaimCounts& other) {
+    inside += other.inside;
+    outside += other.outside;
+    for (std::size_t k = 0; k < claim_fault_count; ++k) faults[k] += other.faults[k];
+}
+
 ClaimCounts ClaimResult::total() const {
     ClaimCounts sum;
-    for (const ClaimCounts& c : by_feature) {
-        sum.inside += c.inside;
-        sum.outside += c.outside;
-        for (std::size_t k = 0; k < claim_fault_count; ++k) sum.faults[k] += c.faults[k];
-    }
+    for (const ClaimCounts& c : by_feature) sum.add(c);
     return sum;
 }
 
@@ -242,9 +235,6 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
         keep_first(disagreement, local.disagreement);
     }
     if (disagreement) return error_of(*disagreement, "gaps", options.seed);
-    for (ClaimResult& r : report.results)
-        std::sort(r.witnesses.begin(), r.witnesses.end(),
-                  [](const auto& a, const auto& b) { return a.first < b.first; });
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
 }

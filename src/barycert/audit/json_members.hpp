@@ -2,10 +2,7 @@
 /// is instead.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "barycert/audit.hpp"
 #include "barycert/base/input_file.hpp"
@@ -28,23 +25,24 @@ inline const nlohmann::json& member(const nlohmann::json& object, const std::str
     return object.at(key);
 }
 
-inline std::uint64_t count_in(const nlohmann::json& object, const std::string& key, const std::string& where) {
+/// The same of a type.
+inline const nlohmann::json& member(const nlohmann::json& object, const std::string& key, const std::string& where,
+                                    bool (nlohmann::json::*is_type)() const noexcept, const char* expected) {
     const nlohmann::json& j = member(object, key, where);
-    if (!j.is_number_unsigned())
-        throw Exception({.what = where + ", " + key, .expected = "a count", .found = found_json(j)});
-    return j.get<std::uint64_t>();
+    if (!(j.*is_type)()) throw Exception({.what = where + ", " + key, .expected = expected, .found = found_json(j)});
+    return j;
+}
+
+inline std::uint64_t count_in(const nlohmann::json& object, const std::string& key, const std::string& where) {
+    return member(object, key, where, &nlohmann::json::is_number_unsigned, "a count").get<std::uint64_t>();
 }
 
 inline std::string text_in(const nlohmann::json& object, const std::string& key, const std::string& where) {
-    const nlohmann::json& j = member(object, key, where);
-    if (!j.is_string()) throw Exception({.what = where + ", " + key, .expected = "a string", .found = found_json(j)});
-    return j.get<std::string>();
+    return member(object, key, where, &nlohmann::json::is_string, "a string").get<std::string>();
 }
 
 inline const nlohmann::json& list_in(const nlohmann::json& object, const std::string& key, const std::string& where) {
-    const nlohmann::json& j = member(object, key, where);
-    if (!j.is_array()) throw Exception({.what = where + ", " + key, .expected = "an array", .found = found_json(j)});
-    return j;
+    return member(object, key, where, &nlohmann::json::is_array, "an array");
 }
 
 /// A kind of file, in the words of errors.
@@ -91,5 +89,8 @@ auto made_of_json(const std::string& path, const JsonFile& file, Make make)
         return error;
     }
 }
+
+/// One witness, as witness files and reports have it (witness_file.cpp).
+nlohmann::ordered_json witness_json(const Witness& witness);
 
 }  // namespace barycert::audit

@@ -2,7 +2,6 @@
 
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::audit {

@@ -1,13 +1,7 @@
 /// Who says what is right: the integers, CGAL, and barycert's own core where it does not sit in judgement on itself.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-
 #include "barycert/audit.hpp"
-#include "barycert/oracle.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::audit {
 

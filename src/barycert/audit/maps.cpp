@@ -1,18 +1,11 @@
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <utility>
-#include <vector>
 
 #include "barycert/audit/asking.hpp"
-#include "barycert/audit/comparison.hpp"
-#include "barycert/audit/mesh_draws.hpp"
 #include "barycert/audit/recipes.hpp"
 #include "barycert/audit_pictures.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locator.hpp"
-#include "barycert/oracle.hpp"
 
 namespace barycert {
 
@@ -20,16 +13,8 @@ using namespace audit;
 
 namespace {
 
-/// The axes of the picture.
-struct Frame {
-    int axis = -1;
-    double at = 0;
-    std::array<std::size_t, 2> shown{0, 1};
-    std::size_t width = 0, height = 0;
-};
-
-/// The owners of the centres of a grid of pixels, row by row from the top.
-Result<std::vector<Mesh::Index>> owners_in(const Locator& locator, const PreparedMesh& m, const Frame& f, int threads) {
+/// The owners of the centres of a grid of pixels, row by row from the top. Throws an Exception, as what follows does.
+std::vector<Mesh::Index> owners_in(const Locator& locator, const PreparedMesh& m, const MeshFrame& f, int threads) {
     const auto d = static_cast<std::size_t>(m.mesh.dimension);
     std::vector<double> points;
     points.reserve(d * f.width * f.height);
@@ -48,26 +33,24 @@ Result<std::vector<Mesh::Index>> owners_in(const Locator& locator, const Prepare
     }
     std::vector<Mesh::Index> owners(f.width * f.height);
     std::vector<Feature> features(owners.size());
-    const Status located = locator.locate(points, owners, features, nullptr, threads);
-    if (!located) return located.error();
+    locator.locate(points, owners, features, nullptr, threads).value();
     return owners;
 }
 
 /// The first plane, from the middle outwards, that cuts at least half as much out of the mesh as any other; seen
 /// coarsely. Those near the ends are for plates.
-Result<Frame> best_frame(const Locator& locator, const PreparedMesh& m, int threads) {
-    if (m.mesh.dimension == 2) return Frame();
+MeshFrame best_frame(const Locator& locator, const PreparedMesh& m, int threads) {
+    if (m.mesh.dimension == 2) return MeshFrame();
     std::array<double, 3> extent{};
     for (std::size_t k = 0; k < 3; ++k) extent[k] = m.high[k] / 2 - m.low[k] / 2;  // halved, for it may overflow
     const double largest = std::max({extent[0], extent[1], extent[2]});
-    std::vector<std::pair<double, Frame>> planes;
+    std::vector<std::pair<double, MeshFrame>> planes;
     for (const double t : {0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 0.0625, 0.9375, 0.03125, 0.96875}) {
         for (std::size_t k = 0; k < 3; ++k) {
-            Frame f{
+            MeshFrame f{
                 static_cast<int>(k), (1 - t) * m.low[k] + t * m.high[k], {k == 0 ? 1U : 0U, k == 2 ? 1U : 2U}, 24, 24};
             const auto owners = owners_in(locator, m, f, threads);
-            if (!owners) return owners.error();
-            const auto inside = std::count_if(owners->begin(), owners->end(), [](Mesh::Index c) { return c >= 0; });
+            const auto inside = std::count_if(owners.begin(), owners.end(), [](Mesh::Index c) { return c >= 0; });
             const double sides = (extent[f.shown[0]] / largest) * (extent[f.shown[1]] / largest);
             planes.emplace_back(static_cast<double>(inside) * sides, f);
         }
@@ -79,7 +62,7 @@ Result<Frame> best_frame(const Locator& locator, const PreparedMesh& m, int thre
 }
 
 /// As long and as high as the mesh, but so that something is seen of thin ones.
-void set_size(Frame& f, const PreparedMesh& m) {
+void set_size(MeshFrame& f, const PreparedMesh& m) {
     const auto extent = [&](std::size_t side) { return m.high[f.shown[side]] / 2 - m.low[f.shown[side]] / 2; };
     const double across = extent(0), up = extent(1), larger = std::max(across, up);
     const auto pixels = [&](double size) {
@@ -156,35 +139,28 @@ void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::In
     }
 }
 
-Status fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& kernels, std::uint64_t seed,
-                int threads) {
+void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& kernels, std::uint64_t seed,
+              int threads) {
     BuildOptions options;
     options.threads = threads;
-    const Result<Locator> locator = Locator::build(m.mesh, options);
-    if (!locator) return locator.error();
-    Result<Frame> frame = best_frame(*locator, m, threads);
-    if (!frame) return frame.error();
-    set_size(*frame, m);
-    const auto owners = owners_in(*locator, m, *frame, threads);
-    if (!owners) return owners.error();
-    std::vector<Mesh::Index> cells = *owners;
+    const Locator locator = Locator::build(m.mesh, options).value();
+    MeshFrame frame = best_frame(locator, m, threads);
+    set_size(frame, m);
+    const std::vector<Mesh::Index> owners = owners_in(locator, m, frame, threads);
+    std::vector<Mesh::Index> cells = owners;
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     if (!cells.empty() && cells.front() < 0) cells.erase(cells.begin());
-    if (cells.empty()) return Error{.what = "no cell is large enough to be seen"};
-    map.axis = frame->axis;
-    map.at = frame->at;
-    map.low = {m.low[frame->shown[0]], m.low[frame->shown[1]]};
-    map.high = {m.high[frame->shown[0]], m.high[frame->shown[1]]};
-    map.width = frame->width;
-    map.height = frame->height;
-    for (const Mesh::Index owner : *owners)
+    if (cells.empty()) throw Exception({.what = "no cell is large enough to be seen"});
+    static_cast<MeshFrame&>(map) = frame;
+    map.low = {m.low[frame.shown[0]], m.low[frame.shown[1]]};
+    map.high = {m.high[frame.shown[0]], m.high[frame.shown[1]]};
+    for (const Mesh::Index owner : owners)
         map.pixels.push_back(
             owner < 0 ? -1
                       : static_cast<std::int32_t>(std::lower_bound(cells.begin(), cells.end(), owner) - cells.begin()));
     fill_errors(map, m, cells, kernels, seed, threads);
     for (const Mesh::Index cell : cells) map.cells.push_back(m.mesh.cell_number(cell));
-    return Done{};
 }
 
 }  // namespace
@@ -207,8 +183,11 @@ std::vector<MeshMap> mesh_maps(const std::vector<Kernel>& kernels, const MeshSou
         map.mesh = m->name;
         map.dimension = m->mesh.dimension;
         map.left_out = all - fit.size();
-        if (const Status filled = fill_map(map, *m, fit, seed, threads); !filled)
-            map.why_not = filled.error().message();
+        try {
+            fill_map(map, *m, fit, seed, threads);
+        } catch (const Exception& e) {
+            map.why_not = e.error().message();
+        }
         maps.push_back(std::move(map));
     }
     return maps;

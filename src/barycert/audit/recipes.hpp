@@ -1,29 +1,55 @@
-/// What recipes share: points made from vertices, in plain rounded arithmetic.
+/// What recipes share: simplices drawn from meshes (their cells, and faces and edges of these), and points made from
+/// vertices, in plain rounded arithmetic.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "barycert/audit.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/base/ulp.hpp"
+#include "barycert/base/vectors.hpp"
 
 namespace barycert::audit {
+
+/// A mesh prepared for drawing simplices: its neighbours, hull and bounding box.
+struct PreparedMesh {
+    std::string name;
+    Mesh mesh;
+    std::vector<Mesh::Index> neighbours;    ///< as compute_neighbours gives them
+    std::vector<std::int64_t> hull_facets;  ///< cell * corners + opposite corner
+    std::array<double, 3> low{}, high{};    ///< bounding box
+    Certificate certificate;                ///< what is known of the mesh
+};
+
+/// A simplex drawn from a mesh, with the cell it belongs to.
+struct Draw {
+    const PreparedMesh* from = nullptr;
+    Mesh::Index cell = 0;
+    std::array<Mesh::Index, 4> nodes{};
+    Case simplex;  ///< vertices and nodal values set, point not
+};
+
+/// A random cell, or a random face or edge of one. Nodal values are a component of one of the mesh's point fields,
+/// drawn as well, or random in [-1, 1) if it has none and where it is not finite. Precondition: meshes.supplies(s).
+Draw draw_any(const MeshSource& meshes, Simplex s, base::Random& random);
+
+/// A random cell at the hull, its vertices ordered so that the hull's facet is the one opposite to the last.
+Draw draw_at_hull(const MeshSource& meshes, Simplex s, base::Random& random);
+
+/// The simplex that given nodes make.
+Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::Index, 4> nodes, Simplex s,
+                   base::Random& random);
+
+/// The cell itself.
+Draw draw_of_cell(const PreparedMesh& from, Mesh::Index cell, base::Random& random);
 
 /// n weights >= 0 that sum to about 1, evenly spread over the simplex: the gaps between n - 1 sorted random cuts of [0,
 /// 1].
 inline std::array<double, 4> random_weights(base::Random& random, int n) {
     std::array<double, 5> cuts{0, 1, 1, 1, 1};
     for (int i = 1; i < n; ++i) cuts[static_cast<std::size_t>(i)] = random.unit();
-    for (int i = 1; i < n; ++i) {  // insertion sort of at most three cuts
-        for (int j = i; j > 1 && cuts[static_cast<std::size_t>(j)] < cuts[static_cast<std::size_t>(j - 1)]; --j) {
-            std::swap(cuts[static_cast<std::size_t>(j)], cuts[static_cast<std::size_t>(j - 1)]);
-        }
-    }
+    std::sort(cuts.begin() + 1, cuts.begin() + n);
     cuts[static_cast<std::size_t>(n)] = 1;
     std::array<double, 4> w{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) w[i] = cuts[i + 1] - cuts[i];
@@ -90,8 +116,8 @@ inline std::array<double, 3> facet_normal(const Case& c, base::Random& random) {
     if (c.simplex != Simplex::segment) a = difference(1);
     if (c.simplex == Simplex::triangle) b = {0, 0, 1};
     if (c.simplex == Simplex::tetrahedron) b = difference(2);
-    std::array<double, 3> n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    std::array<double, 3> n = base::cross(a, b);
+    const double length = std::sqrt(base::dot(n, n));
     if (!(length > 0)) return {1, 0, 0};
     for (double& x : n) x /= length;
     return n;
@@ -101,7 +127,6 @@ inline std::array<double, 3> facet_normal(const Case& c, base::Random& random) {
 std::vector<Family> mesh_families();
 std::vector<Family> near_families();
 std::vector<Family> shape_families();
-std::vector<Family> range_families();
 std::vector<Family> raster_families();
 std::vector<Family> perspective_families();
 
@@ -134,17 +159,6 @@ void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int w
 /// 10 to the power of -12 to -15: Clang 14 takes no double as an argument of a template.
 template <int decimals>
 inline constexpr double decimal_height = std::array{1e-12, 1e-13, 1e-14, 1e-15}[decimals - 12];
-
-inline Family built(const char* name, const char* tests, const char* parameters, Family::Recipe recipe,
-                    std::vector<Simplex> simplices) {
-    Family f;
-    f.name = name;
-    f.tests = tests;
-    f.parameters = parameters;
-    f.simplices = std::move(simplices);
-    f.recipe = recipe;
-    return f;
-}
 
 inline const std::vector<Simplex> every{all_simplices.begin(), all_simplices.end()};
 inline const std::vector<Simplex> triangle_only{Simplex::triangle};

@@ -1,13 +1,11 @@
-#include "barycert/audit.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <mutex>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/block.hpp"
-#include "barycert/audit/mesh_draws.hpp"
+#include "barycert/audit/recipes.hpp"
 #include "barycert/audit/threads.hpp"
 
 namespace barycert {
@@ -58,18 +56,11 @@ void collect_witnesses(KernelResult& result, const AuditOptions& options, const 
         if (from == nullptr) continue;
         const WorstCase& worst = from->statistics.witnesses[reason];
         if (reason >= finding_count && worst.value == 0) continue;
-        const Family& family = options.families[from->family];
         Witness w;
+        make_case(options.families[from->family], result.kernel.simplex, options.seed, worst.index, meshes, &w);
         w.kernel = result.kernel.name;
         w.reason = reason_name(reason);
-        w.family = family.name;
-        w.seed = options.seed;
-        w.index = worst.index;
         w.magnitude = worst.value;
-        CaseOrigin origin;
-        w.c = make_case(family, result.kernel.simplex, options.seed, worst.index, meshes, &origin);
-        w.mesh = origin.mesh;
-        w.cell = origin.cell;
         if (reason <= static_cast<std::size_t>(Finding::printed)) w.detail = incident_of(result.kernel, w.c);
         result.witnesses.push_back(std::move(w));
     }

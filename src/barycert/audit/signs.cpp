@@ -4,7 +4,6 @@
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit_pictures.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/oracle.hpp"
 
 namespace barycert {
 

@@ -1,14 +1,16 @@
-#include "barycert/audit.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "barycert/audit.hpp"
+#include "barycert/audit/asking.hpp"
 #include "barycert/base/decades.hpp"
 #include "barycert/base/held.hpp"
+#include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert {
 
@@ -21,7 +23,7 @@ std::size_t LogHistogram::bin(double x) {
     const auto word = std::bit_cast<std::uint64_t>(x);
     constexpr std::uint64_t step = std::uint64_t{1} << 49, fraction = (std::uint64_t{1} << 52) - 1;
     const std::uint64_t index = 1 + 8 * ((word >> 52) - 1023) + ((word & fraction) + step - 1) / step;
-    return static_cast<std::size_t>(std::min<std::uint64_t>(index, bin_count - 1));
+    return static_cast<std::size_t>(std::min<std::uint64_t>(index, bins - 1));
 }
 
 double LogHistogram::upper_edge(std::size_t bin) {
@@ -30,25 +32,12 @@ double LogHistogram::upper_edge(std::size_t bin) {
     return std::ldexp(1 + (k % 8) / 8.0, k / 8);
 }
 
-void LogHistogram::merge(const LogHistogram& other) {
-    for (std::size_t i = 0; i < bin_count; ++i) bins_[i] += other.bins_[i];
-}
-
-std::uint64_t LogHistogram::total() const {
-    return std::accumulate(bins_.begin(), bins_.end(), std::uint64_t{0});
-}
-
 double LogHistogram::quantile(double fraction) const {
     const ExactEnvironment environment;
     const std::uint64_t all = total();
     if (all == 0) return -1;
     const auto wanted = static_cast<std::uint64_t>(std::ceil(base::held(fraction) * static_cast<double>(all)));
-    std::uint64_t seen = 0;
-    for (std::size_t i = 0; i < bin_count; ++i) {
-        seen += bins_[i];
-        if (seen >= wanted) return base::held(upper_edge(i));
-    }
-    return base::held(upper_edge(bin_count - 1));
+    return base::held(upper_edge(bin_reaching(wanted)));
 }
 
 static_assert(ErrorSizes::bins == base::decade_bins + 1, "the last is for those without an answer");
@@ -57,23 +46,13 @@ void ErrorSizes::add(double error, std::uint64_t index) {
     const ExactEnvironment environment;
     error = base::held(error);
     if (!(error >= 0)) return;
-    std::size_t bin = 0;
-    if (std::isinf(error)) {
-        bin = bins - 1;
-    } else if (error > 0) {
-        bin = base::decade_bin(error);
-    }
-    ++counts[bin];
+    ++counts[std::isinf(error) ? bins - 1 : error > 0 ? base::decade_bin(error) : 0];
     if (!std::isinf(error)) worst.include(error, index);
 }
 
 void ErrorSizes::merge(const ErrorSizes& other) {
-    for (std::size_t i = 0; i < bins; ++i) counts[i] += other.counts[i];
+    BinCounts::merge(other);
     worst.include(other.worst.value, other.worst.index);
-}
-
-std::uint64_t ErrorSizes::total() const {
-    return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
 double ErrorSizes::within(double share) const {
@@ -81,13 +60,9 @@ double ErrorSizes::within(double share) const {
     const std::uint64_t all = total() - unanswered();
     if (all == 0) return -1;
     const auto wanted = static_cast<std::uint64_t>(std::ceil(base::held(share) * static_cast<double>(all)));
-    std::uint64_t seen = counts[0];
-    if (seen >= wanted) return 0;
-    for (std::size_t i = 1; i <= base::decade_edges.size(); ++i) {
-        seen += counts[i];
-        if (seen >= wanted) return base::decade_edges[i - 1];
-    }
-    return std::numeric_limits<double>::infinity();
+    const std::size_t bin = bin_reaching(wanted);
+    if (bin == 0) return 0;
+    return bin <= base::decade_edges.size() ? base::decade_edges[bin - 1] : std::numeric_limits<double>::infinity();
 }
 
 void KernelStatistics::add(const Comparison& r, Region exact, std::uint64_t index) {
@@ -128,11 +103,103 @@ void KernelStatistics::merge(const KernelStatistics& other) {
     value_ulps.merge(other.value_ulps);
     errors.merge(other.errors);
     const auto include = [](WorstCase& mine, const WorstCase& theirs) { mine.include(theirs.value, theirs.index); };
-    include(weight_ulp, other.weight_ulp);
-    include(value_ulp, other.value_ulp);
-    include(partition_residual, other.partition_residual);
-    include(reproduction_residual, other.reproduction_residual);
+    using S = KernelStatistics;
+    for (const auto worst : {&S::weight_ulp, &S::value_ulp, &S::partition_residual, &S::reproduction_residual})
+        include(this->*worst, other.*worst);
     for (std::size_t i = 0; i < witness_reasons; ++i) include(witnesses[i], other.witnesses[i]);
+}
+
+namespace {
+
+constexpr double unit = 0x1p-53;
+
+/// From here on 8 * 2^-53 kappa exceeds 1/8 and so may the relative error of a denominator: no longer first order.
+constexpr double beyond_first_order = 0x1p47;
+
+// Bin 0 holds errors up to half a unit, which is how far the exact weight is itself rounded; bin k > 0 holds
+// [edge(k), edge(k+1)) with edges 1/2, 3/4, 1, 3/2, 2, ...: exponent and leading bit of the mantissa. The last bin,
+// from 2^200 on, takes all that is above.
+constexpr std::uint64_t half_unit = std::bit_cast<std::uint64_t>(0.5) >> 51;
+constexpr std::size_t last_error = 2 * 201 + 1;
+
+std::size_t error_bin(double units) {
+    const std::uint64_t k = std::bit_cast<std::uint64_t>(units) >> 51;
+    return units <= 0.5 ? 0 : std::min(static_cast<std::size_t>(k - half_unit) + 1, last_error);
+}
+
+double upper_edge(std::size_t bin) {
+    return std::bit_cast<double>((half_unit + bin) << 51);
+}
+
+/// Products of three differences stay clear of both ends of the range: those of an axis between 2^-300 and 2^300. The
+/// point is in the cell, so that its differences are no longer than the cell.
+bool in_range(const Case& c) {
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+        double low = c.vertex(0, axis), high = low;
+        for (int i = 1; i < vertex_count(c.simplex); ++i) {
+            low = std::min(low, c.vertex(i, axis));
+            high = std::max(high, c.vertex(i, axis));
+        }
+        if (!(high - low >= 0x1p-300 && high - low <= 0x1p300)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+double audit::predicting_condition(const Case& c, Region region) {
+    const bool inside = region == Region::interior || region == Region::boundary;
+    const bool fills_space = c.simplex == Simplex::triangle || c.simplex == Simplex::tetrahedron;
+    if (!inside || !fills_space || c.perspective || !in_range(c)) return std::numeric_limits<double>::quiet_NaN();
+    return condition_number(c.simplex, c.vertices.data());
+}
+
+void Prediction::add(double kappa, double error) {
+    const ExactEnvironment environment;
+    kappa = base::held(kappa);
+    const auto bits = static_cast<std::size_t>(std::clamp(std::ilogb(kappa), 0, last_bits));
+    const double units = base::held(error) / unit;
+    const std::size_t bin = error_bin(units);
+    if (bits >= rows_.size()) rows_.resize(bits + 1);
+    Row& row = rows_[bits];
+    if (bin >= row.errors.size()) row.errors.resize(bin + 1);
+    ++row.errors[bin];
+    row.worst = std::max(row.worst, units);
+    if (kappa < beyond_first_order) worst_factor_ = std::max(worst_factor_, units / kappa);
+}
+
+void Prediction::merge(const Prediction& other) {
+    const ExactEnvironment environment;
+    if (other.rows_.size() > rows_.size()) rows_.resize(other.rows_.size());
+    for (std::size_t bits = 0; bits < other.rows_.size(); ++bits) {
+        const Row& theirs = other.rows_[bits];
+        Row& mine = rows_[bits];
+        if (theirs.errors.size() > mine.errors.size()) mine.errors.resize(theirs.errors.size());
+        for (std::size_t k = 0; k < theirs.errors.size(); ++k) mine.errors[k] += theirs.errors[k];
+        mine.worst = std::max(mine.worst, theirs.worst);
+    }
+    worst_factor_ = std::max(worst_factor_, other.worst_factor_);
+}
+
+std::uint64_t Prediction::cases() const {
+    std::uint64_t sum = 0;
+    for (const Row& row : rows_) sum = std::accumulate(row.errors.begin(), row.errors.end(), sum);
+    return sum;
+}
+
+std::vector<Prediction::Bin> Prediction::bins() const {
+    const ExactEnvironment environment;
+    std::vector<Bin> out;
+    for (std::size_t bits = 0; bits < rows_.size(); ++bits) {
+        const Row& row = rows_[bits];
+        const std::uint64_t cases = std::accumulate(row.errors.begin(), row.errors.end(), std::uint64_t{0});
+        if (cases == 0) continue;
+        std::size_t k = 0;
+        for (std::uint64_t seen = row.errors[0]; seen < cases - cases / 2;) seen += row.errors[++k];
+        // The edge never stands above the worst, nor above the half unit for errors below it.
+        out.push_back({static_cast<int>(bits), cases, std::min(upper_edge(k), row.worst), row.worst});
+    }
+    return out;
 }
 
 }  // namespace barycert

@@ -1,8 +1,5 @@
 #include "barycert/audit_pictures.hpp"
 
-#include <array>
-#include <bit>
-#include <cmath>
 #include <tuple>
 #include <utility>
 

@@ -7,9 +7,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <cstddef>
-#include <cstdint>
-
 #include "barycert/base/workers.hpp"
 #include "barycert/environment.hpp"
 

@@ -1,64 +1,78 @@
-#include "barycert/audit.hpp"
 
-#include <algorithm>
-#include <functional>
 #include <limits>
 #include <utility>
 
 #include "barycert/audit/figures.hpp"
-#include "barycert/base/named_limit.hpp"
 #include "barycert/base/nearest_name.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
+
+using namespace audit;
+
 namespace {
 
-using Figure = std::pair<std::string, std::function<double(const KernelStatistics&)>>;
+/// Names of rules, each with its figure.
+const std::vector<std::pair<std::string, std::size_t>>& rule_figures() {
+    static const auto all = [] {
+        std::vector<std::pair<std::string, std::size_t>> rules;
+        for (std::size_t f = first_finding; f < figures().size(); ++f) {
+            if (f == first_error) rules.insert(rules.end(), {{"any", 0}, {"wrong_cases", 0}});
+            rules.emplace_back(figures()[f].name, f);
+        }
+        return rules;
+    }();
+    return all;
+}
 
-const std::vector<Figure>& figures() {
+std::optional<std::size_t> figure_named(std::string_view name) {
+    for (const auto& [rule, figure] : rule_figures()) {
+        if (rule == name) return figure;
+    }
+    return std::nullopt;
+}
+
+double as_rules_have_it(std::size_t figure, const KernelStatistics& s) {
+    const auto seen = [&](Finding x) { return s.counts[static_cast<std::size_t>(x)] != 0; };
+    const double value = figures()[figure].value(s);
+    // A kernel that was given up before it was wrong, for want of a process, has not passed. One that gives no finite
+    // weight where there is one to give has no error to measure: it is worse than any. (One that touched memory beside
+    // its arrays may have died of it.)
+    const bool mute = figure == 0
+                          ? value == 0 && s.not_run != 0
+                          : value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration) ||
+                                          seen(Finding::crashed) || seen(Finding::raised) || seen(Finding::hung) ||
+                                          seen(Finding::out_of_bounds) || s.not_run != 0);
+    return mute ? std::numeric_limits<double>::infinity() : value;
+}
+
+}  // namespace
+
+const std::vector<Figure>& audit::figures() {
+    using S = KernelStatistics;
     static const std::vector<Figure> all = [] {
-        std::vector<Figure> f;
-        for (std::size_t i = 0; i < finding_count; ++i) {
-            f.emplace_back(std::string(finding_texts[i].name),
-                           [i](const KernelStatistics& s) { return static_cast<double>(s.counts[i]); });
-        }
-        // A kernel that was given up before it was wrong, for want of a process, has not passed.
-        const auto wrong = [](const KernelStatistics& s) {
-            return s.wrong_cases == 0 && s.not_run != 0 ? std::numeric_limits<double>::infinity()
-                                                        : static_cast<double>(s.wrong_cases);
-        };
-        f.emplace_back("any", wrong);
-        f.emplace_back("wrong_cases", wrong);
-        // A kernel that gives no finite weight where there is one to give has no error to measure: it is worse than
-        // any. (One that touched memory beside its arrays may have died of it.)
-        for (const audit::ErrorFigure& figure : audit::error_figures) {
-            f.emplace_back(figure.name, [figure](const KernelStatistics& s) {
-                const auto seen = [&](Finding x) { return s.counts[static_cast<std::size_t>(x)] != 0; };
-                const double value = figure.of(s);
-                const bool mute = value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration) ||
-                                                seen(Finding::crashed) || seen(Finding::raised) ||
-                                                seen(Finding::hung) || seen(Finding::out_of_bounds) || s.not_run != 0);
-                return mute ? std::numeric_limits<double>::infinity() : value;
-            });
-        }
+        std::vector<Figure> f{{"wrong_cases", [](const S& s) { return static_cast<double>(s.wrong_cases); }},
+                              {"not_run", [](const S& s) { return static_cast<double>(s.not_run); }}};
+        for (std::size_t i = 0; i < finding_count; ++i)
+            f.push_back(
+                {std::string(finding_texts[i].name), [i](const S& s) { return static_cast<double>(s.counts[i]); }});
+        f.insert(f.end(), {{"worst_weight_ulp", [](const S& s) { return s.weight_ulp.value; }},
+                           {"p999_weight_ulp", [](const S& s) { return s.p999_weight_ulp(); }},
+                           {"worst_value_ulp", [](const S& s) { return s.value_ulp.value; }},
+                           {"p999_value_ulp", [](const S& s) { return s.p999_value_ulp(); }},
+                           {"worst_partition_residual", [](const S& s) { return s.partition_residual.value; }},
+                           {"worst_reproduction_residual", [](const S& s) { return s.reproduction_residual.value; }}});
         return f;
     }();
     return all;
 }
 
-const Figure* figure_named(std::string_view name) {
-    const auto found =
-        std::find_if(figures().begin(), figures().end(), [&](const Figure& f) { return f.first == name; });
-    return found == figures().end() ? nullptr : &*found;
-}
-
-}  // namespace
-
 Result<Threshold> parse_threshold(std::string_view text) {
     const ExactEnvironment environment;
     const base::NamedLimit limit = base::named_limit(text);
     Threshold rule{std::string(limit.name), 0};
-    if (figure_named(rule.name) == nullptr) {
+    if (!figure_named(rule.name)) {
         std::string names;
         for (const std::string& name : threshold_names()) names += (names.empty() ? "" : ", ") + name;
         return Error{.what = "unknown rule",
@@ -78,7 +92,7 @@ std::vector<Violation> violations(const AuditReport& report, const std::vector<T
     std::vector<Violation> all;
     for (const KernelResult& k : report.kernels) {
         for (const Threshold& rule : rules) {
-            const double value = figure_named(rule.name)->second(k.total);
+            const double value = as_rules_have_it(*figure_named(rule.name), k.total);
             if (value > rule.limit) all.push_back({k.kernel.name, rule.name, value, rule.limit});
         }
     }
@@ -87,7 +101,7 @@ std::vector<Violation> violations(const AuditReport& report, const std::vector<T
 
 std::vector<std::string> threshold_names() {
     std::vector<std::string> names;
-    for (const auto& [name, value] : figures()) names.push_back(name);
+    for (const auto& [name, figure] : rule_figures()) names.push_back(name);
     return names;
 }
 

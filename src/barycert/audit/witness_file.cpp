@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "barycert/audit/json_members.hpp"
-#include "barycert/audit/witness_json.hpp"
+#include "barycert/audit/search/evaluation.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
@@ -47,10 +47,6 @@ const Json& array_of(const Json& object, const char* key, std::size_t n, const s
     return a;
 }
 
-std::string text_or(const Json& object, const char* key, const std::string& otherwise) {
-    return object.contains(key) && object.at(key).is_string() ? object.at(key).get<std::string>() : otherwise;
-}
-
 std::uint64_t count_or(const Json& object, const char* key, std::uint64_t otherwise) {
     return object.contains(key) && object.at(key).is_number_unsigned() ? object.at(key).get<std::uint64_t>()
                                                                        : otherwise;
@@ -67,7 +63,11 @@ bool is_perspective(const Json& j, Simplex simplex, const std::string& where) {
     return member.get<bool>();
 }
 
-std::string text_of_witnesses(Ordered list) {
+template <class Witnesses>
+std::string text_of_witnesses(Witnesses each) {
+    const ExactEnvironment environment;
+    Ordered list = Ordered::array();
+    each([&](const Witness& w) { list.push_back(witness_json(w)); });
     Ordered out;
     out["schema"] = witness_schema;
     out["witnesses"] = std::move(list);
@@ -84,16 +84,18 @@ Witness witness_from(const Json& j, const std::string& where) {
                          .found = found_json(simplex)});
     w.c.simplex = *known;
     w.c.perspective = is_perspective(j, *known, where);
-    w.kernel = text_or(j, "kernel", "");
-    w.reason = text_or(j, "reason", "");
-    w.family = text_or(j, "family", "");
+    for (const auto& [key, text] : {std::pair("kernel", &Witness::kernel),
+                                    {"reason", &Witness::reason},
+                                    {"family", &Witness::family},
+                                    {"mesh", &Witness::mesh},
+                                    {"detail", &Witness::detail}}) {
+        if (j.contains(key) && j.at(key).is_string()) w.*text = j.at(key).get<std::string>();
+    }
     w.seed = count_or(j, "seed", 0);
     w.index = count_or(j, "case", 0);
     if (j.contains("magnitude") && j.at("magnitude").is_number()) w.magnitude = j.at("magnitude").get<double>();
-    w.mesh = text_or(j, "mesh", "");
     constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
     if (const std::uint64_t cell = count_or(j, "cell", most); cell < most) w.cell = static_cast<std::int64_t>(cell);
-    w.detail = text_or(j, "detail", "");
     const auto n = static_cast<std::size_t>(vertex_count(*known)),
                d = static_cast<std::size_t>(space_dimension(*known)), stride = static_cast<std::size_t>(w.c.stride());
     const Json& vertices = array_of(j, "vertices", n, where);
@@ -148,19 +150,15 @@ Ordered audit::witness_json(const Witness& w) {
 }
 
 std::string witnesses_json(const AuditReport& report) {
-    const ExactEnvironment environment;
-    Ordered list = Ordered::array();
-    for (const KernelResult& k : report.kernels) {
-        for (const Witness& w : k.witnesses) list.push_back(witness_json(w));
-    }
-    return text_of_witnesses(std::move(list));
+    return text_of_witnesses([&](auto add) {
+        for (const KernelResult& k : report.kernels) std::for_each(k.witnesses.begin(), k.witnesses.end(), add);
+    });
 }
 
 std::string witnesses_json(const SearchReport& report) {
-    const ExactEnvironment environment;
-    Ordered list = Ordered::array();
-    for (const SearchFind& f : report.finds) list.push_back(witness_json(f.plain));
-    return text_of_witnesses(std::move(list));
+    return text_of_witnesses([&](auto add) {
+        for (const SearchFind& f : report.finds) add(f.plain);
+    });
 }
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {
@@ -176,6 +174,61 @@ Result<std::vector<Witness>> read_witnesses(const std::string& path) {
             witnesses.push_back(witness_from(list[i], "witness " + std::to_string(i)));
         return witnesses;
     });
+}
+
+namespace {
+
+KernelAnswer answer_of(const Kernel& kernel, const Case& c) {
+    const Evaluation e = evaluate(kernel, c);
+    return {kernel.name, e.said.answered, e.said.status, e.said.weights, e.comparison, e.detail};
+}
+
+std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) {
+    const Witness& w = r.witness;
+    if (w.kernel.empty() || w.reason.empty()) return "";
+    const std::size_t reason = search_reason_named(w.reason);
+    if (reason == search_reasons) return "no class of finding has that name";
+    const auto named = [&](const auto& x) { return x.name == w.kernel; };
+    if (std::none_of(kernels.begin(), kernels.end(), named)) {
+        return "no kernel of that name here; name its library with job.kernel_library";
+    }
+    const auto a =
+        std::find_if(r.answers.begin(), r.answers.end(), [&](const auto& x) { return x.kernel == w.kernel; });
+    if (a == r.answers.end()) return "the kernel is for another simplex";
+    if (reason < finding_count) {
+        if (a->comparison.counts[reason] != 0) return "";
+        return is_incident(reason)
+                   ? "asked once more, the kernel did not; it may depend on the cases before, or on chance"
+                   : "the kernel's answer does not have this finding";
+    }
+    // Errors come out the same wherever the kernel was compiled to the same arithmetic.
+    if (reason == witness_reasons) {
+        const double error = relative_error(r.exact, a->comparison);
+        return error == w.magnitude ? ""
+                                    : "the error is " + base::shortest(error) + ", not " + base::shortest(w.magnitude);
+    }
+    const double ulps = w.reason == "worst_value_ulp" ? a->comparison.value_ulp : a->comparison.worst_weight_ulp();
+    return ulps == w.magnitude ? ""
+                               : "the error is " + base::shortest(ulps) + " ulps, not " + base::shortest(w.magnitude);
+}
+
+}  // namespace
+
+Replay replay_witness(const Witness& witness, const std::vector<Kernel>& kernels) {
+    const ExactEnvironment environment;
+    Replay r;
+    r.witness = witness;
+    const Case& c = witness.c;
+    r.exact = ask_oracle(c);
+    r.affine_dimension = affine_dimension(c);
+    if (c.simplex == Simplex::triangle)
+        r.identity = c.perspective ? perspective_is_ray_casting(c) : bilinear_is_barycentric(c);
+    if (c.simplex == Simplex::tetrahedron) r.identity = trilinear_is_barycentric(c);
+    for (const Kernel& k : kernels) {
+        if (k.simplex == c.simplex && k.perspective == c.perspective) r.answers.push_back(answer_of(k, c));
+    }
+    r.not_reproduced = not_reproduced(r, kernels);
+    return r;
 }
 
 }  // namespace barycert

@@ -9,39 +9,24 @@
 #include <utility>
 
 namespace barycert::base {
-/// A list that only grows: a signal handler may walk it at any moment, in any thread, without a lock. A record is some
-/// tens of bytes for each file that needed a name.
-struct BegunFile::Record {
-    const std::string path;
-    std::atomic<bool> live{true};
-    Record* next = nullptr;
-};
-
 namespace {
 
-std::atomic<BegunFile::Record*> records{nullptr};
-static_assert(std::atomic<BegunFile::Record*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
+std::atomic<BegunName*> names{nullptr};
+static_assert(std::atomic<BegunName*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "the signal handler reads them");
 
 }  // namespace
 
-BegunFile::BegunFile(std::string path) : record_(new Record{.path = std::move(path)}) {
-    record_->next = records.load();
-    while (!records.compare_exchange_weak(record_->next, record_)) {
+BegunName* begin_name(std::string path) {
+    auto* const name = new BegunName{.path = std::move(path), .next = names.load()};
+    while (!names.compare_exchange_weak(name->next, name)) {
     }
-}
-
-const std::string& BegunFile::path() const {
-    return record_->path;
-}
-
-void BegunFile::forget() {
-    record_->live = false;
+    return name;
 }
 
 void remove_begun_files() noexcept {
-    for (const BegunFile::Record* r = records.load(); r != nullptr; r = r->next) {
-        if (r->live) ::unlink(r->path.c_str());
+    for (const BegunName* name = names.load(); name != nullptr; name = name->next) {
+        if (name->live) ::unlink(name->path.c_str());
     }
 }
 

@@ -1,9 +1,15 @@
 /// Are all numbers finite?
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
+#include <utility>
+
+#include "barycert/result.hpp"
 
 namespace barycert::base {
 
@@ -19,6 +25,20 @@ inline bool all_finite(std::span<const double> numbers) {
     bool finite = true;
     for (const double sum : sums) finite = finite && sum == 0;
     return finite;
+}
+
+/// The place of the first number that is not finite; numbers.size() if all are.
+inline std::size_t first_not_finite(std::span<const double> numbers) {
+    const auto bad = std::find_if(numbers.begin(), numbers.end(), [](double x) { return !std::isfinite(x); });
+    return static_cast<std::size_t>(bad - numbers.begin());
+}
+
+/// That `what`, which is x, is not.
+inline Error not_finite(std::string what, double x, std::string remedy = {}) {
+    return {.what = std::move(what),
+            .expected = "a finite number",
+            .found = std::to_string(x),
+            .remedy = std::move(remedy)};
 }
 
 }  // namespace barycert::base

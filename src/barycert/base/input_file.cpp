@@ -1,7 +1,5 @@
 #include "barycert/base/input_file.hpp"
 
-#include "barycert/base/folder.hpp"
-
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,11 +9,11 @@
 #include <cstring>
 #include <utility>
 
-#include "barycert/base/run_files.hpp"
-#include "barycert/base/unpack.hpp"
-
+#include "barycert/base/nearest_name.hpp"
 namespace barycert::base {
 namespace {
+
+thread_local RunFiles* run_of_thread = nullptr;
 
 Error unfit(const std::string& path, std::string expected, const char* found, const char* remedy) {
     return {.what = "cannot read the file",
@@ -26,16 +24,11 @@ Error unfit(const std::string& path, std::string expected, const char* found, co
 }
 
 /// Opens and looks: without O_NONBLOCK a named pipe without a writer would hang here.
-int open_without_waiting(const std::string& path, struct stat& status) {
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor >= 0 && ::fstat(descriptor, &status) != 0) {
-        const int reason = errno;
-        ::close(descriptor);
-        errno = reason;
-        return -1;
-    }
-    if (descriptor >= 0) record_input(descriptor, path);
-    return descriptor;
+Result<Descriptor> open_without_waiting(const std::string& path, struct stat& status) {
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (!file || ::fstat(file.number, &status) != 0) return read_failure(path, errno);
+    record_input(file.number, path);
+    return file;
 }
 
 }  // namespace
@@ -69,28 +62,16 @@ Error too_little_memory(std::string path) {
 
 Result<InputFile> InputFile::open(const std::string& path, const char* remedy) {
     struct stat status {};
+    Result<Descriptor> opened = open_without_waiting(path, status);
+    if (!opened) return opened.error();
     InputFile file;
-    file.descriptor_ = open_without_waiting(path, status);
-    if (file.descriptor_ < 0) return read_failure(path, errno);
+    file.file_ = std::move(*opened);
     if (S_ISDIR(status.st_mode)) return unfit(path, "a regular file", "a folder", "name a file inside the folder");
     if (!S_ISREG(status.st_mode)) return unfit(path, "a regular file", "a pipe or device", remedy);
-    if (Status plain = unpack(file.descriptor_, path); !plain) return plain.error();
-    if (::fstat(file.descriptor_, &status) != 0) return read_failure(path, errno);
+    if (Status plain = unpack(file.file_.number, path); !plain) return plain.error();
+    if (::fstat(file.file_.number, &status) != 0) return read_failure(path, errno);
     file.then_ = {static_cast<std::uint64_t>(status.st_size), status.st_mtim};
     return file;
-}
-
-InputFile::InputFile(InputFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), then_(std::exchange(other.then_, {})) {}
-
-InputFile& InputFile::operator=(InputFile&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    std::swap(then_, other.then_);
-    return *this;
-}
-
-InputFile::~InputFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 Status unchanged(int descriptor, const FileState& then, const std::string& path) {
@@ -106,11 +87,11 @@ Status unchanged(int descriptor, const FileState& then, const std::string& path)
                  .remedy = "read it again when its writer has finished"};
 }
 
-Result<std::size_t> InputFile::read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const {
+Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char> bytes, const std::string& path) {
     std::size_t done = 0;
     while (done < bytes.size()) {
         const ssize_t got =
-            ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+            ::pread(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return read_failure(path, errno);
         if (got == 0) break;
@@ -167,21 +148,20 @@ Status InputFile::check(Text text, const std::string& path, const Header& header
 
 Result<std::string> read_file(const std::string& path, std::size_t longest, Text text, const Header& header) {
     struct stat status {};
+    Result<Descriptor> opened = open_without_waiting(path, status);
+    if (!opened) return opened.error();
     InputFile file;
-    file.descriptor_ = open_without_waiting(path, status);
-    if (file.descriptor_ < 0) return read_failure(path, errno);
+    file.file_ = std::move(*opened);
     const bool pipe = S_ISFIFO(status.st_mode);
-    if (S_ISDIR(status.st_mode)) {
+    if (S_ISDIR(status.st_mode))
         return unfit(path, "a regular file or a pipe", "a folder", "name a file inside the folder");
-    }
-    if (!pipe && !S_ISREG(status.st_mode)) {
+    if (!pipe && !S_ISREG(status.st_mode))
         return unfit(path, "a regular file or a pipe", "a device", "save the data to a regular file first");
-    }
     // From now on a pipe waits for those who have it open, and has ended if nobody has.
-    if (pipe && ::fcntl(file.descriptor_, F_SETFL, 0) != 0) return read_failure(path, errno);
+    if (pipe && ::fcntl(file.file_.number, F_SETFL, 0) != 0) return read_failure(path, errno);
 
-    if (Status plain = unpack(file.descriptor_, path); !plain) return plain.error();
-    if (::fstat(file.descriptor_, &status) != 0) return read_failure(path, errno);
+    if (Status plain = unpack(file.file_.number, path); !plain) return plain.error();
+    if (::fstat(file.file_.number, &status) != 0) return read_failure(path, errno);
 
     if (!pipe) {
         file.then_.size = static_cast<std::uint64_t>(status.st_size);
@@ -192,22 +172,45 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
     std::size_t have = 0;
     while (true) {
         if (have == bytes.size()) bytes.resize(have + std::max<std::size_t>(have / 2, std::size_t{1} << 16));
-        const ssize_t got = ::read(file.descriptor_, bytes.data() + have, bytes.size() - have);
+        const ssize_t got = ::read(file.file_.number, bytes.data() + have, bytes.size() - have);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return read_failure(path, errno);
         if (got == 0) break;
         have += static_cast<std::size_t>(got);
-        if (pipe && have > longest) {
+        if (pipe && have > longest)
             return unfit(path, "at most " + std::to_string(longest) + " bytes from a pipe", "more",
                          "save the data to a regular file first");
-        }
     }
-    if (pipe && have == 0) {
+    if (pipe && have == 0)
         return unfit(path, "data", "nothing: a pipe that nobody writes to",
                      "start its writer first, or name a regular file");
-    }
     bytes.resize(have);
     return bytes;
+}
+
+RunFiles::RunFiles() : outer_(run_of_thread) {
+    run_of_thread = this;
+}
+
+RunFiles::~RunFiles() {
+    run_of_thread = outer_;
+    if (outer_ != nullptr) outer_->inputs_.merge(inputs_);
+}
+
+void record_input(int descriptor, const std::string& path) {
+    struct stat status {};
+    if (run_of_thread == nullptr || ::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return;
+    run_of_thread->inputs_.emplace(std::pair(status.st_dev, status.st_ino), path);
+}
+
+const std::string* input_of_run(const std::string& path) {
+    struct stat status {};
+    if (run_of_thread == nullptr || ::stat(path.c_str(), &status) != 0) return nullptr;
+    for (const RunFiles* run = run_of_thread; run != nullptr; run = run->outer_) {
+        const auto found = run->inputs_.find({status.st_dev, status.st_ino});
+        if (found != run->inputs_.end()) return &found->second;
+    }
+    return nullptr;
 }
 
 }  // namespace barycert::base

@@ -6,14 +6,19 @@
 /// such files: see io/csv/line_reader.hpp.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "barycert/base/descriptor.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::base {
@@ -45,6 +50,10 @@ struct FileState {
 /// Error: the file has another state than then.
 Status unchanged(int descriptor, const FileState& then, const std::string& path);
 
+/// Fills `bytes` from `offset` on and returns how many there were: fewer only where the file ends. `path`: for the
+/// Error if it cannot be read.
+Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char> bytes, const std::string& path);
+
 /// A regular file open for reading; closed at the end.
 class InputFile {
 public:
@@ -52,30 +61,26 @@ public:
     static Result<InputFile> open(const std::string& path,
                                   const char* remedy = "save the data to a regular file first");
 
-    InputFile() = default;
-    InputFile(InputFile&& other) noexcept;
-    InputFile& operator=(InputFile&& other) noexcept;
-    ~InputFile();
-
-    int descriptor() const { return descriptor_; }
+    int descriptor() const { return file_.number; }
 
     /// check_beginning() of its first block, and what the format says to it.
     Status check(Text text, const std::string& path, const Header& header = {}) const;
 
-    /// Fills `bytes` from `offset` on and returns how many there were: fewer only where the file ends. `path`: for the
-    /// Error if it cannot be read.
-    Result<std::size_t> read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const;
+    /// As base::read_at.
+    Result<std::size_t> read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const {
+        return base::read_at(file_.number, offset, bytes, path);
+    }
 
     /// In bytes, when it was opened.
     std::uint64_t size() const { return then_.size; }
 
     /// Error: it has another size than when it was opened, or was written to.
-    Status unchanged(const std::string& path) const { return base::unchanged(descriptor_, then_, path); }
+    Status unchanged(const std::string& path) const { return base::unchanged(file_.number, then_, path); }
 
 private:
     friend Result<std::string> read_file(const std::string& path, std::size_t longest, Text text, const Header& header);
 
-    int descriptor_ = -1;
+    Descriptor file_;
     FileState then_;
 };
 
@@ -95,5 +100,52 @@ Error unended_number(std::string path, std::size_t line);
 
 /// That memory was short while the file was read.
 Error too_little_memory(std::string path);
+
+/// A regular file, read whole. At least one page of zero bytes follows the last byte, so that a scanner may look ahead,
+/// and stops at a NUL instead of comparing with the end at every step.
+///
+/// The memory is the process's own: the system ends a process that touches bytes of a mapped file when they are gone.
+class MappedFile {
+public:
+    /// Reads on so many threads, 0: one per core. Errors: missing, unreadable, a folder, not a regular file, one that
+    /// does not begin as `text` and `header` say, changed while it was read, larger than the memory.
+    static Result<MappedFile> open(const std::string& path, int threads = 1, Text text = Text::none,
+                                   const Header& header = {});
+
+    std::string_view bytes() const { return memory_ ? std::string_view(memory_.get(), size_) : ""; }
+
+private:
+    Mapping memory_;
+    std::size_t size_ = 0;
+};
+
+/// A run lasts as long as this lives, on the thread that made it: whatever InputFile, read_file and readers of streams
+/// open there is recorded, and an OutputFile refuses to replace it. A run within a run hands on what it has recorded.
+/// Without a run nothing is recorded: who reads a file and then writes it by two calls of a library may do so.
+class RunFiles {
+public:
+    RunFiles();
+    ~RunFiles();
+    RunFiles(const RunFiles&) = delete;
+    RunFiles& operator=(const RunFiles&) = delete;
+
+private:
+    friend void record_input(int descriptor, const std::string& path);
+    friend const std::string* input_of_run(const std::string& path);
+
+    RunFiles* outer_;
+    std::map<std::pair<dev_t, ino_t>, std::string> inputs_;  ///< by device and inode, whatever names lead there
+};
+
+/// The open file, if it is a regular one, is read by the run of this thread, if there is one.
+void record_input(int descriptor, const std::string& path);
+
+/// The path by which the run of this thread has opened the file that `path` leads to; nullptr if it has not.
+const std::string* input_of_run(const std::string& path);
+
+/// Where `descriptor` is a regular file packed by gzip, of one member or several, it becomes one of the unpacked bytes,
+/// which are in memory and have no name. Error: it is damaged or cut off; unpacked it would take more than half of the
+/// machine's memory, or more than 200 times its size and 256 MiB, as no table of numbers does.
+Status unpack(int& descriptor, const std::string& path);
 
 }  // namespace barycert::base

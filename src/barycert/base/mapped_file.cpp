@@ -1,13 +1,9 @@
-#include "barycert/base/mapped_file.hpp"
-
-#include <sys/mman.h>
-#include <unistd.h>
+#include "barycert/base/input_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <mutex>
 #include <span>
-#include <utility>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/workers.hpp"
@@ -28,13 +24,11 @@ Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text t
     MappedFile result;
     const auto size = static_cast<std::size_t>(file->size());
     const std::size_t whole = (size + page - 1) / page * page + page;
-    void* const memory = ::mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) return read_failure(path, errno);
-    ask_for_large_pages(memory, whole);
-    char* const bytes = static_cast<char*>(memory);
-    result.begin_ = bytes;
-    result.mapped_ = whole;
+    result.memory_ = map_memory(whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS);
     result.size_ = size;
+    char* const bytes = result.memory_.get();
+    if (bytes == nullptr) return read_failure(path, errno);
+    ask_for_large_pages(bytes, whole);
 
     std::mutex mutex;
     Status status = Done{};
@@ -50,22 +44,6 @@ Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text t
     if (status) status = file->unchanged(path);
     if (!status) return status.error();
     return result;
-}
-
-MappedFile::MappedFile(MappedFile&& other) noexcept
-    : begin_(std::exchange(other.begin_, "")),
-      size_(std::exchange(other.size_, 0)),
-      mapped_(std::exchange(other.mapped_, 0)) {}
-
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
-    std::swap(begin_, other.begin_);
-    std::swap(size_, other.size_);
-    std::swap(mapped_, other.mapped_);
-    return *this;
-}
-
-MappedFile::~MappedFile() {
-    if (mapped_ != 0) ::munmap(const_cast<char*>(begin_), mapped_);
 }
 
 }  // namespace barycert::base

@@ -1,9 +1,10 @@
-/// The name that was meant by a mistyped word.
+/// The name that was meant by a mistyped word, also among the files of a folder.
 #pragma once
 
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace barycert::base {
@@ -19,5 +20,13 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 
 /// `did you mean "NAME"? ` and the rest, which is alone where no name is near: a remedy for Error::remedy.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names, std::string_view rest = {});
+
+// What is in a folder. In place of std::filesystem::directory_iterator, which ends the process where memory is short.
+
+/// Names of all in a folder but "." and "..", sorted. `failed` tells why they are not all there.
+std::vector<std::string> names_in_folder(const std::string& folder, std::error_code& failed);
+
+/// The file that may be meant by a path where there is none: a near name in the same folder; empty if there is none.
+std::string near_file(const std::string& path);
 
 }  // namespace barycert::base

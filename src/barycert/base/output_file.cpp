@@ -14,12 +14,14 @@
 #include <system_error>
 #include <utility>
 
-#include "barycert/base/run_files.hpp"
+#include "barycert/base/begun_files.hpp"
+#include "barycert/base/input_file.hpp"
 
 namespace barycert::base {
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
+constexpr const char* cannot_write_it = "cannot write the file";
 constexpr const char* put_in_place = "cannot put the finished file in its place";
 
 const char* remedy_for(int error_number) {
@@ -83,53 +85,41 @@ OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_pa
     }
     struct stat status {};
     const bool exists = ::stat(real_path_.c_str(), &status) == 0;
-    if (!exists && errno == ELOOP) {
-        fail("cannot write the file", ELOOP);
-        return;
-    }
-    if (exists && S_ISDIR(status.st_mode)) {
-        fail("cannot write the file", EISDIR);
-        return;
-    }
+    if (!exists && errno == ELOOP) fail(cannot_write_it, ELOOP);
+    if (exists && S_ISDIR(status.st_mode)) fail(cannot_write_it, EISDIR);
     refuse_input();
-    if (!error_.what.empty()) return;
     // A rename would replace even a file that is write-protected.
-    if (exists && ::access(real_path_.c_str(), W_OK) != 0) {
-        fail("cannot write the file", errno);
-        return;
-    }
+    if (exists && ::access(real_path_.c_str(), W_OK) != 0) fail(cannot_write_it, errno);
+    if (!error_.what.empty()) return;
     if (exists && !S_ISREG(status.st_mode)) {
-        descriptor_ = ::open(real_path_.c_str(), O_WRONLY | O_CLOEXEC);
-        if (descriptor_ < 0) fail("cannot open the file for writing", errno);
+        file_ = Descriptor(::open(real_path_.c_str(), O_WRONLY | O_CLOEXEC));
+        if (!file_) fail("cannot open the file for writing", errno);
         return;
     }
     if (!open_nameless()) open_beside();
-    if (exists && descriptor_ >= 0 && ::fchmod(descriptor_, status.st_mode & 07777U) != 0) {
+    if (exists && file_ && ::fchmod(file_.number, status.st_mode & 07777U) != 0)
         fail("cannot give the new file the permissions of the old one", errno);
-    }
 }
 
-OutputFile::OutputFile(std::string name, int descriptor, int error_number)
-    : target_(std::move(name)), descriptor_(descriptor) {
-    if (descriptor_ < 0) fail("cannot open the file for writing", error_number);
+OutputFile::OutputFile(std::string name, Descriptor file, int error_number)
+    : target_(std::move(name)), file_(std::move(file)) {
+    if (!file_) fail("cannot open the file for writing", error_number);
 }
 
 OutputFile OutputFile::standard_output() {
     // A copy, so that it can be closed and tell of errors. Not 0 to 2: a process may run with those closed.
     const int copy = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    return {"standard output", copy, errno};
+    return {"standard output", Descriptor(copy), errno};
 }
 
 bool OutputFile::open_nameless() {
 #ifdef O_TMPFILE
-    const std::size_t slash = real_path_.rfind('/');
-    const std::string folder = slash == std::string::npos ? "." : real_path_.substr(0, slash + 1);
-    descriptor_ = ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) return false;  // the reason, where it is not just O_TMPFILE, is told by open_beside()
+    file_ = Descriptor(::open(folder_of(real_path_).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666));
+    if (!file_) return false;  // the reason, where it is not just O_TMPFILE, is told by open_beside()
     // The name is given by way of /proc, which may not be there.
     struct stat status {};
-    nameless_ = ::stat(path_of(descriptor_).c_str(), &status) == 0 && S_ISREG(status.st_mode);
-    if (!nameless_) ::close(std::exchange(descriptor_, -1));
+    nameless_ = ::stat(path_of(file_.number).c_str(), &status) == 0 && S_ISREG(status.st_mode);
+    if (!nameless_) file_.close();
 #endif
     return nameless_;
 }
@@ -137,26 +127,32 @@ bool OutputFile::open_nameless() {
 void OutputFile::open_beside() {
     // O_EXCL: a name left over by a killed run, or planted as a link, is passed over.
     do {
-        begun_ = std::make_unique<base::BegunFile>(name_beside(real_path_));
-        descriptor_ = ::open(begun_->path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    } while (descriptor_ < 0 && errno == EEXIST);
-    if (descriptor_ >= 0) return;
-    const int error_number = errno;
-    begun_.reset();
-    fail("cannot make a file beside the target", error_number);
+        forget_name();
+        begun_ = begin_name(name_beside(real_path_));
+        file_ = Descriptor(::open(begun_->path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    } while (!file_ && errno == EEXIST);
+    if (file_) return;
+    fail("cannot make a file beside the target", errno);
+    forget_name();
 }
 
 OutputFile::~OutputFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    if (begun_) ::unlink(begun_->path().c_str());
+    file_.close();
+    if (begun_ != nullptr) ::unlink(begun_->path.c_str());
+    forget_name();
+}
+
+/// It is gone, or belongs to a finished file.
+void OutputFile::forget_name() {
+    if (begun_ != nullptr) begun_->live = false;
+    begun_ = nullptr;
 }
 
 void OutputFile::write(std::string_view bytes) {
-    if (descriptor_ < 0) return;
+    if (!file_) return;
     if (bytes.size() >= buffer_size) {  // gathering it would be a copy for nothing
         flush();
-        put(bytes);
-        return;
+        return put(bytes);
     }
     while (!bytes.empty()) {
         const std::size_t step = std::min(bytes.size(), buffer_size - buffer_.size());
@@ -167,17 +163,9 @@ void OutputFile::write(std::string_view bytes) {
 }
 
 void OutputFile::replace(std::uint64_t offset, std::string_view bytes) {
-    if (descriptor_ < 0) return;
+    if (!file_) return;
     flush();
-    while (!bytes.empty() && error_.what.empty()) {
-        const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-        if (written >= 0) {
-            bytes.remove_prefix(static_cast<std::size_t>(written));
-            offset += static_cast<std::uint64_t>(written);
-        } else if (errno != EINTR) {
-            fail("cannot write the file", errno);
-        }
-    }
+    put(bytes, static_cast<std::size_t>(offset));
 }
 
 void OutputFile::flush() {
@@ -185,22 +173,14 @@ void OutputFile::flush() {
     buffer_.clear();
 }
 
-void OutputFile::put(std::string_view rest) {
-    while (!rest.empty() && error_.what.empty()) {
-        const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
-        if (written >= 0) {
-            rest.remove_prefix(static_cast<std::size_t>(written));
-        } else if (errno != EINTR) {
-            fail("cannot write the file", errno);
-        }
-    }
+void OutputFile::put(std::string_view bytes, std::optional<std::size_t> offset) {
+    if (error_.what.empty() && !file_.write(bytes, offset)) fail(cannot_write_it, errno);
 }
 
 Status OutputFile::close() {
-    if (descriptor_ >= 0) flush();
+    if (file_) flush();
     // Network file systems report a full disk only here. They know no nameless files, which must stay open.
-    if (descriptor_ >= 0 && !nameless_ && ::close(std::exchange(descriptor_, -1)) != 0)
-        fail("cannot write the file", errno);
+    if (!nameless_ && !file_.close()) fail(cannot_write_it, errno);
     return status();
 }
 
@@ -211,19 +191,19 @@ Status OutputFile::status() const {
 
 /// True if the target itself is the name, so that nothing is left to rename.
 bool OutputFile::give_name() {
-    const std::string from = path_of(descriptor_);
+    const std::string from = path_of(file_.number);
     const auto link = [&](const std::string& to) {
         return ::linkat(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), AT_SYMLINK_FOLLOW) == 0;
     };
     if (link(real_path_)) return true;
     // A link never replaces a file: an existing target takes a second name and a rename.
     while (errno == EEXIST) {
-        begun_ = std::make_unique<base::BegunFile>(name_beside(real_path_));
-        if (link(begun_->path())) return false;
+        forget_name();
+        begun_ = begin_name(name_beside(real_path_));
+        if (link(begun_->path)) return false;
     }
-    const int error_number = errno;
-    begun_.reset();
-    fail(put_in_place, error_number);
+    fail(put_in_place, errno);
+    forget_name();
     return false;
 }
 
@@ -242,15 +222,15 @@ Status OutputFile::commit() {
     if (nameless_) {
         const bool in_place = give_name();
         nameless_ = false;
-        if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write the file", errno);
+        if (!file_.close()) fail(cannot_write_it, errno);
         if (in_place || !error_.what.empty()) return status();
     }
-    if (!begun_) return Done{};
-    if (std::rename(begun_->path().c_str(), real_path_.c_str()) != 0) {
+    if (begun_ == nullptr) return Done{};
+    if (std::rename(begun_->path.c_str(), real_path_.c_str()) != 0) {
         fail(put_in_place, errno);
         return error_;
     }
-    begun_.reset();
+    forget_name();
     return Done{};
 }
 

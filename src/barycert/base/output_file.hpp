@@ -2,14 +2,29 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
-#include "barycert/base/begun_files.hpp"
+#include "barycert/base/descriptor.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::base {
+
+// Names that a process has given to unfinished files, removed when a signal ends it. Most unfinished files have no name
+// at all. A name exists where the file system knows no nameless files, and for the moment in which a finished file
+// replaces an older one.
+
+/// For the main function of a program: from now on SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE and SIGXCPU first remove
+/// the unfinished files of this process and then end it as they would have. A signal that is ignored stays ignored.
+/// `tell`: SIGINT, SIGTERM and SIGHUP say on stderr that they ended it. A library must not decide about signals, so
+/// nothing else calls this.
+void remove_begun_files_on_signals(bool tell = false);
+
+/// Removes the unfinished files of this process that have names, for a program that ends without its destructors.
+void remove_begun_files() noexcept;
+
+struct BegunName;
 
 /// The path with its links resolved, also where the last of them leads to a file that does not exist yet.
 std::string resolved_path(std::string path);
@@ -24,7 +39,7 @@ std::string resolved_path(std::string path);
 /// remove_begun_files_on_signals() leaves these names under no signal but SIGKILL.
 ///
 /// A link is followed and stays a link; an existing target keeps its permissions. A device or pipe (/dev/stdout)
-/// cannot be replaced, so there the bytes go straight to it. A file that the run under way reads (run_files.hpp) is
+/// cannot be replaced, so there the bytes go straight to it. A file that the run under way reads (RunFiles) is
 /// never replaced: that is an error from the beginning or, where it was opened later, of the commit.
 class OutputFile {
 public:
@@ -58,20 +73,21 @@ public:
 
 private:
     /// Straight to a descriptor that is its own; `error_number` tells why there is none.
-    OutputFile(std::string name, int descriptor, int error_number);
+    OutputFile(std::string name, Descriptor file, int error_number);
     void fail(const char* what, int error_number);
     void refuse_input();
     bool open_nameless();
     void open_beside();
+    void forget_name();
     bool give_name();
     void flush();
-    void put(std::string_view rest);
+    void put(std::string_view bytes, std::optional<std::size_t> offset = {});
 
-    std::string target_;                      // as the caller named it: for messages
-    std::string real_path_;                   // with links resolved
-    std::unique_ptr<base::BegunFile> begun_;  // the name of the unfinished file, while it has one
+    std::string target_;          // as the caller named it: for messages
+    std::string real_path_;       // with links resolved
+    BegunName* begun_ = nullptr;  // the name of the unfinished file, while it has one
     std::string buffer_;
-    int descriptor_ = -1;
+    Descriptor file_;
     bool nameless_ = false;  // the unfinished file has no name, and lives while its descriptor is open
     Error error_;
 };

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 
+#include "barycert/base/descriptor.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::base {
@@ -15,8 +17,6 @@ class Spool {
 public:
     /// `target`: of what is to be written in the end.
     explicit Spool(std::string target) : target_(std::move(target)) {}
-    Spool(Spool&& other) noexcept;
-    ~Spool();
 
     template <class T>
     Status append(std::span<const T> values) {
@@ -27,7 +27,7 @@ public:
     Status finish();
     template <class T>
     std::span<const T> values() const {
-        return {reinterpret_cast<const T*>(mapped_ != nullptr ? mapped_ : held_.data()), size_ / sizeof(T)};
+        return {reinterpret_cast<const T*>(mapped_ != nullptr ? mapped_.get() : held_.data()), size_ / sizeof(T)};
     }
 
 private:
@@ -36,9 +36,9 @@ private:
     Error failure(const char* what, int error_number) const;
 
     std::string target_, held_;
-    int descriptor_ = -1;
+    Descriptor file_;
     std::size_t size_ = 0;
-    const char* mapped_ = nullptr;
+    Mapping mapped_;
 };
 
 }  // namespace barycert::base

@@ -1,6 +1,8 @@
 /// Text: doubles that read back to the same bits, words from outside that are safe to show.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,5 +32,44 @@ std::string quoted(std::string_view word);
 
 /// True if `text` matches the shell-style pattern: `*` any run, `?` any one character.
 bool glob_match(std::string_view pattern, std::string_view text);
+
+/// A character of UTF-8 (RFC 3629).
+struct Character {
+    char32_t code = 0;
+    std::size_t size = 0;  ///< bytes; 0: they are not UTF-8
+};
+
+/// The first character of a text that is not empty. Overlong forms, surrogates and codes past the last are not UTF-8.
+inline Character first_character(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    if (byte(0) < 0x80) return {byte(0), 1};
+    const std::size_t size = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+    if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < size) return {};
+    char32_t code = byte(0) & (0x7FU >> size);
+    for (std::size_t i = 1; i < size; ++i) {
+        if ((byte(i) & 0xC0U) != 0x80) return {};
+        code = code << 6U | (byte(i) & 0x3FU);
+    }
+    constexpr std::array<char32_t, 5> min{0, 0, 0x80, 0x800, 0x10000};
+    if (code < min[size] || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return {};
+    return {code, size};
+}
+
+/// `text` as one word for a POSIX shell, to be copied, quoted where needed; printable, whatever it holds.
+std::string shell_word(std::string_view text);
+
+/// A rule that bounds something: NAME, or NAME>NUMBER.
+struct NamedLimit {
+    std::string_view name;
+    std::optional<double> most;  ///< 0 if none is written; nothing if what is written is no number >= 0
+};
+
+inline NamedLimit named_limit(std::string_view text) {
+    const std::size_t sign = text.find('>');
+    if (sign == std::string_view::npos) return {text, 0};
+    std::optional<double> most = parse_double(text.substr(sign + 1));
+    if (most && !(*most >= 0)) most.reset();
+    return {text.substr(0, sign), most};
+}
 
 }  // namespace barycert::base

@@ -1,4 +1,3 @@
-#include "barycert/base/unpack.hpp"
 
 #include <fcntl.h>
 #include <libdeflate.h>
@@ -19,23 +18,6 @@
 namespace barycert::base {
 namespace {
 
-/// Room for the bytes of a file, in memory as far as it is filled, until it goes.
-struct Room {
-    Room(int descriptor, std::size_t length)
-        : size(length),
-          data(::ftruncate(descriptor, static_cast<off_t>(length)) != 0
-                   ? MAP_FAILED
-                   : ::mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, descriptor, 0)) {}
-    Room(const Room&) = delete;
-    Room& operator=(const Room&) = delete;
-    ~Room() {
-        if (data != MAP_FAILED) ::munmap(data, size);
-    }
-
-    std::size_t size;
-    void* data;
-};
-
 std::size_t most_unpacked(std::size_t packed) {
     const auto memory =
         static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
@@ -43,16 +25,18 @@ std::size_t most_unpacked(std::size_t packed) {
     return std::min(memory / 2, least + 200 * std::min(packed, memory / 200));
 }
 
-/// All members, one after the other, and how many bytes that made.
-libdeflate_result unpack_members(std::string_view packed, const Room& room, std::size_t& size) {
+/// All members, one after the other, and how many bytes that made. The file has room for so many, in memory as far as
+/// they are filled.
+libdeflate_result unpack_members(std::string_view packed, int plain, std::size_t room, std::size_t& size) {
     const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> own(
         libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-    if (own == nullptr || room.data == MAP_FAILED) return LIBDEFLATE_INSUFFICIENT_SPACE;
-    libdeflate_result result = LIBDEFLATE_SUCCESS;
+    if (own == nullptr || ::ftruncate(plain, static_cast<off_t>(room)) != 0) return LIBDEFLATE_INSUFFICIENT_SPACE;
+    const Mapping bytes = map_memory(room, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, plain);
+    libdeflate_result result = bytes == nullptr ? LIBDEFLATE_INSUFFICIENT_SPACE : LIBDEFLATE_SUCCESS;
     for (size = 0; !packed.empty() && result == LIBDEFLATE_SUCCESS;) {
         std::size_t in = 0, out = 0;
-        result = libdeflate_gzip_decompress_ex(own.get(), packed.data(), packed.size(),
-                                               static_cast<char*>(room.data) + size, room.size - size, &in, &out);
+        result = libdeflate_gzip_decompress_ex(own.get(), packed.data(), packed.size(), bytes.get() + size, room - size,
+                                               &in, &out);
         packed.remove_prefix(result == LIBDEFLATE_SUCCESS ? in : 0);
         size += out;
     }
@@ -68,15 +52,11 @@ Status unpack(int& descriptor, const std::string& path) {
         ::pread(descriptor, magic.data(), magic.size(), 0) != 2 || magic != std::array<char, 2>{'\x1f', '\x8b'})
         return Done{};
     std::string packed(static_cast<std::size_t>(status.st_size), '\0');
-    for (std::size_t have = 0; have < packed.size();) {
-        const ssize_t got = ::pread(descriptor, packed.data() + have, packed.size() - have, static_cast<off_t>(have));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return read_failure(path, errno);
-        if (got == 0) packed.resize(have);  // it has become shorter
-        have += static_cast<std::size_t>(got);
-    }
-    const int plain = ::memfd_create("barycert-unpacked", MFD_CLOEXEC);
-    if (plain < 0) return read_failure(path, errno);
+    const Result<std::size_t> there = read_at(descriptor, 0, packed, path);
+    if (!there) return there.error();
+    packed.resize(*there);  // it may have become shorter
+    Descriptor plain(::memfd_create("barycert-unpacked", MFD_CLOEXEC));
+    if (!plain) return read_failure(path, errno);
     // The last four bytes are the size of the last member, which is mostly the only one.
     const std::size_t most = most_unpacked(packed.size());
     std::uint32_t hint = 0;
@@ -85,13 +65,12 @@ Status unpack(int& descriptor, const std::string& path) {
     libdeflate_result result = LIBDEFLATE_INSUFFICIENT_SPACE;
     std::size_t size = 0;
     for (const std::size_t length : {std::clamp<std::size_t>(hint, 1, most), most}) {
-        if (result == LIBDEFLATE_INSUFFICIENT_SPACE) result = unpack_members(packed, Room(plain, length), size);
+        if (result == LIBDEFLATE_INSUFFICIENT_SPACE) result = unpack_members(packed, plain.number, length, size);
     }
-    if (result == LIBDEFLATE_SUCCESS && ::ftruncate(plain, static_cast<off_t>(size)) == 0) {
-        ::close(std::exchange(descriptor, plain));
+    if (result == LIBDEFLATE_SUCCESS && ::ftruncate(plain.number, static_cast<off_t>(size)) == 0) {
+        std::swap(descriptor, plain.number);
         return Done{};
     }
-    ::close(plain);
     if (result == LIBDEFLATE_INSUFFICIENT_SPACE)
         return Error{.what = "the file is packed by gzip, and takes too much memory once it is unpacked",
                      .file = path,

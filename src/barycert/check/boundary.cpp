@@ -1,6 +1,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -134,7 +135,7 @@ private:
     /// Facets piece by piece, the volume each piece encloses, and their sum.
     void gather_pieces(const ExactVolumes& volumes) {
         std::vector<std::uint32_t> order(facets_.size());
-        for (std::size_t f = 0; f < facets_.size(); ++f) order[f] = static_cast<std::uint32_t>(f);
+        std::iota(order.begin(), order.end(), 0U);
         std::vector<std::uint32_t> root(facets_.size());
         for (std::size_t f = 0; f < facets_.size(); ++f) root[f] = piece_.find(f);
         std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return root[a] < root[b]; });

@@ -5,8 +5,8 @@
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/strict_math.hpp"
+#include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
-#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::check {
@@ -62,21 +62,12 @@ struct Shape {
     double min_angle = 0, max_angle = 180;  ///< degrees
 };
 
+using base::cross;
+using base::dot;
+using base::minus;
 template <class Real>
-using Vector = std::array<Real, 3>;
+using Vector = base::Vector3<Real>;
 
-template <class Real>
-Real dot(const Vector<Real>& x, const Vector<Real>& y) {
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-template <class Real>
-Vector<Real> cross(const Vector<Real>& x, const Vector<Real>& y) {
-    return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
-template <class Real>
-Vector<Real> minus(const Vector<Real>& x, const Vector<Real>& y) {
-    return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-}
 template <class Real>
 Real length(const Vector<Real>& x) {
     return std::sqrt(dot(x, x));
@@ -253,8 +244,7 @@ struct CellChecker {
     }
 
     void note(DefectKind defect, std::size_t cell, CellPart& part, const char* detail = "") const {
-        m.defects[cell] |= defect_bit(defect);
-        part.defects.add(defect, {.cells = {static_cast<Mesh::Index>(cell), -1}, .detail = detail});
+        part.defects.add_marked(defect, {.cells = {static_cast<Mesh::Index>(cell), -1}, .detail = detail});
     }
 };
 
@@ -264,8 +254,7 @@ void find_mixed(const Cells& cells, CellMeasures& measures, DefectList& defects)
     const std::int8_t rarer = cells.negative <= cells.positive ? -1 : 1;
     for (std::size_t cell = 0; cell < measures.orientation.size(); ++cell) {
         if (measures.orientation[cell] != rarer) continue;
-        measures.defects[cell] |= defect_bit(DefectKind::mixed_orientation);
-        defects.add(DefectKind::mixed_orientation, {.cells = {static_cast<Mesh::Index>(cell), -1}});
+        defects.add_marked(DefectKind::mixed_orientation, {.cells = {static_cast<Mesh::Index>(cell), -1}});
     }
 }
 
@@ -283,7 +272,7 @@ Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, con
     in_blocks(
         count, 8192,
         [&] {
-            return CellPart{DefectList(defects.examples()), {}};
+            return CellPart{defects.part(), {}};
         },
         [&](std::size_t first, std::size_t last, CellPart& part) {
             for (std::size_t cell = first; cell < last; ++cell) {

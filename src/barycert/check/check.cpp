@@ -1,11 +1,9 @@
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
 #include <chrono>
-#include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/environment.hpp"
@@ -37,8 +35,9 @@ std::uint64_t count_parts(const Mesh& mesh, const std::vector<std::uint8_t>& usa
 }
 
 /// Overlapping pairs first, then those whose boundary facets touch; each with a common point.
-std::vector<CellContact> contacts(const Mesh& mesh, const CellMeasures& measures, std::vector<CellPair> overlapping,
-                                  std::vector<CellPair> touching, std::size_t limit) {
+std::vector<CellContact> contacts(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+                                  std::vector<CellPair> overlapping, std::vector<CellPair> touching,
+                                  std::size_t limit) {
     std::vector<CellPair> pairs;
     for (auto* list : {&overlapping, &touching}) {
         for (CellPair& p : *list) std::sort(p.begin(), p.end());
@@ -50,7 +49,7 @@ std::vector<CellContact> contacts(const Mesh& mesh, const CellMeasures& measures
     std::vector<CellContact> all;
     for (const CellPair& p : pairs) {
         const auto a = static_cast<std::size_t>(p[0]), b = static_cast<std::size_t>(p[1]);
-        if (measures.orientation[a] == 0 || measures.orientation[b] == 0) continue;
+        if (orientation[a] == 0 || orientation[b] == 0) continue;
         const CommonPart common = common_part(mesh.dimension, corner_points(mesh, a), corner_points(mesh, b));
         all.push_back({p, common.dimension == mesh.dimension, common.dimension, common.point});
     }
@@ -85,16 +84,17 @@ CurvedCells note_curved_cells(const Mesh& mesh, CheckReport& report) {
 
 class Check {
 public:
-    Check(const Mesh& mesh, const CheckOptions& options) : mesh_(mesh), options_(options), defects_(options.examples) {}
+    Check(const Mesh& mesh, const CheckOptions& options, CheckReport& report)
+        : mesh_(mesh), options_(options), report_(report), defects_(options.examples, report.measures.defects) {}
 
-    bool run(CheckReport& report) {
+    bool run() {
         if (const char* fault = fault_of_sizes(mesh_); fault != nullptr) {
             defects_.add(DefectKind::bad_structure, {.detail = fault});
         } else {
-            check_all(report);
+            check_all();
         }
-        report.defects = std::move(defects_).list();
-        return std::none_of(report.defects.begin(), report.defects.end(), [](const Defect& f) { return f.breaks(); });
+        report_.defects = std::move(defects_).list();
+        return std::none_of(report_.defects.begin(), report_.defects.end(), [](const Defect& f) { return f.breaks(); });
     }
 
 private:
@@ -104,7 +104,8 @@ private:
         ExactEnvironment::renew();
     }
 
-    void check_all(CheckReport& report) {
+    void check_all() {
+        CheckReport& report = report_;
         CellMeasures& measures = report.measures;
         stage("nodes");
         const std::vector<std::uint8_t> finite = check_nodes(mesh_, defects_);
@@ -120,13 +121,14 @@ private:
         std::optional<Facets> proved;
         if (whole) proved = facets_of_partition(mesh_, measures.orientation);
         // Where the proof fails, what is wrong is found by the slower search.
-        const Facets facets = proved ? std::move(*proved) : check_facets(mesh_, cells.usable, measures, defects_);
+        const Facets facets =
+            proved ? std::move(*proved) : check_facets(mesh_, cells.usable, measures.orientation, defects_);
         if (enough()) return;
         // What one thread does alone is done beside the rest.
         tbb::task_group parts;
         if (!options_.verdict_only)
             parts.run([&] { report.parts = count_parts(mesh_, cells.usable, facets.neighbours); });
-        check_boundary_and_pairs(report, cells, facets, volumes, proved.has_value());
+        check_boundary_and_pairs(cells, facets, volumes, proved.has_value());
         parts.wait();
         // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
         if (const char* fault = mesh::inconsistency_of_extras(mesh_, mesh::FieldValues::any); fault != nullptr) {
@@ -143,9 +145,9 @@ private:
         }
     }
 
-    void check_boundary_and_pairs(CheckReport& report, const Cells& cells, const Facets& facets,
-                                  const ExactVolumes& volumes, bool proved) {
-        CellMeasures& measures = report.measures;
+    void check_boundary_and_pairs(const Cells& cells, const Facets& facets, const ExactVolumes& volumes, bool proved) {
+        CheckReport& report = report_;
+        const std::vector<std::int8_t>& orientation = report.measures.orientation;
         stage("boundary");
         const BoundaryPieces pieces = check_boundary(mesh_, facets.boundary, volumes, defects_);
         report.boundary = pieces.summary;
@@ -157,26 +159,25 @@ private:
         if (!proved) {
             stage("contacts of the boundary");
             const std::size_t limit = options_.verdict_only ? 1 : pair_limit;
-            touching = find_boundary_contacts(mesh_, facets.boundary, limit, measures, defects_);
+            touching = find_boundary_contacts(mesh_, facets.boundary, limit, defects_);
             if (enough()) return;
-            meeting = find_nested_parts(mesh_, facets.boundary, pieces.facets, limit, measures, defects_);
+            meeting = find_nested_parts(mesh_, facets.boundary, pieces.facets, orientation, limit, defects_);
         }
         check_files(mesh_, cells.usable, facets, defects_);
         if (enough()) return;
         std::vector<CellPair> overlapping;
         if (may_overlap()) {
             stage("overlapping cells");
-            overlapping = find_overlapping_cells(mesh_, measures, defects_);
+            overlapping = find_overlapping_cells(mesh_, orientation, defects_);
         }
         if (!options_.verdict_only) {
             meeting.insert(meeting.end(), touching.cells.begin(), touching.cells.end());
             meeting.insert(meeting.end(), overlapping.begin(), overlapping.end());
-            find_cracks(mesh_, cells.usable, facets.boundary, volumes, options_.near, touching, meeting, measures,
-                        defects_);
+            find_cracks(mesh_, cells.usable, facets.boundary, volumes, options_.near, touching, meeting, defects_);
             tell_remedies();
         }
         report.contacts =
-            contacts(mesh_, measures, std::move(overlapping), std::move(touching.cells), options_.contacts);
+            contacts(mesh_, orientation, std::move(overlapping), std::move(touching.cells), options_.contacts);
     }
 
     /// Where the cause of what breaks the certificate is known.
@@ -198,21 +199,17 @@ private:
 
     /// The verdict is known, and nothing else is asked for.
     bool enough() const {
-        return options_.verdict_only && std::any_of(defect_texts.begin(), defect_texts.end(), [&](const DefectText& t) {
-                   return t.breaks && defects_.count(t.kind) > 0;
-               });
+        return options_.verdict_only && defects_.has([](const DefectText& t) { return t.breaks; });
     }
 
     /// One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.
     bool may_overlap() const {
-        for (const DefectText& t : defect_texts) {
-            if (t.breaks && t.condition != "P5" && defects_.count(t.kind) > 0) return true;
-        }
-        return false;
+        return defects_.has([](const DefectText& t) { return t.breaks && t.condition != "P5"; });
     }
 
     const Mesh& mesh_;
     const CheckOptions& options_;
+    CheckReport& report_;
     DefectList defects_;
 };
 
@@ -228,12 +225,10 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     CheckReport report;
     report.dimension = mesh.dimension;
-    // oneTBB prints a warning when asked for more than there are.
-    const int available = tbb::info::default_concurrency();
-    tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, available) : available);
-    arena.execute([&] {
-        report.threads = tbb::this_task_arena::max_concurrency();
-        const bool whole = Check(mesh, options).run(report);
+    report.threads = base::threads_of(options.threads);
+    // Cells of a dimension that is none cannot be counted: their corners can.
+    base::in_arena(options.threads, mesh.cells.size(), [&] {
+        const bool whole = Check(mesh, options, report).run();
         report.certificate = Certificate(whole ? Verdict::certified : Verdict::not_certified, mesh);
     });
     if (mesh.dimension == 2 || mesh.dimension == 3) {

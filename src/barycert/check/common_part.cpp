@@ -1,8 +1,8 @@
-#include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <utility>
 
+#include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
@@ -15,17 +15,10 @@ namespace {
 // over the whole range of doubles took all the time. Each axis has its own unit; what follows is affine.
 
 using Number = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
-using Vector = std::array<Number, 3>;
-
-Vector operator-(const Vector& x, const Vector& y) {
-    return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-}
-Vector cross(const Vector& x, const Vector& y) {
-    return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
-Number dot(const Vector& x, const Vector& y) {
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
+using Vector = base::Vector3<Number>;
+using base::cross;
+using base::dot;
+using base::minus;
 
 /// Coordinates as multiples of a power of two, one an axis.
 class Lattice {
@@ -79,11 +72,11 @@ struct Cell {
         for (std::size_t i = 0; i < n; ++i) {
             const Vector &a = corners[(i + 1) % n], &b = corners[(i + 2) % n];
             const Vector up{0, 0, 1};
-            Vector normal = cross(b - a, n == 3 ? up : corners[(i + 3) % n] - a);
-            if (dot(normal, corners[i] - a) < 0) {
+            Vector normal = cross(minus(b, a), n == 3 ? up : minus(corners[(i + 3) % n], a));
+            if (dot(normal, minus(corners[i], a)) < 0) {
                 for (Number& x : normal) x = -x;
             }
-            for (const Vector& p : other.corners) over[i].push_back(dot(normal, p - a));
+            for (const Vector& p : other.corners) over[i].push_back(dot(normal, minus(p, a)));
         }
         return over;
     }

@@ -17,9 +17,8 @@
 #include <iterator>
 
 #include "barycert/check/plc_facet.hpp"
-#include "barycert/check/stages.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/mesh/facets.hpp"
+#include "barycert/mesh/adjacency.hpp"
 
 namespace barycert::check {
 namespace {
@@ -49,20 +48,21 @@ double half_extent_of(const Plc& plc) {
 class Areas {
 public:
     Areas(const PlcRegion& region, std::span<const Candidate> faces)
-        : region_(region), volumes_(2, project(region, faces)) {
+        : points_(project(region, faces)), volumes_(2, points_) {
+        const double* at = points_.data();
         for (const PlcRegion::Ring& ring : region.rings()) {
+            const std::size_t n = ring.points.size();
             Integer twice;
-            for (std::size_t i = 0; i < ring.points.size(); ++i) {
-                const auto a = projected(ring.points[i]), b = projected(ring.points[(i + 1) % ring.points.size()]);
-                const double* const ends[] = {a.data(), b.data()};
+            for (std::size_t i = 0; i < n; ++i) {
+                const double* const ends[] = {at + 2 * i, at + 2 * ((i + 1) % n)};
                 twice = twice + volumes_.cone(ends);
             }
+            at += 2 * n;
             if (ring.counts == 0) continue;
             facet_ = (twice.sign() < 0) == (ring.counts < 0) ? facet_ + twice : facet_ - twice;
         }
-        for (const Candidate& face : faces) {
-            const auto a = projected(face.nodes[0]), b = projected(face.nodes[1]), c = projected(face.nodes[2]);
-            const double* const corners[] = {a.data(), b.data(), c.data()};
+        for (std::size_t face = 0; face < faces.size(); ++face, at += 6) {
+            const double* const corners[] = {at, at + 2, at + 4};
             const Integer twice = volumes_.cell(corners);
             covered_ = twice.sign() < 0 ? covered_ - twice : covered_ + twice;
         }
@@ -73,11 +73,6 @@ public:
     double share() const { return volumes_.rounded(covered_) / volumes_.rounded(facet_); }
 
 private:
-    std::array<double, 2> projected(const double* p) const {
-        const auto [x, y] = region_.axes();
-        return {p[x], p[y]};
-    }
-
     static std::vector<double> project(const PlcRegion& region, std::span<const Candidate> faces) {
         const auto [x, y] = region.axes();
         std::vector<double> all;
@@ -90,7 +85,7 @@ private:
         return all;
     }
 
-    const PlcRegion& region_;
+    std::vector<double> points_;  ///< projected: of rings, then of faces
     ExactVolumes volumes_;
     Integer facet_, covered_;
 };

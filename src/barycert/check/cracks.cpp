@@ -40,13 +40,14 @@ public:
         }
     }
 
-    /// The near ones, of no common cell: merging would make it collapse. `complete` is false if there are more.
-    std::vector<NearPair> find_near(const std::vector<std::uint8_t>& usable, bool& complete) {
+    /// The near ones, of no common cell: merging would make it collapse.
+    Found<NearPair> find_near(const std::vector<std::uint8_t>& usable) {
         std::vector<double> radius;
         radius.reserve(places_.size());
         for (const Mesh::Index node : places_) radius.push_back(reach(node, near_));
-        std::vector<NearPair> pairs;
-        complete = for_each_near(mesh_, places_, radius, 100 * pair_limit, [&](const NearPair& p) {
+        Found<NearPair> found;
+        std::vector<NearPair>& pairs = found.list;
+        found.complete = for_each_near(mesh_, places_, radius, 100 * pair_limit, [&](const NearPair& p) {
             pairs.push_back({std::min(p.first, p.second), std::max(p.first, p.second), p.distance});
         });
         const auto nodes_of_pair = [](const NearPair& p) { return std::tuple(p.first, p.second); };
@@ -66,7 +67,7 @@ public:
             }
         }
         std::erase_if(pairs, [](const NearPair& p) { return p.distance == of_one_cell; });
-        return pairs;
+        return found;
     }
 
     /// At most so far from a node of the boundary what is near lies.
@@ -142,41 +143,40 @@ private:
 
 void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const std::vector<BoundaryFacet>& facets,
                  const ExactVolumes& volumes, double near, const BoundaryContacts& touching,
-                 const std::vector<CellPair>& meeting, CellMeasures& measures, DefectList& defects) {
+                 const std::vector<CellPair>& meeting, DefectList& defects) {
     Cracks cracks(mesh, facets, near);
     if (near > 0) {
-        bool complete = true;
-        for (const NearPair& p : cracks.find_near(usable, complete)) {
+        const Found<NearPair> found = cracks.find_near(usable);
+        for (const NearPair& p : found.list) {
             defects.add(DefectKind::near_nodes, {.nodes = {p.first, p.second, -1},
                                                  .distance = p.distance,
                                                  .relative = p.distance / cracks.shortest_edge(p.first, p.second)});
             cracks.merge(p.first, p.second);
         }
-        if (!complete) {
+        if (!found.complete) {
             for (const DefectKind kind : {DefectKind::near_nodes, DefectKind::crack}) defects.add_at_least(kind);
         }
     }
     std::vector<HangingNode> hanging = touching.hanging, nearly;
     std::erase_if(hanging, [&](const HangingNode& h) { return cracks.nearly_coincides(h); });
     const auto tell = [&](const HangingNode& h, DefectKind kind) {
-        mark(measures, h.cell, kind);
-        defects.add(kind, {.cells = {h.cell, -1},
-                           .nodes = {h.node, -1, -1},
-                           .other_nodes = h.face,
-                           .distance = h.distance,
-                           .relative = h.distance / cracks.shortest_edge(h.node, h.node)});
+        defects.add_marked(kind, {.cells = {h.cell, -1},
+                                  .nodes = {h.node, -1, -1},
+                                  .other_nodes = h.face,
+                                  .distance = h.distance,
+                                  .relative = h.distance / cracks.shortest_edge(h.node, h.node)});
     };
     for (const HangingNode& h : hanging) tell(h, DefectKind::hanging_node);
     if (!touching.complete) defects.add_at_least(DefectKind::hanging_node);
     if (near > 0) {
-        bool complete = true;
-        nearly = nearly_hanging(mesh, usable, facets, volumes, cracks.reach_of_faces(), 10 * pair_limit, complete);
+        auto found = nearly_hanging(mesh, usable, facets, volumes, cracks.reach_of_faces(), 10 * pair_limit);
+        nearly = std::move(found.list);
         std::erase_if(nearly, [&](const HangingNode& h) {
             return cracks.nearly_coincides(h) ||
                    std::any_of(hanging.begin(), hanging.end(), [&](const HangingNode& g) { return g.node == h.node; });
         });
         for (const HangingNode& h : nearly) tell(h, DefectKind::near_hanging);
-        if (!complete) defects.add_at_least(DefectKind::near_hanging);
+        if (!found.complete) defects.add_at_least(DefectKind::near_hanging);
     }
     // Of cells that meet where they must not, one with a node and one with its twin, or with what it hangs on.
     std::vector<std::uint8_t> twin(mesh.point_count(), 0);
@@ -199,8 +199,7 @@ void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, cons
     for (const CellPair& p : meeting) find_cause(p[0], p[1]), find_cause(p[1], p[0]);
     const auto is_twin = [&](Mesh::Index n) { return n >= 0 && twin[static_cast<std::size_t>(n)] != 0; };
     cracks.for_each_crack([&](const BoundaryFacet& f, const BoundaryFacet& g) {
-        for (const Mesh::Index cell : {f.cell, g.cell}) mark(measures, cell, DefectKind::crack);
-        defects.add(DefectKind::crack, {.cells = {f.cell, g.cell}, .nodes = f.nodes, .other_nodes = g.nodes});
+        defects.add_marked(DefectKind::crack, {.cells = {f.cell, g.cell}, .nodes = f.nodes, .other_nodes = g.nodes});
         if (std::any_of(f.nodes.begin(), f.nodes.end(), is_twin) ||
             std::any_of(g.nodes.begin(), g.nodes.end(), is_twin))
             defects.cause(DefectKind::crack);

@@ -5,11 +5,9 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"

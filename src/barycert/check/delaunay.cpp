@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "barycert/base/strict_math.hpp"
+#include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
 
 namespace barycert::check {
@@ -10,32 +11,29 @@ namespace {
 /// The radius of the sphere through the corners less the distance of `apex` from its centre, over the radius: plain
 /// double, relative to corner 0, in a unit in which nothing overflows. At least 0 for what is exactly inside.
 double depth(int d, const double* const* p, const double* apex) {
-    std::array<double, 9> e{};
-    std::array<double, 3> x{};
+    using Vector = base::Vector3<double>;
+    std::array<Vector, 3> e{};
+    Vector x{};
     double max = 0;
-    for (int k = 0; k < d; ++k) {
-        for (int i = 0; i < d; ++i) {
-            e[static_cast<std::size_t>(3 * i + k)] = p[i + 1][k] / 2 - p[0][k] / 2;
-            max = std::max(max, std::fabs(e[static_cast<std::size_t>(3 * i + k)]));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(d); ++i) {
+            e[i][k] = p[i + 1][k] / 2 - p[0][k] / 2;
+            max = std::max(max, std::fabs(e[i][k]));
         }
-        x[static_cast<std::size_t>(k)] = apex[k] / 2 - p[0][k] / 2;
+        x[k] = apex[k] / 2 - p[0][k] / 2;
     }
-    if (d == 2) e[8] = max;  // a third edge, normal to the plane: the centre's foot is the circle's
+    if (d == 2) e[2][2] = max;  // a third edge, normal to the plane: the centre's foot is the circle's
     const int exponent = max > 0 ? std::ilogb(max) : 0;
-    for (double& v : e) v = std::scalbn(v, -exponent);
-    for (double& v : x) v = std::scalbn(v, -exponent);
-    const auto cross = [&](std::size_t i, std::size_t j, std::size_t k) {
-        const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
-        return e[3 * i + l] * e[3 * j + m] - e[3 * i + m] * e[3 * j + l];
-    };
-    std::array<double, 3> square{};
-    for (std::size_t i = 0; i < 3; ++i)
-        square[i] = e[3 * i] * e[3 * i] + e[3 * i + 1] * e[3 * i + 1] + e[3 * i + 2] * e[3 * i + 2];
-    const double det = e[0] * cross(1, 2, 0) + e[1] * cross(1, 2, 1) + e[2] * cross(1, 2, 2);
+    for (Vector* v : {&e[0], &e[1], &e[2], &x}) {
+        for (double& coordinate : *v) coordinate = std::scalbn(coordinate, -exponent);
+    }
+    const Vector minors[] = {base::cross(e[1], e[2]), base::cross(e[2], e[0]), base::cross(e[0], e[1])};
+    const double det = base::dot(e[0], minors[0]);
     double radius = 0, distance = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
-        const double c =
-            (square[0] * cross(1, 2, k) + square[1] * cross(2, 0, k) + square[2] * cross(0, 1, k)) / (2 * det);
+        double sum = 0;
+        for (std::size_t i = 0; i < 3; ++i) sum += base::dot(e[i], e[i]) * minors[i][k];
+        const double c = sum / (2 * det);
         radius += c * c;
         distance += (x[k] - c) * (x[k] - c);
     }

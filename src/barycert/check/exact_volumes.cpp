@@ -1,9 +1,7 @@
 #include "barycert/check/exact_volumes.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/numerators-inl.hpp"

@@ -6,9 +6,7 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 
-#include "barycert/core/integer.hpp"
 #include "barycert/core/scaled_double.hpp"
 
 namespace barycert::check {

@@ -6,7 +6,7 @@
 #include "barycert/base/large_pages.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/index/proof.hpp"
-#include "barycert/mesh/facets.hpp"
+#include "barycert/mesh/adjacency.hpp"
 
 namespace barycert::check {
 namespace {
@@ -43,7 +43,7 @@ struct FacetPart {
 /// Looks at equal facets, those of the same nodes.
 struct FacetChecker {
     const Mesh& mesh;
-    CellMeasures& measures;
+    const std::vector<std::int8_t>& orientations;
     std::vector<Mesh::Index>& neighbours;
 
     void operator()(std::span<const mesh::CellFacet> equal, FacetPart& part) const {
@@ -56,13 +56,11 @@ struct FacetChecker {
         if (equal.size() > 2 || apex(f) == apex(g)) find_duplicates(equal, part);
         if (equal.size() == 2 && side(f) * side(g) <= 0) return;
         const DefectKind kind = equal.size() > 2 ? DefectKind::overfull_facet : DefectKind::same_side;
-        for (const mesh::CellFacet& each : equal) mark(measures, each.cell, kind);
+        for (const mesh::CellFacet& each : equal) part.defects.mark(each.cell, kind);
         part.defects.add(kind, {.cells = {f.cell, equal[1].cell}, .nodes = outward(f)});
     }
 
-    std::int8_t orientation(const mesh::CellFacet& f) const {
-        return measures.orientation[static_cast<std::size_t>(f.cell)];
-    }
+    std::int8_t orientation(const mesh::CellFacet& f) const { return orientations[static_cast<std::size_t>(f.cell)]; }
 
     std::array<Mesh::Index, 3> outward(const mesh::CellFacet& f) const {
         return outward_nodes(mesh, static_cast<std::size_t>(f.cell), static_cast<std::size_t>(f.corner),
@@ -88,9 +86,7 @@ struct FacetChecker {
             if (apex(copy) != apex(original)) {
                 first = i;
             } else if (apex(copy) > copy.highest) {
-                part.defects.add(DefectKind::duplicate_cell, {.cells = {original.cell, copy.cell}});
-                for (const Mesh::Index cell : {original.cell, copy.cell})
-                    mark(measures, cell, DefectKind::duplicate_cell);
+                part.defects.add_marked(DefectKind::duplicate_cell, {.cells = {original.cell, copy.cell}});
             }
         }
     }
@@ -120,17 +116,17 @@ std::array<Mesh::Index, 3> ascending(const BoundaryFacet& facet) {
 
 }  // namespace
 
-Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, CellMeasures& measures,
-                    DefectList& defects) {
+Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
+                    const std::vector<std::int8_t>& orientation, DefectList& defects) {
     Facets facets;
     base::resize_large(facets.neighbours, mesh.cells.size());
     std::fill(facets.neighbours.begin(), facets.neighbours.end(), -1);
     const mesh::FacetTable table(mesh, usable);
-    const FacetChecker check{mesh, measures, facets.neighbours};
+    const FacetChecker check{mesh, orientation, facets.neighbours};
     in_blocks(
         table.node_count(), 4096,
         [&] {
-            return FacetPart{DefectList(defects.examples()), {}};
+            return FacetPart{defects.part(), {}};
         },
         [&](std::size_t first, std::size_t last, FacetPart& part) {
             table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) { check(equal, part); });

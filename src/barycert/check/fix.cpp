@@ -1,11 +1,9 @@
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <variant>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check/stages.hpp"
@@ -37,6 +35,18 @@ void keep(std::vector<T>& values, std::size_t size, const std::vector<Index>& ro
     std::vector<T> kept;
     if (!values.empty()) mesh::append_rows_of(values, size, rows, kept);
     values = std::move(kept);
+}
+
+/// Of rows sorted by their keys, those that go: all but the first of a key.
+template <class Key>
+void split(const std::vector<std::pair<Key, Index>>& rows, bool twins_go, std::vector<Index>& kept,
+           std::vector<Twin>& twins) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (twins_go && i > 0 && rows[i].first == rows[i - 1].first)
+            twins.push_back({rows[i].second, kept.back()});
+        else
+            kept.push_back(rows[i].second);
+    }
 }
 
 class Fix {
@@ -207,14 +217,8 @@ private:
         std::sort(good.begin(), good.end());
         std::vector<Index> kept;
         std::vector<Twin> twins;
-        for (std::size_t i = 0; i < good.size(); ++i) {
-            if (i > 0 && good[i].first == good[i - 1].first) {
-                drop(good[i].second, DefectKind::duplicate_cell);
-                twins.push_back({good[i].second, kept.back()});
-            } else {
-                kept.push_back(good[i].second);
-            }
-        }
+        split(good, true, kept, twins);
+        for (const Twin& twin : twins) drop(twin.gone, DefectKind::duplicate_cell);
         for (const Field& f : mesh_.cell_fields) compare_values(f, twins, report_.cell_fields);
         for (const Column& labels : mesh_.cell_labels) {
             const auto differ = std::visit([&](const auto& v) { return count_differing(v, twins); }, labels.values);
@@ -248,13 +252,7 @@ private:
         std::sort(faces.begin(), faces.end());
         std::vector<Index> kept;
         std::vector<Twin> twins;
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-            const bool twin = i > 0 && faces[i].first == faces[i - 1].first && !report_.merged.empty();
-            if (twin)
-                twins.push_back({faces[i].second, kept.back()});
-            else
-                kept.push_back(faces[i].second);
-        }
+        split(faces, !report_.merged.empty(), kept, twins);
         report_.differing_face_markers = count_differing(mesh_.face_markers, twins);
         report_.dropped_faces = mesh_.face_count() - kept.size();
         if (report_.dropped_faces == 0) return;
@@ -311,9 +309,7 @@ Result<Mesh> fix_mesh(const Mesh& mesh, const FixOptions& options, FixReport& re
         return Error{.what = "the distance within which nodes are merged is not one",
                      .expected = "a finite number from 0 on",
                      .found = base::shortest(options.merge_within)};
-    const int available = tbb::info::default_concurrency();
-    tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, available) : available);
-    return arena.execute([&] { return Fix(mesh, options, report).run(); });
+    return base::in_arena(options.threads, mesh.cells.size(), [&] { return Fix(mesh, options, report).run(); });
 }
 
 }  // namespace barycert

@@ -170,38 +170,31 @@ void leave_out_right_ones(const Mesh& mesh, const std::vector<std::uint8_t>& usa
 
 }  // namespace
 
-std::vector<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
-                                        const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
-                                        const std::vector<double>& radius, std::size_t limit, bool& complete) {
+Found<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
+                                  const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
+                                  const std::vector<double>& radius, std::size_t limit) {
     std::vector<Box> boxes;
     for (const BoundaryFacet& f : facets)
         boxes.push_back(box_of(mesh.dimension, placed(mesh, f).at.data(), mesh.dimension));
     const BoxTree tree(std::move(boxes));
     const NearFaces faces(mesh, volumes, radius);
-    std::vector<HangingNode> all;
-    in_waves(
-        radius.size(), 1024, [] { return std::vector<HangingNode>(); },
-        [&](std::size_t first, std::size_t last, std::vector<HangingNode>& part) {
-            for (std::size_t node = first; node < last && part.size() <= limit; ++node) {
-                if (radius[node] == 0) continue;
-                const Box box = box_around(mesh, static_cast<Index>(node), radius[node]);
-                tree.for_each(box, [&](std::uint32_t f) {
-                    // A degenerate cell is told as such.
-                    if (!facets[f].oriented || faces.is_far(static_cast<Index>(node), facets[f])) return true;
-                    HangingNode h = faces.face_at(static_cast<Index>(node), facets[f]);
-                    if (h.face[1] < 0 || faces.is_on(h.node, facets[f])) return true;
-                    if (!faces.is_beyond(h.node, facets[f])) h.cell = -1;
-                    part.push_back(h);
-                    return part.size() <= limit;
-                });
-            }
-        },
-        [&](const std::vector<HangingNode>& part) { all.insert(all.end(), part.begin(), part.end()); },
-        [&] { return all.size() <= limit; });
-    complete = all.size() <= limit;
-    all.resize(std::min(all.size(), limit));
-    leave_out_right_ones(mesh, usable, faces, all);
-    sort_hanging(all);
+    auto all = up_to<HangingNode>(limit, radius.size(), 1024, [&](std::size_t first, std::size_t last, auto& part) {
+        for (std::size_t n = first; n < last && part.size() <= limit; ++n) {
+            const auto node = static_cast<Index>(n);
+            if (radius[n] == 0) continue;
+            tree.for_each(box_around(mesh, node, radius[n]), [&](std::uint32_t f) {
+                // A degenerate cell is told as such.
+                if (!facets[f].oriented || faces.is_far(node, facets[f])) return true;
+                HangingNode h = faces.face_at(node, facets[f]);
+                if (h.face[1] < 0 || faces.is_on(node, facets[f])) return true;
+                if (!faces.is_beyond(node, facets[f])) h.cell = -1;
+                part.push_back(h);
+                return part.size() <= limit;
+            });
+        }
+    });
+    leave_out_right_ones(mesh, usable, faces, all.list);
+    sort_hanging(all.list);
     return all;
 }
 

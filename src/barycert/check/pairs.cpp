@@ -26,28 +26,19 @@ Item item_of(const Mesh& mesh, std::size_t cell) {
 
 /// Pairs (i, j), i < j, of the items for which `conflict` holds, up to `limit`; ascending.
 template <class Conflict>
-std::vector<Pair> conflicts(int d, const std::vector<Item>& items, Conflict conflict, std::size_t limit,
-                            bool& complete) {
+Found<Pair> conflicts(int d, const std::vector<Item>& items, Conflict conflict, std::size_t limit) {
     const Candidates candidates(d, items);
-    std::vector<Pair> all;
-    in_waves(
-        items.size(), 512, [] { return std::vector<Pair>(); },
-        [&](std::size_t first, std::size_t last, std::vector<Pair>& part) {
-            for (std::size_t i = first; i < last && part.size() <= limit; ++i) {
-                const std::size_t begin = part.size();
-                candidates.for_each(items[i], [&](std::uint32_t j) {
-                    if (j > i && conflict(i, j)) part.push_back({static_cast<std::uint32_t>(i), j});
-                    return part.size() <= limit;
-                });
-                std::sort(part.begin() + static_cast<std::ptrdiff_t>(begin), part.end(),
-                          [](const Pair& a, const Pair& b) { return a.second < b.second; });
-            }
-        },
-        [&](const std::vector<Pair>& part) { all.insert(all.end(), part.begin(), part.end()); },
-        [&] { return all.size() <= limit; });
-    complete = all.size() <= limit;
-    all.resize(std::min(all.size(), limit));
-    return all;
+    return up_to<Pair>(limit, items.size(), 512, [&](std::size_t first, std::size_t last, auto& part) {
+        for (std::size_t i = first; i < last && part.size() <= limit; ++i) {
+            const std::size_t begin = part.size();
+            candidates.for_each(items[i], [&](std::uint32_t j) {
+                if (j > i && conflict(i, j)) part.push_back({static_cast<std::uint32_t>(i), j});
+                return part.size() <= limit;
+            });
+            std::sort(part.begin() + static_cast<std::ptrdiff_t>(begin), part.end(),
+                      [](const Pair& a, const Pair& b) { return a.second < b.second; });
+        }
+    });
 }
 
 std::vector<std::uint8_t> outcodes(const Mesh& mesh, const Box& box) {
@@ -83,7 +74,7 @@ void sort_hanging(std::vector<HangingNode>& all) {
 }
 
 BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, std::size_t limit,
-                                        CellMeasures& measures, DefectList& defects) {
+                                        DefectList& defects) {
     std::vector<PlacedFacet> proper_facets;
     std::vector<Mesh::Index> cells;
     std::vector<Item> items;
@@ -98,12 +89,13 @@ BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<Boun
         return facets_conflict(mesh.dimension, proper_facets[i], proper_facets[j]);
     };
     BoundaryContacts out;
-    for (const Pair& p : conflicts(mesh.dimension, items, conflict, limit, out.complete)) {
+    const Found<Pair> found = conflicts(mesh.dimension, items, conflict, limit);
+    out.complete = found.complete;
+    for (const Pair& p : found.list) {
         const PlacedFacet &f = proper_facets[p.first], &g = proper_facets[p.second];
         out.cells.push_back({cells[p.first], cells[p.second]});
-        for (const Mesh::Index cell : out.cells.back()) mark(measures, cell, DefectKind::boundary_contact);
-        defects.add(DefectKind::boundary_contact,
-                    {.cells = out.cells.back(), .nodes = f.nodes, .other_nodes = g.nodes});
+        defects.add_marked(DefectKind::boundary_contact,
+                           {.cells = out.cells.back(), .nodes = f.nodes, .other_nodes = g.nodes});
         add_hanging(mesh.dimension, f, g, cells[p.second], out.hanging);
         add_hanging(mesh.dimension, g, f, cells[p.first], out.hanging);
     }
@@ -113,13 +105,14 @@ BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<Boun
 }
 
 std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                        const std::vector<std::uint32_t>& pieces, std::size_t limit,
-                                        CellMeasures& measures, DefectList& defects) {
+                                        const std::vector<std::uint32_t>& pieces,
+                                        const std::vector<std::int8_t>& orientation, std::size_t limit,
+                                        DefectList& defects) {
     std::vector<std::size_t> inner;  // a cell at each piece
     std::vector<Item> items;
     for (const std::uint32_t piece : pieces) {
         const auto cell = static_cast<std::size_t>(facets[piece].cell);
-        if (measures.orientation[cell] == 0) continue;  // degenerate, and told
+        if (orientation[cell] == 0) continue;  // degenerate, and told
         inner.push_back(cell);
         items.push_back(item_of(mesh, cell));
     }
@@ -134,7 +127,7 @@ std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<Boun
         const std::atomic_ref<std::uint32_t> known(lowest[piece]);
         const auto number = static_cast<std::uint32_t>(cell);
         if (inner[piece] == cell || known.load(std::memory_order_relaxed) <= number ||
-            !interiors_meet(mesh.dimension, corner_points(mesh, inner[piece]), corners))
+            !interiors_meet(mesh.dimension, items[piece].at, corners))
             return;
         std::uint32_t now = known.load(std::memory_order_relaxed);
         while (now > number && !known.compare_exchange_weak(now, number, std::memory_order_relaxed)) {
@@ -146,10 +139,10 @@ std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<Boun
         mesh.cell_count(), 1024, [] { return Nothing(); },
         [&](std::size_t first, std::size_t last, Nothing&) {
             for (std::size_t cell = first; cell < last; ++cell) {
-                if (measures.orientation[cell] == 0 || common_outcode(mesh, codes, cell) != 0) continue;
-                const auto corners = corner_points(mesh, cell);
-                candidates.for_each(item_of(mesh, cell), [&](std::uint32_t i) {
-                    ask(cell, i, corners);
+                if (orientation[cell] == 0 || common_outcode(mesh, codes, cell) != 0) continue;
+                const Item item = item_of(mesh, cell);
+                candidates.for_each(item, [&](std::uint32_t i) {
+                    ask(cell, i, item.at);
                     return true;
                 });
             }
@@ -163,34 +156,32 @@ std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<Boun
     for (std::size_t i = 0; i < inner.size() && pairs.size() < limit; ++i) {
         if (lowest[i] == none) continue;
         const DefectPlace place{.cells = {static_cast<Mesh::Index>(inner[i]), static_cast<Mesh::Index>(lowest[i])}};
-        for (const Mesh::Index cell : place.cells) mark(measures, cell, DefectKind::nested_part);
-        defects.add(DefectKind::nested_part, place);
+        defects.add_marked(DefectKind::nested_part, place);
         pairs.push_back(place.cells);
     }
     if (!complete) defects.add_at_least(DefectKind::nested_part);
     return pairs;
 }
 
-std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, CellMeasures& measures, DefectList& defects) {
+std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+                                             DefectList& defects) {
     std::vector<Mesh::Index> cells;
     std::vector<Item> items;
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
-        if (measures.orientation[cell] == 0) continue;
+        if (orientation[cell] == 0) continue;
         cells.push_back(static_cast<Mesh::Index>(cell));
         items.push_back(item_of(mesh, cell));
     }
-    bool complete = true;
     const auto conflict = [&](std::size_t i, std::size_t j) {
-        return interiors_meet(mesh.dimension, corner_points(mesh, static_cast<std::size_t>(cells[i])),
-                              corner_points(mesh, static_cast<std::size_t>(cells[j])));
+        return interiors_meet(mesh.dimension, items[i].at, items[j].at);
     };
     std::vector<CellPair> pairs;
-    for (const Pair& p : conflicts(mesh.dimension, items, conflict, pair_limit, complete)) {
+    const Found<Pair> found = conflicts(mesh.dimension, items, conflict, pair_limit);
+    for (const Pair& p : found.list) {
         pairs.push_back({cells[p.first], cells[p.second]});
-        for (const Mesh::Index cell : pairs.back()) mark(measures, cell, DefectKind::overlapping_cells);
-        defects.add(DefectKind::overlapping_cells, {.cells = pairs.back()});
+        defects.add_marked(DefectKind::overlapping_cells, {.cells = pairs.back()});
     }
-    if (!complete) defects.add_at_least(DefectKind::overlapping_cells);
+    if (!found.complete) defects.add_at_least(DefectKind::overlapping_cells);
     return pairs;
 }
 

@@ -1,20 +1,18 @@
 #include "barycert/check/plc_facet.hpp"
 
+#include "barycert/base/vectors.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace barycert::check {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = base::Vector3<double>;
 using PlcPosition = PlcRegion::PlcPosition;
+using base::cross;
+using base::minus;
 
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector minus(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
 double length(const Vector& v) {
     return std::hypot(v[0], v[1], v[2]);
 }
@@ -105,9 +103,10 @@ void PlcRegion::set_plane() {
 
 void PlcRegion::set_holes(const PlcFacet& facet) {
     for (Ring& ring : rings_) {
+        for (const double* p : ring.points) ring.at.push_back(place(p));
         double twice = 0;
-        for (std::size_t i = 0, j = ring.points.size() - 1; i < ring.points.size(); j = i++)
-            twice += cross(place(ring.points.front()), place(ring.points[j]), place(ring.points[i]));
+        for (std::size_t i = 0, j = ring.at.size() - 1; i < ring.at.size(); j = i++)
+            twice += cross(ring.at.front(), ring.at[j], ring.at[i]);
         ring.area = std::fabs(twice) / 2;
     }
     for (std::size_t i = 0; i + 2 < facet.holes.size(); i += 3) {
@@ -124,8 +123,7 @@ void PlcRegion::set_holes(const PlcFacet& facet) {
 /// Inside the ring: at its lowest corner, which is convex, between it and what of the ring lies deepest in the triangle
 /// with its neighbours, or in the middle of that triangle.
 PlcPosition PlcRegion::inner_place(const Ring& ring) const {
-    std::vector<PlcPosition> at;
-    for (const double* p : ring.points) at.push_back(place(p));
+    const std::vector<PlcPosition>& at = ring.at;
     const auto n = at.size();
     const auto corner = static_cast<std::size_t>(std::min_element(at.begin(), at.end()) - at.begin());
     const PlcPosition &v = at[corner], &a = at[(corner + n - 1) % n], &b = at[(corner + 1) % n];
@@ -153,8 +151,8 @@ bool PlcRegion::in_plane(const double* p) const {
 
 bool PlcRegion::in_ring(const Ring& ring, const PlcPosition& p) const {
     bool inside = false;
-    for (std::size_t i = 0, j = ring.points.size() - 1; i < ring.points.size(); j = i++) {
-        const PlcPosition a = place(ring.points[i]), b = place(ring.points[j]);
+    for (std::size_t i = 0, j = ring.at.size() - 1; i < ring.at.size(); j = i++) {
+        const PlcPosition &a = ring.at[i], &b = ring.at[j];
         // A ray along the first axis crosses the side ab.
         if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1])) + a[0])
             inside = !inside;
@@ -194,7 +192,7 @@ PlcRegion::Crossing PlcRegion::crossing(const double* a, const double* b, double
             if (turn(pa, pb, pc) * turn(pa, pb, pd) != Sign::negative ||
                 turn(pc, pd, pa) * turn(pc, pd, pb) != Sign::negative)
                 continue;
-            const PlcPosition u = place(a), v = place(b), w = place(c), z = place(d);
+            const PlcPosition u = place(a), v = place(b), &w = ring.at[i], &z = ring.at[j];
             const double nearest = std::min(
                 {distance_from(u, w, z), distance_from(v, w, z), distance_from(w, u, v), distance_from(z, u, v)});
             if (nearest > slack) return Crossing::deep;
@@ -210,9 +208,8 @@ double PlcRegion::covered_by(const std::array<const double*, 3>& triangle) const
     for (const Ring& ring : rings_) {
         // A ring is a fan of triangles, those that turn the other way taken off.
         double twice = 0;
-        const PlcPosition first = place(ring.points.front());
-        for (std::size_t i = 2; i < ring.points.size() && ring.counts != 0; ++i)
-            twice += common_area(face, {first, place(ring.points[i - 1]), place(ring.points[i])});
+        for (std::size_t i = 2; i < ring.at.size() && ring.counts != 0; ++i)
+            twice += common_area(face, {ring.at.front(), ring.at[i - 1], ring.at[i]});
         common += ring.counts * std::fabs(twice) / 2;
         whole += ring.counts * ring.area;
     }

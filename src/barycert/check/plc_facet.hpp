@@ -13,8 +13,10 @@ namespace barycert::check {
 /// said to be exact works on the coordinates as they are.
 class PlcRegion {
 public:
+    using PlcPosition = std::array<double, 2>;
     struct Ring {
         std::vector<const double*> points;
+        std::vector<PlcPosition> at;  ///< place() of each
         bool hole = false;
         double area = 0;  ///< projected, in the unit
         int counts = 0;   ///< +1 its area is part of the region, -1 it is taken off, 0 another ring's has it
@@ -34,7 +36,6 @@ public:
     bool in_plane(const double* p) const;
 
     /// A place, relative and projected, lies in the region.
-    using PlcPosition = std::array<double, 2>;
     PlcPosition place(const double* p) const;
     bool holds(const PlcPosition& p) const;
 

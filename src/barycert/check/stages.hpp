@@ -1,17 +1,15 @@
-/// The stages of a check, in their order. Each adds what it finds to `defects`, and the kinds of defects that a cell is
-/// part of to `measures`. `usable`, an entry a cell: 1 if it has d + 1 different nodes with finite coordinates.
+/// The stages of a check, in their order. Each adds what it finds to `defects`. `usable`, an entry a cell: 1 if it has
+/// d + 1 different nodes with finite coordinates.
 #pragma once
 
-#include <array>
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <vector>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
-#include "barycert/check/defect_list.hpp"
+#include <algorithm>
+#include <atomic>
+#include <functional>
+
+#include "barycert/check.hpp"
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/index/box_tree.hpp"
 #include "barycert/index/facet_contact.hpp"
@@ -22,6 +20,126 @@
 namespace barycert::check {
 
 using namespace index;  // what meets what
+
+// Gathering what several threads find, in an order that does not depend on them.
+
+/// Defects of each kind, each with its count and its first places.
+class DefectList {
+public:
+    /// `of_cells`: the kinds of defects that each cell is part of.
+    DefectList(std::size_t examples, std::vector<DefectSet>& of_cells)
+        : examples_(examples), of_cells_(of_cells), all_(defect_kind_count) {
+        for (std::size_t i = 0; i < defect_kind_count; ++i) all_[i].kind = defect_texts[i].kind;
+    }
+
+    /// An empty one, for a block of the work.
+    DefectList part() const { return {examples_, of_cells_}; }
+
+    /// Notes that the cell is part of a defect, from any thread.
+    void mark(Mesh::Index cell, DefectKind p) const {
+        std::atomic_ref(of_cells_[static_cast<std::size_t>(cell)]).fetch_or(defect_bit(p), std::memory_order_relaxed);
+    }
+
+    void add(DefectKind p, const DefectPlace& place) {
+        Defect& f = of(p);
+        ++f.count;
+        if (f.places.size() < examples_) f.places.push_back(place);
+    }
+
+    /// The same, its cells marked.
+    void add_marked(DefectKind p, const DefectPlace& place) {
+        for (const Mesh::Index cell : place.cells) {
+            if (cell >= 0) mark(cell, p);
+        }
+        add(p, place);
+    }
+
+    void add_at_least(DefectKind p) { of(p).at_least = true; }
+    void cause(DefectKind p) { of(p).cause = true; }
+    void remedy(DefectKind p, std::string_view text) { of(p).better_remedy = text; }
+    bool is_cause(DefectKind p) const { return all_[static_cast<std::size_t>(p)].cause; }
+
+    /// Appends what another block of the same work found.
+    void append(const DefectList& other) {
+        for (std::size_t i = 0; i < defect_kind_count; ++i) {
+            Defect& f = all_[i];
+            const Defect& g = other.all_[i];
+            f.count += g.count;
+            f.at_least |= g.at_least;
+            f.cause |= g.cause;
+            const std::size_t room = std::min(examples_ - std::min(examples_, f.places.size()), g.places.size());
+            f.places.insert(f.places.end(), g.places.begin(), g.places.begin() + static_cast<std::ptrdiff_t>(room));
+        }
+    }
+
+    std::uint64_t count(DefectKind p) const { return all_[static_cast<std::size_t>(p)].count; }
+
+    /// One of the kinds for which `asked` holds has been found.
+    template <class Asked>
+    bool has(Asked asked) const {
+        return std::any_of(defect_texts.begin(), defect_texts.end(),
+                           [&](const DefectText& t) { return count(t.kind) > 0 && asked(t); });
+    }
+
+    /// Those that occur; first those that break the certificate.
+    std::vector<Defect> list() && {
+        std::erase_if(all_, [](const Defect& f) { return f.count == 0; });
+        std::stable_partition(all_.begin(), all_.end(), [](const Defect& f) { return f.breaks(); });
+        return std::move(all_);
+    }
+
+private:
+    Defect& of(DefectKind p) { return all_[static_cast<std::size_t>(p)]; }
+
+    std::size_t examples_;
+    std::vector<DefectSet>& of_cells_;
+    std::vector<Defect> all_;
+};
+
+/// work(first, last, part) for blocks of [0, count), on all threads of the calling arena; then join(part) for each
+/// block in order. `make` makes an empty part.
+template <class Make, class Work, class Join>
+void in_blocks(std::size_t count, std::size_t block, Make make, Work work, Join join) {
+    const std::size_t blocks = (count + block - 1) / block;
+    std::vector<decltype(make())> parts;
+    parts.reserve(blocks);
+    for (std::size_t i = 0; i < blocks; ++i) parts.push_back(make());
+    tbb::parallel_for(std::size_t{0}, blocks,
+                      [&](std::size_t i) { work(i * block, std::min(count, (i + 1) * block), parts[i]); });
+    for (auto& part : parts) join(part);
+}
+
+/// The same in waves of a fixed number of blocks, for searches that may find more than anybody wants: when more()
+/// returns false after a wave, nothing else is done. So the outcome does not depend on threads.
+template <class Make, class Work, class Join, class More>
+void in_waves(std::size_t count, std::size_t block, Make make, Work work, Join join, More more) {
+    constexpr std::size_t blocks = 64;
+    for (std::size_t from = 0; from < count; from += block * blocks) {
+        in_blocks(
+            std::min(count - from, block * blocks), block, make,
+            [&](std::size_t first, std::size_t last, auto& part) { work(from + first, from + last, part); }, join);
+        if (!more()) return;
+    }
+}
+
+/// What a search found, and whether that is all: it stops where it finds more than anybody wants.
+template <class T>
+struct Found {
+    std::vector<T> list;
+    bool complete = true;
+};
+
+/// What work(first, last, part) adds to the parts, in order, up to `limit`. A part with more need not go on.
+template <class T, class Work>
+Found<T> up_to(std::size_t limit, std::size_t count, std::size_t block, Work work) {
+    Found<T> found;
+    in_waves(
+        count, block, [] { return std::vector<T>(); }, work,
+        [&](const std::vector<T>& part) { found.list.insert(found.list.end(), part.begin(), part.end()); },
+        [&] { return found.complete = found.list.size() <= limit; });
+    found.list.resize(std::min(found.list.size(), limit));
+    return found;
+}
 
 inline const double* node_at(const Mesh& mesh, Mesh::Index node) {
     return &mesh.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh.dimension)];
@@ -40,12 +158,6 @@ inline std::array<const double*, 4> corner_points(const Mesh& mesh, std::size_t 
 
 inline int exact_sign(int d, const std::array<const double*, 4>& p) {
     return static_cast<int>(d == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
-}
-
-/// Notes that the cell is part of a defect, from any thread.
-inline void mark(CellMeasures& measures, Mesh::Index cell, DefectKind kind) {
-    std::atomic_ref(measures.defects[static_cast<std::size_t>(cell)])
-        .fetch_or(defect_bit(kind), std::memory_order_relaxed);
 }
 
 // Nodes by themselves (nodes.cpp).
@@ -110,8 +222,8 @@ struct Facets {
 };
 
 /// Finds duplicate_cell, overfull_facet, same_side.
-Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable, CellMeasures& measures,
-                    DefectList& defects);
+Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
+                    const std::vector<std::int8_t>& orientation, DefectList& defects);
 
 /// The facets of a mesh whose cells partition a domain, proved by the index (index/proof.hpp) in less time than
 /// check_facets takes; nothing if that is not proved. Preconditions: indices in range, coordinates finite;
@@ -155,16 +267,18 @@ struct BoundaryContacts {
 
 /// P3: finds boundary_contact, up to `limit` of them.
 BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, std::size_t limit,
-                                        CellMeasures& measures, DefectList& defects);
+                                        DefectList& defects);
 
 /// P4: finds nested_part, up to `limit` of them, each with the lowest cell that overlaps. `pieces`: one of the `facets`
 /// of each piece of the boundary.
 std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                        const std::vector<std::uint32_t>& pieces, std::size_t limit,
-                                        CellMeasures& measures, DefectList& defects);
+                                        const std::vector<std::uint32_t>& pieces,
+                                        const std::vector<std::int8_t>& orientation, std::size_t limit,
+                                        DefectList& defects);
 
 /// Finds overlapping_cells among all that are not degenerate.
-std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, CellMeasures& measures, DefectList& defects);
+std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+                                             DefectList& defects);
 
 // Neighbours and faces that came with the mesh (files.cpp).
 
@@ -180,14 +294,14 @@ std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std
 /// near nodes. `meeting`: cells that meet where they must not; what two of them have of these is the cause.
 void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const std::vector<BoundaryFacet>& facets,
                  const ExactVolumes& volumes, double near, const BoundaryContacts& touching,
-                 const std::vector<CellPair>& meeting, CellMeasures& measures, DefectList& defects);
+                 const std::vector<CellPair>& meeting, DefectList& defects);
 
 /// The nodes no farther from an edge or a facet than the radius of the node and of each node of the facet, and farther
 /// from these nodes; of no cell that has the node, too. `radius`: of each node, 0 of those that are not of the
-/// boundary. Ascending; `complete` is false if there are more than `limit`.
-std::vector<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
-                                        const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
-                                        const std::vector<double>& radius, std::size_t limit, bool& complete);
+/// boundary. Ascending, up to `limit`.
+Found<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
+                                  const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
+                                  const std::vector<double>& radius, std::size_t limit);
 
 // What else can be asked of a mesh (common_part.cpp, delaunay.cpp, conformity.cpp).
 

@@ -23,11 +23,9 @@ inline constexpr std::size_t block_stride = block_size + 8;
 inline std::size_t case_count(const CaseArrays& c) {
     return c.count;
 }
-inline std::size_t case_count(const MeshQueries& q) {
-    return q.count();
-}
-inline std::size_t case_count(const MeshCells& c) {
-    return c.count();
+template <class Batch>
+std::size_t case_count(const Batch& batch) {
+    return batch.count();
 }
 
 /// The corners of case j, n of them.
@@ -103,32 +101,11 @@ private:
     std::vector<double> buffer_;
 };
 
-/// Blocks of cases that lie in arrays already.
-class ArrayBlocks {
-public:
-    explicit ArrayBlocks(const CaseArrays& cases) : cases_(cases) {}
-
-    CaseBlock block(std::size_t first, std::size_t count) {
-        CaseBlock block{};
-        for (std::size_t i = 0; i < 12; ++i) {
-            if (cases_.vertices[i] != nullptr) block.vertices[i] = cases_.vertices[i] + first;
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (cases_.point[k] != nullptr) block.point[k] = cases_.point[k] + first;
-        }
-        block.count = count;
-        return block;
-    }
-
-private:
-    const CaseArrays& cases_;
-};
-
 /// Blocks of MeshQueries or MeshCells, their coordinates gathered.
 template <class Batch>
-class GatheredBlocks {
+class Blocks {
 public:
-    explicit GatheredBlocks(const Batch& batch)
+    explicit Blocks(const Batch& batch)
         : batch_(batch),
           coordinates_(static_cast<std::size_t>(space_dimension(batch.simplex)) *
                        static_cast<std::size_t>(vertex_count(batch.simplex) + (has_points ? 1 : 0))) {}
@@ -172,13 +149,23 @@ private:
     LaneArrays coordinates_;
 };
 
-inline ArrayBlocks blocks_of(const CaseArrays& cases) {
-    return ArrayBlocks(cases);
-}
-template <class Batch>
-GatheredBlocks<Batch> blocks_of(const Batch& batch) {
-    return GatheredBlocks<Batch>(batch);
-}
+/// Blocks of cases that lie in arrays already.
+template <>
+class Blocks<CaseArrays> {
+public:
+    explicit Blocks(const CaseArrays& cases) : cases_(cases) {}
+
+    CaseBlock block(std::size_t first, std::size_t count) {
+        const auto from = [first](const double* all) { return all == nullptr ? nullptr : all + first; };
+        CaseBlock block{{}, {}, count};
+        std::transform(cases_.vertices.begin(), cases_.vertices.end(), block.vertices, from);
+        std::transform(cases_.point.begin(), cases_.point.end(), block.point, from);
+        return block;
+    }
+
+private:
+    const CaseArrays& cases_;
+};
 
 /// Nodal values of a block, gathered: array nodes * c + i has component c at node i of each case.
 template <class T>
@@ -190,20 +177,15 @@ public:
           nodes_(nodes),
           arrays_(nodes * components_) {}
 
-    /// Of the nodes at the corners of cases [first, first + count), as the first nodes of each case.
+    /// Of the nodes at the corners of cases [first, first + count), as the first nodes of each case. Returns all
+    /// arrays.
     template <class Batch>
-    void gather_corners(const Batch& batch, std::size_t first, std::size_t count) {
+    const double* const* block(const Batch& batch, std::size_t first, std::size_t count) {
         const auto n = static_cast<std::size_t>(vertex_count(batch.simplex));
         gather(0, n, count, [&](std::size_t j) {
             fetch_ahead(batch, n, first + j, [this](std::int32_t node) { return at(node); });
             return corners_of(batch, n, first + j);
         });
-    }
-
-    /// The same, and returns them.
-    template <class Batch>
-    const double* const* block(const Batch& batch, std::size_t first, std::size_t count) {
-        gather_corners(batch, first, count);
         return arrays_.data();
     }
 
@@ -222,7 +204,6 @@ public:
         }
     }
 
-    std::size_t nodes() const { return nodes_; }
     double* const* arrays() const { return arrays_.data(); }
 
 private:
@@ -246,7 +227,7 @@ struct ExactCase {
 /// finite.
 template <class Batch, class Decide, class Exact>
 Status for_blocks(const Batch& batch, Tier tier, TierCounts* tiers, Decide decide, Exact exact) {
-    auto blocks = blocks_of(batch);
+    Blocks<Batch> blocks(batch);
     std::array<std::uint32_t, block_size> undecided;
     TierCounts counts;
     for (std::size_t first = 0; first < case_count(batch); first += block_size) {

@@ -30,21 +30,6 @@ template <class T>
 template <int d>
 constexpr double min_condition = d == 2 ? 2 : 3;
 
-/// The cell's vertices with the min and the max coordinate on each axis.
-template <int d>
-struct Extremes {
-    int low[d]{}, high[d]{};
-
-    explicit Extremes(const double* vertices) {
-        for (int k = 0; k < d; ++k) {
-            for (int i = 1; i <= d; ++i) {
-                if (vertices[d * i + k] < vertices[d * low[k] + k]) low[k] = i;
-                if (vertices[d * i + k] > vertices[d * high[k] + k]) high[k] = i;
-            }
-        }
-    }
-};
-
 /// Each axis as integers in its own unit, which cancels in the quotient.
 ///
 /// Widths: coordinates below 2^(64 N - 3) in N limbs give differences below 2^(64 N - 2), 2x2 minors below 2^(128 N -
@@ -52,12 +37,18 @@ struct Extremes {
 template <int d>
 [[gnu::noinline]] double exact_condition(const double* vertices) {
     if (!base::all_finite({vertices, d * (d + 1)})) return std::numeric_limits<double>::quiet_NaN();
-    const Extremes<d> extremes(vertices);
     const auto number = [&](int i, int k) { return vertices[d * i + k]; };
     return with_lattice<d + 1, d>(number, false, [&]<class T>(const Lattice<d + 1, d, T>& lattice) {
         T edges[d][d], extents[d];
         for (int i = 0; i < d; ++i) lattice.difference(i + 1, 0, edges[i]);
-        for (int k = 0; k < d; ++k) extents[k] = lattice.at(extremes.high[k], k) - lattice.at(extremes.low[k], k);
+        for (int k = 0; k < d; ++k) {
+            int low = 0, high = 0;  // the vertices with the min and the max coordinate
+            for (int i = 1; i <= d; ++i) {
+                if (number(i, k) < number(low, k)) low = i;
+                if (number(i, k) > number(high, k)) high = i;
+            }
+            extents[k] = lattice.at(high, k) - lattice.at(low, k);
+        }
         const Integer det = as_integer(formulas::determinant(edges)), box = as_integer(product(extents));
         if (det.sign() == 0) return std::numeric_limits<double>::infinity();
         const double factor = d == 2 ? 2 : 6;

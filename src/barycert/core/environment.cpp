@@ -10,13 +10,6 @@ namespace {
 
 using base::volatile_value;
 
-bool measured_contraction() {
-    // (1 + 2^-30)^2 = 1 + 2^-29 + 2^-60: rounded on its own, in any mode, the product loses 2^-60; fused it does not.
-    const double x = volatile_value(1 + 0x1p-30);
-    const double minus = volatile_value(-(1 + 0x1p-29));
-    return x * x + minus == 0x1p-60;
-}
-
 bool measured_excess_precision() {
     const double one = volatile_value(1);
     const double tiny = volatile_value(0x1p-60);
@@ -40,7 +33,7 @@ Environment measure_environment() {
     Environment e;
     e.rounding = base::measured_rounding();
     e.flush_to_zero = base::measured_flush_to_zero();
-    e.contraction = core::measured_contraction() || core::lanes_contract();
+    e.contraction = core::lanes_contract();
     e.excess_precision = core::measured_excess_precision();
     e.simd = simd_target();
     e.fma = core::measured_fma();

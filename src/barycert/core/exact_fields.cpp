@@ -7,6 +7,7 @@
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
+#include "barycert/quadratic.hpp"
 
 namespace barycert::core {
 namespace {
@@ -84,7 +85,7 @@ formulas::Fractions<s, Integer> as_integers(const formulas::Fractions<s, Number>
 template <Simplex s, class Number>
 bool values_of(const formulas::Fractions<s, Number>& w, const double* values, int components, double* out) {
     if (as_integer(w.denominator).sign() == 0) return false;
-    constexpr int nodes = s == Simplex::triangle ? 6 : 10;
+    constexpr int nodes = vertex_count(s) + mid_node_count(s);
     for (int c = 0; c < components; ++c) {
         ScaledDouble parts[nodes];
         Unit unit;
@@ -92,15 +93,12 @@ bool values_of(const formulas::Fractions<s, Number>& w, const double* values, in
             parts[i] = scaled(values[nodes * c + i]);
             unit.add(parts[i]);
         }
-        if constexpr (std::is_same_v<Number, Integer>) {
-            out[c] = value<Integer, s>(w, parts, unit);
-        } else if (unit.bits() <= 64 - 4) {
-            out[c] = value<Fixed<1>, s>(w, parts, unit);
-        } else if (unit.bits() <= 128 - 4) {
-            out[c] = value<Fixed<2>, s>(w, parts, unit);
-        } else {
-            out[c] = value<Integer, s>(as_integers<s>(w), parts, unit);
-        }
+        out[c] = with_integers<4>(unit.bits(), [&]<class T>() {
+            if constexpr (std::is_same_v<Number, Integer> || std::is_same_v<T, Integer>)
+                return value<Integer, s>(as_integers<s>(w), parts, unit);
+            else
+                return value<T, s>(w, parts, unit);
+        });
     }
     return true;
 }

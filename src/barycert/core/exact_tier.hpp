@@ -10,11 +10,13 @@
 /// integers too (scaled_double.hpp).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
 
 #include "barycert/core/integer.hpp"
+#include "barycert/core/lanes.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
@@ -22,6 +24,18 @@
 namespace barycert::core {
 
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Sets values that are not finite to zero. Returns whether has_part(i) is false for all of them.
+template <class HasPart>
+bool leave_out_not_finite(std::span<double> values, HasPart has_part) {
+    bool none_has_part = true;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::isfinite(values[i])) continue;
+        values[i] = 0;
+        none_has_part = none_has_part && !has_part(static_cast<int>(i));
+    }
+    return none_has_part;
+}
 
 /// Weights as fractions of integers.
 class ExactWeights {
@@ -89,18 +103,11 @@ bool exact_gradient(Simplex simplex, const double* vertices, const double* value
 bool exact_quadratic(Simplex simplex, const double* vertices, const double* point, const double* values, int components,
                      double* out);
 
-// Perspective-correct weights, depth and values, of what perspective.hpp requires of coordinates and depths, in its
-// layouts. Each returns false, and leaves `out` as it was, if there are no weights.
-
-/// The three weights, correctly rounded.
-bool exact_perspective_weights(const double* vertices, const double* point, double* out);
-
-/// Z, correctly rounded.
-bool exact_perspective_depth(const double* vertices, const double* point, double* out);
-
-/// `components` values, each correctly rounded; NaN where a value is not finite at a vertex whose weight is not exactly
-/// zero.
-bool exact_perspective_values(const double* vertices, const double* point, const double* values, int components,
-                              double* out);
+/// Perspective-correct weights, depth, or `components` values, of what perspective.hpp requires of coordinates and
+/// depths, in its layouts: each correctly rounded; a value NaN where one is not finite at a vertex whose weight is not
+/// exactly zero. Returns false, and leaves `out` as it was, if there are no weights. `values`: of
+/// PerspectiveAnswer::values alone.
+bool exact_perspective(PerspectiveAnswer what, const double* vertices, const double* point, const double* values,
+                       int components, double* out);
 
 }  // namespace barycert::core

@@ -183,22 +183,15 @@ int ExactWeights::compare(std::span<const double> values, double t) const {
     // A fifth product, of the denominator, beside the four of interpolate(): at most two bits more.
     Integer sum =
         Integer(sign_of(denominator) >= 0, magnitude(denominator, buffer)) * unit.multiple<Integer>(scaled(t));
-    for (int i = 0; i < count_; ++i) {
+    for (int i = 0; i < count_; ++i)
         sum = sum + Integer(sign_of(i) < 0, magnitude(i, buffer)) *
                         unit.multiple<Integer>(scaled(values[static_cast<std::size_t>(i)]));
-    }
     return sum.sign() * orientation();
 }
 
 bool ExactWeights::leave_out_not_finite(std::span<double> values) const {
-    const auto corners = static_cast<std::size_t>(count_);
-    bool none_has_part = true;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (std::isfinite(values[i])) continue;
-        values[i] = 0;
-        none_has_part = none_has_part && !has_part(static_cast<int>(i), values.size() > corners);
-    }
-    return none_has_part;
+    const bool quadratic = values.size() > static_cast<std::size_t>(count_);
+    return core::leave_out_not_finite(values, [&](int node) { return has_part(node, quadratic); });
 }
 
 /// The quadratic's shape functions are l (2 l - 1) at corners and 4 l l' between them.

@@ -92,61 +92,49 @@ std::size_t plain_quadratic_values_of(const CaseBlock& cases, const double* cons
     });
 }
 
-std::size_t quadratic_values(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                             double* const* out, std::uint32_t* undecided) {
-    return s == Simplex::triangle
-               ? quadratic_values_of<Simplex::triangle>(cases, values, components, out, undecided)
-               : quadratic_values_of<Simplex::tetrahedron>(cases, values, components, out, undecided);
+template <Simplex s>
+std::size_t rounded_quadratic_values(Rounding rounding, const CaseBlock& cases, const double* const* values,
+                                     int components, double* const* out, std::uint32_t* undecided) {
+    const auto values_of = rounding == Rounding::plain ? plain_quadratic_values_of<s> : quadratic_values_of<s>;
+    return values_of(cases, values, components, out, undecided);
 }
 
-std::size_t plain_quadratic_values(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                                   double* const* out, std::uint32_t* undecided) {
-    return s == Simplex::triangle
-               ? plain_quadratic_values_of<Simplex::triangle>(cases, values, components, out, undecided)
-               : plain_quadratic_values_of<Simplex::tetrahedron>(cases, values, components, out, undecided);
+std::size_t quadratic_values(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* values,
+                             int components, double* const* out, std::uint32_t* undecided) {
+    const auto values_of = s == Simplex::triangle ? rounded_quadratic_values<Simplex::triangle>
+                                                  : rounded_quadratic_values<Simplex::tetrahedron>;
+    return values_of(rounding, cases, values, components, out, undecided);
 }
 
-/// answer(tag, lanes, at, certain) for each vector of points.
-template <class Answer>
-HWY_INLINE std::size_t for_points(const double* vertices, const PointBlock& points, std::uint32_t* undecided,
-                                  Answer answer) {
+template <PerspectiveAnswer what>
+std::size_t perspective_of(const double* vertices, const PointBlock& points, const double* values, int components,
+                           double* const* out, std::uint32_t* undecided) {
     return for_padded_lanes(points.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         const auto lanes = project_lanes(tag, vertices, hn::LoadU(tag, points.x + at), hn::LoadU(tag, points.y + at));
         auto certain = lanes.valid;
-        answer(tag, lanes, at, certain);
+        const auto put = [&](const auto& quotient, int i)
+                             HWY_ATTR { hn::StoreU(rounded_quotient(tag, quotient, certain), tag, out[i] + at); };
+        if constexpr (what == PerspectiveAnswer::weights) {
+            for (int i = 0; i < 3; ++i) put(perspective_weight(tag, lanes, i), i);
+        } else if constexpr (what == PerspectiveAnswer::depth) {
+            put(perspective_depth(tag, lanes), 0);
+        } else {
+            for (int c = 0; c < components; ++c) {
+                const hn::Vec<decltype(tag)> f[3] = {hn::Set(tag, values[c]), hn::Set(tag, values[components + c]),
+                                                     hn::Set(tag, values[2 * components + c])};
+                put(perspective_value(tag, lanes, f), c);
+            }
+        }
         return certain;
     });
 }
 
-std::size_t perspective_weights_of(const double* vertices, const PointBlock& points, double* const* out,
-                                   std::uint32_t* undecided) {
-    return for_points(vertices, points, undecided,
-                      [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
-                          for (int i = 0; i < 3; ++i)
-                              hn::StoreU(rounded_quotient(tag, perspective_weight(tag, lanes, i), certain), tag,
-                                         out[i] + at);
-                      });
-}
-
-std::size_t perspective_depths_of(const double* vertices, const PointBlock& points, double* out,
-                                  std::uint32_t* undecided) {
-    return for_points(vertices, points, undecided,
-                      [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
-                          hn::StoreU(rounded_quotient(tag, perspective_depth(tag, lanes), certain), tag, out + at);
-                      });
-}
-
-std::size_t perspective_values_of(const double* vertices, const PointBlock& points, const double* values,
-                                  int components, double* const* out, std::uint32_t* undecided) {
-    return for_points(
-        vertices, points, undecided,
-        [&](auto tag, const auto& lanes, std::size_t at, auto& certain) BARYCERT_LANE_LAMBDA {
-            for (int c = 0; c < components; ++c) {
-                const hn::Vec<decltype(tag)> f[3] = {hn::Set(tag, values[c]), hn::Set(tag, values[components + c]),
-                                                     hn::Set(tag, values[2 * components + c])};
-                hn::StoreU(rounded_quotient(tag, perspective_value(tag, lanes, f), certain), tag, out[c] + at);
-            }
-        });
+std::size_t perspective(PerspectiveAnswer what, const double* vertices, const PointBlock& points, const double* values,
+                        int components, double* const* out, std::uint32_t* undecided) {
+    const auto answers = what == PerspectiveAnswer::weights ? perspective_of<PerspectiveAnswer::weights>
+                         : what == PerspectiveAnswer::depth ? perspective_of<PerspectiveAnswer::depth>
+                                                            : perspective_of<PerspectiveAnswer::values>;
+    return answers(vertices, points, values, components, out, undecided);
 }
 
 }  // namespace barycert::core::HWY_NAMESPACE
@@ -157,39 +145,21 @@ namespace barycert::core {
 
 HWY_EXPORT(gradients);
 HWY_EXPORT(quadratic_values);
-HWY_EXPORT(plain_quadratic_values);
-HWY_EXPORT(perspective_weights_of);
-HWY_EXPORT(perspective_depths_of);
-HWY_EXPORT(perspective_values_of);
+HWY_EXPORT(perspective);
 
 std::size_t gradient_lanes(Simplex s, const CaseBlock& cells, const double* const* values, int components,
                            double* const* out, std::uint32_t* undecided) {
     return HWY_DYNAMIC_DISPATCH(gradients)(s, cells, values, components, out, undecided);
 }
 
-std::size_t quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                            double* const* out, std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(quadratic_values)(s, cases, values, components, out, undecided);
+std::size_t quadratic_lanes(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* values,
+                            int components, double* const* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(quadratic_values)(rounding, s, cases, values, components, out, undecided);
 }
 
-std::size_t plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                                  double* const* out, std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(plain_quadratic_values)(s, cases, values, components, out, undecided);
-}
-
-std::size_t perspective_weight_lanes(const double* vertices, const PointBlock& points, double* const* out,
-                                     std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(perspective_weights_of)(vertices, points, out, undecided);
-}
-
-std::size_t perspective_depth_lanes(const double* vertices, const PointBlock& points, double* out,
-                                    std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(perspective_depths_of)(vertices, points, out, undecided);
-}
-
-std::size_t perspective_value_lanes(const double* vertices, const PointBlock& points, const double* values,
-                                    int components, double* const* out, std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(perspective_values_of)(vertices, points, values, components, out, undecided);
+std::size_t perspective_lanes(PerspectiveAnswer what, const double* vertices, const PointBlock& points,
+                              const double* values, int components, double* const* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(perspective)(what, vertices, points, values, components, out, undecided);
 }
 
 }  // namespace barycert::core

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <type_traits>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
@@ -21,15 +23,10 @@ struct MeshCells {
     std::size_t count() const { return corners.size() / static_cast<std::size_t>(vertex_count(simplex)); }
 };
 
-// What stands at one index of a batch.
-inline const char* case_name(const CaseArrays&) {
-    return "case";
-}
-inline const char* case_name(const MeshQueries&) {
-    return "case";
-}
-inline const char* case_name(const MeshCells&) {
-    return "cell";
+/// What stands at one index of a batch.
+template <class Batch>
+const char* case_name(const Batch&) {
+    return std::is_same_v<Batch, MeshCells> ? "cell" : "case";
 }
 
 inline Error size_error(const char* what, const std::string& expected, std::size_t found) {
@@ -85,19 +82,12 @@ inline bool all_finite(Simplex s, const double* vertices, const double* point) {
 
 /// Names the first coordinate that is not finite. Precondition: there is one. `which` goes before it.
 inline Error not_finite_error(Simplex s, const double* vertices, const double* point, const std::string& which = {}) {
-    const int d = space_dimension(s), coordinates = d * vertex_count(s);
-    const double* const bad =
-        std::find_if(vertices, vertices + coordinates, [](double v) { return !std::isfinite(v); });
-    const auto i = static_cast<int>(bad - vertices);
-    if (i < coordinates) {
-        return {.what = which + "coordinate " + std::to_string(i % d) + " of vertex " + std::to_string(i / d),
-                .expected = "a finite number",
-                .found = std::to_string(*bad)};
-    }
-    const int k = all_finite(point, 1) ? all_finite(point, 2) ? 2 : 1 : 0;
-    return {.what = which + "coordinate " + std::to_string(k) + " of the point",
-            .expected = "a finite number",
-            .found = std::to_string(point[k])};
+    const auto d = static_cast<std::size_t>(space_dimension(s)), all = d * static_cast<std::size_t>(vertex_count(s));
+    if (const std::size_t i = base::first_not_finite({vertices, all}); i < all)
+        return base::not_finite(which + "coordinate " + std::to_string(i % d) + " of vertex " + std::to_string(i / d),
+                                vertices[i]);
+    const std::size_t k = base::first_not_finite({point, d});
+    return base::not_finite(which + "coordinate " + std::to_string(k) + " of the point", point[k]);
 }
 
 }  // namespace barycert::core

@@ -1,22 +1,18 @@
 #include "barycert/weights.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/core/exact_tier.hpp"
 
 namespace barycert::core {
 namespace {
 
 Status check_finite(std::span<const double> numbers, const char* what) {
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (!std::isfinite(numbers[i]))
-            return Error{.what = std::string(what) + " " + std::to_string(i),
-                         .expected = "a finite number",
-                         .found = std::to_string(numbers[i])};
-    }
-    return Done{};
+    const std::size_t i = base::first_not_finite(numbers);
+    if (i == numbers.size()) return Done{};
+    return base::not_finite(std::string(what) + " " + std::to_string(i), numbers[i]);
 }
 
 /// The attribute as the coordinate: a segment along the first axis, from value_a to value_b, with the point at value.

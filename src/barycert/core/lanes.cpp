@@ -56,18 +56,14 @@ std::size_t signs_of(const CaseBlock& cases, WeightSigns* out, std::uint32_t* un
 }
 
 template <Simplex s, class D>
-HWY_INLINE Refined<s, D> refined(D tag, const CaseBlock& cases, std::size_t at) {
+HWY_INLINE Absolute<s, hn::Vec<D>> load_absolute(D tag, const CaseBlock& cases, std::size_t at) {
     constexpr int n = vertex_count(s), d = space_dimension(s);
     Absolute<s, hn::Vec<D>> c;
     for (int k = 0; k < d; ++k) {
         c.p[k] = hn::LoadU(tag, cases.point[k] + at);
         for (int i = 0; i < n; ++i) c.v[i][k] = hn::LoadU(tag, cases.vertices[d * i + k] + at);
     }
-    if constexpr (s == Simplex::tetrahedron || s == Simplex::triangle) {
-        return refine<s>(tag, c);
-    } else {
-        return refine_projected<s>(tag, c);
-    }
+    return c;
 }
 
 template <Simplex s>
@@ -75,51 +71,34 @@ std::size_t weights_of(const CaseBlock& cases, double* out, std::uint32_t* undec
     return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         constexpr int n = vertex_count(s);
-        const auto r = refined<s>(tag, cases, at);
-        auto certain = r.valid;
+        const RefinedValues<s, D> refined(tag, load_absolute<s>(tag, cases, at));
+        auto certain = refined.certain();
         hn::Vec<D> w[n];
-        for (int i = 0; i < n; ++i) w[i] = weight(tag, r, i, certain);
+        for (int i = 0; i < n; ++i) w[i] = weight(tag, refined.r, i, certain);
         store_interleaved(tag, w, out + at * n);
         return certain;
     });
 }
 
-template <Simplex s>
-std::size_t values_of(const CaseBlock& cases, const double* const* values, int components, double* out,
+template <Simplex s, template <Simplex, class, class> class Values>
+std::size_t values_of(const CaseBlock& cases, const double* const* f, int components, double* out,
                       std::uint32_t* undecided) {
     const auto stride = static_cast<std::size_t>(components);
     return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
+        using V = hn::Vec<D>;
         constexpr int n = vertex_count(s);
-        const auto r = refined<s>(tag, cases, at);
-        auto certain = r.valid;
+        const Values<s, D, V> values(tag, load_absolute<s>(tag, cases, at));
+        auto certain = values.certain();
         for (int c = 0; c < components; ++c) {
-            hn::Vec<D> f[n];
-            for (int i = 0; i < n; ++i) f[i] = hn::LoadU(tag, values[n * c + i] + at);
-            store_strided(tag, value<s>(tag, r, f, certain), out + at * stride + static_cast<std::size_t>(c), stride);
+            V nodal[n];
+            for (int i = 0; i < n; ++i) nodal[i] = hn::LoadU(tag, f[n * c + i] + at);
+            const V value = values.at(tag, nodal, certain);
+            if constexpr (!Values<s, D, V>::proved)
+                certain = hn::And(certain, hn::Eq(value - value, hn::Zero(tag)));  // finite
+            store_strided(tag, value, out + at * stride + static_cast<std::size_t>(c), stride);
         }
         return certain;
-    });
-}
-
-template <Simplex s>
-std::size_t plain_values_of(const CaseBlock& cases, const double* const* values, int components, double* out,
-                            std::uint32_t* undecided) {
-    const auto stride = static_cast<std::size_t>(components);
-    return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
-        using D = decltype(tag);
-        constexpr int n = vertex_count(s);
-        Relative<s, hn::Vec<D>> c;
-        load_relative<s>(tag, cases.vertices, cases.point, at, c);
-        const PlainWeights<s, D> weights(tag, c);
-        auto finite = hn::Eq(hn::Zero(tag), hn::Zero(tag));
-        for (int component = 0; component < components; ++component) {
-            const auto value =
-                weights.value(tag, [&](int i) HWY_ATTR { return hn::LoadU(tag, values[n * component + i] + at); });
-            finite = hn::And(finite, hn::Eq(value - value, hn::Zero(tag)));
-            store_strided(tag, value, out + at * stride + static_cast<std::size_t>(component), stride);
-        }
-        return finite;
     });
 }
 
@@ -143,15 +122,12 @@ std::size_t weights(Simplex s, const CaseBlock& cases, double* out, std::uint32_
     return with_simplex(s, [&]<Simplex known>() { return weights_of<known>(cases, out, undecided); });
 }
 
-std::size_t values(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out,
-                   std::uint32_t* undecided) {
-    return with_simplex(s, [&]<Simplex known>() { return values_of<known>(cases, f, components, out, undecided); });
-}
-
-std::size_t plain_values(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out,
-                         std::uint32_t* undecided) {
-    return with_simplex(s,
-                        [&]<Simplex known>() { return plain_values_of<known>(cases, f, components, out, undecided); });
+std::size_t values(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* f, int components,
+                   double* out, std::uint32_t* undecided) {
+    return with_simplex(s, [&]<Simplex known>() {
+        const auto of = rounding == Rounding::plain ? values_of<known, PlainValues> : values_of<known, RefinedValues>;
+        return of(cases, f, components, out, undecided);
+    });
 }
 
 }  // namespace barycert::core::HWY_NAMESPACE
@@ -163,7 +139,6 @@ namespace barycert::core {
 HWY_EXPORT(signs);
 HWY_EXPORT(weights);
 HWY_EXPORT(values);
-HWY_EXPORT(plain_values);
 HWY_EXPORT(own_target);
 HWY_EXPORT(contract);
 
@@ -175,14 +150,9 @@ std::size_t weight_lanes(Simplex s, const CaseBlock& cases, double* out, std::ui
     return HWY_DYNAMIC_DISPATCH(weights)(s, cases, out, undecided);
 }
 
-std::size_t value_lanes(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out,
-                        std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(values)(s, cases, f, components, out, undecided);
-}
-
-std::size_t plain_value_lanes(Simplex s, const CaseBlock& cases, const double* const* f, int components, double* out,
-                              std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(plain_values)(s, cases, f, components, out, undecided);
+std::size_t value_lanes(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* f, int components,
+                        double* out, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(values)(rounding, s, cases, f, components, out, undecided);
 }
 
 bool lanes_contract() {

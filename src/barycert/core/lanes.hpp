@@ -10,6 +10,7 @@
 
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::core {
 
@@ -30,14 +31,11 @@ std::size_t sign_lanes(Simplex s, const CaseBlock& cases, WeightSigns* out, std:
 /// out[n * j + i] for weight i of case j, n = vertex_count(s).
 std::size_t weight_lanes(Simplex s, const CaseBlock& cases, double* out, std::uint32_t* undecided);
 
-/// values[n * c + i][j] is component c at vertex i of case j; out[components * j + c].
-std::size_t value_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components, double* out,
-                        std::uint32_t* undecided);
-
-/// As value_lanes, by the plain formula in double (D = sum of volumes, sum of volume times value, divided): nothing is
-/// proved. Undecided is what has a value that is not finite. For Rounding::plain.
-std::size_t plain_value_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                              double* out, std::uint32_t* undecided);
+/// values[n * c + i][j] is component c at vertex i of case j; out[components * j + c]. With Rounding::plain by the
+/// plain formula in double (D = sum of volumes, sum of volume times value, divided): nothing is proved, and undecided
+/// is what has a value that is not finite.
+std::size_t value_lanes(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* values,
+                        int components, double* out, std::uint32_t* undecided);
 
 /// Values as above; component k of the gradient of c goes to out[d * c + k][j]. Preconditions: triangle or tetrahedron;
 /// every array has room for a multiple of 8 cases, or the count is 1.
@@ -45,13 +43,9 @@ std::size_t gradient_lanes(Simplex s, const CaseBlock& cells, const double* cons
                            double* const* out, std::uint32_t* undecided);
 
 /// values[m * c + i][j] is component c at node i of case j, m the nodes of a cell, mid-edge nodes behind corners; the
-/// value of component c of case j goes to out[c][j]. Preconditions as above.
-std::size_t quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                            double* const* out, std::uint32_t* undecided);
-
-/// The same by the plain formula in double: nothing is proved. Undecided is what has a value that is not finite.
-std::size_t plain_quadratic_lanes(Simplex s, const CaseBlock& cases, const double* const* values, int components,
-                                  double* const* out, std::uint32_t* undecided);
+/// value of component c of case j goes to out[c][j]. Rounding as of values, preconditions as of gradients.
+std::size_t quadratic_lanes(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* values,
+                            int components, double* const* out, std::uint32_t* undecided);
 
 /// The corners of each edge that a mid-edge node stands on, in the order of quadratic.hpp; the first three are those of
 /// a triangle.
@@ -80,17 +74,13 @@ struct PointBlock {
     std::size_t count;  ///< below 2^32
 };
 
-/// out[i][j] is weight i of point j.
-std::size_t perspective_weight_lanes(const double* vertices, const PointBlock& points, double* const* out,
-                                     std::uint32_t* undecided);
+/// Three weights, one depth, or values.
+enum class PerspectiveAnswer : std::uint8_t { weights, depth, values };
 
-/// out[j] is the depth of point j.
-std::size_t perspective_depth_lanes(const double* vertices, const PointBlock& points, double* out,
-                                    std::uint32_t* undecided);
-
-/// values[components * i + c] is component c at vertex i; out[c][j] at point j.
-std::size_t perspective_value_lanes(const double* vertices, const PointBlock& points, const double* values,
-                                    int components, double* const* out, std::uint32_t* undecided);
+/// out[i][j] is number i of the answer at point j. `values`, of PerspectiveAnswer::values alone: values[components * i
+/// + c] is component c at vertex i.
+std::size_t perspective_lanes(PerspectiveAnswer what, const double* vertices, const PointBlock& points,
+                              const double* values, int components, double* const* out, std::uint32_t* undecided);
 
 /// a * b + c is rounded once in the lanes as they were compiled for this target.
 bool lanes_contract();

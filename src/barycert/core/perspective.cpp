@@ -26,9 +26,7 @@ Error unusable_error(const double* vertices, const double* point, const std::str
         const std::string vertex = " of vertex " + std::to_string(i);
         for (int k = 0; k < 2; ++k) {
             if (const double x = vertices[3 * i + k]; !std::isfinite(x))
-                return {.what = "coordinate " + std::to_string(k) + vertex,
-                        .expected = "a finite number",
-                        .found = std::to_string(x)};
+                return base::not_finite("coordinate " + std::to_string(k) + vertex, x);
         }
         if (const double w = vertices[3 * i + 2]; !std::isfinite(w) || !(w > 0))
             return {.what = "depth w" + vertex,
@@ -37,9 +35,37 @@ Error unusable_error(const double* vertices, const double* point, const std::str
                     .remedy = "clip the triangle in clip space, before the division by w"};
     }
     const int k = std::isfinite(point[0]) ? 1 : 0;
-    return {.what = which + "coordinate " + std::to_string(k) + " of the point",
-            .expected = "a finite number",
-            .found = std::to_string(point[k])};
+    return base::not_finite(which + "coordinate " + std::to_string(k) + " of the point", point[k]);
+}
+
+/// How the numbers of one point were found.
+struct Found {
+    bool degenerate = false;  ///< they are NaN
+    Tier tier = Tier::double_double;
+};
+
+template <PerspectiveAnswer what>
+Result<Found> answer(const double* vertices, const double* point, const double* values, double* out) {
+    constexpr std::size_t count = what == PerspectiveAnswer::weights ? 3 : 1;
+    double* to[count];
+    for (std::size_t i = 0; i < count; ++i) to[i] = out + i;
+    std::uint32_t undecided[1];
+    if (perspective_lanes(what, vertices, {point, point + 1, 1}, values, 1, to, undecided) == 0) return Found{};
+    if (!usable(vertices, point)) return unusable_error(vertices, point);
+    const bool proper = exact_perspective(what, vertices, point, values, 1, out);
+    if (!proper) std::fill_n(out, count, nan);
+    return Found{!proper, Tier::exact};
+}
+
+template <PerspectiveAnswer what>
+Result<Value> one_value(const double* vertices, const double* point, const double* values) {
+    const ExactEnvironment environment;
+    Value v;
+    const Result<Found> found = answer<what>(vertices, point, values, &v.value);
+    if (!found) return found.error();
+    v.degenerate = found->degenerate;
+    v.tier = found->tier;
+    return v;
 }
 
 }  // namespace
@@ -47,40 +73,24 @@ Error unusable_error(const double* vertices, const double* point, const std::str
 
 namespace barycert {
 
+using core::PerspectiveAnswer;
+
 Result<PerspectiveWeights> perspective_weights(const double* vertices, const double* point) {
     const ExactEnvironment environment;
-    PerspectiveWeights w{.weights = {}, .degenerate = false, .tier = Tier::double_double};
-    double* const to[3] = {&w.weights[0], &w.weights[1], &w.weights[2]};
-    std::uint32_t undecided[1];
-    if (core::perspective_weight_lanes(vertices, {point, point + 1, 1}, to, undecided) == 0) return w;
-    if (!core::usable(vertices, point)) return core::unusable_error(vertices, point);
-    w.tier = Tier::exact;
-    w.degenerate = !core::exact_perspective_weights(vertices, point, w.weights.data());
-    if (w.degenerate) w.weights.fill(core::nan);
+    PerspectiveWeights w;
+    const auto found = core::answer<PerspectiveAnswer::weights>(vertices, point, nullptr, w.weights.data());
+    if (!found) return found.error();
+    w.degenerate = found->degenerate;
+    w.tier = found->tier;
     return w;
 }
 
 Result<Value> perspective_depth(const double* vertices, const double* point) {
-    const ExactEnvironment environment;
-    Value z{.value = 0, .degenerate = false, .tier = Tier::double_double};
-    std::uint32_t undecided[1];
-    if (core::perspective_depth_lanes(vertices, {point, point + 1, 1}, &z.value, undecided) == 0) return z;
-    if (!core::usable(vertices, point)) return core::unusable_error(vertices, point);
-    z = {.value = core::nan, .degenerate = false, .tier = Tier::exact};
-    z.degenerate = !core::exact_perspective_depth(vertices, point, &z.value);
-    return z;
+    return core::one_value<PerspectiveAnswer::depth>(vertices, point, nullptr);
 }
 
 Result<Value> perspective_value(const double* vertices, const double* point, const double* values) {
-    const ExactEnvironment environment;
-    Value v{.value = 0, .degenerate = false, .tier = Tier::double_double};
-    double* const to[1] = {&v.value};
-    std::uint32_t undecided[1];
-    if (core::perspective_value_lanes(vertices, {point, point + 1, 1}, values, 1, to, undecided) == 0) return v;
-    if (!core::usable(vertices, point)) return core::unusable_error(vertices, point);
-    v = {.value = core::nan, .degenerate = false, .tier = Tier::exact};
-    v.degenerate = !core::exact_perspective_values(vertices, point, values, 1, &v.value);
-    return v;
+    return core::one_value<PerspectiveAnswer::values>(vertices, point, values);
 }
 
 Status perspective_values(const double* vertices, std::span<const double> points, std::span<const double> values,
@@ -107,8 +117,8 @@ Status perspective_values(const double* vertices, std::span<const double> points
             x[j] = points[2 * (first + j)];
             y[j] = points[2 * (first + j) + 1];
         }
-        const std::size_t left =
-            core::perspective_value_lanes(vertices, {x, y, some}, values.data(), components, results.data(), undecided);
+        const std::size_t left = core::perspective_lanes(PerspectiveAnswer::values, vertices, {x, y, some},
+                                                         values.data(), components, results.data(), undecided);
         double* const to = out.data() + stride * first;
         results.copy_out(some, to);
         for (std::size_t i = 0; i < left; ++i) {
@@ -116,8 +126,8 @@ Status perspective_values(const double* vertices, std::span<const double> points
             const double* const point = points.data() + 2 * (first + j);
             if (!core::usable(vertices, point))
                 return core::unusable_error(vertices, point, "point " + std::to_string(first + j) + ", ");
-            const bool proper =
-                core::exact_perspective_values(vertices, point, values.data(), components, to + stride * j);
+            const bool proper = core::exact_perspective(PerspectiveAnswer::values, vertices, point, values.data(),
+                                                        components, to + stride * j);
             if (!proper) std::fill_n(to + stride * j, components, core::nan);
             counts.degenerate += proper ? 0 : 1;
             const auto is_nan = [](double value) { return std::isnan(value); };

@@ -91,56 +91,51 @@ double rounded(const Number& number, const Divisor& divisor, int exponent) {
 
 /// sum m_i f_i / m. Widths: values below 2^(64 M - 3) in M limbs give products below 2^(256 N + 64 M - 12) in
 /// 4 N + M limbs.
-template <class V, class T>
-double value(const Projected<T>& p, const ScaledDouble* parts, const Unit& unit) {
-    if constexpr (std::is_same_v<V, Integer>) {
-        Integer sum;
-        for (int i = 0; i < 3; ++i) sum = sum + as_integer(p.numerator[i]) * unit.multiple<Integer>(parts[i]);
-        return rounded(sum, p.denominator, unit.exponent - 1074);
-    } else {
-        const auto product = [&](int i) { return p.numerator[i] * unit.multiple<V>(parts[i]); };
-        return rounded(product(0) + product(1) + product(2), p.denominator, unit.exponent - 1074);
+template <class V, class Number>
+double value(const Number (&numerator)[3], const Integer& denominator, const ScaledDouble* parts, const Unit& unit) {
+    const auto product = [&](int i) { return numerator[i] * unit.multiple<V>(parts[i]); };
+    return rounded(product(0) + product(1) + product(2), denominator, unit.exponent - 1074);
+}
+
+/// `components` values.
+template <class T>
+void values_of(const Projected<T>& p, const double* values, int components, double* out) {
+    for (int c = 0; c < components; ++c) {
+        ScaledDouble parts[3];
+        Unit unit;
+        bool finite = true;
+        for (int i = 0; i < 3; ++i) {
+            double f = values[components * i + c];
+            if (!std::isfinite(f)) {
+                finite = finite && as_integer(p.numerator[i]).sign() == 0;
+                f = 0;
+            }
+            parts[i] = scaled(f);
+            unit.add(parts[i]);
+        }
+        const auto whole = [&](int i) { return Integer(as_integer(p.numerator[i])); };
+        if (!finite) {
+            out[c] = nan;
+        } else if (std::is_same_v<T, Integer> || unit.bits() > 64 - 3) {
+            out[c] = value<Integer>({whole(0), whole(1), whole(2)}, as_integer(p.denominator), parts, unit);
+        } else if constexpr (!std::is_same_v<T, Integer>) {
+            out[c] = value<Fixed<1>>(p.numerator, as_integer(p.denominator), parts, unit);
+        }
     }
 }
 
 }  // namespace
 
-bool exact_perspective_weights(const double* vertices, const double* point, double* out) {
-    return with_projected(Parts(vertices, point), [&](const auto& p) {
-        for (int i = 0; i < 3; ++i) out[i] = rounded(p.numerator[i], p.denominator, 0);
-    });
-}
-
-bool exact_perspective_depth(const double* vertices, const double* point, double* out) {
+bool exact_perspective(PerspectiveAnswer what, const double* vertices, const double* point, const double* values,
+                       int components, double* out) {
     const Parts parts(vertices, point);
-    return with_projected(
-        parts, [&](const auto& p) { out[0] = rounded(p.depth, p.denominator, parts.depths.exponent - 1074); });
-}
-
-bool exact_perspective_values(const double* vertices, const double* point, const double* values, int components,
-                              double* out) {
-    return with_projected(Parts(vertices, point), [&]<class T>(const Projected<T>& p) {
-        for (int c = 0; c < components; ++c) {
-            ScaledDouble parts[3];
-            Unit unit;
-            bool finite = true;
-            for (int i = 0; i < 3; ++i) {
-                double f = values[components * i + c];
-                if (!std::isfinite(f)) {
-                    finite = finite && as_integer(p.numerator[i]).sign() == 0;
-                    f = 0;
-                }
-                parts[i] = scaled(f);
-                unit.add(parts[i]);
-            }
-            if (!finite) {
-                out[c] = nan;
-            } else if (std::is_same_v<T, Integer> || unit.bits() > 64 - 3) {
-                out[c] = value<Integer>(p, parts, unit);
-            } else if constexpr (!std::is_same_v<T, Integer>) {
-                out[c] = value<Fixed<1>>(p, parts, unit);
-            }
+    return with_projected(parts, [&](const auto& p) {
+        if (what == PerspectiveAnswer::values) return values_of(p, values, components, out);
+        if (what == PerspectiveAnswer::depth) {
+            out[0] = rounded(p.depth, p.denominator, parts.depths.exponent - 1074);
+            return;
         }
+        for (int i = 0; i < 3; ++i) out[i] = rounded(p.numerator[i], p.denominator, 0);
     });
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/core/numerators-inl.hpp"
@@ -121,43 +122,35 @@ template <Simplex s>
     return filtered_lifted<Simplex::tetrahedron>(points, 392);
 }
 
-bool all_finite(int d, std::initializer_list<const double*> points) {
-    return std::all_of(points.begin(), points.end(), [d](const double* p) {
-        return std::all_of(p, p + d, [](double x) { return std::isfinite(x); });
+/// Which of the points of d coordinates is the first with one that is not finite; their number if all are.
+std::size_t not_finite(std::size_t d, std::initializer_list<const double*> points) {
+    const auto bad = std::find_if(points.begin(), points.end(), [d](const double* p) {
+        return base::first_not_finite({p, d}) != d;
     });
-}
-
-/// Precondition: a coordinate is not finite.
-Error not_finite_error(int d, std::initializer_list<const double*> points) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const double* const p = points.begin()[i];
-        for (int k = 0; k < d; ++k) {
-            if (!std::isfinite(p[k]))
-                return Error{.what = "coordinate " + std::to_string(k) + " of point " + std::to_string(i),
-                             .expected = "a finite number",
-                             .found = std::to_string(p[k])};
-        }
-    }
-    return {};
+    return static_cast<std::size_t>(bad - points.begin());
 }
 
 /// The sign by the filter, or by integers where that is undecided. Points have d coordinates. Integers that are made of
 /// NaN or infinity are as wide as those of finite numbers (scaled_double.hpp).
-template <int d, auto filtered, auto exact, class... Points>
+template <std::size_t d, auto filtered, auto exact, class... Points>
 [[gnu::always_inline]] inline Sign sign(Points... points) {
     const Sign by_filter = filtered(points...);
     if (by_filter != Sign::zero) return by_filter;
-    assert(all_finite(d, {points...}));
+    assert(not_finite(d, {points...}) == sizeof...(points));
     return exact(points...);
 }
 
-template <int d, auto exact, class... Points>
+template <std::size_t d, auto exact, class... Points>
 [[gnu::noinline]] Result<Sign> checked_exact(Points... points) {
-    if (!all_finite(d, {points...})) return not_finite_error(d, {points...});
+    if (const std::size_t i = not_finite(d, {points...}); i != sizeof...(points)) {
+        const std::span<const double> point(std::initializer_list<const double*>{points...}.begin()[i], d);
+        const std::size_t k = base::first_not_finite(point);
+        return base::not_finite("coordinate " + std::to_string(k) + " of point " + std::to_string(i), point[k]);
+    }
     return exact(points...);
 }
 
-template <int d, auto filtered, auto exact, class... Points>
+template <std::size_t d, auto filtered, auto exact, class... Points>
 [[gnu::always_inline]] inline Result<Sign> checked_sign(Points... points) {
     const Sign by_filter = filtered(points...);
     if (by_filter != Sign::zero) return by_filter;

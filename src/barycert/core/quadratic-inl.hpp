@@ -34,13 +34,14 @@
 
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/refinement-inl.hpp"
+#include "barycert/quadratic.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::core::HWY_NAMESPACE {
 
 /// Nodes of a cell: corners, and behind them the nodes amid the edges.
 template <Simplex s>
-inline constexpr int quadratic_nodes = s == Simplex::triangle ? 6 : 10;
+inline constexpr int quadratic_nodes = vertex_count(s) + mid_node_count(s);
 
 /// What the values of all components share.
 template <Simplex s, class D>

@@ -73,7 +73,7 @@ Result<Value> interpolate_quadratic(Simplex simplex, const double* vertices, con
     Value v;
     double* const out[1] = {&v.value};
     std::uint32_t undecided[1];
-    if (core::quadratic_lanes(simplex, block, at, 1, out, undecided) == 0) return v;
+    if (core::quadratic_lanes(Rounding::correct, simplex, block, at, 1, out, undecided) == 0) return v;
     if (!core::all_finite(simplex, vertices, point)) return core::not_finite_error(simplex, vertices, point);
     double f[10];
     std::copy_n(values, nodes, f);
@@ -98,13 +98,12 @@ Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::in
     return core::for_blocks(
         queries, Tier::double_double, plain ? nullptr : tiers,
         [&](std::size_t first, const core::CaseBlock& block, std::uint32_t* undecided) {
-            block_values.gather_corners(queries, first, block.count);
+            const double* const* const nodal = block_values.block(queries, first, block.count);
             block_values.gather(n, m, block.count, [&](std::size_t j) {
                 return mid_nodes.data() + m * static_cast<std::size_t>(queries.cells[first + j]);
             });
-            const auto lanes = plain ? core::plain_quadratic_lanes : core::quadratic_lanes;
-            const double* const* const nodal = block_values.arrays();
-            const std::size_t left = lanes(s, block, nodal, components, results.data(), undecided);
+            const std::size_t left =
+                core::quadratic_lanes(rounding, s, block, nodal, components, results.data(), undecided);
             double* const to = out.data() + stride * first;
             results.copy_out(block.count, to);
             if (!plain) return left;

@@ -82,17 +82,15 @@ QuadraticGradient<s, T> quadratic_gradient_in(const T (&v)[vertex_count(s) + 1][
 
 template <Simplex s>
 bool exact_quadratic_gradient(const double* vertices, const double* point, const double* values, double* out) {
-    constexpr int n = vertex_count(s), d = space_dimension(s), nodes = s == Simplex::triangle ? 6 : 10;
-    Unit units[d + 1];
+    constexpr int n = vertex_count(s), d = space_dimension(s), nodes = n + mid_node_count(s);
     const auto coordinate = [&](int i, int k) { return scaled(i < n ? vertices[d * i + k] : point[k]); };
-    for (int i = 0; i <= n; ++i) {
-        for (int k = 0; k < d; ++k) units[k].add(coordinate(i, k));
+    Unit units[d + 1];
+    Integer v[n + 1][d], f[nodes];
+    for (int k = 0; k < d; ++k) {
+        for (int i = 0; i <= n; ++i) units[k].add(coordinate(i, k));
+        for (int i = 0; i <= n; ++i) v[i][k] = units[k].template multiple<Integer>(coordinate(i, k));
     }
     for (int i = 0; i < nodes; ++i) units[d].add(scaled(values[i]));
-    Integer v[n + 1][d], f[nodes];
-    for (int i = 0; i <= n; ++i) {
-        for (int k = 0; k < d; ++k) v[i][k] = units[k].template multiple<Integer>(coordinate(i, k));
-    }
     for (int i = 0; i < nodes; ++i) f[i] = units[d].template multiple<Integer>(scaled(values[i]));
     const auto g = quadratic_gradient_in<s, Integer>(v, f, Integer());
     const Integer denominator = g.denominators[0] * g.denominators[1];
@@ -126,22 +124,16 @@ bool turns(const ExactWeights& w, int node) {
     return w.compare(unit, 0.25) != 0;
 }
 
-/// As ExactWeights::leave_out_not_finite, for the gradient. Not inlined, for the sake of the stack.
+/// Leaves out what has no part in the gradient. Not inlined, for the sake of the stack.
 template <Simplex s>
 [[gnu::noinline]] bool leave_out_not_finite(const double* vertices, const double* point, std::span<double> values) {
     const ExactWeights w(s, vertices, point);
-    bool none_has_part = true;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (std::isfinite(values[i])) continue;
-        values[i] = 0;
-        none_has_part = none_has_part && !w.degenerate() && !turns<s>(w, static_cast<int>(i));
-    }
-    return none_has_part;
+    return core::leave_out_not_finite(values, [&](int node) { return w.degenerate() || turns<s>(w, node); });
 }
 
 template <Simplex s>
 Gradient quadratic_gradient_of(const double* vertices, const double* point, const double* values, Rounding rounding) {
-    constexpr int d = space_dimension(s), nodes = s == Simplex::triangle ? 6 : 10;
+    constexpr int d = space_dimension(s), nodes = vertex_count(s) + mid_node_count(s);
     Gradient g;
     g.tier = Tier::exact;
     std::array<double, nodes> f;

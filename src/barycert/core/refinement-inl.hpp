@@ -291,6 +291,26 @@ HWY_INLINE V value(D tag, const Refined<s, D>& r, const V (&f)[vertex_count(s)],
            hn::Zero(tag);
 }
 
+/// The values of a case by refined weights: value(f) for the nodal values f of a component, clearing `certain` where it
+/// is not.
+template <Simplex s, class D, class V = hn::Vec<D>>
+struct RefinedValues {
+    static constexpr bool proved = true;
+    Refined<s, D> r;
+
+    HWY_INLINE RefinedValues(D tag, const Absolute<s, V>& c) {
+        if constexpr (s == Simplex::tetrahedron || s == Simplex::triangle) {
+            r = refine<s>(tag, c);
+        } else {
+            r = refine_projected<s>(tag, c);
+        }
+    }
+    HWY_INLINE hn::Mask<D> certain() const { return r.valid; }
+    HWY_INLINE V at(D tag, const V (&f)[vertex_count(s)], hn::Mask<D>& certain) const {
+        return value<s>(tag, r, f, certain);
+    }
+};
+
 /// The value of a linear field in plain double: the one formula of batches, points and grids, so that a value has the
 /// same bits from each of them.
 template <Simplex s, class D>
@@ -312,6 +332,29 @@ struct PlainWeights {
         for (int i = 0; i < vertex_count(s); ++i) sum = sum + f.numerator[i] * nodal(i);
         const V value = sum * inverse;
         return hn::IfThenElse(hn::IsNaN(value), hn::Set(tag, std::numeric_limits<double>::quiet_NaN()), value);
+    }
+};
+
+/// As RefinedValues, of plain weights: all are certain, whatever they are.
+template <Simplex s, class D, class V = hn::Vec<D>>
+struct PlainValues {
+    static constexpr bool proved = false;
+    PlainWeights<s, D> weights;
+
+    HWY_INLINE PlainValues(D tag, const Absolute<s, V>& c) : weights(tag, relative(c)) {}
+    static HWY_INLINE Relative<s, V> relative(const Absolute<s, V>& c) {
+        Relative<s, V> out;
+        for (int k = 0; k < space_dimension(s); ++k) {
+            for (int i = 0; i < vertex_count(s); ++i) out.r[i][k] = c.v[i][k] - c.p[k];
+            if constexpr (Relative<s, V>::projected) {
+                for (int i = 1; i < vertex_count(s); ++i) out.e[i - 1][k] = c.v[i][k] - c.v[0][k];
+            }
+        }
+        return out;
+    }
+    HWY_INLINE hn::Mask<D> certain() const { return hn::Eq(hn::Zero(D()), hn::Zero(D())); }
+    HWY_INLINE V at(D tag, const V (&values)[vertex_count(s)], hn::Mask<D>&) const {
+        return weights.value(tag, [&](int i) HWY_ATTR { return values[i]; });
     }
 };
 

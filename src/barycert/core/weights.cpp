@@ -117,8 +117,8 @@ Status batch_values(const Batch& batch, const Values& values, std::span<double> 
         [&](std::size_t first, const CaseBlock& block, std::uint32_t* undecided) -> std::size_t {
             at = blocks.block(batch, first, block.count);
             double* const to = out.data() + stride * first;
-            if (!plain) return value_lanes(s, block, at, components, to, undecided);
-            const std::size_t left = plain_value_lanes(s, block, at, components, to, undecided);
+            const std::size_t left = value_lanes(rounding, s, block, at, components, to, undecided);
+            if (!plain) return left;
             mend_plain_values(s, block, {undecided, left}, at, n, components, to);
             return 0;
         },
@@ -148,8 +148,8 @@ void mend_plain_values(Simplex s, const CaseBlock& cases, std::span<const std::u
             if (!weights) weights.emplace(s, one.vertices.data(), one.point.data());
             std::uint32_t ignored[1];
             if (!weights->leave_out_not_finite({f, m})) continue;
-            nodes == vertex_count(s) ? plain_value_lanes(s, block, at, 1, to[0], ignored)
-                                     : plain_quadratic_lanes(s, block, at, 1, to, ignored);
+            nodes == vertex_count(s) ? value_lanes(Rounding::plain, s, block, at, 1, to[0], ignored)
+                                     : quadratic_lanes(Rounding::plain, s, block, at, 1, to, ignored);
         }
     }
 }
@@ -178,7 +178,7 @@ Result<Value> interpolate(Simplex simplex, const double* vertices, const double*
     Value v;
     std::uint32_t undecided[1];
     const core::CaseBlock block = core::single_block(simplex, vertices, point);
-    if (core::value_lanes(simplex, block, at, 1, &v.value, undecided) == 0) return v;
+    if (core::value_lanes(Rounding::correct, simplex, block, at, 1, &v.value, undecided) == 0) return v;
     if (!core::all_finite(simplex, vertices, point)) return core::not_finite_error(simplex, vertices, point);
     const core::ExactWeights w(simplex, vertices, point);
     v.tier = Tier::exact;

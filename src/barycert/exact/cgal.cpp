@@ -8,9 +8,9 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <mpfr.h>
 
-#include <array>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "barycert/environment.hpp"
 #include "barycert/exact/cgal_variant.hpp"
@@ -91,58 +91,52 @@ Point3 point3(const double* x) {
     return {x[0], x[1], x[2]};
 }
 
-std::optional<Found> tetrahedron(const Case& c) {
-    std::array<Point3, 4> v;
-    for (std::size_t i = 0; i < 4; ++i) v[i] = point3(&c.vertices[3 * i]);
-    const int whole = CGAL::orientation(v[0], v[1], v[2], v[3]);
+template <std::size_t n>
+std::array<Point3, n> points3(const Case& c) {
+    std::array<Point3, n> v;
+    for (std::size_t i = 0; i < n; ++i) v[i] = point3(&c.vertices[3 * i]);
+    return v;
+}
+
+/// The point in place of each of the vertices; nothing if these have no orientation.
+template <std::size_t n, class Point, class Orientation, class Measure>
+std::optional<Found> replaced(const std::array<Point, n>& v, const Point& p, Orientation orientation, Measure measure) {
+    const int whole = std::apply(orientation, v);
     if (whole == 0) return std::nullopt;
-    const Point3 p = point3(c.point.data());
     Found f;
-    f.whole = CGAL::volume(v[0], v[1], v[2], v[3]);
-    for (std::size_t i = 0; i < 4; ++i) {
-        std::array<Point3, 4> w = v;
+    f.whole = std::apply(measure, v);
+    for (std::size_t i = 0; i < n; ++i) {
+        std::array<Point, n> w = v;
         w[i] = p;
-        f.signs[i] = CGAL::orientation(w[0], w[1], w[2], w[3]) * whole;
-        f.parts[i] = CGAL::volume(w[0], w[1], w[2], w[3]);
+        f.signs[i] = std::apply(orientation, w) * whole;
+        f.parts[i] = std::apply(measure, w);
     }
     return f;
+}
+
+std::optional<Found> tetrahedron(const Case& c) {
+    return replaced(
+        points3<4>(c), point3(c.point.data()), [](const auto&... w) { return CGAL::orientation(w...); },
+        [](const auto&... w) { return CGAL::volume(w...); });
 }
 
 std::optional<Found> triangle(const Case& c) {
-    std::array<Point2, 3> v;
-    for (std::size_t i = 0; i < 3; ++i) v[i] = point2(&c.vertices[2 * i]);
-    const int whole = CGAL::orientation(v[0], v[1], v[2]);
-    if (whole == 0) return std::nullopt;
-    const Point2 p = point2(c.point.data());
-    Found f;
-    f.whole = CGAL::area(v[0], v[1], v[2]);
-    for (std::size_t i = 0; i < 3; ++i) {
-        std::array<Point2, 3> w = v;
-        w[i] = p;
-        f.signs[i] = CGAL::orientation(w[0], w[1], w[2]) * whole;
-        f.parts[i] = CGAL::area(w[0], w[1], w[2]);
-    }
-    return f;
+    const std::array<Point2, 3> v{point2(&c.vertices[0]), point2(&c.vertices[2]), point2(&c.vertices[4])};
+    return replaced(
+        v, point2(c.point.data()), [](const auto&... w) { return CGAL::orientation(w...); },
+        [](const auto&... w) { return CGAL::area(w...); });
 }
 
 /// Of a point in the plane of three others: with an apex off the plane.
-Found in_plane(const std::array<Point3, 3>& v, const Point3& p) {
+std::optional<Found> in_plane(const std::array<Point3, 3>& v, const Point3& p) {
     const Point3 apex = v[0] + CGAL::cross_product(v[1] - v[0], v[2] - v[0]);
-    const int whole = CGAL::orientation(v[0], v[1], v[2], apex);
-    Found f;
-    f.whole = CGAL::volume(v[0], v[1], v[2], apex);
-    for (std::size_t i = 0; i < 3; ++i) {
-        std::array<Point3, 3> w = v;
-        w[i] = p;
-        f.signs[i] = CGAL::orientation(w[0], w[1], w[2], apex) * whole;
-        f.parts[i] = CGAL::volume(w[0], w[1], w[2], apex);
-    }
-    return f;
+    return replaced(
+        v, p, [&](const auto&... w) { return CGAL::orientation(w..., apex); },
+        [&](const auto&... w) { return CGAL::volume(w..., apex); });
 }
 
 std::optional<Found> triangle3d(const Case& c) {
-    std::array<Point3, 3> v;
-    for (std::size_t i = 0; i < 3; ++i) v[i] = point3(&c.vertices[3 * i]);
+    const std::array<Point3, 3> v = points3<3>(c);
     if (CGAL::collinear(v[0], v[1], v[2])) return std::nullopt;
     return in_plane(v, Epeck::Plane_3(v[0], v[1], v[2]).projection(point3(c.point.data())));
 }
@@ -174,7 +168,7 @@ std::optional<Found> perspective(const Case& c) {
     const auto met = CGAL::intersection(ray, Epeck::Plane_3(v[0], v[1], v[2]));
     if (!met) return std::nullopt;
     const Point3* const point = exact::met_as<Point3>(*met);
-    return point == nullptr ? std::nullopt : std::optional(in_plane(v, *point));
+    return point == nullptr ? std::nullopt : in_plane(v, *point);
 }
 
 std::optional<Found> found(const Case& c) {

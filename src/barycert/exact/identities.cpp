@@ -3,7 +3,6 @@
 #include <CGAL/Gmpq.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "barycert/environment.hpp"
@@ -43,8 +42,20 @@ std::optional<Weighted> along(const Weighted& a, const Weighted& b, std::size_t 
     return r;
 }
 
+Point minus(const Point& a, const Point& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+Point cross_product(const Point& a, const Point& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Rational dot_product(const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 Rational determinant(const Point& a, const Point& b, const Point& c) {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    return dot_product(a, cross_product(b, c));
 }
 
 /// Ratios of signed areas or volumes: replace each vertex by the point. A triangle is lifted to the plane z = 1.
@@ -71,18 +82,6 @@ std::optional<Weights> ratios(const Case& c) {
     Weights w{};
     for (int i = 0; i < count; ++i) w[static_cast<std::size_t>(i)] = volume(i) / whole;
     return w;
-}
-
-Point minus(const Point& a, const Point& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Point cross_product(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Rational dot_product(const Point& a, const Point& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// Weights of a point in the plane of a triangle, by signed areas; `normal` is the cross product of its edges, not

@@ -1,9 +1,8 @@
 /// Exact numbers rounded to the nearest double, ties to even, subnormals and overflow included.
 #pragma once
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -81,11 +80,7 @@ double round_quotient(const Integer& numerator, const Integer& denominator, int 
     Integer d = abs(denominator);
     // floor(n 2^k / d) with k such that it has 55 or 56 bits, and whether anything is left.
     const int k = 55 - (bit_length(n) - bit_length(d));
-    if (k >= 0) {
-        n <<= static_cast<unsigned>(k);
-    } else {
-        d <<= static_cast<unsigned>(-k);
-    }
+    (k >= 0 ? n : d) <<= static_cast<unsigned>(std::abs(k));
     Integer q, r;
     mp::divide_qr(n, d, q, r);
     const double result =
@@ -102,11 +97,7 @@ inline double round_root(const BigInteger& numerator, const BigInteger& denomina
     int k = 112 - (bit_length(numerator) - bit_length(denominator));
     if (k % 2 != 0) ++k;  // an even shift halves cleanly
     BigInteger n = numerator, d = denominator;
-    if (k >= 0) {
-        n <<= static_cast<unsigned>(k);
-    } else {
-        d <<= static_cast<unsigned>(-k);
-    }
+    (k >= 0 ? n : d) <<= static_cast<unsigned>(std::abs(k));
     BigInteger q, r, rest;
     mp::divide_qr(n, d, q, r);
     const BigInteger root = mp::sqrt(q, rest);

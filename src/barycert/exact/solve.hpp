@@ -9,7 +9,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 
 #include "barycert/exact/integers.hpp"
 #include "barycert/simplex.hpp"
@@ -50,15 +49,18 @@ struct Scales {
             s.include(c.point[static_cast<std::size_t>(axis)]);
             for (int i = 0; i < count; ++i) s.include(c.vertex(i, axis));
         }
-        if (c.simplex == Simplex::triangle3d || c.simplex == Simplex::segment) {
-            Scale common;
-            for (const Scale& s : axes) common.include(s);
-            axes.fill(common);
-        }
+        if (c.simplex == Simplex::triangle3d || c.simplex == Simplex::segment) share();
         for (int i = 0; i < count && c.perspective; ++i) depths.include(c.depth(i));
         for (int i = 0; i < count; ++i) values.include(c.values[static_cast<std::size_t>(i)]);
         narrow = values.bits() <= 61 && depths.bits() <= 61 &&
                  std::all_of(axes.begin(), axes.end(), [](const Scale& s) { return s.bits() <= 61; });
+    }
+
+    /// One scale for all axes from here on.
+    const Scale& share() {
+        for (const Scale& s : axes) axes[0].include(s);
+        axes.fill(Scale(axes[0]));
+        return axes[0];
     }
 };
 
@@ -83,13 +85,6 @@ Number dot(const std::array<Number, 3>& a, const auto& b) {
     return sum;
 }
 
-/// Coordinates as numbers.
-template <class Types>
-std::array<typename Types::Number, 3> numbers(const Vector<Types>& a) {
-    using N = typename Types::Number;
-    return {N(a[0]), N(a[1]), N(a[2])};
-}
-
 /// Vertices relative to the point, as integers on the scales.
 template <class Types>
 std::array<Vector<Types>, 4> relative_vertices(const Case& c, const Scales& scales) {
@@ -112,6 +107,7 @@ Vector<Types> difference(const Vector<Types>& a, const Vector<Types>& b) {
 
 template <class Types>
 Solution<Types> solve(const Case& c, const Scales& scales) {
+    using N = typename Types::Number;
     const auto v = relative_vertices<Types>(c, scales);
     Solution<Types> s;
     auto& n = s.numerators;
@@ -136,7 +132,8 @@ Solution<Types> solve(const Case& c, const Scales& scales) {
             break;
         }
         case Simplex::segment: {
-            const auto e = numbers<Types>(difference<Types>(v[1], v[0]));
+            const auto edge = difference<Types>(v[1], v[0]);
+            const std::array e{N(edge[0]), N(edge[1]), N(edge[2])};
             n[0] = dot(e, v[1]);
             n[1] = -dot(e, v[0]);
             s.denominator = dot(e, e);

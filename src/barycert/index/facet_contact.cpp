@@ -65,11 +65,15 @@ Projected project(Point p, int axis) {
     return {{p[(axis + 1) % 3], p[(axis + 2) % 3]}};
 }
 
+std::array<Projected, 3> project(const std::array<Point, 3>& t, int axis) {
+    return {project(t[0], axis), project(t[1], axis), project(t[2], axis)};
+}
+
 /// The axis along which the triangle's projection is largest, in plain double: where signs are quick to prove.
 int widest_projection(const std::array<Point, 3>& t) {
     double area[3];
     for (int axis = 0; axis < 3; ++axis) {
-        const Projected a = project(t[0], axis), b = project(t[1], axis), c = project(t[2], axis);
+        const auto [a, b, c] = project(t, axis);
         area[axis] = std::fabs((b.at[0] - a.at[0]) * (c.at[1] - a.at[1]) - (b.at[1] - a.at[1]) * (c.at[0] - a.at[0]));
     }
     return static_cast<int>(std::max_element(area, area + 3) - area);
@@ -80,7 +84,7 @@ int projection_of(const std::array<Point, 3>& t) {
     const int widest = widest_projection(t);
     for (int i = 0; i < 3; ++i) {
         const int axis = (widest + i) % 3;
-        const Projected a = project(t[0], axis), b = project(t[1], axis), c = project(t[2], axis);
+        const auto [a, b, c] = project(t, axis);
         if (orient(a.at, b.at, c.at) != 0) return axis;
     }
     return -1;
@@ -88,8 +92,8 @@ int projection_of(const std::array<Point, 3>& t) {
 
 bool coplanar_segment_meets_triangle(Point p, Point q, const std::array<Point, 3>& t) {
     const int axis = projection_of(t);
-    const Projected a = project(t[0], axis), b = project(t[1], axis), c = project(t[2], axis), u = project(p, axis),
-                    v = project(q, axis);
+    const auto [a, b, c] = project(t, axis);
+    const Projected u = project(p, axis), v = project(q, axis);
     return segment_meets_triangle_in_plane(u.at, v.at, {a.at, b.at, c.at});
 }
 
@@ -126,8 +130,7 @@ bool projections_apart(const std::array<Projected, 3>& f, const std::array<Proje
 /// they have in common is on an edge of one.
 bool strangers_meet(const std::array<Point, 3>& f, const std::array<Point, 3>& g) {
     const int axis = widest_projection(f);
-    std::array<Projected, 3> p{}, q{};
-    for (std::size_t i = 0; i < 3; ++i) p[i] = project(f[i], axis), q[i] = project(g[i], axis);
+    const std::array<Projected, 3> p = project(f, axis), q = project(g, axis);
     if (projections_apart(p, q) || projections_apart(q, p)) return false;
     if (apart(f, g) || apart(g, f)) return false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -154,8 +157,7 @@ bool side_separates(const std::array<Projected, 3>& f, const std::array<Projecte
 /// met, ab or cd, is met within the other triangle.
 bool meet_beyond_vertex(const std::array<Point, 3>& f, const std::array<Point, 3>& g) {
     const int axis = widest_projection(f);
-    std::array<Projected, 3> p{}, q{};
-    for (std::size_t i = 0; i < 3; ++i) p[i] = project(f[i], axis), q[i] = project(g[i], axis);
+    const std::array<Projected, 3> p = project(f, axis), q = project(g, axis);
     if (side_separates(p, q) || side_separates(q, p)) return false;
     return segment_meets_triangle(f[1], f[2], g) || segment_meets_triangle(g[1], g[2], f);
 }
@@ -164,7 +166,8 @@ bool meet_beyond_vertex(const std::array<Point, 3>& f, const std::array<Point, 3
 /// if c and d project to different sides of it.
 bool meet_beyond_edge(Point a, Point b, Point c, Point d) {
     const int axis = projection_of({a, b, c});
-    const Projected pa = project(a, axis), pb = project(b, axis), pc = project(c, axis), pd = project(d, axis);
+    const auto [pa, pb, pc] = project({a, b, c}, axis);
+    const Projected pd = project(d, axis);
     const int side = orient(pa.at, pb.at, pd.at);
     if (orient(pa.at, pb.at, pc.at) != side) return false;
     return orient(a, b, c, d) == 0;
@@ -213,7 +216,7 @@ std::array<Mesh::Index, 3> face_around(int d, const PlacedFacet& f, const double
     } else {
         if (orient(f.at[0], f.at[1], f.at[2], point) != 0) return none;
         const int axis = projection_of(f.at);
-        const std::array<Projected, 3> t{project(f.at[0], axis), project(f.at[1], axis), project(f.at[2], axis)};
+        const std::array<Projected, 3> t = project(f.at, axis);
         const Projected p = project(point, axis);
         if (!in_triangle({t[0].at, t[1].at, t[2].at}, p.at)) return none;
         for (std::size_t i = 0; i < 3; ++i) holds[i] = orient(t[(i + 1) % 3].at, t[(i + 2) % 3].at, p.at) != 0;

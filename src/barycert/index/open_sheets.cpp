@@ -12,7 +12,7 @@
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/index/candidates.hpp"
 #include "barycert/index/cell_tree.hpp"
-#include "barycert/index/overlapped.hpp"
+#include "barycert/index/overlap.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::index {
@@ -40,28 +40,6 @@ std::vector<Ridge> ridges_of(int d, const std::vector<PlacedFacet>& facets) {
     });
     return ridges;
 }
-
-/// Flags that threads raise.
-class Conflicts {
-public:
-    Conflicts(int d, const std::vector<PlacedFacet>& facets) : d_(d), facets_(facets), flags_(facets.size(), 0) {}
-
-    void ask(std::size_t i, std::size_t j) {
-        if (raised(i) && raised(j)) return;
-        if (facets_[i].nodes != facets_[j].nodes && !facets_conflict(d_, facets_[i], facets_[j])) return;
-        raise(i);
-        raise(j);
-    }
-    std::vector<std::uint8_t> take() { return std::move(flags_); }
-
-private:
-    bool raised(std::size_t i) { return std::atomic_ref(flags_[i]).load(std::memory_order_relaxed) != 0; }
-    void raise(std::size_t i) { std::atomic_ref(flags_[i]).store(1, std::memory_order_relaxed); }
-
-    int d_;
-    const std::vector<PlacedFacet>& facets_;
-    std::vector<std::uint8_t> flags_;
-};
 
 /// The most facets that one node has.
 std::size_t largest_fan(std::size_t nodes, const std::vector<PlacedFacet>& facets) {
@@ -154,26 +132,32 @@ PlacedFacet placed(const CellIndex& index, const CellFacet& facet) {
 
 std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets) {
     const auto d = static_cast<int>(index.dimension());
-    Conflicts conflicts(d, facets);
+    std::vector<std::uint8_t> flags(facets.size(), 0);  // raised by any thread
+    const auto flag = [&](std::size_t i) { return std::atomic_ref(flags[i]); };
+    const auto ask = [&](std::size_t i, std::size_t j) {
+        constexpr auto relaxed = std::memory_order_relaxed;
+        if (flag(i).load(relaxed) != 0 && flag(j).load(relaxed) != 0) return;
+        if (facets[i].nodes != facets[j].nodes && !facets_conflict(d, facets[i], facets[j])) return;
+        flag(i).store(1, relaxed);
+        flag(j).store(1, relaxed);
+    };
     if (largest_fan(index.original_node.size(), facets) <= crowd) {
         // Facets are in the order of their cells, which is that of space.
         const BoxGroups boxes(facets.size(),
                               [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
-        tbb::parallel_for(std::size_t{0}, (facets.size() + 7) / 8, [&](std::size_t g) {
-            boxes.for_each_pair(g, [&](std::size_t i, std::size_t j) { conflicts.ask(i, j); });
-        });
-        return conflicts.take();
+        tbb::parallel_for(std::size_t{0}, (facets.size() + 7) / 8, [&](std::size_t g) { boxes.for_each_pair(g, ask); });
+        return flags;
     }
     std::vector<Item> items(facets.size());
     for (std::size_t i = 0; i < facets.size(); ++i) items[i] = item_of(facets[i], d);
     const Candidates candidates(d, items, crowd);
     tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t i) {
         candidates.for_each(items[i], [&](std::uint32_t j) {
-            if (j > i) conflicts.ask(i, j);
+            if (j > i) ask(i, j);
             return true;
         });
     });
-    return conflicts.take();
+    return flags;
 }
 
 std::vector<std::vector<std::uint32_t>> find_sheets(const CellIndex& index, const std::vector<CellFacet>& open,

@@ -48,11 +48,10 @@ HWY_INLINE SignBits signs_of_cells(D tag, const CellRecord* cells, const NodeRec
     using V = hn::Vec<D>;
     V v[4][4], bound;
     hn::Mask<D> valid;
-    for (int i = 0; i < vertex_count(s); ++i) {
+    for (int i = 0; i < vertex_count(s); ++i)
         load_records(
             tag, [&](std::size_t l) HWY_ATTR { return nodes[cells[l].node[static_cast<std::size_t>(i)]].at.data(); },
             v[i]);
-    }
     const V value = determinant<s>(tag, v, bound, valid);
     std::uint8_t positive[8] = {}, negative[8] = {};
     hn::StoreMaskBits(tag, hn::And(valid, hn::Gt(value, bound)), positive);

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 
-#include "barycert/index/overlapped.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::index {

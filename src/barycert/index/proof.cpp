@@ -10,7 +10,7 @@
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/index/open_sheets.hpp"
-#include "barycert/index/overlapped.hpp"
+#include "barycert/index/overlap.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::index {

@@ -12,18 +12,46 @@
 namespace barycert::io {
 namespace {
 
-struct Suffix {
-    std::string_view text;
-    FileFormat format;
-};
-
-constexpr std::array<Suffix, 4> suffixes{
-    {{".csv", FileFormat::csv}, {".npy", FileFormat::npy}, {".node", FileFormat::node}, {".vtu", FileFormat::vtu}}};
+bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes) {
+    return std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view one) { return has_suffix(path, one); });
+}
 
 }  // namespace
 
+void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
+                std::vector<std::string_view>& fields) {
+    const auto is_one = [&](std::size_t i, std::string_view of) {
+        return i < line.size() && of.find(line[i]) != std::string_view::npos;
+    };
+    std::size_t i = 0;
+    const auto skip_blanks = [&] {
+        while (is_one(i, blanks)) ++i;
+    };
+    fields.clear();
+    bool separated = false;
+    for (skip_blanks(); i < line.size(); skip_blanks()) {
+        const std::size_t begin = i;
+        while (i < line.size() && !is_one(i, blanks) && !is_one(i, separators)) ++i;
+        fields.push_back(line.substr(begin, i - begin));
+        skip_blanks();
+        separated = is_one(i, separators);
+        if (separated) ++i;
+    }
+    if (separated) fields.push_back(line.substr(line.size()));
+}
+
 std::string_view without_gz(std::string_view path) {
     return path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
+}
+
+Result<std::string> head_of(const std::string& path, std::size_t size) {
+    const Result<base::InputFile> file = base::InputFile::open(path);
+    if (!file) return file.error();
+    std::string head(size, '\0');
+    const Result<std::size_t> got = file->read_at(0, head, path);
+    if (!got) return got.error();
+    head.resize(*got);
+    return head;
 }
 
 std::string plain_or_packed(const std::string& path) {
@@ -40,29 +68,37 @@ bool has_suffix(std::string_view path, std::string_view suffix) {
         [](char a, char b) { return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b))); });
 }
 
+std::string suffix_of(const std::string& path) {
+    const std::size_t dot = path.find_last_of("./");
+    return dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+}
+
+Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy) {
+    const std::string suffix = suffix_of(path);
+    return file_error(path, std::move(what), std::move(expected), suffix.empty() ? "no suffix" : '"' + suffix + '"',
+                      std::move(remedy));
+}
+
 bool is_vtk_file(std::string_view path) {
-    constexpr std::array<std::string_view, 10> suffixes_of_vtk{".vtu", ".vtk",  ".vtp",  ".pvtu", ".pvtp",
-                                                               ".vtm", ".vtpd", ".vtpc", ".pvd",  ".series"};
-    return std::any_of(suffixes_of_vtk.begin(), suffixes_of_vtk.end(),
-                       [&](std::string_view suffix) { return has_suffix(path, suffix); });
+    return has_one_of(path, {".vtu", ".vtk", ".vtp", ".pvtu", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".pvd", ".series"});
+}
+
+bool is_vtk_points_file(std::string_view path) {
+    return is_vtk_file(path) || has_one_of(path, {".vti", ".vtr", ".vts"});
 }
 
 Result<FileFormat> format_of(const std::string& path) {
-    if (path == "-") return FileFormat::csv;
-    for (const Suffix& suffix : suffixes) {
-        if (has_suffix(path, suffix.text)) return suffix.format;
-    }
-    const std::size_t dot = path.find_last_of("./");
-    const bool has_suffix = dot != std::string::npos && path[dot] == '.';
-    return file_error(path, "unknown file suffix",
-                      ".csv, .npy, .node or .vtu, or - for CSV from standard input or on standard output",
-                      has_suffix ? '"' + path.substr(dot) + '"' : "no suffix", "rename the file, or convert it");
+    if (path == "-" || has_suffix(path, ".csv")) return FileFormat::csv;
+    if (has_suffix(path, ".npy")) return FileFormat::npy;
+    if (has_suffix(path, ".node")) return FileFormat::node;
+    if (has_suffix(path, ".vtu")) return FileFormat::vtu;
+    return unknown_suffix(path, "unknown file suffix",
+                          ".csv, .npy, .node or .vtu, or - for CSV from standard input or on standard output",
+                          "rename the file, or convert it");
 }
 
 Result<FileFormat> format_of_points(const std::string& path) {
-    for (const std::string_view suffix : {".txt", ".dat", ".xyz", ".tsv"}) {
-        if (has_suffix(path, suffix)) return FileFormat::csv;
-    }
+    if (has_one_of(path, {".txt", ".dat", ".xyz", ".tsv"})) return FileFormat::csv;
     Result<FileFormat> by_suffix = format_of(path);
     if (by_suffix && *by_suffix != FileFormat::vtu) return by_suffix;
     std::error_code ignored;
@@ -73,19 +109,12 @@ Result<FileFormat> format_of_points(const std::string& path) {
     const std::size_t name = path.find_last_of('/') + 1;
     const bool stem = std::filesystem::exists(path + ".node", ignored);
     if (type != file_type::regular || stem || path.find('.', name) != std::string::npos) return by_suffix;
-    const Result<base::InputFile> file = base::InputFile::open(path);
-    std::array<char, 1024> bytes{};
-    const Result<std::size_t> size = file ? file->read_at(0, bytes, path) : Result<std::size_t>(file.error());
-    if (!size) return size.error();
-    const std::string_view head(bytes.data(), *size);
-    if (head.starts_with("\x93NUMPY")) return FileFormat::npy;
-    const bool text = head.find('\0') == std::string_view::npos && !head.starts_with('<') && !head.starts_with('$') &&
-                      !head.starts_with("# vtk");
+    const Result<std::string> head = head_of(path, 1024);
+    if (!head) return head.error();
+    if (head->starts_with("\x93NUMPY")) return FileFormat::npy;
+    const bool text = head->find('\0') == std::string::npos && !head->starts_with('<') && !head->starts_with('$') &&
+                      !head->starts_with("# vtk");
     return text ? Result<FileFormat>(FileFormat::csv) : by_suffix;
-}
-
-bool is_vtk_points_file(std::string_view path) {
-    return is_vtk_file(path) || has_suffix(path, ".vti") || has_suffix(path, ".vtr") || has_suffix(path, ".vts");
 }
 
 }  // namespace barycert::io

@@ -5,11 +5,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "barycert/base/input_file.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "barycert/mesh.hpp"
+#include "barycert/result.hpp"
 
 namespace barycert::io {
 
@@ -28,6 +35,22 @@ inline Error line_error(std::string file, std::size_t line, std::string what, st
     return {std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)};
 }
 
+/// read() in the environment of exact results. Error: memory is short.
+template <class Read>
+auto read_guarded(const std::string& path, const Read& read) -> decltype(read()) {
+    const ExactEnvironment environment;
+    try {
+        return read();
+    } catch (const std::bad_alloc&) {
+        return base::too_little_memory(path);
+    }
+}
+
+/// The fields of a line, parted by blanks or by a separator with blanks around it; an empty field where a separator has
+/// no neighbour.
+void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
+                std::vector<std::string_view>& fields);
+
 /// The line of a text in which `at` lies, from 1.
 inline std::size_t line_of(std::string_view text, const char* at) {
     return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;
@@ -42,6 +65,15 @@ std::string plain_or_packed(const std::string& path);
 /// True if the path, but for .gz, ends so, in any case. `suffix` is in lower case.
 bool has_suffix(std::string_view path, std::string_view suffix);
 
+/// The suffix of the path with its dot; empty if it has none.
+std::string suffix_of(const std::string& path);
+
+/// That the suffix of the path is another one.
+Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
+
+/// The first `size` bytes of the file, or all.
+Result<std::string> head_of(const std::string& path, std::size_t size);
+
 /// True if the path ends as those of VTK's files with meshes do: .vtu .vtk .vtp, .pvtu .pvtp .vtm .vtpd .vtpc .pvd.
 bool is_vtk_file(std::string_view path);
 
@@ -49,17 +81,114 @@ bool is_vtk_file(std::string_view path);
 bool is_vtk_points_file(std::string_view path);
 
 // `path`, `options` and `format` are as for open_points and open_table.
-Result<std::unique_ptr<PointSource>> open_csv_source(const std::string& path, int dimension,
-                                                     const PointOptions& options);
-Result<std::unique_ptr<PointSource>> open_npy_source(const std::string& path, int dimension,
-                                                     const PointOptions& options);
-Result<std::unique_ptr<PointSource>> open_node_source(const std::string& path, int dimension,
-                                                      const PointOptions& options);
+using Source = Result<std::unique_ptr<PointSource>>;
+Source open_csv_source(const std::string& path, int dimension, const PointOptions& options);
+Source open_npy_source(const std::string& path, int dimension, const PointOptions& options);
+Source open_node_source(const std::string& path, int dimension, const PointOptions& options);
 
 Result<std::unique_ptr<TableSink>> open_csv_sink(const std::string& path, const TableFormat& format);
 Result<std::unique_ptr<TableSink>> open_npy_sink(const std::string& path, const TableFormat& format);
 
 /// Refuses rows whose spans and columns do not fit together and the format, and the feature degenerate.
 Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path);
+
+enum class MeshFormat : std::uint8_t {
+    tetgen,  ///< and Triangle: several files of one stem
+    vtk,
+    gmsh,
+    medit,
+    by_meshio,  ///< converted: io/converted
+};
+
+/// Of a mesh that is to be read: by its first bytes if they tell, else by the end of its name; stems of TetGen's files
+/// have none. Error: it is not there; it is a file of another format, which is named.
+Result<MeshFormat> mesh_format(const std::string& path);
+
+/// What meshio calls the format of a file that is MeshFormat::by_meshio.
+std::string meshio_format(const std::string& path);
+
+/// Of a mesh that is to be written: by the end of its name. Error: it is another one.
+Result<MeshFormat> mesh_output_format(const std::string& path);
+
+/// What of the mesh a file of that format has no place for: names of fields, labels of cells, faces. What follows from
+/// the cells, as neighbours do, is not among it.
+Notes left_out_by(MeshFormat format, const Mesh& mesh);
+
+/// Adds to `notes`, once, which of these names a .node or .ele file does not have: its columns have no names, and are
+/// read as attribute0, attribute1, ...
+void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes);
+
+/// How to get at the mesh.
+enum class Way {
+    meshio,   ///< it is read by way of meshio: io/converted
+    gmsh,     ///< `gmsh IN -save -format msh41 -o OUT.msh`
+    mesher,   ///< a geometry: `gmsh -3 IN -format msh41 -o OUT.msh`
+    surface,  ///< `barycert mesh IN`
+    pyvista,  ///< several blocks: by pyvista
+    unpack,   ///< compressed
+    other,    ///< as its remedy tells
+};
+
+struct OtherFormat {
+    std::string_view suffixes;  ///< with their dots, each between blanks; lower case
+    const char* what;           ///< "a mesh of Medit"
+    Way way;
+    const char* remedy;  ///< Way::meshio: its name there; unpack: the command; other: all of it; else nothing
+};
+
+/// By the end of the path; nullptr if it is none of these.
+const OtherFormat* other_format_by_suffix(std::string_view path);
+
+/// By its first bytes; nullptr if they could be anything. `strict`: only what cannot be taken for another file.
+const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict);
+
+/// The first word of the text that is no comment.
+std::string_view first_word(std::string_view text, char comment);
+
+/// Compressed, or a .npy file, by its first bytes; else nullptr. No text begins so.
+const OtherFormat* packed_format(std::string_view head);
+
+/// That the file is not read, and what to do.
+Error other_format_error(const OtherFormat& format, const std::string& path);
+
+/// How to cut the cells of a file into simplices.
+std::string to_simplices(const std::string& path);
+
+/// Whether all points x, y, z lie in the plane z = 0; and what to do where they do not. `path`: of a file of linear
+/// triangles; else empty.
+bool in_plane(std::span<const double> points);
+std::string plane_remedy(std::span<const double> points, const std::string& path);
+
+/// What to do about a .ply file in binary form.
+std::string text_ply_remedy(const std::string& path);
+
+/// The command that writes a file of Gmsh anew, in version 4.1, with `more` arguments; in backquotes.
+std::string gmsh_command(const std::string& path, const std::string& more = {});
+
+inline constexpr const char* formats_read =
+    "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series), TetGen or Triangle "
+    "(.node .ele), or one that meshio reads";
+
+/// Reads a mesh by way of meshio, whose name of the format is `format`: nodes and cells in its order, which is told
+/// with its version and what it printed. Error: run_meshio(); meshio cannot read the file; read_vtk(); what comes back
+/// differs from what meshio counted.
+Result<Mesh> read_converted(const std::string& path, const std::string& format);
+
+/// The path and, of XDMF, the file of numbers that lies beside it.
+std::vector<std::string> converted_files(const std::string& path);
+
+/// Points that are in memory, with what their file says of each.
+struct PointTable : PointData {
+    std::vector<std::string> unread;  ///< columns that nobody asked for, by name
+    bool of_nodes = false;            ///< of a .node file
+};
+
+/// As open_points chooses among columns: the coordinates x, y[, z]; NAME, or NAME.0, NAME.1, ... of each field; labels.
+Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options);
+
+/// Points and point arrays: integers of one component and texts as labels, all others as fields. Without `arrays` those
+/// of XML files are not read, and their names are in PointTable::unread.
+Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
+                                  NonfinitePoints nonfinite = NonfinitePoints::error);
 
 }  // namespace barycert::io

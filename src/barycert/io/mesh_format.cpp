@@ -1,4 +1,3 @@
-#include "barycert/io/mesh_format.hpp"
 
 #include <tbb/task_arena.h>
 #include <algorithm>
@@ -9,14 +8,11 @@
 #include <system_error>
 #include <utility>
 
-#include "barycert/base/folder.hpp"
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/converted/read_converted.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
-#include "barycert/io/medit/read_medit.hpp"
-#include "barycert/io/other_formats.hpp"
 #include "barycert/io/vtk/collection.hpp"
 
 namespace barycert::io {
@@ -91,15 +87,11 @@ struct Found {
 };
 
 Result<Found> look_at(const std::string& path) {
-    const Result<base::InputFile> file = base::InputFile::open(path);
-    if (!file) return file.error();
-    std::array<char, 4096> bytes{};
-    const Result<std::size_t> size = file->read_at(0, bytes, path);
-    if (!size) return size.error();
-    const std::string_view head(bytes.data(), *size);
-    const std::optional<MeshFormat> by_content = format_by_content(head), by_suffix = format_by_suffix(path);
+    const Result<std::string> head = head_of(path, 4096);
+    if (!head) return head.error();
+    const std::optional<MeshFormat> by_content = format_by_content(*head), by_suffix = format_by_suffix(path);
     if (by_content) return Found{by_content};
-    if (const OtherFormat* other = other_format_by_content(head, path, by_suffix.has_value()); other != nullptr)
+    if (const OtherFormat* other = other_format_by_content(*head, path, by_suffix.has_value()); other != nullptr)
         return Found{{}, other};
     if (by_suffix) return Found{by_suffix};
     return Found{{}, other_format_by_suffix(path)};
@@ -143,14 +135,13 @@ std::string meshio_format(const std::string& path) {
 Result<MeshFormat> mesh_output_format(const std::string& path) {
     if (has_suffix(path, ".msh")) return MeshFormat::gmsh;
     if (has_suffix(path, ".vtu") || has_suffix(path, ".vtk")) return MeshFormat::vtk;
-    const std::size_t dot = path.find_last_of("./");
-    const std::string suffix = dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+    const std::string suffix = suffix_of(path);
     // part.1 is a stem: only what others use as a suffix is refused.
     const bool digits = suffix.find_first_not_of("0123456789", 1) == std::string::npos;
     if (digits || suffix == ".node" || suffix == ".ele") return MeshFormat::tetgen;
-    return file_error(path, "unknown format of a mesh to be written",
-                      ".vtu, .vtk, .msh, .node, or a stem of TetGen's files", '"' + suffix + '"',
-                      "name a file with one of these suffixes");
+    return unknown_suffix(path, "unknown format of a mesh to be written",
+                          ".vtu, .vtk, .msh, .node, or a stem of TetGen's files",
+                          "name a file with one of these suffixes");
 }
 
 Notes left_out_by(MeshFormat format, const Mesh& mesh) {

@@ -1,11 +1,9 @@
-#include "barycert/io/other_formats.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <string>
 
-#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
@@ -107,8 +105,7 @@ const OtherFormat* container(std::string_view path, std::string_view suffixes, s
 using base::shell_word;
 
 std::string stem_of(const std::string& path) {
-    const std::size_t dot = path.find_last_of("./");
-    return dot != std::string::npos && path[dot] == '.' ? path.substr(0, dot) : path;
+    return path.substr(0, path.size() - suffix_of(path).size());
 }
 
 bool is_level(std::span<const double> points, double z) {
@@ -148,10 +145,8 @@ std::string_view first_word(std::string_view text, char comment) {
 }
 
 const OtherFormat* other_format_by_suffix(std::string_view path) {
-    path = without_gz(path);
-    const std::size_t dot = path.find_last_of("./");
-    if (dot == std::string_view::npos || path[dot] == '/') return nullptr;
-    return by_suffix(lower(path.substr(dot)));
+    const std::string suffix = suffix_of(std::string(without_gz(path)));
+    return suffix.empty() ? nullptr : by_suffix(lower(suffix));
 }
 
 const OtherFormat* packed_format(std::string_view head) {

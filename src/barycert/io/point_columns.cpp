@@ -30,9 +30,9 @@ std::string listed_names(int dimension) {
                           : "columns x, y, z (or Points:0, Points:1, Points:2)";
 }
 
-/// An example of --columns: the names, or the places from `first` on.
+/// An example of columns: the names, or the places from `first` on.
 std::string example(const TableColumns& all, int dimension, std::size_t first) {
-    std::string text = "--columns ";
+    std::string text = "options.columns ";
     for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
         const bool name = all.named && all.names[first + i].find_first_of(", \"'") == std::string::npos;
         text += (i == 0 ? "" : ",") + (name ? base::printable(all.names[first + i]) : std::to_string(first + i + 1));
@@ -62,7 +62,7 @@ Result<std::vector<std::size_t>> axes_asked_for(const TableColumns& all, int dim
     const auto count = static_cast<std::size_t>(dimension);
     const std::vector<std::string> names = parts_of(options.columns, count);
     if (names.size() != count)
-        return fault(all, "--columns does not fit the mesh",
+        return fault(all, "options.columns does not fit the mesh",
                      std::to_string(count) + " columns, for the mesh is " + std::to_string(count) + "-dimensional",
                      std::to_string(names.size()), "name a column for each axis, in their order");
     const bool places = are_places(names);
@@ -80,8 +80,8 @@ Result<std::vector<std::size_t>> axes_asked_for(const TableColumns& all, int dim
         if (column >= all.names.size())
             return no_such_column(all, name, "name columns that are there, or say their places, from 1");
         if (std::find(axes.begin(), axes.end(), column) != axes.end())
-            return fault(all, "a column is named twice in --columns", "a column for each axis", base::quoted(name),
-                         "name a column for each axis, in their order");
+            return fault(all, "a column is named twice in options.columns", "a column for each axis",
+                         base::quoted(name), "name a column for each axis, in their order");
         axes.push_back(column);
     }
     return axes;
@@ -90,13 +90,11 @@ Result<std::vector<std::size_t>> axes_asked_for(const TableColumns& all, int dim
 Error not_clear(const TableColumns& all, int dimension) {
     const auto count = static_cast<std::size_t>(dimension);
     const std::string d = std::to_string(dimension);
-    if (all.named) {
-        if (all.names.size() >= count)
-            return fault(all, "the header does not name the coordinates", listed_names(dimension), listed(all.names),
-                         "say which they are, such as " + example(all, dimension, 0) + ", or use these names");
+    if (all.named)
         return fault(all, "the header does not name the coordinates", listed_names(dimension), listed(all.names),
-                     "use these column names, or start the file with numbers");
-    }
+                     all.names.size() >= count
+                         ? "say which they are, such as " + example(all, dimension, 0) + ", or use these names"
+                         : "use these column names, or start the file with numbers");
     const std::string found = std::to_string(all.names.size()) + " columns without names";
     if (all.names.size() < count)
         return fault(all, "too few columns for a point", d + ", for the mesh is " + d + "-dimensional", found,
@@ -119,24 +117,18 @@ Result<bool> keep_one(const TableColumns& all, const std::string& text, PointCol
         if (!column) return column.error();
     }
     if (*column == all.names.size()) return false;
-    if (std::find(out.axes.begin(), out.axes.end(), *column) != out.axes.end() || out.zero == *column)
+    if (out.is_coordinate(*column))
         return fault(all, "a column to keep is a coordinate", "another column", base::quoted(text),
-                     "leave it out of --keep: rows begin with the coordinates");
+                     "leave it out of options.keep: rows begin with the coordinates");
     out.kept.push_back({*column, std::move(name)});
     return true;
 }
 
 Status keep_columns(const TableColumns& all, const std::vector<std::string>& keep, PointColumns& out) {
-    const auto is_axis = [&](std::size_t c) {
-        return out.zero == c || std::find(out.axes.begin(), out.axes.end(), c) != out.axes.end();
-    };
-    const auto missing = [&](const std::string& name) {
-        return no_such_column(all, name, "name columns that are there, or --keep all");
-    };
     for (const std::string& text : keep) {
         if (text == "all") {
             for (std::size_t c = 0; c < all.names.size(); ++c) {
-                if (!is_axis(c)) out.kept.push_back({c, all.names[c]});
+                if (!out.is_coordinate(c)) out.kept.push_back({c, all.names[c]});
             }
             continue;
         }
@@ -146,7 +138,7 @@ Status keep_columns(const TableColumns& all, const std::vector<std::string>& kee
         for (const std::string& part : parts_of({text}, 0)) {
             const auto one = keep_one(all, part, out);
             if (!one) return one.error();
-            if (!*one) return missing(part);
+            if (!*one) return no_such_column(all, part, "name columns that are there, or options.keep all");
         }
     }
     std::set<std::string> names;
@@ -154,10 +146,10 @@ Status keep_columns(const TableColumns& all, const std::vector<std::string>& kee
     for (const PointColumns::Kept& kept : out.kept) {
         if (!columns.insert(kept.column).second)
             return fault(all, "a column to keep is named twice", "each once", base::quoted(all.names[kept.column]),
-                         "name it once in --keep");
+                         "name it once in options.keep");
         if (!names.insert(kept.name).second)
             return fault(all, "two columns to keep have the same name", "different names", base::quoted(kept.name),
-                         "name each once; --keep NEW=NAME gives a column another name");
+                         "name each once; options.keep NEW=NAME gives a column another name");
     }
     return Done{};
 }
@@ -171,8 +163,7 @@ void note_the_others(const TableColumns& all, PointColumns& out) {
     std::vector<std::size_t> others;
     for (std::size_t c = 0; c < all.names.size(); ++c) {
         const bool kept = std::any_of(out.kept.begin(), out.kept.end(), [&](const auto& k) { return k.column == c; });
-        if (!kept && out.zero != c && std::find(out.axes.begin(), out.axes.end(), c) == out.axes.end())
-            others.push_back(c);
+        if (!kept && !out.is_coordinate(c)) others.push_back(c);
     }
     if (others.empty()) return;
     std::string text = others.size() == 1 ? "column " : "columns ", names;
@@ -184,7 +175,7 @@ void note_the_others(const TableColumns& all, PointColumns& out) {
         text += " and " + std::to_string(others.size() - most_listed) + " more";
         names = "all";
     }
-    text += "; --keep " + names + (others.size() == 1 ? " carries it through" : " carries them through");
+    text += "; options.keep " + names + (others.size() == 1 ? " carries it through" : " carries them through");
     out.notes.push_back({Note::Kind::left_out, std::move(text), all.file});
 }
 
@@ -232,7 +223,7 @@ Result<std::optional<PointColumns>> find_coordinates(const TableColumns& all, in
                 if (at[axis])
                     return fault(all, "two columns have the same name", "one column " + std::string(names[axis]),
                                  base::quoted(all.names[*at[axis]]) + " and " + base::quoted(all.names[i]),
-                                 "rename the column that is not a coordinate, or say which by --columns");
+                                 "rename the column that is not a coordinate, or say which by options.columns");
                 at[axis] = i;
             }
             if (!at[axis] && axis < static_cast<std::size_t>(dimension)) break;
@@ -274,7 +265,7 @@ Result<PointColumns> choose_columns(const TableColumns& all, int dimension, cons
 
 Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
     return line_error(file, line, "a point off the plane z = 0" + (row.empty() ? row : ": " + row),
-                      "z = 0, for the mesh is 2D", found, "--columns x,y leaves z out of account");
+                      "z = 0, for the mesh is 2D", found, "options.columns x,y leaves z out of account");
 }
 
 }  // namespace barycert::io

@@ -1,6 +1,7 @@
 /// Which columns of a table are the coordinates of points, and which are carried through.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -34,6 +35,10 @@ struct PointColumns {
     std::optional<std::size_t> zero{};  ///< a z beside a mesh in the plane
     std::vector<Kept> kept{};
     Notes notes{};  ///< what is left out
+
+    bool is_coordinate(std::size_t column) const {
+        return zero == column || std::find(axes.begin(), axes.end(), column) != axes.end();
+    }
 };
 
 /// The places of x, y[, z], or of one of the other names that are known; nothing if none of them is there as a whole.
@@ -50,7 +55,7 @@ bool are_places(const std::vector<std::string>& columns);
 Result<PointColumns> choose_columns(const TableColumns& all, int dimension, const PointOptions& options);
 
 /// The end of what to do with a point that is not finite.
-inline constexpr const char* or_nan_for_it = ", or take NaN for its values: --nonfinite-points nan";
+inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
 
 /// A z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
 Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found);

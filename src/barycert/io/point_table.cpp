@@ -1,17 +1,14 @@
-#include "barycert/io/point_table.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <new>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/column_source.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
-#include "barycert/io/vtk/raw_grid.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert::io {
@@ -84,7 +81,9 @@ public:
         for (std::size_t i = 0; chosen->zero && i < count; ++i) {
             const double z = number(places_[*chosen->zero], i);
             if (z != 0 && base::all_finite({&points[d * i], d}))
-                return off_plane(all_.file, 0, "point " + std::to_string(i) + ", counted from 0", base::shortest(z));
+                return off_plane(all_.file, 0,
+                                 (table_.of_nodes ? "node " : "point ") + std::to_string(i) + ", counted from 0",
+                                 base::shortest(z));
         }
         std::vector<Column> columns;
         for (PointColumns::Kept& kept : chosen->kept) columns.push_back(column(places_[kept.column], kept.name, count));
@@ -114,8 +113,10 @@ private:
         return {std::move(name), std::move(values)};
     }
     Error no_number(std::size_t column) const {
-        return file_error(all_.file, "a column of texts or large integers cannot be a coordinate", {},
-                          base::quoted(all_.names[column]), "name a column of numbers in --columns");
+        return file_error(all_.file,
+                          table_.of_nodes ? "a marker cannot be a coordinate"
+                                          : "a column of texts or large integers cannot be a coordinate",
+                          {}, base::quoted(all_.names[column]), "name a column of numbers in options.columns");
     }
     Error not_finite(std::size_t column, std::size_t point) const {
         return file_error(all_.file, "a point that is not finite", "finite coordinates",
@@ -130,60 +131,38 @@ private:
     std::vector<Place> places_;
 };
 
-/// Integers as such, where int64 holds them.
-void make_integers(RawArray& array) {
-    if (!array.is_whole() || !array.fault.empty() || array.has_labels() || array.components != 1) return;
-    const std::vector<double>& numbers = array.numbers();
-    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return x >= -0x1p63 && x < 0x1p63; })) return;
-    std::vector<std::int64_t> integers;
-    integers.reserve(numbers.size());
-    for (const double x : numbers) integers.push_back(static_cast<std::int64_t>(x));
-    array.values = std::move(integers);
-}
-
-Result<PointTable> read_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
-    // A legacy file has no list of its arrays.
-    const bool listed_only = !arrays && !has_suffix(path, ".vtk");
-    Result<RawGrid> grid = read_grid(path, listed_only ? Part::points : Part::point_arrays);
-    if (!grid) return grid.error();
-    PointTable table;
-    table.notes = std::move(grid->notes);
-    Result<std::vector<double>> points =
-        nonfinite == NonfinitePoints::nan ? std::move(grid->points) : to_points(std::move(grid->points), 3, path);
-    if (!points) {
-        Error error = points.error();
-        error.remedy += or_nan_for_it;
-        return error;
-    }
-    table.points = std::move(*points);
-    for (RawArray& array : grid->point_arrays) make_integers(array);
-    take_fields(grid->point_arrays, "point array", path, table.fields, &table.labels, table.notes);
-    table.unread = std::move(grid->unread_arrays);
-    note_narrow_points(*grid, path, table.notes);
-    return table;
-}
-
-}  // namespace
-
-Result<std::unique_ptr<PointSource>> points_of_table(PointTable table, const std::string& file, int dimension,
-                                                     const PointOptions& options) {
-    return Choice(table, file).source(dimension, options);
-}
-
-Result<PointTable> read_vtk_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
-    try {
-        return read_table(path, arrays, nonfinite);
-    } catch (const std::bad_alloc&) {
-        return base::too_little_memory(path);
-    }
-}
-
-Result<std::unique_ptr<PointSource>> open_vtk_points(const std::string& path, int dimension,
-                                                     const PointOptions& options) {
+Source open_vtk_points(const std::string& path, int dimension, const PointOptions& options) {
     Result<PointTable> table =
         read_vtk_table(path, !options.keep.empty() || !options.columns.empty(), options.nonfinite_points);
     if (!table) return table.error();
     return points_of_table(std::move(*table), path, dimension, options);
+}
+
+/// True if a file that a mesh may be in is there.
+bool names_a_mesh(const std::string& path) {
+    const std::vector<std::string> files = mesh_files(path);
+    std::error_code ignored;
+    return std::any_of(files.begin(), files.end(),
+                       [&](const std::string& file) { return std::filesystem::exists(file, ignored); });
+}
+
+/// The nodes of a mesh.
+Source open_nodes(const std::string& path, int dimension, const PointOptions& options) {
+    Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false});
+    if (!mesh) return mesh.error();
+    PointTable table;
+    table.dimension = mesh->dimension;
+    table.points = std::move(mesh->points);
+    table.fields = std::move(mesh->point_fields);
+    if (!mesh->point_markers.empty()) table.labels.push_back({"marker", std::move(mesh->point_markers)});
+    table.notes = std::move(mesh->notes);
+    return points_of_table(std::move(table), path, dimension, options);
+}
+
+}  // namespace
+
+Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options) {
+    return Choice(table, file).source(dimension, options);
 }
 
 }  // namespace barycert::io
@@ -192,6 +171,32 @@ namespace barycert {
 
 std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimension) {
     return std::make_unique<io::TableSource>(std::move(points), dimension);
+}
+
+PointSource::~PointSource() = default;
+
+Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension, const PointOptions& options) {
+    const ExactEnvironment environment;
+    if (dimension != 2 && dimension != 3)
+        return file_error(path, "points can have 2 or 3 coordinates", "2 or 3", std::to_string(dimension));
+    if (io::is_vtk_points_file(path)) return io::open_vtk_points(path, dimension, options);
+    const Result<io::FileFormat> format = io::format_of_points(path);
+    if (!format) {
+        // A stem, or the file of a mesh; what is neither is told as a file of points that is not known.
+        if (io::names_a_mesh(path)) return io::open_nodes(path, dimension, options);
+        Error unknown = format.error();
+        unknown.expected =
+            "points (.csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh";
+        return unknown;
+    }
+    switch (*format) {
+        case io::FileFormat::csv:
+            return io::open_csv_source(path, dimension, options);
+        case io::FileFormat::npy:
+            return io::open_npy_source(path, dimension, options);
+        default:
+            return io::open_node_source(path, dimension, options);
+    }
 }
 
 }  // namespace barycert

@@ -6,10 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "barycert/base/output_file.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
@@ -34,6 +37,19 @@ public:
         char* const digits = start + (at_row_start_ ? 0 : 1);
         at_row_start_ = false;
         used_ = static_cast<std::size_t>(std::to_chars(digits, start + longest, value).ptr - buffer_.data());
+    }
+
+    template <class Number>
+    void numbers(std::span<const Number> values) {
+        for (const Number value : values) number(value);
+    }
+
+    /// The values of all fields at that node or cell.
+    void row_of(const std::vector<Field>& fields, std::size_t row) {
+        for (const Field& field : fields) {
+            const auto components = static_cast<std::size_t>(field.components);
+            numbers(std::span(field.data).subspan(row * components, components));
+        }
     }
 
     /// Nothing in a binary file.

@@ -6,7 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/row_sink.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 
@@ -25,11 +25,10 @@ Status check_rows(const TableView& rows, const TableFormat& format, const std::s
                       rows.features.size() == count && rows.values.size() == count * columns &&
                       rows.distances.size() == (format.distances ? count : 0);
     const auto degenerate = std::find(rows.features.begin(), rows.features.end(), Feature::degenerate);
-    if (good && degenerate != rows.features.end()) {
+    if (good && degenerate != rows.features.end())
         return file_error(path, "a row in a degenerate cell", "interior, face, edge, vertex or outside",
                           "degenerate, in row " + std::to_string(degenerate - rows.features.begin()) + " of a block",
                           "degenerate cells contain no points: mark the row as outside");
-    }
     if (good) return Done{};
     return file_error(path, "the parts of a block of rows have different sizes",
                       "for each cell " + std::to_string(format.dimension) + " coordinates, a feature, " +
@@ -80,10 +79,9 @@ TableSink::~TableSink() = default;
 
 Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format) {
     const ExactEnvironment environment;
-    if (format.dimension != 2 && format.dimension != 3) {
+    if (format.dimension != 2 && format.dimension != 3)
         return file_error(path, "points of rows can have 2 or 3 coordinates", "2 or 3",
                           std::to_string(format.dimension));
-    }
     std::set<std::string> names;
     for (const std::string& name : format.columns()) {
         if (names.insert(name).second) continue;

@@ -9,7 +9,7 @@
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/jobs/job_files.hpp"
-#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {
 namespace {

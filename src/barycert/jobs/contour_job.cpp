@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "barycert/base/run_files.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
@@ -20,8 +20,7 @@
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/pictures.hpp"
-#include "barycert/sample/quantity/expression.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert {
 namespace {

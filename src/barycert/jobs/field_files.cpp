@@ -12,13 +12,10 @@
 #include "barycert/io.hpp"
 #include "barycert/io/fields/field_file.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/medit/read_medit.hpp"
-#include "barycert/io/mesh_format.hpp"
-#include "barycert/io/point_table.hpp"
+#include "barycert/io/medit/medit_file.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/mesh/columns.hpp"
-#include "barycert/sample/quantity/expression.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {
 namespace {

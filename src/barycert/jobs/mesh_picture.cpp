@@ -7,6 +7,7 @@
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/pictures.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/surface.hpp"
 
 namespace barycert::jobs {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
@@ -17,8 +18,7 @@
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/predicates.hpp"
-#include "barycert/sample/quantity/expression.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {
 namespace {
@@ -329,7 +329,8 @@ Status SampledMesh::prepare_for_all(std::span<const double> points) {
     Stopwatch watch;
     tell("looking for the cells of the points");
     std::optional<std::vector<Mesh::Index>> near;
-    locate::in_arena(job.options.threads, [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
+    base::in_arena(job.options.threads, mesh_.cell_count(),
+                   [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
     if (!near) return prepare();
     part_ = mesh::part_of(mesh_, std::move(*near));
     const std::vector<FieldChoice> fields = fields_of_part();

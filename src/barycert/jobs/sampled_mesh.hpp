@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/run_files.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/io.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "barycert/base/folder.hpp"
+#include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"

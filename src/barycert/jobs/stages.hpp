@@ -7,10 +7,12 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/locate/batch.hpp"
@@ -28,7 +30,7 @@ inline std::size_t block_size(std::optional<std::uint64_t> count, int threads, s
     constexpr std::uint64_t min = std::uint64_t{1} << 12, blocks_a_thread = 4, cells_a_point = 16;
     const std::uint64_t max = std::max<std::uint64_t>(block_of_points, cells / cells_a_point);
     if (!count) return static_cast<std::size_t>(max);
-    const int workers = locate::threads_of(threads);
+    const int workers = base::threads_of(threads);
     return static_cast<std::size_t>(
         std::clamp<std::uint64_t>(*count / (blocks_a_thread * static_cast<std::uint64_t>(workers)), min, max));
 }
@@ -44,7 +46,7 @@ Status in_stages(int threads, std::optional<Block> first, Read read, Work work, 
         Status state = Done{};
         double seconds = 0;
     };
-    const int workers = locate::threads_of(threads);
+    const int workers = base::threads_of(threads);
     // Blocks leave in the order in which they came: before one comes, the last but so many has left.
     std::vector<OnTheWay> ring(static_cast<std::size_t>(workers) + 2);
     std::size_t taken = 0;             // of the reading stage alone
@@ -87,7 +89,7 @@ Status in_stages(int threads, std::optional<Block> first, Read read, Work work, 
         all = b->state;
         stopped = true;
     };
-    locate::in_arena(workers, [&] {
+    base::in_arena(workers, std::numeric_limits<std::size_t>::max(), [&] {
         using tbb::filter_mode;
         tbb::parallel_pipeline(ring.size(), tbb::make_filter<void, OnTheWay*>(filter_mode::serial_in_order, next) &
                                                 tbb::make_filter<OnTheWay*, OnTheWay*>(filter_mode::parallel, done) &

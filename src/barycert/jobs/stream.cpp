@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/npz/weights_file.hpp"
@@ -73,7 +74,8 @@ private:
         const locate::LocatorData& data = locate::LocatorData::of(mesh_.locator());
         size_ = block_size(source_.count, threads, data.index.cell_count());
         // What pays for all points would not for one block.
-        locate::in_arena(threads, [&] { data.prepare(std::max<std::uint64_t>(source_.count.value_or(0), taken_)); });
+        base::in_arena(threads, data.index.cell_count(),
+                       [&] { data.prepare(std::max<std::uint64_t>(source_.count.value_or(0), taken_)); });
         return Done{};
     }
 

@@ -12,9 +12,9 @@
 #include <optional>
 #include <utility>
 
-#include "barycert/base/named_limit.hpp"
+#include "barycert/base/arena.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/run_files.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
@@ -24,7 +24,7 @@
 #include "barycert/jobs/stages.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
-#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert {
 namespace {
@@ -235,8 +235,8 @@ private:
         report_.exact = options.exact;
         report_.outside_value = options.outside_value;
         report_.verdicts.columns.resize(report_.columns.size());
-        locate::in_arena(threads,
-                         [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
+        base::in_arena(threads, locator_->mesh().cell_count(),
+                       [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
         Status done = jobs::in_stages<ResultBlock>(
             threads, std::move(first), [&](ResultBlock& block) { return read(block); },
             [&](ResultBlock& block) { return work(block, verifier); }, [&](ResultBlock& block) { return write(block); },

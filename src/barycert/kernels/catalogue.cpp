@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/kernels.hpp"
 #include "barycert/kernels/registry.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert {
 namespace kernels {
@@ -37,28 +39,37 @@ std::vector<Variant> available_variants() {
     return list;
 }
 
-}  // namespace
+// barycert's own kernels: exact signs, correctly rounded weights and values. They certify what they say, so that the
+// audit holds them to the last bit.
 
-Kernel make_kernel(Simplex s, const Formula& f) {
-    const int n = vertex_count(s);
-    Kernel k;
-    k.name = std::string(name(s)) + "." + f.name;
-    k.simplex = s;
-    k.formula = f.formula;
-    k.source = f.source;
-    k.fails = f.fails;
-    k.declares_degenerate = f.declares == Declares::yes;
-    k.weights = f.weights;
-    k.value = f.more.sum != nullptr ? f.more.sum : n == 2 ? sum_of<2> : n == 3 ? sum_of<3> : sum_of<4>;
-    k.interpolate = f.more.value;
-    k.rule = f.more.tolerance > 0 ? RegionRule::tolerant : RegionRule::sign;
-    k.tolerance = f.more.tolerance;
-    return k;
+template <Simplex s>
+int exact_weights(const double* vertices, const double* point, double* weights) {
+    const Result<Weights> w = barycentric_weights(s, vertices, point);
+    if (!w || w->degenerate) return 1;
+    std::copy_n(w->weights.begin(), vertex_count(s), weights);
+    return 0;
 }
 
-void add_formulas(std::vector<Kernel>& list, Simplex s, std::span<const Formula> formulas) {
+template <Simplex s>
+double exact_value(const double* vertices, const double* point, const double* values) {
+    const Result<Value> v = interpolate(s, vertices, point, values);
+    return v ? v->value : std::numeric_limits<double>::quiet_NaN();
+}
+
+template <Simplex s>
+constexpr Formula exact_formula{"exact",
+                                "W_i = n_i / d, V = sum n_i f_i / d exactly, each rounded once, ties to even",
+                                "barycert/weights.hpp: double + correction with a proven bound, then integers",
+                                "on no finite input; costs more than a plain formula",
+                                exact_weights<s>,
+                                Declares::yes,
+                                {.value = exact_value<s>, .certifies = true}};
+
+/// Each formula, its variants that this CPU can run, `<name>.fast-math` and so on, and then in single precision.
+void add_formulas(std::vector<Kernel>& list, Simplex s, std::span<const Formula> formulas, bool perspective = false) {
     for (const Formula& f : formulas) {
-        const Kernel base = make_kernel(s, f);
+        Kernel base = make_kernel(s, f);
+        base.perspective = perspective;
         list.push_back(base);
         const auto add = [&](const char* suffix, const char* fails, WeightsFunction weights, CaseValueFunction value) {
             Kernel& k = list.emplace_back(base);
@@ -75,20 +86,40 @@ void add_formulas(std::vector<Kernel>& list, Simplex s, std::span<const Formula>
     }
 }
 
+}  // namespace
+
+Kernel make_kernel(Simplex s, const Formula& f) {
+    const int n = vertex_count(s);
+    Kernel k;
+    k.name = std::string(name(s)) + "." + f.name;
+    k.simplex = s;
+    k.formula = f.formula;
+    k.source = f.source;
+    k.fails = f.fails;
+    k.declares_degenerate = f.declares == Declares::yes;
+    k.weights = f.weights;
+    k.value = f.more.sum != nullptr ? f.more.sum : n == 2 ? sum_of<2> : n == 3 ? sum_of<3> : sum_of<4>;
+    k.interpolate = f.more.value;
+    k.rule = f.more.tolerance > 0 ? RegionRule::tolerant : RegionRule::sign;
+    k.tolerance = f.more.tolerance;
+    k.certifies = k.core = f.more.certifies;
+    return k;
+}
+
 }  // namespace kernels
 
 const std::vector<Kernel>& catalogue() {
     static const std::vector<Kernel> all = [] {
         std::vector<Kernel> list;
-        kernels::add_segment(list);
-        kernels::add_exact(list, Simplex::segment);
-        kernels::add_triangle(list);
-        kernels::add_exact(list, Simplex::triangle);
-        kernels::add_perspective(list);
-        kernels::add_triangle3d(list);
-        kernels::add_exact(list, Simplex::triangle3d);
-        kernels::add_tetrahedron(list);
-        kernels::add_exact(list, Simplex::tetrahedron);
+        const auto add = [&]<Simplex s>(std::span<const kernels::Formula> formulas) {
+            kernels::add_formulas(list, s, formulas);
+            kernels::add_formulas(list, s, std::span(&kernels::exact_formula<s>, 1));
+        };
+        add.operator()<Simplex::segment>(kernels::segment_formulas);
+        add.operator()<Simplex::triangle>(kernels::triangle_formulas);
+        kernels::add_formulas(list, Simplex::triangle, kernels::perspective_formulas, true);
+        add.operator()<Simplex::triangle3d>(kernels::triangle3d_formulas);
+        add.operator()<Simplex::tetrahedron>(kernels::tetrahedron_formulas);
         return list;
     }();
     return all;

@@ -9,17 +9,11 @@
 #include <sys/resource.h>
 #include <sys/types.h>
 
-#include <array>
 #include <atomic>
-#include <cstddef>
-#include <cstdint>
 #include <cstdio>
-#include <span>
-#include <string>
 
 #include "barycert/kernel.h"
 #include "barycert/kernels.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::kernels {
 
@@ -127,7 +121,7 @@ struct ServerRequest {
     int milliseconds = 0;  ///< for `end_worker`: time that it has to end by itself
 };
 
-// Bounds of these processes (host_limits.cpp).
+// Bounds of these processes.
 
 /// Limits this process in what it writes, in memory and in how many processes and threads it starts.
 void limit_worker();

@@ -81,9 +81,8 @@ private:
 
     Status read(std::uint64_t offset, void* to, std::size_t size) const {
         for (std::size_t done = 0; done < size;) {
-            const ssize_t got = ::pread(file_.descriptor(), static_cast<char*>(to) + done, size - done,
-                                        static_cast<off_t>(offset + done));
-            if (got < 0 && errno == EINTR) continue;
+            const ssize_t got = TEMP_FAILURE_RETRY(::pread(file_.descriptor(), static_cast<char*>(to) + done,
+                                                           size - done, static_cast<off_t>(offset + done)));
             if (got < 0) return base::read_failure(path_, errno);
             if (got == 0) return cut();
             done += static_cast<std::size_t>(got);

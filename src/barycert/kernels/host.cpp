@@ -81,8 +81,7 @@ bool socket_pair(int (&ends)[2], int type) {
         run_server(channels, 3, path);
     }
     close(3);
-    while (server > 0 && waitpid(server, nullptr, 0) < 0 && errno == EINTR) {
-    }
+    if (server > 0) (void)TEMP_FAILURE_RETRY(waitpid(server, nullptr, 0));
     end_children({});
     _exit(0);
 }
@@ -134,8 +133,7 @@ Host::~Host() {
     }
     if (server_socket_ >= 0) close(server_socket_);
     if (server_ > 0) {
-        while (waitpid(server_, nullptr, 0) < 0 && errno == EINTR) {
-        }
+        (void)TEMP_FAILURE_RETRY(waitpid(server_, nullptr, 0));
     }
     if (channels_ != nullptr) munmap(channels_, channels_size);
 }
@@ -176,10 +174,7 @@ int Host::ask_server(const ServerRequest& request, int with_socket) {
     }
     if (sendmsg(server_socket_, &message, MSG_NOSIGNAL) < 0) return -1;
     int answer = -1;
-    ssize_t got = 0;
-    do {
-        got = recv(server_socket_, &answer, sizeof answer, 0);
-    } while (got < 0 && errno == EINTR);
+    const ssize_t got = TEMP_FAILURE_RETRY(recv(server_socket_, &answer, sizeof answer, 0));
     return got == sizeof answer ? answer : -1;
 }
 

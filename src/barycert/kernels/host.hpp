@@ -2,12 +2,8 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstdint>
 #include <memory>
 #include <mutex>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "barycert/kernels/channel.hpp"
 #include "barycert/result.hpp"

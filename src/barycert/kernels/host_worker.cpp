@@ -9,14 +9,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cfenv>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <string>
 
 #include "barycert/environment.hpp"
 #include "barycert/kernels/channel.hpp"

@@ -57,12 +57,7 @@ const Formula triangle3d_kernels[] = {
 
 }  // namespace
 
-void add_segment(std::vector<Kernel>& list) {
-    add_formulas(list, Simplex::segment, segment_kernels);
-}
-
-void add_triangle3d(std::vector<Kernel>& list) {
-    add_formulas(list, Simplex::triangle3d, triangle3d_kernels);
-}
+constinit const std::span<const Formula> segment_formulas = segment_kernels;
+constinit const std::span<const Formula> triangle3d_formulas = triangle3d_kernels;
 
 }  // namespace barycert::kernels

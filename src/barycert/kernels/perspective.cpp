@@ -51,17 +51,15 @@ const Formula perspective_kernels[] = {
      perspective_projected_z<double>, Declares::no},
     {"perspective-exact",
      "W_i = n_i w_j w_k / sum n_m w_k w_l, V = sum W_i f_i exactly, each rounded once, ties to even",
-     "barycert/perspective.hpp: integers", "on no finite input with w > 0; costs more than a plain formula",
-     exact_perspective, Declares::yes, more(nullptr, nullptr, "", exact_perspective_value)},
+     "barycert/perspective.hpp: integers",
+     "on no finite input with w > 0; costs more than a plain formula",
+     exact_perspective,
+     Declares::yes,
+     {.value = exact_perspective_value, .certifies = true}},
 };
 
 }  // namespace
 
-void add_perspective(std::vector<Kernel>& list) {
-    const std::size_t first = list.size();
-    add_formulas(list, in_window, perspective_kernels);
-    for (Kernel& k : std::span(list).subspan(first)) k.perspective = true;
-    list.back().certifies = list.back().core = true;
-}
+constinit const std::span<const Formula> perspective_formulas = perspective_kernels;
 
 }  // namespace barycert::kernels

@@ -2,8 +2,6 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <cfenv>
-#include <string>
 #include <utility>
 
 #include "barycert/environment.hpp"

@@ -1,22 +1,10 @@
-/// How the file of each simplex adds its kernels to the catalogue, from a table of formulas.
+/// The catalogue as tables of formulas, one a file.
 #pragma once
-
-#include <span>
-#include <vector>
 
 #include "barycert/kernels.hpp"
 #include "barycert/kernels/variants.hpp"
 
 namespace barycert::kernels {
-
-void add_segment(std::vector<Kernel>& list);
-void add_triangle(std::vector<Kernel>& list);
-void add_perspective(std::vector<Kernel>& list);
-void add_triangle3d(std::vector<Kernel>& list);
-void add_tetrahedron(std::vector<Kernel>& list);
-
-/// `<simplex>.exact`: the correctly rounded weights and values of weights.hpp.
-void add_exact(std::vector<Kernel>& list, Simplex s);
 
 enum class Declares : bool { no, yes };
 
@@ -28,6 +16,7 @@ struct More {
     CaseValueFunction value = nullptr, single_value = nullptr;  ///< straight from the case
     ValueFunction sum = nullptr;                                ///< in place of the sum of weight times value
     double tolerance = 0;                                       ///< above 0: RegionRule::tolerant
+    bool certifies = false;                                     ///< by barycert's own core
 };
 
 constexpr More more(WeightsFunction Variants::*variants, WeightsFunction single = nullptr, const char* fails = "",
@@ -52,32 +41,36 @@ struct Formula {
 /// The kernel `<simplex>.<name>`, of what is in `more` without variants and single precision.
 Kernel make_kernel(Simplex s, const Formula& formula);
 
-/// Each formula, its variants that this CPU can run, `<name>.fast-math` and so on, and then in single precision.
-void add_formulas(std::vector<Kernel>& list, Simplex s, std::span<const Formula> formulas);
+extern const std::span<const Formula> segment_formulas, triangle_formulas, perspective_formulas, triangle3d_formulas,
+    tetrahedron_formulas;
 
-/// A formula in single precision, its arguments rounded on the way in and its weights widened on the way out. `stride`
-/// is the count of numbers of a vertex.
+/// The arguments of a formula, rounded. `stride` is the count of numbers of a vertex.
+template <Simplex s, int stride>
+struct Narrowed {
+    float v[vertex_count(s) * stride], p[space_dimension(s)];
+    Narrowed(const double* vertices, const double* point) {
+        for (int i = 0; i < vertex_count(s) * stride; ++i) v[i] = static_cast<float>(vertices[i]);
+        for (int i = 0; i < space_dimension(s); ++i) p[i] = static_cast<float>(point[i]);
+    }
+};
+
+/// A formula in single precision, its weights widened on the way out.
 template <Simplex s, int (*formula)(const float*, const float*, float*), int stride = space_dimension(s)>
 int in_float(const double* vertices, const double* point, double* weights) {
-    constexpr int n = vertex_count(s), d = space_dimension(s);
-    float v[n * stride], p[d], w[n];
-    for (int i = 0; i < n * stride; ++i) v[i] = static_cast<float>(vertices[i]);
-    for (int i = 0; i < d; ++i) p[i] = static_cast<float>(point[i]);
-    const int status = formula(v, p, w);
-    if (status != 0) return status;
-    for (int i = 0; i < n; ++i) weights[i] = static_cast<double>(w[i]);
-    return 0;
+    const Narrowed<s, stride> c(vertices, point);
+    float w[vertex_count(s)];
+    const int status = formula(c.v, c.p, w);
+    for (int i = 0; i < vertex_count(s) && status == 0; ++i) weights[i] = static_cast<double>(w[i]);
+    return status;
 }
 
 /// The same for a formula of values.
 template <Simplex s, float (*formula)(const float*, const float*, const float*), int stride = space_dimension(s)>
 double value_in_float(const double* vertices, const double* point, const double* values) {
-    constexpr int n = vertex_count(s), d = space_dimension(s);
-    float v[n * stride], p[d], f[n];
-    for (int i = 0; i < n * stride; ++i) v[i] = static_cast<float>(vertices[i]);
-    for (int i = 0; i < d; ++i) p[i] = static_cast<float>(point[i]);
-    for (int i = 0; i < n; ++i) f[i] = static_cast<float>(values[i]);
-    return static_cast<double>(formula(v, p, f));
+    const Narrowed<s, stride> c(vertices, point);
+    float f[vertex_count(s)];
+    for (int i = 0; i < vertex_count(s); ++i) f[i] = static_cast<float>(values[i]);
+    return static_cast<double>(formula(c.v, c.p, f));
 }
 
 /// Is a file a whole shared library, as far as its headers tell?

@@ -77,12 +77,9 @@ template <class T>
 int cross_product(const T* v, const T* p, T* w) {
     const auto a = at3(v, 0), b = at3(v, 1), c = at3(v, 2), q = at3(p, 0);
     const auto normal = cross(b - a, c - a);
-    const T whole = dot(normal, normal);
-    if (whole == 0) return 1;
-    w[0] = dot(normal, cross(c - b, q - b)) / whole;
-    w[1] = dot(normal, cross(a - c, q - c)) / whole;
-    w[2] = dot(normal, cross(b - a, q - a)) / whole;
-    return 0;
+    return over(dot(normal, normal),
+                {dot(normal, cross(c - b, q - b)), dot(normal, cross(a - c, q - c)), dot(normal, cross(b - a, q - a))},
+                w);
 }
 
 }  // namespace

@@ -24,13 +24,9 @@ double kahan_volume(Vector3<double> q0, Vector3<double> q1, Vector3<double> q2, 
 
 int kahan(const double* v, const double* p, double* w) {
     const auto a = at3(v, 0), b = at3(v, 1), c = at3(v, 2), d = at3(v, 3), q = at3(p, 0);
-    const double whole = kahan_volume(a, b, c, d);
-    if (whole == 0) return 1;
-    w[0] = kahan_volume(q, b, c, d) / whole;
-    w[1] = kahan_volume(q, a, d, c) / whole;
-    w[2] = kahan_volume(q, a, b, d) / whole;
-    w[3] = kahan_volume(q, a, c, b) / whole;
-    return 0;
+    return over(
+        kahan_volume(a, b, c, d),
+        {kahan_volume(q, b, c, d), kahan_volume(q, a, d, c), kahan_volume(q, a, b, d), kahan_volume(q, a, c, b)}, w);
 }
 
 constexpr const char* single_near_faces =
@@ -87,8 +83,6 @@ const Formula tetrahedron_kernels[] = {
 
 }  // namespace
 
-void add_tetrahedron(std::vector<Kernel>& list) {
-    add_formulas(list, Simplex::tetrahedron, tetrahedron_kernels);
-}
+constinit const std::span<const Formula> tetrahedron_formulas = tetrahedron_kernels;
 
 }  // namespace barycert::kernels

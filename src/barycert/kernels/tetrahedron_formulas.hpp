@@ -115,13 +115,10 @@ T homogeneous_volume(Vector3<T> a, Vector3<T> b, Vector3<T> c, Vector3<T> d) {
 template <class T>
 int homogeneous4(const T* v, const T* p, T* w) {
     const auto a = at3(v, 0), b = at3(v, 1), c = at3(v, 2), d = at3(v, 3), q = at3(p, 0);
-    const T whole = homogeneous_volume(a, b, c, d);
-    if (whole == 0) return 1;
-    w[0] = homogeneous_volume(q, b, c, d) / whole;
-    w[1] = homogeneous_volume(a, q, c, d) / whole;
-    w[2] = homogeneous_volume(a, b, q, d) / whole;
-    w[3] = homogeneous_volume(a, b, c, q) / whole;
-    return 0;
+    return over(homogeneous_volume(a, b, c, d),
+                {homogeneous_volume(q, b, c, d), homogeneous_volume(a, q, c, d), homogeneous_volume(a, b, q, d),
+                 homogeneous_volume(a, b, c, q)},
+                w);
 }
 
 /// The plane z = p.z meets three or four edges: interpolate on each. The line y = p.y in that plane meets two sides

@@ -1,7 +1,6 @@
 // Kernels on a triangle of the plane.
 #include "barycert/kernels/triangle_formulas.hpp"
 
-#include "barycert/kernels/increments.hpp"
 #include "barycert/kernels/linear_formulas.hpp"
 #include "barycert/kernels/registry.hpp"
 
@@ -67,8 +66,6 @@ const Formula triangle_kernels[] = {
 
 }  // namespace
 
-void add_triangle(std::vector<Kernel>& list) {
-    add_formulas(list, Simplex::triangle, triangle_kernels);
-}
+constinit const std::span<const Formula> triangle_formulas = triangle_kernels;
 
 }  // namespace barycert::kernels

@@ -37,12 +37,7 @@ template <class T>
 int relative_to_point(const T* v, const T* p, T* w) {
     const auto q = at2(p, 0), a = at2(v, 0) - q, b = at2(v, 1) - q, c = at2(v, 2) - q;
     const T aa = cross(b, c), ab = cross(c, a), ac = cross(a, b);
-    const T sum = aa + ab + ac;
-    if (sum == 0) return 1;
-    w[0] = aa / sum;
-    w[1] = ab / sum;
-    w[2] = ac / sum;
-    return 0;
+    return over(aa + ab + ac, {aa, ab, ac}, w);
 }
 
 /// The closed formula with origin a; the third weight is what is left of 1.
@@ -100,12 +95,8 @@ T homogeneous_area(Vector2<T> a, Vector2<T> b, Vector2<T> c) {
 template <class T>
 int homogeneous3(const T* v, const T* p, T* w) {
     const auto a = at2(v, 0), b = at2(v, 1), c = at2(v, 2), q = at2(p, 0);
-    const T whole = homogeneous_area(a, b, c);
-    if (whole == 0) return 1;
-    w[0] = homogeneous_area(q, b, c) / whole;
-    w[1] = homogeneous_area(a, q, c) / whole;
-    w[2] = homogeneous_area(a, b, q) / whole;
-    return 0;
+    return over(homogeneous_area(a, b, c),
+                {homogeneous_area(q, b, c), homogeneous_area(a, q, c), homogeneous_area(a, b, q)}, w);
 }
 
 }  // namespace

@@ -52,6 +52,14 @@ T determinant(Vector3<T> a, Vector3<T> b, Vector3<T> c) {
     return dot(a, cross(b, c));
 }
 
+/// Each weight its part of the whole; 1 where that is zero.
+template <class T, int n>
+int over(T whole, const T (&part)[n], T* w) {
+    if (whole == 0) return 1;
+    for (int i = 0; i < n; ++i) w[i] = part[i] / whole;
+    return 0;
+}
+
 template <class T>
 T magnitude(T x) {
     return x < 0 ? -x : x;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -16,24 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/locate/finder.hpp"
 #include "barycert/locate/sorted_points.hpp"
 
 namespace barycert::locate {
-
-/// How many threads to use: those asked for, or all for 0; never more than the arena of the caller has.
-inline int threads_of(int threads) {
-    const int available = tbb::this_task_arena::max_concurrency();
-    return threads > 0 ? std::min(threads, available) : available;
-}
-
-/// Work on threads_of(threads) threads.
-template <class F>
-void in_arena(int threads, F&& work) {
-    tbb::task_arena arena(threads_of(threads));
-    arena.execute(std::forward<F>(work));
-}
 
 /// How many points are not finite.
 inline std::size_t count_not_finite(std::span<const double> points, std::size_t d) {
@@ -59,6 +46,16 @@ inline Status check_size(std::span<const double> points, std::size_t d) {
                  .found = std::to_string(points.size()) + " numbers"};
 }
 
+/// Cells given by the caller are -1 or of a mesh with `count` of them.
+inline Status check_cells(std::span<const Mesh::Index> cells, std::size_t count) {
+    const auto wrong = std::find_if(cells.begin(), cells.end(), [&](Mesh::Index cell) {
+        return cell < -1 || (cell >= 0 && static_cast<std::size_t>(cell) >= count);
+    });
+    if (wrong == cells.end()) return Done{};
+    return Error{
+        .what = "index of a cell", .expected = "-1 or below " + std::to_string(count), .found = std::to_string(*wrong)};
+}
+
 /// An Error naming the first point with a coordinate that is not finite, if there is one. `first`: its number counts
 /// from there.
 inline Status check_finite(std::span<const double> points, std::size_t d, std::size_t first = 0) {
@@ -66,11 +63,9 @@ inline Status check_finite(std::span<const double> points, std::size_t d, std::s
     double sum = 0;
     for (const double x : points) sum += x - x;
     if (sum == 0) return Done{};
-    const auto bad = static_cast<std::size_t>(
-        std::find_if(points.begin(), points.end(), [](double x) { return !std::isfinite(x); }) - points.begin());
-    return Error{.what = "coordinate " + std::to_string(bad % d) + " of point " + std::to_string(first + bad / d),
-                 .expected = "a finite number",
-                 .found = std::to_string(points[bad])};
+    const std::size_t bad = base::first_not_finite(points);
+    return base::not_finite("coordinate " + std::to_string(bad % d) + " of point " + std::to_string(first + bad / d),
+                            points[bad]);
 }
 
 /// How many points are sorted together: the more there are, the nearer they lie to each other. A block takes some 40

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "barycert/index/overlap.hpp"
-#include "barycert/index/overlapped.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/lanes.hpp"
@@ -79,9 +78,7 @@ void ContestedCells::find_owners(const PointRecord* points, const std::uint32_t*
         owner[i] = cell;
         feature[i] = signs.feature(index_.simplex);
     };
-    // A list costs about as much as asking the tree for four points.
-    const std::size_t asked = asked_.fetch_add(count, std::memory_order_relaxed);
-    const Lists* const lists = 4 * asked > cells_.size() ? &lists_.get([&] { return make_lists(); }) : lists_.made();
+    const Lists* const lists = lists_.made();
     if (lists != nullptr && !lists->begin.empty()) {
         for (std::size_t i = 0; i < count; ++i) {
             const auto found = std::lower_bound(cells_.begin(), cells_.end(), owner[which[i]]);

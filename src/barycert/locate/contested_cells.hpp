@@ -23,6 +23,18 @@ public:
     /// The contested cells that are not degenerate. `index` must stay.
     ContestedCells(const CellIndex& index, const Proof& proof, std::span<const Place> degenerate);
 
+    /// A list costs about as much as asking the tree for so many points.
+    static constexpr std::size_t cost_of_list = 4;
+
+    /// Makes the lists. Before threads share the points: results are the same with them, counts of tests are not.
+    void prepare() const {
+        lists_.get([this] { return make_lists(); });
+    }
+    /// One more of points that come one by one.
+    void prepare_for_one_more() const {
+        if (cost_of_list * asked_.fetch_add(1, std::memory_order_relaxed) > cells_.size()) prepare();
+    }
+
     /// For points[which[i]], i < count, each inside the contested cell owner[which[i]], certainly not on its faces:
     /// sets the owner and the feature. Others that hold the point are contested, for in one that is not, every cell
     /// that holds a point has the face on which it lies.
@@ -49,9 +61,8 @@ private:
     const CellIndex& index_;
     std::vector<Place> cells_;  ///< ascending
     BoxGroups tree_;            ///< of their boxes
-    /// Made when so many points were asked for that they pay.
     Lazy<Lists> lists_;
-    mutable std::atomic<std::size_t> asked_ = 0;
+    mutable std::atomic<std::size_t> asked_ = 0;  ///< one by one
 };
 
 }  // namespace barycert::locate

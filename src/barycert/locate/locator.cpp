@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
@@ -22,7 +23,7 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
     auto data = std::make_unique<locate::LocatorData>();
     data->mesh = &mesh;
     data->method = options.prove ? Method::walk : Method::candidates;
-    locate::in_arena(options.threads, [&] {
+    base::in_arena(options.threads, mesh.cell_count(), [&] {
         const auto stage = [&](const char* name) {
             if (!options.progress) return;
             options.progress(name);
@@ -103,8 +104,8 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
         data_->locations.put(std::move(worker.found));
     };
     bool finite = true;
-    locate::in_arena(threads,
-                     [&] { finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write); });
+    base::in_arena(threads, data_->index.cell_count() + cells.size(),
+                   [&] { finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write); });
     if (!finite) {
         if (nonfinite == NonfinitePoints::error) return locate::check_finite(points, data_->index.dimension());
         all.not_finite = locate::count_not_finite(points, data_->index.dimension());
@@ -139,7 +140,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<std::vector<Found>> found(blocks);
     std::vector<LocationCounts> parts(blocks);
-    locate::in_arena(threads, [&] {
+    base::in_arena(threads, data_->index.cell_count() + count, [&] {
         data_->prepare(count);
         tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
             const std::size_t first = b * block, size = std::min(block, count - first);

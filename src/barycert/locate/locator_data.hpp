@@ -59,8 +59,10 @@ struct LocatorData {
     Pool<std::vector<Location>> locations;  ///< up to 8 MiB a thread
 
     /// Makes what pays when so many points are located; calls with fewer points profit of it later. It does not change
-    /// results, but which cells are asked for points outside.
+    /// results, but which cells are asked.
     void prepare(std::size_t points) const {
+        if (!proof.contested.empty() && points > index.cell_count() / ContestedCells::cost_of_list)
+            contested_cells().prepare();
         // As measured: a point outside takes about 100 ns without an occupancy; to make the coarse one takes about 60
         // ns a cell. The fine one takes about 600 and saves a few more nanoseconds a point: where there are so many
         // points, they are taken not to be the last. Of few cells they take as long as of a certain number.
@@ -101,12 +103,12 @@ struct LocatorData {
         });
     }
     std::size_t bytes() const {
+        const auto made = [](const auto&... lazy) {
+            return (std::size_t{0} + ... + (lazy.made() != nullptr ? lazy.made()->bytes() : 0));
+        };
         return index.bytes() + proof.contested.size() * sizeof(std::uint64_t) +
-               (tree_.made() ? tree_.made()->bytes() : 0) + (nearest_tree_.made() ? nearest_tree_.made()->bytes() : 0) +
-               (coarse_.made() ? coarse_.made()->bytes() : 0) + (fine_.made() ? fine_.made()->bytes() : 0) +
-               (node_cells_.made() ? node_cells_.made()->bytes() : 0) +
-               (contested_cells_.made() ? contested_cells_.made()->bytes() : 0) +
-               (places_.made() ? places_.made()->size() * sizeof(Place) : 0);
+               made(tree_, nearest_tree_, coarse_, fine_, node_cells_, contested_cells_) +
+               (places_.made() != nullptr ? places_.made()->size() * sizeof(Place) : 0);
     }
 
 private:

@@ -48,11 +48,7 @@ private:
     bool positive(unsigned mask, int i) {
         auto& known = signs_[mask];
         const NearFeature f = cell_.feature(mask);
-        if (!known) {
-            std::array<double, 9> vertices{};
-            for (std::size_t k = 0; k < 3; ++k) std::copy(f.at[k].begin(), f.at[k].end(), &vertices[3 * k]);
-            known = weight_signs(f.count == 2 ? Simplex::segment : Simplex::triangle3d, vertices.data(), p_.data());
-        }
+        if (!known) known = weight_signs(f.simplex(), f.vertices().data(), p_.data());
         const int place = std::popcount(mask & ((1U << i) - 1));
         return known->sign(place) == Sign::positive;
     }
@@ -93,16 +89,14 @@ bool nearest_feature(const NearCell& cell, const Point3& p, unsigned guess, Near
 
 std::array<double, 3> weights_of(const Point3& p, const NearFeature& f) {
     if (f.count == 1) return {1, 0, 0};
-    const Simplex simplex = f.count == 2 ? Simplex::segment : Simplex::triangle3d;
-    std::array<double, 9> vertices{};
-    for (std::size_t i = 0; i < 3; ++i) std::copy(f.at[i].begin(), f.at[i].end(), &vertices[3 * i]);
+    const std::array<double, 9> vertices = f.vertices();
     std::array<double, 3> weights{};
-    const Result<Weights> quick = barycentric_weights(simplex, vertices.data(), p.data());
+    const Result<Weights> quick = barycentric_weights(f.simplex(), vertices.data(), p.data());
     // No Error but one of the environment, to which integers do not look.
     if (quick) {
         std::copy_n(quick->weights.begin(), 3, weights.begin());
     } else {
-        const core::ExactWeights exact(simplex, vertices.data(), p.data());
+        const core::ExactWeights exact(f.simplex(), vertices.data(), p.data());
         for (int i = 0; i < f.count; ++i) weights[static_cast<std::size_t>(i)] = exact.weight(i);
     }
     return weights;

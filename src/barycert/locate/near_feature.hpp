@@ -4,10 +4,12 @@
 /// integers. Neither depends on the floating-point environment.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
 #include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
 
 namespace barycert::locate {
 
@@ -19,6 +21,14 @@ struct NearFeature {
     int count = 0;                                 ///< corners: 1 to 3
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};  ///< ascending; none if the point itself is in the cell
     std::array<Point3, 3> at{};
+
+    /// Of what its corners span, if they are two or three, in space.
+    Simplex simplex() const { return count == 3 ? Simplex::triangle3d : Simplex::segment; }
+    std::array<double, 9> vertices() const {
+        std::array<double, 9> all{};
+        for (std::size_t i = 0; i < 3; ++i) std::copy(at[i].begin(), at[i].end(), &all[3 * i]);
+        return all;
+    }
 };
 
 /// The corners of a cell by ascending node.

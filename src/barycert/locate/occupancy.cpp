@@ -8,10 +8,13 @@
 #include <atomic>
 #include <cmath>
 
+#include "barycert/core/numerators-inl.hpp"
 #include "barycert/index/bins.hpp"
 
 namespace barycert::locate {
 namespace {
+
+namespace formulas = core::HWY_NAMESPACE;
 
 // A clear bit must be a proof.
 //
@@ -76,14 +79,15 @@ struct BinnedCell {
     void set_facets(double slack) {
         for (std::size_t i = 0; i <= d; ++i) {
             const auto &a = corner[(i + 1) % (d + 1)], &b = corner[(i + 2) % (d + 1)];
-            std::array<double, d> n;
+            double n[d];
             if constexpr (d == 2) {
-                n = {a[1] - b[1], b[0] - a[0]};
+                n[0] = a[1] - b[1];
+                n[1] = b[0] - a[0];
             } else {
                 const auto& c = corner[(i + 3) % (d + 1)];
                 const double x[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
                 const double y[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-                n = {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+                formulas::cross(x, y, n);
             }
             double side = 0;
             for (std::size_t k = 0; k < d; ++k) side += n[k] * (corner[i][k] - a[k]);
@@ -149,12 +153,11 @@ public:
         const int layers = d == 3 ? cell.count[d - 1] : 1;
         for (int layer = 0; layer < layers; ++layer) {
             if constexpr (d == 3) row[2] = layer;
-            for (row[1] = 0; row[1] < cell.count[1]; ++row[1]) {
+            for (row[1] = 0; row[1] < cell.count[1]; ++row[1])
                 cell.columns(row, [&](int first, int last) {
                     set(row, static_cast<std::size_t>(first + cell.low[0]),
                         static_cast<std::size_t>(last + cell.low[0]));
                 });
-            }
         }
     }
 
@@ -207,11 +210,9 @@ double share(const CellIndex& index, std::size_t place) {
     for (std::size_t i = 1; i <= d; ++i) {
         for (std::size_t k = 0; k < d; ++k) v[i][k] -= v[0][k];
     }
-    if constexpr (d == 2) return std::abs(v[1][0] * v[2][1] - v[1][1] * v[2][0]) / 2;
-    return std::abs(v[1][0] * (v[2][1] * v[3][d - 1] - v[2][d - 1] * v[3][1]) +
-                    v[1][1] * (v[2][d - 1] * v[3][0] - v[2][0] * v[3][d - 1]) +
-                    v[1][d - 1] * (v[2][0] * v[3][1] - v[2][1] * v[3][0])) /
-           6;
+    double edges[d][d];
+    for (std::size_t i = 0; i < d; ++i) std::copy(v[i + 1].begin(), v[i + 1].end(), edges[i]);
+    return std::abs(formulas::determinant(edges)) / (d == 2 ? 2 : 6);
 }
 
 }  // namespace

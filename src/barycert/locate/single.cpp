@@ -148,6 +148,7 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
             Feature on = Feature::interior;
             TierCounts tests;
             constexpr std::uint32_t which = 0;
+            data.contested_cells().prepare_for_one_more();
             data.contested_cells().find_owners(&record, &which, 1, &lowest, &on, tests);
             return location(lowest, on);
         }

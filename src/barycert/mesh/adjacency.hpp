@@ -1,7 +1,9 @@
 /// Which cells share a facet: edges between triangles, faces between tetrahedra.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "barycert/mesh.hpp"
@@ -17,5 +19,51 @@ std::vector<Mesh::Index> compute_neighbours(const Mesh& mesh);
 
 /// The facets without a neighbour, each as cell * (dimension + 1) + corner, ascending. `neighbours` as above.
 std::vector<std::int64_t> hull_facets(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours);
+
+/// A facet as one cell has it, without its lowest node, by which facets are gathered. In 2D that one stands for the
+/// middle node again.
+struct CellFacet {
+    Mesh::Index middle = 0;
+    Mesh::Index highest = 0;
+    Mesh::Index cell = 0;
+    std::int32_t corner = 0;  ///< opposite to the facet
+
+    std::uint64_t key() const {  // indices are not negative
+        return static_cast<std::uint64_t>(middle) << 32 | static_cast<std::uint64_t>(highest);
+    }
+};
+
+/// Time and memory O(cells + nodes) where the number of cells at a node is bounded. The work is shared among the
+/// threads of the calling arena, and the outcome does not depend on them.
+class FacetTable {
+public:
+    /// The facets of the cells for which use[cell] is not 0; of all if it is empty. Precondition: the indices of these
+    /// cells are in range.
+    explicit FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use = {});
+
+    std::size_t node_count() const { return begin_.size() - 1; }
+
+    /// group(span of CellFacet) for each set of equal facets whose lowest node is in [first, last); in a set by cell,
+    /// then corner.
+    template <class F>
+    void for_each_group(std::size_t first, std::size_t last, F&& group) const {
+        for (std::size_t node = first; node < last; ++node) {
+            const CellFacet* const end = facets_.data() + begin_[node + 1];
+            for (const CellFacet* f = facets_.data() + begin_[node]; f != end;) {
+                const CellFacet* next = f + 1;
+                while (next != end && next->key() == f->key()) ++next;
+                group(std::span<const CellFacet>(f, next));
+                f = next;
+            }
+        }
+    }
+
+private:
+    std::vector<std::size_t> begin_;  ///< of the list of each lowest node, and the end of all
+    std::vector<CellFacet> facets_;
+};
+
+/// Makes the cells of the two lowest of equal facets neighbours. Precondition: one entry a corner of a cell.
+void pair_facets(std::span<const CellFacet> equal, std::size_t corners, std::vector<Mesh::Index>& neighbours);
 
 }  // namespace barycert::mesh

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "barycert/base/utf8.hpp"
+#include "barycert/base/text.hpp"
 
 namespace barycert::mesh {
 
@@ -77,46 +77,44 @@ void append(std::span<const Column> columns, std::vector<Column>& to) {
     }
 }
 
-Column part_of(const Column& column, std::size_t begin, std::size_t end) {
+namespace {
+
+/// A column of the same name and type; fill(values, new_values).
+template <class Fill>
+Column filled(const Column& column, const Fill& fill) {
     return std::visit(
-        [&](const auto& values) {
-            const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
-            return Column{column.name,
-                          std::decay_t<decltype(values)>(first, first + static_cast<std::ptrdiff_t>(end - begin))};
+        [&]<class Values>(const Values& values) {
+            Values made;
+            fill(values, made);
+            return Column{column.name, std::move(made)};
         },
         column.values);
+}
+
+}  // namespace
+
+Column part_of(const Column& column, std::size_t begin, std::size_t end) {
+    return filled(column, [&](const auto& values, auto& part) {
+        part.assign(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                    values.begin() + static_cast<std::ptrdiff_t>(end));
+    });
 }
 
 Column repeated(const Column& column, std::span<const std::size_t> begin) {
-    Column out{column.name, {}};
-    std::visit(
-        [&](const auto& values) {
-            std::remove_cvref_t<decltype(values)> all;
-            if (!begin.empty()) all.reserve(begin.back());
-            for (std::size_t i = 0; i + 1 < begin.size(); ++i)
-                all.insert(all.end(), begin[i + 1] - begin[i], values[i]);
-            out.values = std::move(all);
-        },
-        column.values);
-    return out;
+    return filled(column, [&](const auto& values, auto& all) {
+        if (!begin.empty()) all.reserve(begin.back());
+        for (std::size_t i = 0; i + 1 < begin.size(); ++i) all.insert(all.end(), begin[i + 1] - begin[i], values[i]);
+    });
 }
 
 Column labels_at(const Column& labels, std::span<const Mesh::Index> cells) {
-    Column out{labels.name, {}};
-    std::visit(
-        [&](const auto& values) {
-            using Value = typename std::remove_cvref_t<decltype(values)>::value_type;
-            Value outside{};
-            if constexpr (std::is_same_v<Value, std::int64_t>) outside = no_label;
-            if constexpr (std::is_same_v<Value, double>) outside = std::numeric_limits<double>::quiet_NaN();
-            std::remove_cvref_t<decltype(values)> all;
-            all.reserve(cells.size());
-            for (const Mesh::Index cell : cells)
-                all.push_back(cell < 0 ? outside : values[static_cast<std::size_t>(cell)]);
-            out.values = std::move(all);
-        },
-        labels.values);
-    return out;
+    return filled(labels, [&]<class Value>(const std::vector<Value>& values, std::vector<Value>& all) {
+        Value outside{};
+        if constexpr (std::is_same_v<Value, std::int64_t>) outside = no_label;
+        if constexpr (std::is_same_v<Value, double>) outside = std::numeric_limits<double>::quiet_NaN();
+        all.reserve(cells.size());
+        for (const Mesh::Index cell : cells) all.push_back(cell < 0 ? outside : values[static_cast<std::size_t>(cell)]);
+    });
 }
 
 }  // namespace barycert::mesh

@@ -26,12 +26,10 @@ bool fits(const std::vector<T>& values, std::size_t rows) {
 const char* fault_of_fields(const std::vector<Field>& fields, std::size_t rows, FieldValues values) {
     for (const Field& field : fields) {
         if (field.components < 1) return "a field has no components";
-        if (field.data.size() != rows * static_cast<std::size_t>(field.components)) {
+        if (field.data.size() != rows * static_cast<std::size_t>(field.components))
             return "a field does not have one value per node or cell";
-        }
-        if (values == FieldValues::finite && !base::all_finite(field.data)) {
+        if (values == FieldValues::finite && !base::all_finite(field.data))
             return "a value of a field is not finite, which the format cannot hold";
-        }
     }
     return nullptr;
 }
@@ -59,16 +57,13 @@ const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
     if (mesh.index_base != 0 && mesh.index_base != 1) return "its index base is neither 0 nor 1";
     if (!fits(mesh.point_markers, nodes)) return "the markers do not match the nodes";
     if (const char* fault = fault_of_fields(mesh.point_fields, nodes, values); fault != nullptr) return fault;
-    if (const char* fault = fault_of_fields(mesh.cell_fields, mesh.cell_count(), values); fault != nullptr) {
+    if (const char* fault = fault_of_fields(mesh.cell_fields, mesh.cell_count(), values); fault != nullptr)
         return fault;
-    }
-    if (!fits(mesh.mid_nodes, mesh.cell_count() * edges_of(mesh.dimension).size())) {
+    if (!fits(mesh.mid_nodes, mesh.cell_count() * edges_of(mesh.dimension).size()))
         return "the mid-edge nodes do not match the cells";
-    }
     if (!all_within(mesh.mid_nodes, 0, nodes)) return "a mid-edge node of a cell is not a node";
-    if (!mesh.mid_nodes.empty() && edge_sequence(mesh.mid_edge_order, mesh.dimension).empty()) {
+    if (!mesh.mid_nodes.empty() && edge_sequence(mesh.mid_edge_order, mesh.dimension).empty())
         return "the order of the mid-edge nodes is not set, or is of another dimension";
-    }
     return nullptr;
 }
 
@@ -76,9 +71,8 @@ const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values) {
     if (mesh.dimension != 2 && mesh.dimension != 3) return "its dimension is neither 2 nor 3";
     if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0)
         return "the number of coordinates is not a multiple of the dimension";
-    if (std::max(mesh.point_count(), mesh.cell_count()) > INT32_MAX) {
+    if (std::max(mesh.point_count(), mesh.cell_count()) > INT32_MAX)
         return "it has more than 2147483647 nodes or cells";
-    }
     if (!base::all_finite(mesh.points)) return "a coordinate is not finite";
     if (const char* fault = fault_of_cells(mesh); fault != nullptr) return fault;
     if (const char* fault = fault_of_faces(mesh); fault != nullptr) return fault;

@@ -68,21 +68,10 @@ std::span<const Edge> edges_of(int dimension) {
 }
 
 std::span<const std::size_t> edge_sequence(MidEdgeOrder order, int dimension) {
-    switch (order) {
-        case MidEdgeOrder::vtk:
-            return std::span<const std::size_t>(vtk_sequence).first(dimension == 2 ? 3 : 6);
-        case MidEdgeOrder::tetgen15:
-            if (dimension == 3) return tetgen15_sequence;
-            break;
-        case MidEdgeOrder::gmsh:
-            if (dimension == 3) return gmsh_sequence;
-            break;
-        case MidEdgeOrder::triangle:
-            if (dimension == 2) return triangle_sequence;
-            break;
-        case MidEdgeOrder::none:
-            break;
-    }
+    if (order == MidEdgeOrder::vtk) return std::span<const std::size_t>(vtk_sequence).first(dimension == 2 ? 3 : 6);
+    if (order == MidEdgeOrder::triangle && dimension == 2) return triangle_sequence;
+    if (order == MidEdgeOrder::tetgen15 && dimension == 3) return tetgen15_sequence;
+    if (order == MidEdgeOrder::gmsh && dimension == 3) return gmsh_sequence;
     return {};
 }
 

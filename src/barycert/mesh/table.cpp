@@ -1,54 +1,43 @@
 #include "barycert/table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace barycert {
 
+namespace {
+
+template <class Counts, class... Member>
+void add_members(Counts& to, const Counts& from, Member... member) {
+    ((to.*member += from.*member), ...);
+}
+
+}  // namespace
+
 void WayCounts::add(const WayCounts& other) {
-    no_cell_near += other.no_cell_near;
-    walk += other.walk;
-    contested += other.contested;
-    candidates += other.candidates;
+    add_members(*this, other, &WayCounts::no_cell_near, &WayCounts::walk, &WayCounts::contested,
+                &WayCounts::candidates);
 }
 
 void LocationCounts::add(Feature f, std::uint64_t count) {
-    switch (f) {
-        case Feature::interior:
-            interior += count;
-            break;
-        case Feature::face:
-            face += count;
-            break;
-        case Feature::edge:
-            edge += count;
-            break;
-        case Feature::vertex:
-            vertex += count;
-            break;
-        default:
-            outside += count;
-            break;
-    }
+    constexpr std::array<std::uint64_t LocationCounts::*, 4> inside{&LocationCounts::interior, &LocationCounts::face,
+                                                                    &LocationCounts::edge, &LocationCounts::vertex};
+    const auto which = static_cast<std::size_t>(f);
+    this->*(which < inside.size() ? inside[which] : &LocationCounts::outside) += count;
 }
 
 void LocationCounts::add(const LocationCounts& other) {
-    interior += other.interior;
-    face += other.face;
-    edge += other.edge;
-    vertex += other.vertex;
-    outside += other.outside;
-    not_finite += other.not_finite;
+    add_members(*this, other, &LocationCounts::interior, &LocationCounts::face, &LocationCounts::edge,
+                &LocationCounts::vertex, &LocationCounts::outside, &LocationCounts::not_finite);
     tests.add(other.tests);
     ways.add(other.ways);
 }
 
 void SampleCounts::add(const SampleCounts& other) {
+    add_members(*this, other, &SampleCounts::snapped, &SampleCounts::extrapolated, &SampleCounts::without_value);
     locations.add(other.locations);
     values.add(other.values);
-    snapped += other.snapped;
-    extrapolated += other.extrapolated;
-    without_value += other.without_value;
     // Bits of numbers that are not negative compare as they do, whatever the environment does to subnormal ones.
     farthest = std::bit_cast<double>(
         std::max(std::bit_cast<std::uint64_t>(farthest), std::bit_cast<std::uint64_t>(other.farthest)));

@@ -1,6 +1,7 @@
 #include "barycert/pieces/array_kinds.hpp"
 
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 namespace barycert::pieces {
@@ -26,60 +27,47 @@ std::string difference(const std::vector<ArrayKind>& mine, const std::vector<Arr
     return {};
 }
 
+// f of each member, of a kind that is read or written.
+template <class Kind, class F>
+void for_each_member(Kind& kind, F& f) {
+    f(kind.name), f(kind.type_name), f(kind.named), f(kind.type), f(kind.components), f(kind.role);
+    f(kind.component_names);
+}
+
 // Of numbers their bytes; of texts, and of lists, the count of their items first.
 struct Writer {
-    void operator()(int number) {
-        const auto* const from = reinterpret_cast<const unsigned char*>(&number);
-        bytes.insert(bytes.end(), from, from + sizeof number);
+    template <class T>
+    void operator()(const T& value) {
+        if constexpr (std::is_arithmetic_v<T>) {
+            const auto* const from = reinterpret_cast<const unsigned char*>(&value);
+            bytes.insert(bytes.end(), from, from + sizeof value);
+        } else {
+            (*this)(value.size());
+            for (const auto& item : value) (*this)(item);
+        }
     }
-    void operator()(const std::string& text) {
-        (*this)(static_cast<int>(text.size()));
-        bytes.insert(bytes.end(), text.begin(), text.end());
-    }
+    void operator()(const ArrayKind& kind) { for_each_member(kind, *this); }
+
     std::vector<unsigned char> bytes;
 };
 
 struct Reader {
-    void operator()(int& number) {
-        std::memcpy(&number, at, sizeof number);
-        at += sizeof number;
+    template <class T>
+    void operator()(T& value) {
+        if constexpr (std::is_arithmetic_v<T>) {
+            std::memcpy(&value, at, sizeof value);
+            at += sizeof value;
+        } else {
+            auto count = value.size();
+            (*this)(count);
+            value.resize(count);
+            for (auto& item : value) (*this)(item);
+        }
     }
-    void operator()(std::string& text) {
-        int size = 0;
-        (*this)(size);
-        text.assign(reinterpret_cast<const char*>(at), static_cast<std::size_t>(size));
-        at += size;
-    }
+    void operator()(ArrayKind& kind) { for_each_member(kind, *this); }
+
     const unsigned char* at;
 };
-
-std::vector<unsigned char> to_bytes(const std::vector<ArrayKind>& kinds) {
-    Writer write;
-    write(static_cast<int>(kinds.size()));
-    for (const ArrayKind& kind : kinds) {
-        for (const std::string* const text : {&kind.name, &kind.type_name}) write(*text);
-        for (const int number : {kind.named ? 1 : 0, kind.type, kind.components, kind.role}) write(number);
-        write(static_cast<int>(kind.component_names.size()));
-        for (const std::string& name : kind.component_names) write(name);
-    }
-    return std::move(write.bytes);
-}
-
-std::vector<ArrayKind> kinds_from(const std::vector<unsigned char>& bytes) {
-    Reader read{bytes.data()};
-    int count = 0;
-    read(count);
-    std::vector<ArrayKind> kinds(static_cast<std::size_t>(count));
-    for (ArrayKind& kind : kinds) {
-        int named = 0, names = 0;
-        for (std::string* const text : {&kind.name, &kind.type_name}) read(*text);
-        for (int* const number : {&named, &kind.type, &kind.components, &kind.role, &names}) read(*number);
-        kind.named = named != 0;
-        kind.component_names.resize(static_cast<std::size_t>(names));
-        for (std::string& name : kind.component_names) read(name);
-    }
-    return kinds;
-}
 
 }  // namespace
 
@@ -93,14 +81,16 @@ Status agree_on_arrays(Exchange& exchange, bool has_cells, std::vector<ArrayKind
     exchange.least({&lowest, 1});
     const int from = lowest < exchange.size() ? static_cast<int>(lowest) : 0;
     std::vector<unsigned char> bytes;
-    Status read = exchange.everywhere([&]() -> Status {
-        if (exchange.rank() == from) bytes = to_bytes(kinds);
-        return Done{};
+    Status read = exchange.everywhere([&] {
+        Writer write;
+        if (exchange.rank() == from) write(kinds);
+        bytes = std::move(write.bytes);
     });
     if (!read) return read;
     if (Status done = exchange.broadcast(bytes, from); !done) return done;
     return exchange.everywhere([&]() -> Status {
-        std::vector<ArrayKind> theirs = kinds_from(bytes);
+        std::vector<ArrayKind> theirs;
+        Reader{bytes.data()}(theirs);
         if (std::string differs = has_cells ? difference(kinds, theirs) : std::string(); !differs.empty())
             return Error{.what =
                              "the source has other arrays than that of rank " + std::to_string(from) + ": " + differs};

@@ -9,10 +9,7 @@ Status Distribution::ask() {
     if (Status done = map_.gather(piece_, points_); !done) return done;
     if (Status done = map_.refine(piece_); !done) return done;
     Parcels<double> coordinates;
-    Status room = exchange_.everywhere([&]() -> Status {
-        map_.points_to_ask(points_, asked_, coordinates);
-        return Done{};
-    });
+    Status room = exchange_.everywhere([&] { map_.points_to_ask(points_, asked_, coordinates); });
     if (!room) return room;
     sent_ = coordinates.values.size() / 3;
     return exchange_.swap(coordinates, received_);

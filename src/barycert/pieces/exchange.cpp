@@ -34,9 +34,8 @@ Status Exchange::broadcast(std::vector<unsigned char>& bytes, int from) {
     if (size() == 1) return Done{};
     std::uint64_t count = bytes.size();
     ranks_.broadcast(std::as_writable_bytes(std::span(&count, 1)), from);
-    Status room = everywhere([&]() -> Status {
+    Status room = everywhere([&] {
         if (rank() != from) bytes.resize(count);
-        return Done{};
     });
     if (!room) return room;
     if (count > 0) ranks_.broadcast(std::as_writable_bytes(std::span(bytes)), from);
@@ -54,11 +53,10 @@ void Exchange::set_partners(std::vector<int> ranks) {
 Status Exchange::swap_sizes(std::span<const std::size_t> begin, std::vector<std::uint64_t>& sizes) {
     std::vector<std::uint64_t> mine;
     std::vector<std::size_t> each;
-    Status room = everywhere([&]() -> Status {
+    Status room = everywhere([&] {
         sizes.resize(partners_.size());
         for (std::size_t k = 0; k <= partners_.size(); ++k) each.push_back(k);
         for (std::size_t k = 0; k < partners_.size(); ++k) mine.push_back(begin[k + 1] - begin[k]);
-        return Done{};
     });
     if (!room) return room;
     return agree(swap_bytes(std::as_bytes(std::span(mine)), each, std::as_writable_bytes(std::span(sizes)), each,

@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "barycert/result.hpp"
@@ -34,11 +35,16 @@ public:
     virtual bool receive(std::span<std::byte> bytes, int from) = 0;
 };
 
-/// The Status that `work` returns, or an Error for what it throws.
+/// The Status that `work` returns, Done if it returns nothing, or an Error for what it throws.
 template <class Work>
 Status attempt(Work&& work) {
     try {
-        return work();
+        if constexpr (std::is_void_v<decltype(work())>) {
+            work();
+            return Done{};
+        } else {
+            return work();
+        }
     } catch (const std::bad_alloc&) {
         return Error{.what = "out of memory"};
     } catch (const std::exception& e) {
@@ -100,11 +106,10 @@ public:
         if (!sizes_known) {
             std::vector<std::uint64_t> sizes;
             if (Status done = swap_sizes(out.begin, sizes); !done) return done;
-            Status room = everywhere([&]() -> Status {
+            Status room = everywhere([&] {
                 in.begin.assign(1, 0);
                 for (const std::uint64_t size : sizes) in.begin.push_back(in.begin.back() + size);
                 in.values.resize(in.begin.back());
-                return Done{};
             });
             if (!room) return room;
         }

@@ -1,4 +1,4 @@
-#include "barycert/pieces/indexed_piece.hpp"
+#include "barycert/pieces/piece.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "barycert/pieces/piece_map.hpp"
+#include "barycert/pieces/distribution.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,17 +23,16 @@ Box box_at(const Points& points, std::size_t i) {
 
 Status PieceMap::gather(const Piece& piece, const Points& points) {
     Part mine;
-    Status read = exchange_.everywhere([&]() -> Status {
+    Status read = exchange_.everywhere([&] {
         mine.cell_count = static_cast<double>(piece.mesh.cell_count());
         mine.point_count = static_cast<double>(points.count);
         for (std::size_t i = 0; i < piece.mesh.cell_count(); ++i) mine.cells.add(piece.box_of(i));
         for (std::size_t i = 0; i < points.count; ++i) mine.points.add(box_at(points, i));
         parts_.resize(static_cast<std::size_t>(exchange_.size()));
-        return Done{};
     });
     if (!read) return read;
     exchange_.gather(mine, parts_);
-    return exchange_.everywhere([&]() -> Status {
+    return exchange_.everywhere([&] {
         std::vector<int> partners;
         const int rank = exchange_.rank();
         for (int other = 0; other < exchange_.size(); ++other) {
@@ -42,7 +41,6 @@ Status PieceMap::gather(const Piece& piece, const Points& points) {
             if (asks(rank, other) || asks(other, rank)) partners.push_back(other);
         }
         exchange_.set_partners(std::move(partners));
-        return Done{};
     });
 }
 
@@ -61,7 +59,7 @@ bool PieceMap::asks_much(int who, int whom) const {
 
 Status PieceMap::refine(const Piece& piece) {
     Parcels<Box> out;
-    Status room = exchange_.everywhere([&]() -> Status {
+    Status room = exchange_.everywhere([&] {
         const int rank = exchange_.rank();
         std::vector<Box> mine;
         for (const int other : exchange_.partners()) {
@@ -77,7 +75,6 @@ Status PieceMap::refine(const Piece& piece) {
             fine_boxes_.values.resize(fine_boxes_.values.size() + (asks_much(rank, other) ? fine : 0));
             fine_boxes_.close();
         }
-        return Done{};
     });
     if (!room) return room;
     return exchange_.swap(out, fine_boxes_, true);

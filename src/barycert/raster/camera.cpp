@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
@@ -23,10 +24,6 @@ std::string text_of(const Vector3& v) {
     return base::shortest(v[0]) + ", " + base::shortest(v[1]) + ", " + base::shortest(v[2]);
 }
 
-bool all_finite(std::span<const double> numbers) {
-    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
-}
-
 double dot(const Vector3& a, const Vector3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -38,7 +35,7 @@ Vector3 cross(const Vector3& a, const Vector3& b) {
 /// The direction of v with length 1, whatever its length was; nothing if it is zero or not finite.
 std::optional<Vector3> direction(const Vector3& v) {
     const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    if (!all_finite(v) || largest == 0) return std::nullopt;
+    if (!base::all_finite(v) || largest == 0) return std::nullopt;
     const int shift = -std::ilogb(largest);
     Vector3 d;
     for (std::size_t k = 0; k < 3; ++k) d[k] = std::scalbn(v[k], shift);
@@ -55,11 +52,11 @@ double exact_window(double x, double w, std::int32_t size) {
     const auto depth = unit.multiple<core::Integer>(core::scaled(w));
     const auto sum = unit.multiple<core::Integer>(core::scaled(x)) + depth;
     const core::Integer product = sum * core::Integer(false, static_cast<std::uint64_t>(size), 0);
-    return core::round_quotient(product.sign() < 0, product.magnitude(), depth.magnitude(), -1);
+    return core::round_quotient(product, depth, -1);
 }
 
 Result<Matrix4> finite_matrix(const Matrix4& m, const char* what) {
-    if (all_finite(m.m)) return m;
+    if (base::all_finite(m.m)) return m;
     return no_camera(what, "numbers whose matrix does not overflow", "one that does");
 }
 
@@ -124,7 +121,7 @@ Result<Matrix4> perspective(double fovy, double aspect, double near, double far)
 Result<Matrix4> orthographic(double left, double right, double bottom, double top, double near, double far) {
     const ExactEnvironment environment;
     const std::array<double, 6> all{left, right, bottom, top, near, far};
-    if (!all_finite(all) || left == right || bottom == top || near == far) {
+    if (!base::all_finite(all) || left == right || bottom == top || near == far) {
         std::string found;
         for (const double x : all) found += (found.empty() ? "" : ", ") + base::shortest(x);
         return no_camera("the box of sight", "three pairs of different finite numbers", found);
@@ -168,7 +165,7 @@ Matrix4 scaling(const Vector3& by) {
 std::array<double, 2> viewport(RasterSize size, double x, double y, double w, Rounding rounding) {
     const ExactEnvironment environment;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    if (!(w > 0) || !all_finite(std::array{x, y, w})) return {nan, nan};
+    if (!(w > 0) || !base::all_finite(std::array{x, y, w})) return {nan, nan};
     if (rounding == Rounding::correct) return {exact_window(x, w, size.width), exact_window(y, w, size.height)};
     return base::held(std::array<double, 2>{(base::held(x) / base::held(w) + 1) * (0.5 * size.width),
                                             (base::held(y) / base::held(w) + 1) * (0.5 * size.height)});

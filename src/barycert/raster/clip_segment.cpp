@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/raster/exact_point.hpp"
@@ -17,28 +19,21 @@ struct Segment {
 };
 
 Status check(const Segment& s) {
-    if (s.dimension < 1 || s.dimension > 3) {
+    if (s.dimension < 1 || s.dimension > 3)
         return Error{.what = "dimension of a segment",
                      .expected = "1, 2 or 3",
                      .found = std::to_string(s.dimension),
                      .remedy = "choose another dimension"};
-    }
-    if (s.a.size() != s.b.size() || s.a.size() < static_cast<std::size_t>(s.dimension)) {
+    if (s.a.size() != s.b.size() || s.a.size() < static_cast<std::size_t>(s.dimension))
         return Error{.what = "the ends of a segment",
                      .expected = std::to_string(s.dimension) + " coordinates and as many attributes at both ends",
                      .found = std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
                      .remedy = "give a number for each coordinate and attribute of each end"};
-    }
-    for (std::size_t i = 0; i < s.a.size(); ++i) {
-        for (const auto& [end, x] : {std::pair("first", s.a[i]), {"second", s.b[i]}}) {
-            if (std::isfinite(x)) continue;
-            return Error{.what = "number " + std::to_string(i) + " of the " + end + " end",
-                         .expected = "a finite number",
-                         .found = std::to_string(x),
-                         .remedy = "leave the segment out"};
-        }
-    }
-    return Done{};
+    const std::size_t i = base::first_not_finite(s.a), k = base::first_not_finite(s.b);
+    if (i == s.a.size() && k == i) return Done{};
+    return base::not_finite(
+        "number " + std::to_string(std::min(i, k)) + " of the " + (i <= k ? "first" : "second") + " end",
+        i <= k ? s.a[i] : s.b[k], "leave the segment out");
 }
 
 /// What is left of a segment, exactly: each end is as given, or where a form is zero.

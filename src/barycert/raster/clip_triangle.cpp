@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/raster/exact_point.hpp"
@@ -110,21 +111,15 @@ unsigned beyond(const double* vertex) {
 }
 
 Status check_rows(std::span<const double> vertices) {
-    if (vertices.size() < 12 || vertices.size() % 3 != 0) {
+    if (vertices.size() < 12 || vertices.size() % 3 != 0)
         return Error{.what = "a triangle of other than three vertices",
                      .expected = "three rows of x, y, z, w and attributes, of equal length",
                      .found = std::to_string(vertices.size()) + " numbers",
                      .remedy = "give a number for each attribute of each vertex"};
-    }
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (std::isfinite(vertices[i])) continue;
-        const std::size_t row = vertices.size() / 3;
-        return Error{.what = "number " + std::to_string(i % row) + " of vertex " + std::to_string(i / row),
-                     .expected = "a finite number",
-                     .found = std::to_string(vertices[i]),
-                     .remedy = "leave the triangle out"};
-    }
-    return Done{};
+    const std::size_t i = base::first_not_finite(vertices), row = vertices.size() / 3;
+    if (i == vertices.size()) return Done{};
+    return base::not_finite("number " + std::to_string(i % row) + " of vertex " + std::to_string(i / row), vertices[i],
+                            "leave the triangle out");
 }
 
 }  // namespace

@@ -42,40 +42,24 @@ std::vector<double> linear_values(const WindowTriangle& t, const Shading& s) {
     return values;
 }
 
-/// The depth and the attributes of the pixels of a row, as Shading asks for them: 1 + components numbers a pixel.
+/// The depth and the attributes of `count` pixels from what is linear in the window, in place.
 ///
 /// With perspective, 1/w and v/w are interpolated. All are multiplied by the least w, so that 1/w cannot overflow; it
 /// may underflow, for a vertex 2^1074 times as far away as another one, whose share is then below the last place.
-template <class Rows>
-class AttributeRows {
-public:
-    AttributeRows(Rows rows, const Shading& s) : rows_(std::move(rows)), shading_(s) {}
-
-    void fill(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& out) {
-        const std::size_t n = shading_.components(), count = static_cast<std::size_t>(last - first);
-        const bool scaled = shading_.interpolation != Interpolation::affine;
-        const std::size_t from = n + (scaled ? 2 : 1);
-        out.resize(from * count);
-        rows_.fill(j, first, last, out.data());
-        if (!scaled) return;
-        for (std::size_t i = 0; i < count; ++i) {
-            const double* const in = out.data() + from * i;
-            double* const to = out.data() + (from - 1) * i;  // never ahead of what is still to be read
-            const double depth = in[0], scale = in[1];
-            to[0] = depth;
-            for (std::size_t k = 0; k < n; ++k) to[1 + k] = in[2 + k] / scale;
-        }
+void divide_by_scale(double* numbers, std::size_t attributes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const double* const in = numbers + (2 + attributes) * i;
+        double* const to = numbers + (1 + attributes) * i;  // never ahead of what is still to be read
+        const double depth = in[0], scale = in[1];
+        to[0] = depth;
+        for (std::size_t k = 0; k < attributes; ++k) to[1 + k] = in[2 + k] / scale;
     }
-
-private:
-    Rows rows_;
-    const Shading& shading_;
-};
+}
 
 /// The same, each number the exact function of the vertices' window coordinates, w and attributes, rounded once.
-class CorrectAttributeRows {
+class CorrectAttributes {
 public:
-    CorrectAttributeRows(const WindowTriangle& t, const Shading& s)
+    CorrectAttributes(const WindowTriangle& t, const Shading& s)
         : triangle_(t),
           shading_(s),
           depth_(t.window.data(), t.z, 1),
@@ -87,7 +71,7 @@ public:
         }
     }
 
-    void fill(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& out) {
+    void operator()(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& out) {
         const std::size_t n = shading_.components(), count = static_cast<std::size_t>(last - first);
         depths_.resize(count);
         depth_.fill(j, first, last, depths_.data());
@@ -99,10 +83,10 @@ public:
             set_centres(j, first, last, points_);
             (void)perspective_values(vertices_.data(), points_, triangle_.attributes, static_cast<int>(n), values_);
         }
-        out.resize((1 + n) * count);
+        out.clear();
         for (std::size_t i = 0; i < count; ++i) {
-            out[(1 + n) * i] = depths_[i];
-            std::copy_n(values_.data() + n * i, n, out.data() + (1 + n) * i + 1);
+            out.push_back(depths_[i]);
+            out.insert(out.end(), values_.data() + n * i, values_.data() + n * (i + 1));
         }
     }
 
@@ -114,13 +98,14 @@ private:
     std::vector<double> points_, depths_, values_;
 };
 
-template <class Rows>
-PixelCounts draw_rows(Canvas& canvas, const SortedTriangle& sorted, Rows rows) {
+/// fill(j, first, last, numbers): the depth and the attributes of these pixels of row j, 1 + components numbers each.
+template <class Fill>
+PixelCounts draw_rows(Canvas& canvas, const SortedTriangle& sorted, Fill fill) {
     const std::size_t n = canvas.shading.components();
     PixelCounts counts;
     std::vector<double> row;
     for_spans(sorted, canvas.image.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
-        rows.fill(j, first, last, row);
+        fill(j, first, last, row);
         counts.covered += static_cast<std::uint64_t>(last - first);
         const std::size_t begin = canvas.image.offset(first, j) / 4;
         for (std::size_t i = 0; i < static_cast<std::size_t>(last - first); ++i) {
@@ -156,10 +141,18 @@ Rgba Shading::colour(const double* attributes) const {
 PixelCounts draw_triangle(Canvas& canvas, const WindowTriangle& t) {
     const Shading& s = canvas.shading;
     const SortedTriangle sorted(t.window.data(), canvas.image.height);
-    if (s.rounding == Rounding::correct) return draw_rows(canvas, sorted, CorrectAttributeRows(t, s));
+    if (s.rounding == Rounding::correct) return draw_rows(canvas, sorted, CorrectAttributes(t, s));
     const std::vector<double> values = linear_values(t, s);
-    const auto draw = [&](auto rows) { return draw_rows(canvas, sorted, AttributeRows(std::move(rows), s)); };
-    return with_rows(sorted, t.window.data(), values, static_cast<int>(values.size() / 3), s.method,
+    const std::size_t linear = values.size() / 3;
+    const auto draw = [&](auto rows) {
+        return draw_rows(canvas, sorted, [&](std::int32_t j, std::int32_t first, std::int32_t last, auto& numbers) {
+            const auto count = static_cast<std::size_t>(last - first);
+            numbers.resize(linear * count);
+            rows.fill(j, first, last, numbers.data());
+            if (s.interpolation != Interpolation::affine) divide_by_scale(numbers.data(), s.components(), count);
+        });
+    };
+    return with_rows(sorted, t.window.data(), values, static_cast<int>(linear), s.method,
                      thick_enough(t.window) ? Rounding::plain : Rounding::correct, draw);
 }
 

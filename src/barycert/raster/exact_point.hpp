@@ -12,6 +12,7 @@
 #include <cstddef>
 
 #include "barycert/core/integer.hpp"
+#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
 namespace barycert::raster {
@@ -40,16 +41,42 @@ Form difference_form(int count, X x, Y y) {
     return form;
 }
 
-/// The point where h is zero on the segment. Precondition: h differs at its ends.
-ExactPoint zero_on_segment(const Form& h);
+/// Weights in the ratio of these numbers, of `count` vertices.
+inline ExactPoint exact_point(const Form& n, int count) {
+    ExactPoint p{n, n[0] + n[1]};
+    if (count == 3) p.denominator = p.denominator + n[2];
+    if (p.denominator.sign() >= 0) return p;
+    for (core::Integer& x : p.numerator) x = core::Integer() - x;
+    p.denominator = core::Integer() - p.denominator;
+    return p;
+}
+
+/// The point where h is zero on the segment: h_a W_a + h_b W_b = 0 for W_a : W_b = h_b : -h_a. Precondition: h differs
+/// at its ends.
+inline ExactPoint zero_on_segment(const Form& h) {
+    return exact_point({h[1], core::Integer() - h[0], core::Integer()}, 2);
+}
 
 /// The point where g and h are zero in the triangle. Precondition: there is exactly one.
-ExactPoint zero_in_triangle(const Form& g, const Form& h);
+inline ExactPoint zero_in_triangle(const Form& g, const Form& h) {
+    return exact_point({g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0]}, 3);
+}
 
 /// The sign of h at the point: -1, 0 or 1.
-int sign_at(const Form& h, const ExactPoint& p, int count);
+inline int sign_at(const Form& h, const ExactPoint& p, int count) {
+    core::Integer sum = h[0] * p.numerator[0] + h[1] * p.numerator[1];
+    if (count == 3) sum = sum + h[2] * p.numerator[2];
+    return sum.sign();
+}
 
 /// The number at the point, correctly rounded, of which each vertex has one.
-double value_at(const ExactPoint& p, const double* values, std::size_t stride, int count);
+inline double value_at(const ExactPoint& p, const double* values, std::size_t stride, std::size_t count) {
+    core::Unit unit;
+    for (std::size_t i = 0; i < count; ++i) unit.add(core::scaled(values[stride * i]));
+    core::Integer sum;
+    for (std::size_t i = 0; i < count; ++i)
+        sum = sum + p.numerator[i] * unit.multiple<core::Integer>(core::scaled(values[stride * i]));
+    return core::round_quotient(sum, p.denominator, unit.exponent - 1074);
+}
 
 }  // namespace barycert::raster

@@ -3,6 +3,8 @@
 /// upwards.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,13 +13,6 @@
 #include "barycert/raster/edge.hpp"
 
 namespace barycert::raster {
-
-/// Where pixel (i, j) stands in PixelValues::data.
-inline std::size_t row_offset(const PixelValues& image, std::int32_t i, std::int32_t j) {
-    const auto width = static_cast<std::size_t>(image.size.width);
-    return (static_cast<std::size_t>(j) * width + static_cast<std::size_t>(i)) *
-           static_cast<std::size_t>(image.components);
-}
 
 /// Weights at each centre by signed areas: lambda_i = (v_{i+1} - p) x (v_{i+2} - p) / D, D twice the triangle's area.
 class BarycentricRows {
@@ -55,11 +50,17 @@ struct ValuedEdge {
 /// The long side and the two short ones.
 struct ValuedEdges {
     ValuedEdge whole, lower, upper;
-    std::int32_t middle;  ///< the first row that meets the upper short side
 
-    ValuedEdges(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components);
-
-    const ValuedEdge& shorter(std::int32_t j) const { return j < middle ? lower : upper; }
+    ValuedEdges(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components) {
+        const auto edge = [&](int i, int k) {
+            const double *const a = t.vertex[i], *const b = t.vertex[k];
+            const auto values_of = [&](const double* v) { return values.data() + (v - vertices) / 2 * components; };
+            return ValuedEdge{a, b, values_of(a), values_of(b)};
+        };
+        whole = edge(0, 2);
+        lower = edge(0, 1);
+        upper = edge(1, 2);
+    }
 };
 
 /// Values on the two sides that the line of the row meets; then along the line, with one division a row. That a centre
@@ -67,31 +68,78 @@ struct ValuedEdges {
 class BilinearRows {
 public:
     BilinearRows(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components)
-        : edges_(t, vertices, values, components), components_(static_cast<std::size_t>(components)) {}
+        : edges_(t, vertices, values, components),
+          middle_(t.middle),
+          components_(static_cast<std::size_t>(components)) {}
 
-    void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) const;
+    void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) const {
+        const double y = j + 0.5;
+        const ValuedEdge &p = edges_.whole, &q = j < middle_ ? edges_.lower : edges_.upper;
+        const double tp = (y - p.a[1]) / (p.b[1] - p.a[1]), tq = (y - q.a[1]) / (q.b[1] - q.a[1]);
+        const double xp = p.a[0] + tp * (p.b[0] - p.a[0]), xq = q.a[0] + tq * (q.b[0] - q.a[0]);
+        const double inverse = xp == xq ? 0 : 1 / (xq - xp);
+        for (std::int32_t i = first; i < last; ++i) {
+            const double r = (i + 0.5 - xp) * inverse, s = r > 0 ? std::min(r, 1.0) : 0;  // 0 for NaN too
+            for (std::size_t c = 0; c < components_; ++c) {
+                const double fp = p.fa[c] + tp * (p.fb[c] - p.fa[c]), fq = q.fa[c] + tq * (q.fb[c] - q.fa[c]);
+                *out++ = fp + s * (fq - fp);
+            }
+        }
+    }
 
 private:
     ValuedEdges edges_;
+    std::int32_t middle_;  ///< the first row that meets the upper short side
     std::size_t components_;
 };
 
 /// Steps alone: from row to row along the long side, from pixel to pixel along the row by the triangle's d/dx.
 class ScanlineRows {
 public:
-    ScanlineRows(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components);
+    ScanlineRows(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components)
+        : row_(t.begin), components_(static_cast<std::size_t>(components)) {
+        const ValuedEdges edges(t, vertices, values, components);
+        const ValuedEdge &p = edges.whole, &q = edges.lower;
+        const double x1 = q.b[0] - q.a[0], y1 = q.b[1] - q.a[1], x2 = p.b[0] - p.a[0], y2 = p.b[1] - p.a[1];
+        const double area = x1 * y2 - x2 * y1, start = (row_ + 0.5) - p.a[1];
+        x_step_ = x2 / y2;
+        x_ = p.a[0] + start * x_step_;
+        for (std::size_t c = 0; c < components_.size(); ++c) {
+            const double f1 = q.fb[c] - q.fa[c], f2 = p.fb[c] - p.fa[c], up = f2 / y2;
+            components_[c] = {p.fa[c] + start * up, up, (f1 * y2 - f2 * y1) / area, 0};
+        }
+    }
 
-    void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out);
+    void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) {
+        for (; row_ < j; ++row_) {
+            x_ += x_step_;
+            for (Component& c : components_) c.at += c.up;
+        }
+        for (Component& c : components_) c.here = c.at + (first + 0.5 - x_) * c.along;
+        for (std::int32_t i = first; i < last; ++i) {
+            for (Component& c : components_) {
+                *out++ = c.here;
+                c.here += c.along;
+            }
+        }
+    }
 
 private:
-    std::size_t components_;
-    std::int32_t row_;           ///< where x_ and at_ stand
-    double x_, x_step_;          ///< of the long side
-    std::vector<double> at_;     ///< values on the long side
-    std::vector<double> up_;     ///< their step from row to row
-    std::vector<double> along_;  ///< d/dx
-    std::vector<double> here_;   ///< values at a pixel
+    struct Component {
+        double at, up;  ///< on the long side, and the step from row to row
+        double along;   ///< d/dx
+        double here;    ///< at a pixel
+    };
+    std::int32_t row_;   ///< where x_ and components stand
+    double x_, x_step_;  ///< of the long side
+    std::vector<Component> components_;
 };
+
+/// The centres of the pixels of a row, one after the other, as `points`.
+inline void set_centres(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& points) {
+    points.clear();
+    for (std::int32_t i = first; i < last; ++i) points.insert(points.end(), {i + 0.5, j + 0.5});
+}
 
 /// Each value the exact one at the centre, rounded once, by weights.hpp.
 class CorrectRows {
@@ -99,7 +147,15 @@ public:
     CorrectRows(const double* vertices, std::span<const double> values, int components)
         : vertices_(vertices, 6), values_(values), components_(components) {}
 
-    void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out);
+    void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) {
+        constexpr std::array<std::int32_t, 3> corners{0, 1, 2};
+        const auto count = static_cast<std::size_t>(last - first), all = count * static_cast<std::size_t>(components_);
+        cells_.assign(count, 0);
+        set_centres(j, first, last, points_);
+        // No error can occur: sizes fit, and coordinates are finite.
+        (void)interpolate(MeshQueries{Simplex::triangle, vertices_, corners, cells_, points_},
+                          NodalValues<double>{values_, components_}, {out, all});
+    }
 
 private:
     std::span<const double> vertices_, values_;
@@ -107,9 +163,6 @@ private:
     std::vector<double> points_;
     std::vector<std::int32_t> cells_;
 };
-
-/// The centres of the pixels of a row, one after the other, as `points`.
-void set_centres(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& points);
 
 /// use(rows) with the way that is asked for. With Rounding::correct there is one for all methods.
 template <class Use>

@@ -3,6 +3,7 @@
 #include <limits>
 #include <string>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/environment.hpp"
@@ -19,19 +20,20 @@ Error misfit(const std::string& what, const std::string& expected, const std::st
     return {.what = what, .expected = expected, .found = found, .remedy = "correct the scene"};
 }
 
-Status check_finite(const std::vector<double>& numbers, std::size_t per_vertex, const char* what) {
-    const auto bad = std::find_if(numbers.begin(), numbers.end(), [](double x) { return !std::isfinite(x); });
-    if (bad == numbers.end()) return Done{};
-    const auto i = static_cast<std::size_t>(bad - numbers.begin());
-    return misfit(
+Status check_finite(const std::vector<double>& numbers, std::size_t per_vertex, const std::string& what) {
+    const std::size_t i = base::first_not_finite(numbers);
+    if (i == numbers.size()) return Done{};
+    return base::not_finite(
         "number " + std::to_string(i % per_vertex) + " of the " + what + " of vertex " + std::to_string(i / per_vertex),
-        "a finite number", std::to_string(*bad));
+        numbers[i], "correct the scene");
 }
 
-/// An array has what it should for each of `vertices`, or nothing if it may.
-Status check_array(const std::vector<double>& numbers, std::size_t per_vertex, std::size_t vertices, const char* what) {
+/// An array has what it should for each of `vertices`, or nothing.
+Status check_array(const std::vector<double>& numbers, std::size_t per_vertex, std::size_t vertices,
+                   const std::string& what) {
+    if (numbers.empty()) return Done{};
     if (numbers.size() != per_vertex * vertices)
-        return misfit(std::string("the ") + what + "s of the scene",
+        return misfit("the " + what + "s of the scene",
                       std::to_string(per_vertex) + " numbers for each of " + std::to_string(vertices) + " vertices",
                       std::to_string(numbers.size()) + " numbers");
     return check_finite(numbers, per_vertex, what);
@@ -61,12 +63,8 @@ Status check(const Scene& s) {
                       std::to_string(s.positions.size()) + " numbers");
     const std::size_t vertices = s.positions.size() / 4;
     if (Status good = check_finite(s.positions, 4, "position"); !good) return good;
-    if (!s.colours.empty()) {
-        if (Status good = check_array(s.colours, 3, vertices, "colour"); !good) return good;
-    }
-    if (!s.texture_coordinates.empty()) {
-        if (Status good = check_array(s.texture_coordinates, 2, vertices, "texture coordinate"); !good) return good;
-    }
+    if (Status good = check_array(s.colours, 3, vertices, "colour"); !good) return good;
+    if (Status good = check_array(s.texture_coordinates, 2, vertices, "texture coordinate"); !good) return good;
     if (s.triangles.size() % 3 != 0)
         return misfit("the triangles of the scene", "three vertices each",
                       std::to_string(s.triangles.size()) + " indices");

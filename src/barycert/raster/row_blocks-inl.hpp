@@ -1,7 +1,7 @@
 // The spans of a triangle, on lanes: the crossings of several rows at once, by the filter of edge.hpp; a row that it
 // leaves undecided is asked exactly.
 //
-// Included once per SIMD target (see Highway's foreach_target.h), hence no #pragma once.
+// Included once per SIMD target.
 #if defined(BARYCERT_RASTER_ROW_BLOCKS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef BARYCERT_RASTER_ROW_BLOCKS_INL_HPP
 #undef BARYCERT_RASTER_ROW_BLOCKS_INL_HPP

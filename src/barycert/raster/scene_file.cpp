@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -24,13 +25,12 @@ constexpr std::uint64_t longest_file = std::uint64_t{64} << 20;
 Result<std::string> text_of_file(const std::string& path) {
     const Result<base::InputFile> file = base::InputFile::open(path);
     if (!file) return file.error();
-    if (file->size() > longest_file) {
+    if (file->size() > longest_file)
         return Error{.what = "the scene file is too large",
                      .file = path,
                      .expected = "at most " + std::to_string(longest_file) + " bytes",
                      .found = std::to_string(file->size()),
                      .remedy = "draw large scenes through the library: scene.hpp"};
-    }
     std::string text(file->size(), '\0');
     const Result<std::size_t> read = file->read_at(0, text, path);
     if (!read) return read.error();
@@ -52,12 +52,11 @@ Json parse(const std::string& text, const std::string& path) {
     const Json::parser_callback_t on_event = [&](int, Json::parse_event_t event, Json& parsed) {
         if (event == Json::parse_event_t::object_start) names.emplace_back();
         if (event == Json::parse_event_t::object_end) names.pop_back();
-        if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second) {
+        if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second)
             throw Exception({.what = "a member occurs twice in one object",
                              .file = path,
                              .found = base::quoted(parsed.get<std::string>()),
                              .remedy = "leave one out"});
-        }
         return true;
     };
     try {
@@ -76,16 +75,11 @@ Json parse(const std::string& text, const std::string& path) {
     }
 }
 
-Vector3 vector3(const SceneValue& value) {
-    const std::vector<double> x = value.numbers(3);
-    return {x[0], x[1], x[2]};
-}
-
-Matrix4 matrix(const SceneValue& value) {
-    Matrix4 m;
-    const std::vector<double> x = value.numbers(16);
-    std::copy(x.begin(), x.end(), m.m.begin());
-    return m;
+template <std::size_t n>
+std::array<double, n> array(const SceneValue& value) {
+    std::array<double, n> numbers;
+    std::ranges::copy(value.numbers(n), numbers.begin());
+    return numbers;
 }
 
 Matrix4 checked(const SceneValue& value, const Result<Matrix4>& m) {
@@ -97,8 +91,8 @@ Matrix4 camera(const SceneValue& value, RasterSize size) {
     value.allow_only({"eye", "centre", "up", "perspective", "orthographic"});
     Matrix4 view;
     if (value.has("eye") || value.has("centre") || value.has("up")) {
-        const Vector3 up = value.has("up") ? vector3(value.member("up")) : Vector3{0, 1, 0};
-        view = checked(value, look_at(vector3(value.member("eye")), vector3(value.member("centre")), up));
+        const Vector3 up = value.has("up") ? array<3>(value.member("up")) : Vector3{0, 1, 0};
+        view = checked(value, look_at(array<3>(value.member("eye")), array<3>(value.member("centre")), up));
     }
     if (value.has("perspective") == value.has("orthographic")) value.fail("either \"perspective\" or \"orthographic\"");
     if (value.has("perspective")) {
@@ -146,27 +140,17 @@ Texture texture(const SceneValue& value, const std::filesystem::path& folder) {
     return t;
 }
 
-/// The numbers of an array of arrays with `count` numbers each.
+/// The numbers of an array of arrays with `count` numbers each; of positions, x, y, z or x, y, z, w.
 std::vector<double> rows(const SceneValue& value, std::size_t count) {
     std::vector<double> all;
     const std::size_t n = value.size();
     all.reserve(count * n);
     for (std::size_t i = 0; i < n; ++i) {
-        for (const double x : value.entry(i).numbers(count)) all.push_back(x);
-    }
-    return all;
-}
-
-/// x, y, z or x, y, z, w of each vertex.
-std::vector<double> positions(const SceneValue& value) {
-    std::vector<double> all;
-    const std::size_t n = value.size();
-    all.reserve(4 * n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const SceneValue vertex = value.entry(i);
-        if (!vertex.is_array() || (vertex.size() != 3 && vertex.size() != 4)) vertex.fail("x, y, z or x, y, z, w");
-        for (const double x : vertex.numbers(vertex.size())) all.push_back(x);
-        if (vertex.size() == 3) all.push_back(1);
+        const SceneValue row = value.entry(i);
+        const bool point = count == 4 && row.is_array() && row.size() == 3;
+        if (count == 4 && !point && (!row.is_array() || row.size() != 4)) row.fail("x, y, z or x, y, z, w");
+        for (const double x : row.numbers(point ? 3 : count)) all.push_back(x);
+        if (point) all.push_back(1);
     }
     return all;
 }
@@ -234,10 +218,10 @@ Scene scene_of(const SceneValue& file, const std::filesystem::path& folder) {
                   static_cast<std::int32_t>(size.entry(1).integer(1, max_raster_side))};
     if (file.has("background")) scene.background = background(file.member("background"));
     if (file.has("matrix") && file.has("camera")) file.fail("either \"matrix\" or \"camera\", not both");
-    if (file.has("matrix")) scene.to_clip = matrix(file.member("matrix"));
+    if (file.has("matrix")) scene.to_clip = Matrix4{array<16>(file.member("matrix"))};
     if (file.has("camera")) scene.to_clip = camera(file.member("camera"), scene.size);
-    if (file.has("model")) scene.to_clip = scene.to_clip * matrix(file.member("model"));
-    scene.positions = positions(file.member("positions"));
+    if (file.has("model")) scene.to_clip = scene.to_clip * Matrix4{array<16>(file.member("model"))};
+    scene.positions = rows(file.member("positions"), 4);
     read_triangles(file, scene);
     read_attributes(file, scene);
     read_choices(file, scene);

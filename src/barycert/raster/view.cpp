@@ -11,8 +11,8 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
+#include "barycert/io/png/panels.hpp"
 
 namespace barycert {
 namespace raster {
@@ -175,15 +175,16 @@ std::vector<double> normalised_points(std::span<const double> points, int dimens
     return result;
 }
 
+/// Where points lie along an axis.
+Range along(const Vector3& axis, std::span<const double> points) {
+    Range range;
+    for (std::size_t i = 0; i < points.size(); i += 3) range.add(dot(axis, points.data() + i));
+    return points.empty() ? Range{0, 0} : range;
+}
+
 /// The camera that sees all normalised points, in perspective, as near as the window allows.
 Result<Matrix4> fitting_camera(std::span<const double> points, const ViewAxes& axes, double aspect) {
-    Range x, y, z;
-    for (std::size_t i = 0; i < points.size(); i += 3) {
-        x.add(dot(axes.right, points.data() + i));
-        y.add(dot(axes.up, points.data() + i));
-        z.add(dot(axes.towards, points.data() + i));
-    }
-    if (points.empty()) x = y = z = {0, 0};
+    const Range x = along(axes.right, points), y = along(axes.up, points), z = along(axes.towards, points);
     const double tangent = part * std::tan(0.5 * fovy * (std::numbers::pi / 180));
     // A point is in sight if its distance across is at most its distance along times the tangent.
     double distance = z.high + 0.1;
@@ -210,12 +211,7 @@ Result<Matrix4> fitting_camera(std::span<const double> points, const ViewAxes& a
 
 /// The same from above, without perspective.
 Result<Matrix4> fitting_map(std::span<const double> points, double aspect) {
-    Range x, y;
-    for (std::size_t i = 0; i < points.size(); i += 3) {
-        x.add(points[i]);
-        y.add(points[i + 1]);
-    }
-    if (points.empty()) x = y = {0, 0};
+    const Range x = along({1, 0, 0}, points), y = along({0, 1, 0}, points);
     double half = std::max(x.half() / aspect, y.half()) / part;
     if (!(half > 0)) half = 1;
     return orthographic(x.middle() - half * aspect, x.middle() + half * aspect, y.middle() - half, y.middle() + half,
@@ -330,12 +326,11 @@ Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& option
     const auto height = static_cast<std::size_t>(options.size.height);
     const io::ColourBar bar = raster::short_bar(scale.low, scale.high, std::max(height, io::min_bar_height));
     const auto bar_width = static_cast<std::int32_t>(with_bar ? bar.width() : 0);
-    if (with_bar && (height < io::min_bar_height || bar_width >= options.size.width)) {
+    if (with_bar && (height < io::min_bar_height || bar_width >= options.size.width))
         return raster::refusal(
             "there is no room for the colour bar",
             "more than " + std::to_string(bar_width) + " by " + std::to_string(io::min_bar_height - 1) + " pixels",
             std::to_string(options.size.width) + " by " + std::to_string(options.size.height));
-    }
     ViewCounts told{{}, scale.low, scale.high, 0};
     const Result<Scene> scene =
         raster::scene_of(surface, options, options.size.width - bar_width, scale, told.without_value);

@@ -1,13 +1,11 @@
-#include <fmt/format.h>
 
 #include <algorithm>
 
 #include "barycert/base/json_text.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report.hpp"
-#include "barycert/report/common/html.hpp"
 #include "barycert/report/common/json.hpp"
+#include "barycert/report/common/picture.hpp"
 
 namespace barycert {
 

@@ -1,11 +1,7 @@
-// What a picture shows.
-
-#include <fmt/format.h>
+// What a picture shows, and what a run of cutting did.
 
 #include <cmath>
 
-#include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/document.hpp"
 
@@ -14,6 +10,10 @@ namespace barycert {
 using namespace report;
 
 namespace {
+
+std::string range_text(double low, double high) {
+    return base::shortest(low) + " to " + base::shortest(high);
+}
 
 // Words for what a picture was made with, as on the command line.
 std::string_view word(FillMethod method) {
@@ -26,12 +26,11 @@ std::string_view word(Interpolation interpolation) {
 }
 
 void tell_triangles(Document& d, const RenderCounts& n) {
-    std::string text = fmt::format("{}: {} drawn", n.triangles, n.drawn);
-    for (const auto& [count, what] : {std::pair(n.outside, "out of sight"),
-                                      {n.degenerate, "without area"},
-                                      {n.between_pixels, "too small for the middle of a pixel"}}) {
-        if (count != 0) text += fmt::format(", {} {}", count, what);
-    }
+    const std::string others = clauses({{n.outside, "out of sight"},
+                                        {n.degenerate, "without area"},
+                                        {n.between_pixels, "too small for the middle of a pixel"}},
+                                       ", ");
+    std::string text = fmt::format("{}: {} drawn{}{}", n.triangles, n.drawn, others.empty() ? "" : ", ", others);
     if (n.clipped != 0) text += fmt::format("; {} clipped", n.clipped);
     d.figure("triangles",
              record("count", n.triangles, "drawn", n.drawn, "outside", n.outside, "degenerate", n.degenerate,
@@ -48,9 +47,7 @@ void tell_pixels(Document& d, const RenderCounts& n) {
 
 void tell_colours(Document& d, const ColourRange& c) {
     std::string text =
-        c.field + " " +
-        (std::isnan(c.low) ? "none: no value is finite"
-                           : fmt::format("from {} to {}", base::shortest(c.low), base::shortest(c.high)));
+        c.field + " " + (std::isnan(c.low) ? "none: no value is finite" : "from " + range_text(c.low, c.high));
     if (c.without_value != 0) text += fmt::format("; {} triangles without a value, grey", c.without_value);
     d.figure("colours", record("field", c.field, "low", c.low, "high", c.high, "without_value", c.without_value),
              "colours", text, c.without_value == 0 ? Tone::plain : Tone::strong);
@@ -83,6 +80,119 @@ Document render_document(const RenderReport& s, const Environment& environment) 
     return d;
 }
 
+// Contours and slices.
+
+/// What is cut, and at what.
+std::string level(const ContourReport& s) {
+    return s.value ? s.field + " = " + base::shortest(*s.value)
+                   : fmt::format("plane {},{}", coordinates(s.plane->normal, 3, base::shortest, ","),
+                                 base::shortest(s.plane->offset));
+}
+
+void tell_surface(Document& d, const ContourReport& s) {
+    const CutCounts& n = s.counts;
+    if (s.parts == 0)
+        return d.name("surface",
+                      fmt::format("empty: {} at the nodes has {}", s.value ? "the field" : "D",
+                                  std::isnan(s.low) ? "no finite number" : range_text(s.low, s.high)),
+                      Tone::strong);
+    d.name("surface", fmt::format("{}, {} ({} of them nodes of the mesh), in {}",
+                                  counted(s.parts, s.dimension == 2 ? "segment" : "triangle"),
+                                  counted(s.points, "point"), n.at_nodes, counted(n.cells, "cell")));
+    d.name("points", fmt::format("exact crossings{}, rounded once; decided by double-double {}, by integers {}",
+                                 for_straight_sides(s.curved), n.tiers.double_double, n.tiers.exact));
+}
+
+/// What is not in the file, or is not what it looks like.
+void tell_notes(Document& d, const ContourReport& s) {
+    const CutCounts& n = s.counts;
+    const auto note = [&](std::uint64_t count, std::string_view what, std::string_view text) {
+        if (count != 0) d.name("note", counted(count, what) + std::string(text), Tone::strong);
+    };
+    note(n.not_finite, "cell", " left out: the field is NaN or infinite at a node; the surface ends there");
+    note(n.degenerate, "cell", " of zero volume cut, with the orientation of the neighbours");
+    note(n.second_order, "cell", " of second order cut as linear ones, by their corners");
+    note(n.tiers.not_finite, "point", " with NaN in a field, next to a value that is not finite");
+    for (const auto& [fields, what] :
+         {std::pair(&s.file.left_out, "cannot hold"), {&s.file.renamed, "names otherwise"}})
+        if (!fields->empty())
+            d.name("note", fmt::format("fields that the format {}: {}", what, fmt::join(*fields, ", ")), Tone::strong);
+    for (const Note& told : s.notes) d.name("note", message(told), Tone::strong);
+}
+
+std::string pixels_text(const ContourReport& s) {
+    const SliceCounts& n = s.picture;
+    const std::string text =
+        fmt::format("{} x {} pixels of {:.6g}", s.pixels->width, s.pixels->height, s.pixels->pixel);
+    if (std::isnan(n.low)) return text + "; nothing drawn: no point has a finite value";
+    const std::uint64_t clear = n.outside + n.not_finite;
+    return text + "; colours from " + range_text(n.low, n.high) +
+           (n.below + n.above == 0 ? "" : fmt::format("; {} below and {} above", n.below, n.above)) +
+           (clear == 0 ? "" : fmt::format("; {} without a value, transparent", clear));
+}
+
+std::string view_text(const ContourReport& s) {
+    const std::string text = fmt::format("{} x {} pixels", s.view->width, s.view->height);
+    if (s.colours.empty()) return text + ", grey: --colours names a field";
+    if (std::isnan(s.drawn.low)) return text + "; no value is finite";
+    return text + fmt::format("; colours of {} from {}", s.colours, range_text(s.drawn.low, s.drawn.high)) +
+           (s.drawn.without_value == 0
+                ? ""
+                : fmt::format("; {} in grey, without a value", counted(s.drawn.without_value, "triangle")));
+}
+
+Json cut_json(const CutCounts& n) {
+    return record("cells", n.cells, "not_finite", n.not_finite, "degenerate", n.degenerate, "second_order",
+                  n.second_order, "at_nodes", n.at_nodes, "on_edges", n.on_edges, "double_double",
+                  n.tiers.double_double, "exact", n.tiers.exact, "nan", n.tiers.not_finite);
+}
+
+Document contour_document(const ContourReport& s, const Environment& environment) {
+    Document d;
+    d.data = record("schema", contour_schema, "command", s.value ? "render iso" : "render slice", "mesh", s.mesh,
+                    "curved", curved_json(s.curved), "dimension", s.dimension, "nodes", s.nodes, "cells", s.cells,
+                    "field", s.field, "value", s.value);
+    if (s.plane) put(d.data, "normal", s.plane->normal, "offset", s.plane->offset);
+    put(d.data, "low", s.low, "high", s.high, "output", s.output, "points", s.points, "parts", s.parts, "cut",
+        cut_json(s.counts), "fields", s.fields, "left_out", s.file.left_out, "renamed", s.file.renamed, "notes",
+        notes_json(s.notes));
+    d.curved(s.curved);
+    d.name("cut", level(s));
+    if (s.pixels) {
+        const PixelGrid& p = *s.pixels;
+        const SliceCounts& n = s.picture;
+        d.figure("picture",
+                 record("width", p.width, "height", p.height, "pixel", p.pixel, "origin", p.origin, "right",
+                        p.step_right, "up", p.step_up, "low", n.low, "high", n.high, "drawn", n.drawn, "below", n.below,
+                        "above", n.above, "outside", n.outside, "not_finite", n.not_finite),
+                 "picture", pixels_text(s));
+        d.name("values", fmt::format("exact{} at the pixels' middles, which are rounded to doubles; rounded once",
+                                     for_straight_sides(s.curved)));
+    } else {
+        tell_surface(d, s);
+    }
+    if (s.view) {
+        const double none = std::nan("");
+        put(d.data, "view",
+            record("width", s.view->width, "height", s.view->height, "colours", s.colours, "low",
+                   s.colours.empty() ? none : s.drawn.low, "high", s.colours.empty() ? none : s.drawn.high,
+                   "without_value", s.drawn.without_value));
+        if (!s.pixels) d.name("picture", view_text(s));
+    } else if (!s.pixels && !s.fields.empty()) {
+        d.name("fields", fmt::format("{}", fmt::join(s.fields, ", ")));
+    }
+    tell_notes(d, s);
+    d.name("mesh", counted(s.cells, "cell") + ", " + counted(s.nodes, "node"));
+    const ContourSeconds& t = s.seconds;
+    std::vector<std::pair<std::string_view, double>> parts{{"mesh", t.mesh}, {"cutting", t.cut}};
+    if (s.pixels || s.view) parts.emplace_back(s.pixels ? "sampling" : "drawing", t.sample);
+    parts.emplace_back("writing", t.write);
+    d.figure("seconds", record("mesh", t.mesh, "cut", t.cut, "sample", t.sample, "write", t.write, "total", t.total),
+             "time", time_text(t.total, s.threads, parts));
+    put(d.data, "threads", s.threads, "environment", environment_json(environment));
+    return d;
+}
+
 }  // namespace
 
 std::string render_text(const RenderReport& summary, bool colour) {
@@ -93,6 +203,16 @@ std::string render_text(const RenderReport& summary, bool colour) {
 std::string render_json(const RenderReport& summary, const Environment& environment) {
     const ExactEnvironment exact;
     return data_text(render_document(summary, environment));
+}
+
+std::string contour_text(const ContourReport& summary, bool colour) {
+    const ExactEnvironment environment;
+    return terminal_text(contour_document(summary, {}), colour);
+}
+
+std::string contour_json(const ContourReport& summary, const Environment& environment) {
+    const ExactEnvironment exact;
+    return data_text(contour_document(summary, environment));
 }
 
 }  // namespace barycert

@@ -1,15 +1,10 @@
 // What a run of sampling did.
 
-#include <fmt/format.h>
-
+#include <array>
 #include <cmath>
-#include <vector>
 
-#include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/document.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
 
@@ -17,21 +12,14 @@ using namespace report;
 
 namespace {
 
-/// Clauses with a figure each, but for those that are 0.
-std::string clauses(const std::vector<std::pair<std::uint64_t, std::string_view>>& all) {
-    std::vector<std::string> some;
-    for (const auto& [count, what] : all) {
-        if (count != 0) some.push_back(fmt::format("{} {}", count, what));
-    }
-    return fmt::format("{}", fmt::join(some, "; "));
-}
-
 void tell_inside(Document& d, const LocationCounts& n) {
-    const std::string where = fmt::format(": {} in the interior of a cell, {} on a face, {} on an edge, {} at a vertex",
-                                          n.interior, n.face, n.edge, n.vertex);
     d.figure("inside",
              record("count", n.inside(), "interior", n.interior, "face", n.face, "edge", n.edge, "vertex", n.vertex),
-             "inside", std::to_string(n.inside()) + (n.inside() == 0 ? "" : where));
+             "inside",
+             n.inside() == 0
+                 ? "0"
+                 : fmt::format("{}: {} in the interior of a cell, {} on a face, {} on an edge, {} at a vertex",
+                               n.inside(), n.interior, n.face, n.edge, n.vertex));
 }
 
 /// What became of points outside.
@@ -83,15 +71,16 @@ std::string steps_text(const SampleReport& s) {
 }
 
 void tell_picture(Document& d, const SliceCounts& n) {
-    std::string text = fmt::format("colours from {} to {}", base::shortest(n.low), base::shortest(n.high));
-    const std::uint64_t clear = n.outside + n.not_finite;
-    for (const auto& [count, how] : {std::pair(n.below, "below, drawn as the first"),
-                                     {n.above, "above, drawn as the last"},
-                                     {clear, "without a value, transparent"}}) {
-        if (count != 0) text += fmt::format("; {} {}", counted(count, "point"), how);
-    }
+    const auto points = [](std::uint64_t count, const char* how) {
+        return count == 0 ? "" : fmt::format("; {} {}", counted(count, "point"), how);
+    };
     d.figure("picture", record("low", n.low, "high", n.high, "drawn", n.drawn, "below", n.below, "above", n.above),
-             "picture", std::isnan(n.low) ? "nothing drawn: no point has a finite value" : text);
+             "picture",
+             std::isnan(n.low)
+                 ? "nothing drawn: no point has a finite value"
+                 : fmt::format("colours from {} to {}", base::shortest(n.low), base::shortest(n.high)) +
+                       points(n.below, "below, drawn as the first") + points(n.above, "above, drawn as the last") +
+                       points(n.outside + n.not_finite, "without a value, transparent"));
 }
 
 void tell_integrals(Document& d, const std::vector<FieldIntegral>& all) {
@@ -119,10 +108,10 @@ void tell_mesh(Document& d, const SampleReport& s) {
 
 void tell_times(Document& d, const SampleReport& s) {
     const SampleSeconds& t = s.seconds;
-    std::string text = fmt::format("{:.3g} s on {}: mesh {:.3g}, locator {:.3g}", t.total,
-                                   counted(static_cast<std::uint64_t>(s.threads), "thread"), t.mesh, t.build);
-    if (s.from != PointsFrom::grid) text += fmt::format(", points {:.3g}", t.read);
-    text += fmt::format(", sampling {:.3g}, writing {:.3g}", t.sample, t.write);
+    std::vector<std::pair<std::string_view, double>> parts{
+        {"mesh", t.mesh}, {"locator", t.build}, {"sampling", t.sample}, {"writing", t.write}};
+    if (s.from != PointsFrom::grid) parts.insert(parts.begin() + 2, {"points", t.read});
+    std::string text = time_text(t.total, s.threads, parts);
     if (const std::uint64_t n = s.counts.locations.points(); n != 0)
         text += fmt::format("; sampling took {} ns a point", brief_time(1e9 * t.sample / static_cast<double>(n)));
     d.figure("seconds",
@@ -190,18 +179,11 @@ Document sample_document(const SampleReport& s, const Environment& environment) 
 }  // namespace
 
 std::string policy_text(const OutsidePolicy& policy) {
-    switch (policy.kind) {
-        case Outside::nan:
-            return "nan";
-        case Outside::error:
-            return "error";
-        case Outside::fill:
-            return "fill=" + base::shortest(policy.fill);
-        case Outside::nearest:
-            return std::isinf(policy.limit) ? std::string("nearest") : "nearest=" + base::shortest(policy.limit);
-        default:
-            return "extrapolate";
-    }
+    constexpr std::array names{"nan", "error", "fill=", "nearest", "extrapolate"};  // by Outside
+    const std::string text = names[static_cast<std::size_t>(policy.kind)];
+    if (policy.kind == Outside::fill) return text + base::shortest(policy.fill);
+    const bool limited = policy.kind == Outside::nearest && !std::isinf(policy.limit);
+    return limited ? text + "=" + base::shortest(policy.limit) : text;
 }
 
 std::string sample_text(const SampleReport& summary, bool colour) {

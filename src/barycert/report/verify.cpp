@@ -1,33 +1,18 @@
 // What a verification of results found.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "barycert/base/decades.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/document.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
 
 using namespace report;
 
 namespace {
-
-/// The doubles of a point, with commas.
-std::string coordinates(const VerifyReport& s, const WrongRow& row) {
-    std::string text;
-    for (int k = 0; k < s.dimension; ++k)
-        text += (k == 0 ? "" : ",") + base::shortest(row.point[static_cast<std::size_t>(k)]);
-    return text;
-}
 
 std::string where(const WrongRow& row) {
     if (row.exact.cell < 0) return "outside";
@@ -44,7 +29,7 @@ std::string value_clause(const VerifyReport& s, const WrongRow& row) {
 
 /// What is wrong with a row.
 std::string example_sentence(const VerifyReport& s, const WrongRow& row) {
-    std::string text = "point (" + coordinates(s, row) + ") is " + where(row);
+    std::string text = "point (" + coordinates(row.point, s.dimension, base::shortest, ",") + ") is " + where(row);
     switch (row.verdict) {
         case RowVerdict::missed:
             return text + ", and said to be outside";
@@ -66,43 +51,46 @@ std::string example_sentence(const VerifyReport& s, const WrongRow& row) {
 /// A command that shows what the exact answer is.
 std::string example_command(const VerifyReport& s, const WrongRow& row) {
     return fmt::format("echo {} | {} sample {} --columns 1,2{} --on-boundary all{} --points - --output -",
-                       coordinates(s, row), s.program, shell_word(s.mesh), s.dimension == 3 ? ",3" : "",
-                       std::isnan(row.distance) ? " --nonfinite-points nan" : "");
+                       coordinates(row.point, s.dimension, base::shortest, ","), s.program, shell_word(s.mesh),
+                       s.dimension == 3 ? ",3" : "", std::isnan(row.distance) ? " --nonfinite-points nan" : "");
 }
 
 struct Kind {
     std::uint64_t count = 0;
-    std::string what;  ///< what such rows are
+    std::string_view meaning;  ///< of the verdict
+    std::string what;          ///< such rows are, here
 };
 
 /// One for each RowVerdict.
 std::array<Kind, 5> kinds_of(const VerifyReport& s) {
     const Verdicts& v = s.verdicts;
-    std::string right = s.exact ? "the exact value, rounded once" : "values off by at most the tolerance";
-    if (v.by_other_cell != 0)
-        right += fmt::format("; {} by another cell that contains the point, not by the lowest", v.by_other_cell);
-    std::string missed = "in a cell, and said to be outside";
-    if (v.missed_on_boundary != 0)
-        missed += fmt::format("; {} on a face, an edge or a vertex of the cell", v.missed_on_boundary);
-    std::string invented = "in no cell, and said to be inside";
-    if (v.invented_zero != 0) invented += fmt::format("; {} have the value 0", v.invented_zero);
-    if (v.invented_measured != 0) {
-        const bool all = v.invented_measured == v.invented;
-        invented += all ? "; the farthest" : fmt::format("; the farthest of {} of them", v.invented_measured);
-        invented += fmt::format(" lies {} from the mesh", brief(v.invented_distance));
-        if (v.invented_near != 0)
-            invented += fmt::format(", {} nearer than {} of its diagonal", v.invented_near, brief(near_distance));
-    }
+    const auto more = [](std::uint64_t count, std::string_view what) {
+        return count == 0 ? "" : fmt::format("; {} {}", count, what);
+    };
+    std::string far;
+    if (v.invented_measured != 0)
+        far = (v.invented_measured == v.invented ? "; the farthest"
+                                                 : fmt::format("; the farthest of {} of them", v.invented_measured)) +
+              fmt::format(" lies {} from the mesh", brief(v.invented_distance));
+    if (v.invented_measured != 0 && v.invented_near != 0)
+        far += fmt::format(", {} nearer than {} of its diagonal", v.invented_near, brief(near_distance));
     const bool named = !s.cell_column.empty(), valued = !s.columns.empty();
-    return {{{v.right, valued ? right : ""},
-             {v.missed, missed},
-             {v.invented, invented},
-             {v.wrong_cell, named ? "inside, but not in the cell that column " + base::quoted(s.cell_column) + " names"
-                                  : "not compared: the results name no cells"},
-             {v.wrong_value,
-              !valued   ? "not compared: no column of values"
-              : s.exact ? "not the exact value, rounded once"
-                        : fmt::format("off by more than {} of the range, or NaN", base::shortest(s.tolerance))}}};
+    const std::string right = s.exact ? "the exact value, rounded once" : "values off by at most the tolerance";
+    return {
+        {{v.right, "right rows",
+          !valued ? "" : right + more(v.by_other_cell, "by another cell that contains the point, not by the lowest")},
+         {v.missed, "points in a cell that are said to be outside",
+          "in a cell, and said to be outside" +
+              more(v.missed_on_boundary, "on a face, an edge or a vertex of the cell")},
+         {v.invented, "points in no cell that are said to be inside",
+          "in no cell, and said to be inside" + more(v.invented_zero, "have the value 0") + far},
+         {v.wrong_cell, "points inside that are not in the cell named",
+          named ? "inside, but not in the cell that column " + base::quoted(s.cell_column) + " names"
+                : "not compared: the results name no cells"},
+         {v.wrong_value, "values off by more than the tolerance, or NaN where one is due",
+          !valued   ? "not compared: no column of values"
+          : s.exact ? "not the exact value, rounded once"
+                    : fmt::format("off by more than {} of the range, or NaN", base::shortest(s.tolerance))}}};
 }
 
 void tell_verdict(Document& d, const VerifyReport& s) {
@@ -163,23 +151,22 @@ void tell_values(Document& d, const VerifyReport& s) {
     }
 }
 
-void tell_errors(Document& d, const VerifyReport& s) {
-    for (std::size_t c = 0; c < s.columns.size(); ++c) {
-        const ValueErrors& e = s.verdicts.columns[c];
-        if (e.values == 0) continue;
-        std::size_t first = 0, last = e.by_relative.size() - 1;
-        while (first < last && e.by_relative[first] == 0) ++first;
-        while (last > first && e.by_relative[last] == 0) --last;
-        Bars bars;
-        for (std::size_t b = first; b <= last; ++b) {
-            // From 10^(b - 19) on all are above the tolerance if that is less.
-            const bool bad = b != 0 && (s.exact || std::pow(10.0, static_cast<double>(b) - 19) >= s.tolerance);
-            bars.bars.push_back({b == 0 ? "right" : base::decade_label(b), e.by_relative[b], bad});
-        }
-        const For whom = e.values == e.identical ? For::page : For::all;  // one bar: the table says it
-        d.section(fmt::format("errors of {} in parts of its range", s.columns[c]), whom, 3);
-        d.add(std::move(bars), whom);
+/// The errors of a column by powers of ten; on a terminal where there are some.
+void tell_errors(Document& d, const VerifyReport& s, const std::string& column, const ValueErrors& e) {
+    const auto some = [](std::uint64_t n) { return n != 0; };
+    const auto& counts = e.by_relative;
+    const auto first = std::find_if(counts.begin(), counts.end(), some);
+    const auto last = std::find_if(counts.rbegin(), counts.rend(), some).base();
+    Bars bars;
+    for (auto at = first; at < last; ++at) {
+        // From 10^(b - 19) on all are above the tolerance if that is less.
+        const auto b = static_cast<std::size_t>(at - counts.begin());
+        const bool bad = b != 0 && (s.exact || std::pow(10.0, static_cast<double>(b) - 19) >= s.tolerance);
+        bars.bars.push_back({b == 0 ? "right" : base::decade_label(b), *at, bad});
     }
+    const For whom = e.values == e.identical ? For::page : For::all;  // one bar: the table says it
+    d.section(fmt::format("errors of {} in parts of its range", column), whom, 3);
+    d.add(std::move(bars), whom);
 }
 
 Json errors_json(const VerifyReport& s) {
@@ -232,10 +219,12 @@ Document verify_document(const VerifyReport& s, const Environment& environment) 
     d.title = "barycert verify: " + s.results;
     d.heading = fmt::format("barycert verify: {} on {}", s.results, s.mesh);
     d.footer = environment_line(environment);
+    d.data = verify_data(s, environment);
     d.curved(s.curved);
     tell_verdict(d, s);
     tell_values(d, s);
-    tell_errors(d, s);
+    for (std::size_t c = 0; c < s.columns.size(); ++c)
+        if (s.verdicts.columns[c].values != 0) tell_errors(d, s, s.columns[c], s.verdicts.columns[c]);
     if (!s.verdicts.examples.empty()) d.section("worst rows, counted from 0");
     for (const WrongRow& row : s.verdicts.examples)
         d.add(Item{.title = fmt::format("{:<12}", name(row.verdict)),
@@ -254,9 +243,8 @@ Document verify_document(const VerifyReport& s, const Environment& environment) 
     for (const Note& note : s.notes)
         d.name(std::string(name(note.kind)), note.text + (note.file.empty() ? "" : " (" + note.file + ")"));
     const SampleSeconds& t = s.seconds;
-    d.name("time",
-           fmt::format("{:.3g} s on {}: mesh {:.3g}, locator {:.3g}, results {:.3g}, comparing {:.3g}", t.total,
-                       counted(static_cast<std::uint64_t>(s.threads), "thread"), t.mesh, t.build, t.read, t.sample));
+    d.name("time", time_text(t.total, s.threads,
+                             {{"mesh", t.mesh}, {"locator", t.build}, {"results", t.read}, {"comparing", t.sample}}));
     return d;
 }
 
@@ -274,18 +262,12 @@ std::string verify_html(const VerifyReport& summary, const Environment& environm
 
 std::string verify_json(const VerifyReport& summary, const Environment& environment) {
     const ExactEnvironment exact;
-    Document d;
-    d.data = verify_data(summary, environment);
-    return data_text(d);
+    return data_text(verify_document(summary, environment));
 }
 
 CiReport verify_outcomes(const VerifyReport& s, const Environment& environment) {
     const ExactEnvironment exact;
     using State = CiOutcome::State;
-    constexpr std::array<std::string_view, 5> meanings{
-        "right rows", "points in a cell that are said to be outside", "points in no cell that are said to be inside",
-        "points inside that are not in the cell named",
-        "values off by more than the tolerance, or NaN where one is due"};
     CiReport ci{"barycert verify", "resource", environment, s.seconds.total};
     const auto kinds = kinds_of(s);
     for (std::size_t k = 1; k < kinds.size(); ++k) {
@@ -299,7 +281,7 @@ CiReport verify_outcomes(const VerifyReport& s, const Environment& environment) 
         if (worst != examples.end())
             message += fmt::format(". Worst: row {}, counted from 0: {}", worst->row, example_sentence(s, *worst));
         const auto add = [&](std::string asked, State state) {
-            ci.outcomes.push_back({s.results, std::move(asked), rule, std::string(meanings[k]), state,
+            ci.outcomes.push_back({s.results, std::move(asked), rule, std::string(kinds[k].meaning), state,
                                    state == State::passed ? "" : message, s.results == "-" ? "" : s.results});
         };
         bool limited = false;

@@ -1,11 +1,10 @@
 // The facets of a mesh that only one cell has.
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 
+#include "barycert/base/large_pages.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/mesh/facets.hpp"
+#include "barycert/mesh/adjacency.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/surface/parts.hpp"
 
@@ -15,21 +14,19 @@ namespace {
 using Index = Mesh::Index;
 
 /// Each as cell * corners + corner opposite to it, ascending.
-std::vector<std::int64_t> single_facets(const Mesh& mesh) {
+std::vector<std::size_t> single_facets(const Mesh& mesh) {
     const mesh::FacetTable table(mesh);
-    constexpr std::size_t size = 1024;
-    std::vector<std::vector<std::int64_t>> parts((table.node_count() + size - 1) / size);
-    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
-        table.for_each_group(p * size, std::min(table.node_count(), (p + 1) * size),
-                             [&](std::span<const mesh::CellFacet> equal) {
-                                 if (equal.size() != 1) return;
-                                 const auto corners = static_cast<std::int64_t>(mesh.corners());
-                                 parts[p].push_back(equal[0].cell * corners + equal[0].corner);
-                             });
+    std::vector<std::uint8_t> single(mesh.cells.size());
+    for_ranges(table.node_count(), [&](std::size_t first, std::size_t last) {
+        table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) {
+            if (equal.size() == 1)
+                single[static_cast<std::size_t>(equal[0].cell) * mesh.corners() +
+                       static_cast<std::size_t>(equal[0].corner)] = 1;
+        });
     });
-    std::vector<std::int64_t> all;
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    std::sort(all.begin(), all.end());
+    std::vector<std::size_t> all;
+    for (std::size_t place = 0; place < single.size(); ++place)
+        if (single[place] != 0) all.push_back(place);
     return all;
 }
 
@@ -46,18 +43,17 @@ std::array<std::size_t, n - 1> outward_facet(std::size_t i) {
 }
 
 template <std::size_t n>
-void write_facets(const Mesh& mesh, const std::vector<std::int64_t>& facets, Surface& surface) {
+void write_facets(const Mesh& mesh, const std::vector<std::size_t>& facets, Surface& surface) {
     base::resize_large(surface.cells, (n - 1) * facets.size());
     base::resize_large(surface.mesh_cells, facets.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, facets.size(), 4096), [&](const auto& range) {
-        for (std::size_t f = range.begin(); f != range.end(); ++f) {
-            const auto place = static_cast<std::size_t>(facets[f]);
-            const Index* const corners = mesh.cells.data() + place / n * n;
-            const auto facet = outward_facet<n>(place % n);
+    for_ranges(facets.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f != end; ++f) {
+            const Index* const corners = mesh.cells.data() + facets[f] / n * n;
+            const auto facet = outward_facet<n>(facets[f] % n);
             Index* const to = surface.cells.data() + (n - 1) * f;
             for (std::size_t i = 0; i < n - 1; ++i) to[i] = corners[facet[i]];
             if (orientation(mesh, corners) == Sign::negative) std::swap(to[n - 3], to[n - 2]);
-            surface.mesh_cells[f] = static_cast<Index>(place / n);
+            surface.mesh_cells[f] = static_cast<Index>(facets[f] / n);
         }
     });
 }
@@ -76,26 +72,15 @@ void number_nodes(const Mesh& mesh, Surface& surface) {
     for (Index& node : surface.cells) node = point_of[static_cast<std::size_t>(node)];
 }
 
-std::vector<double> rows_at_points(const std::vector<double>& from, std::size_t components, const Surface& surface) {
-    std::vector<double> to(components * surface.mesh_edges.size() / 2);
-    for (std::size_t v = 0; v < surface.mesh_edges.size() / 2; ++v)
-        std::copy_n(from.data() + components * static_cast<std::size_t>(surface.mesh_edges[2 * v]), components,
-                    to.data() + components * v);
-    return to;
-}
-
 Surface boundary_of(const Mesh& mesh, const CutOptions& options) {
     Surface surface;
     surface.dimension = mesh.dimension;
-    const std::vector<std::int64_t> facets = single_facets(mesh);
+    const std::vector<std::size_t> facets = single_facets(mesh);
     mesh.dimension == 2 ? write_facets<3>(mesh, facets, surface) : write_facets<4>(mesh, facets, surface);
     number_nodes(mesh, surface);
-    surface.points = rows_at_points(mesh.points, surface.corners(), surface);
-    for (const Field* const field : options.point_fields)
-        surface.point_fields.push_back(
-            {field->name, field->components,
-             rows_at_points(field->data, static_cast<std::size_t>(field->components), surface)});
-    carry_cell_fields(options, surface);
+    surface.points = take_rows(mesh.points, surface.corners(), surface.mesh_edges, 2);
+    take_rows(options.point_fields, surface.mesh_edges, 2, surface.point_fields);
+    take_rows(options.cell_fields, surface.mesh_cells, 1, surface.cell_fields);
     return surface;
 }
 
@@ -105,11 +90,8 @@ Surface boundary_of(const Mesh& mesh, const CutOptions& options) {
 namespace barycert {
 
 Result<Surface> boundary(const Mesh& mesh, const CutOptions& options) {
-    const ExactEnvironment environment;
-    return surface::in_arena(options.threads, [&]() -> Result<Surface> {
-        if (Status good = surface::check_mesh(mesh, 0); !good) return good.error();
+    return surface::on_good_input(mesh, 0, options, [&]() -> Result<Surface> {
         if (!surface::indices_fit(mesh.cells, mesh.point_count())) return surface::bad_index();
-        if (Status fit = surface::check_options(mesh, options); !fit) return fit.error();
         return surface::boundary_of(mesh, options);
     });
 }

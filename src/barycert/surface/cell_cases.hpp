@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace barycert::surface {
 
@@ -68,9 +69,7 @@ struct SplitCorners {
         if (even) return;
         // Two of the same kind change places: with three corners or more there are two.
         const std::size_t at = inside_count >= 2 ? 0 : n - 2;
-        const std::uint8_t first = order[at];
-        order[at] = order[at + 1];
-        order[at + 1] = first;
+        std::swap(order[at], order[at + 1]);
     }
 };
 

@@ -133,7 +133,7 @@ namespace barycert::surface {
 HWY_EXPORT(level_crossings);
 HWY_EXPORT(plane_crossings);
 
-std::size_t level_lanes(double value, const double* const (&f)[2], const EdgeBlock& edges, double* out,
+std::size_t level_lanes(double value, const double* const* f, const EdgeBlock& edges, double* out,
                         std::uint32_t* undecided) {
     return HWY_DYNAMIC_DISPATCH(level_crossings)(value, f, edges, out, undecided);
 }

@@ -1,4 +1,3 @@
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -6,12 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/core/blocks.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/surface/levels.hpp"
@@ -20,38 +18,40 @@
 namespace barycert::surface {
 namespace {
 
-/// What nodes have and points are to get: coordinates, or a field.
+/// A number that nodes have and points are to get: a coordinate, or a component of a field.
 struct Carried {
     const double* from;
     double* to;
-    std::size_t components;
+    std::size_t stride;
+
+    double at(Mesh::Index node) const { return from[stride * static_cast<std::size_t>(node)]; }
 };
 
 std::vector<Carried> carried_by(const Mesh& mesh, const CutOptions& options, Surface& surface) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    const std::size_t points = surface.mesh_edges.size() / 2;
-    base::resize_large(surface.points, d * points);
-    std::vector<Carried> columns{{mesh.points.data(), surface.points.data(), d}};
-    surface.point_fields.reserve(options.point_fields.size());
+    std::vector<Carried> all;
+    const auto add = [&](const std::vector<double>& from, std::vector<double>& to, int components) {
+        const auto stride = static_cast<std::size_t>(components);
+        base::resize_large(to, stride * (surface.mesh_edges.size() / 2));
+        for (std::size_t c = 0; c < stride; ++c) all.push_back({from.data() + c, to.data() + c, stride});
+    };
+    add(mesh.points, surface.points, mesh.dimension);
     for (const Field* const field : options.point_fields) {
-        Field& to = surface.point_fields.emplace_back(Field{field->name, field->components, {}});
-        const auto components = static_cast<std::size_t>(field->components);
-        base::resize_large(to.data, components * points);
-        columns.push_back({field->data.data(), to.data.data(), components});
+        surface.point_fields.push_back({field->name, field->components, {}});
+        add(field->data, surface.point_fields.back().data, field->components);
     }
-    return columns;
+    return all;
 }
 
 /// Some points of a cut at a time, those on edges gathered for the lanes.
 template <class Level>
 class PointBlock {
 public:
-    PointBlock(const Level& level, const Surface& surface, const std::vector<Carried>& columns)
+    PointBlock(const Level& level, const Surface& surface, const std::vector<Carried>& carried)
         : level_(level),
           surface_(surface),
-          columns_(columns),
-          arrays_(Level::arrays + 2 * count(columns)),
-          out_(count(columns) * core::block_size) {}
+          carried_(carried),
+          arrays_(Level::arrays + 2 * carried.size()),
+          out_(carried.size() * core::block_size) {}
 
     /// Points [first, last), at most core::block_size of them.
     void place(std::size_t first, std::size_t last, TierCounts& tiers) {
@@ -59,22 +59,19 @@ public:
         for (std::size_t v = first; v < last; ++v) {
             const Edge edge{surface_.mesh_edges[2 * v], surface_.mesh_edges[2 * v + 1]};
             if (edge.in == edge.out) {
-                for_numbers([&](std::size_t, const Carried& column, std::size_t c) {
-                    // + 0: an exact zero is positive.
-                    column.to[column.components * v + c] = from(column, edge.in, c) + 0.0;
-                });
+                for (const Carried& c : carried_)
+                    c.to[c.stride * v] = c.at(edge.in) + 0.0;  // an exact zero is positive
                 continue;
             }
             level_.gather(edge, size, arrays_.data());
-            for_numbers([&](std::size_t number, const Carried& column, std::size_t c) {
-                ends(number)[0][size] = from(column, edge.in, c);
-                ends(number)[1][size] = from(column, edge.out, c);
-            });
+            for (std::size_t k = 0; k < carried_.size(); ++k) {
+                ends(k)[0][size] = carried_[k].at(edge.in);
+                ends(k)[1][size] = carried_[k].at(edge.out);
+            }
             edge_[size] = edge;
             point_[size++] = v;
         }
-        const std::size_t components = out_.size() / core::block_size;
-        const EdgeBlock block{ends(0), static_cast<int>(components), size};
+        const EdgeBlock block{ends(0), static_cast<int>(carried_.size()), size};
         const std::size_t undecided = level_.lanes(arrays_.data(), block, out_.data(), undecided_.data());
         for (std::size_t i = 0; i < undecided; ++i) {
             if (!place_exactly(undecided_[i])) ++tiers.not_finite;
@@ -82,50 +79,29 @@ public:
         tiers.double_double += size - undecided;
         tiers.exact += undecided;
         for (std::size_t j = 0; j < size; ++j) {
-            for_numbers([&](std::size_t number, const Carried& column, std::size_t c) {
-                column.to[column.components * point_[j] + c] = out_[components * j + number];
-            });
+            for (std::size_t k = 0; k < carried_.size(); ++k)
+                carried_[k].to[carried_[k].stride * point_[j]] = out_[carried_.size() * j + k];
         }
     }
 
 private:
-    static std::size_t count(const std::vector<Carried>& columns) {
-        std::size_t sum = 0;
-        for (const Carried& column : columns) sum += column.components;
-        return sum;
-    }
-
-    /// f(number, column, component of it) for all numbers of a point.
-    template <class F>
-    void for_numbers(F&& f) const {
-        std::size_t number = 0;
-        for (const Carried& column : columns_) {
-            for (std::size_t c = 0; c < column.components; ++c) f(number++, column, c);
-        }
-    }
-
-    static double from(const Carried& column, Mesh::Index node, std::size_t c) {
-        return column.from[column.components * static_cast<std::size_t>(node) + c];
-    }
-
     double* const* ends(std::size_t number) const { return arrays_.data() + Level::arrays + 2 * number; }
 
     bool place_exactly(std::size_t j) {
         const ExactCrossing crossing = level_.exact(edge_[j]);
-        const std::size_t components = out_.size() / core::block_size;
         bool finite = true;
-        for (std::size_t number = 0; number < components; ++number) {
-            const double in = ends(number)[0][j], out = ends(number)[1][j];
+        for (std::size_t k = 0; k < carried_.size(); ++k) {
+            const double in = ends(k)[0][j], out = ends(k)[1][j];
             const bool both = std::isfinite(in) && std::isfinite(out);
             finite = finite && both;
-            out_[components * j + number] = both ? crossing.value(in, out) : std::numeric_limits<double>::quiet_NaN();
+            out_[carried_.size() * j + k] = both ? crossing.value(in, out) : std::numeric_limits<double>::quiet_NaN();
         }
         return finite;
     }
 
     const Level& level_;
     const Surface& surface_;
-    const std::vector<Carried>& columns_;
+    const std::vector<Carried>& carried_;
     core::LaneArrays arrays_;
     std::vector<double> out_;
     std::array<Edge, core::block_size> edge_{};
@@ -136,12 +112,12 @@ private:
 /// Sets coordinates and fields of nodes from mesh_edges. On all threads of the calling arena.
 template <class Level>
 TierCounts place_points(const Mesh& mesh, const Level& level, const CutOptions& options, Surface& surface) {
-    const std::vector<Carried> columns = carried_by(mesh, options, surface);
+    const std::vector<Carried> carried = carried_by(mesh, options, surface);
     const std::size_t points = surface.mesh_edges.size() / 2;
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, points, 16 * core::block_size), TierCounts{},
         [&](const tbb::blocked_range<std::size_t>& range, TierCounts tiers) {
-            PointBlock<Level> block(level, surface, columns);
+            PointBlock<Level> block(level, surface, carried);
             for (std::size_t first = range.begin(); first < range.end(); first += core::block_size)
                 block.place(first, std::min(first + core::block_size, range.end()), tiers);
             return tiers;
@@ -155,20 +131,19 @@ TierCounts place_points(const Mesh& mesh, const Level& level, const CutOptions& 
 template <class Level>
 Result<Cut> cut_at(const Mesh& mesh, const Level& level, const CutOptions& options) {
     std::vector<std::uint8_t> states(mesh.point_count());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, states.size(), 4096), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) states[i] = level.state(i);
+    for_ranges(states.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i != end; ++i) states[i] = level.state(i);
     });
     Cut cut;
     if (Status done = cut_cells(mesh, states, cut.surface, cut.counts); !done) return done.error();
     cut.counts.tiers = place_points(mesh, level, options, cut.surface);
-    carry_cell_fields(options, cut.surface);
+    take_rows(options.cell_fields, cut.surface.mesh_cells, 1, cut.surface.cell_fields);
     cut.counts.second_order = mesh.mid_nodes.empty() ? 0 : mesh.cell_count();
     return cut;
 }
 
 Result<Cut> cut_field(int dimension, const Mesh& mesh, const Field& field, double value, const CutOptions& options,
                       int component) {
-    const ExactEnvironment environment;
     if (Status fits = mesh::check_field(&field, mesh.point_count(), "node"); !fits) return fits.error();
     if (component < 0 || component >= field.components)
         return Error{.what = "no such component of field \"" + field.name + '"',
@@ -176,11 +151,8 @@ Result<Cut> cut_field(int dimension, const Mesh& mesh, const Field& field, doubl
                      .found = std::to_string(component)};
     if (!std::isfinite(value))
         return Error{.what = "the value to cut at", .expected = "a finite number", .found = base::shortest(value)};
-    return in_arena(options.threads, [&]() -> Result<Cut> {
-        if (Status good = check_mesh(mesh, dimension); !good) return good.error();
-        if (Status fit = check_options(mesh, options); !fit) return fit.error();
-        return cut_at(mesh, FieldLevel(field, component, value), options);
-    });
+    return on_good_input(mesh, dimension, options,
+                         [&] { return cut_at(mesh, FieldLevel(field, component, value), options); });
 }
 
 }  // namespace
@@ -198,21 +170,16 @@ Result<Cut> isoline(const Mesh& mesh, const Field& field, double value, const Cu
 
 Result<Cut> slice(const Mesh& mesh, const Plane& plane, const CutOptions& options) {
     const ExactEnvironment environment;
-    bool finite = std::isfinite(plane.offset), zero = true;
-    for (const double n : plane.normal) {
-        finite = finite && std::isfinite(n);
-        zero = zero && n == 0;
-    }
-    if (!finite || zero)
+    const auto& n = plane.normal;
+    const bool finite =
+        std::isfinite(plane.offset) && std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2]);
+    if (!finite || (n[0] == 0 && n[1] == 0 && n[2] == 0))
         return Error{.what = "the plane",
                      .expected = "four finite numbers, the normal not zero",
-                     .found = base::shortest(plane.normal[0]) + ", " + base::shortest(plane.normal[1]) + ", " +
-                              base::shortest(plane.normal[2]) + ", " + base::shortest(plane.offset)};
-    return surface::in_arena(options.threads, [&]() -> Result<Cut> {
-        if (Status good = surface::check_mesh(mesh, 3); !good) return good.error();
-        if (Status fit = surface::check_options(mesh, options); !fit) return fit.error();
-        return surface::cut_at(mesh, surface::PlaneLevel(mesh, plane), options);
-    });
+                     .found = base::shortest(n[0]) + ", " + base::shortest(n[1]) + ", " + base::shortest(n[2]) + ", " +
+                              base::shortest(plane.offset)};
+    return surface::on_good_input(mesh, 3, options,
+                                  [&] { return surface::cut_at(mesh, surface::PlaneLevel(mesh, plane), options); });
 }
 
 }  // namespace barycert

@@ -1,32 +1,25 @@
 #include "barycert/surface/parts.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
 #include <functional>
 #include <string>
 
+#include "barycert/base/large_pages.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/mesh/consistency.hpp"
 
 namespace barycert::surface {
 namespace {
 
-/// Whether good(begin, end) holds on all parts of the range.
-template <class Good>
-bool all_parts(std::size_t count, Good good) {
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, count, std::size_t{1} << 15), true,
-        [&](const auto& range, bool so_far) { return so_far && good(range.begin(), range.end()); },
-        std::logical_and<>());
-}
-
 bool all_finite(const std::vector<double>& numbers) {
-    return all_parts(numbers.size(), [&](std::size_t begin, std::size_t end) {
+    const auto part_is = [&](const tbb::blocked_range<std::size_t>& range, bool so_far) {
         double sum = 0;  // a finite number less itself is zero, any other NaN
-        for (std::size_t i = begin; i < end; ++i) sum += numbers[i] - numbers[i];
-        return sum == 0;
-    });
+        for (std::size_t i = range.begin(); i < range.end(); ++i) sum += numbers[i] - numbers[i];
+        return so_far && sum == 0;
+    };
+    return tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, numbers.size(), std::size_t{1} << 15), true, part_is,
+                                std::logical_and<>());
 }
 
 Error bad_mesh(std::string found) {
@@ -39,7 +32,7 @@ Error bad_index() {
     return bad_mesh("a corner of a cell that is no node");
 }
 
-Status check_mesh(const Mesh& mesh, int dimension) {
+Status check_input(const Mesh& mesh, int dimension, const CutOptions& options) {
     if (mesh.dimension != 2 && mesh.dimension != 3) return bad_mesh("a dimension that is neither 2 nor 3");
     if (dimension != 0 && mesh.dimension != dimension)
         return Error{.what = "a mesh of another dimension",
@@ -50,10 +43,6 @@ Status check_mesh(const Mesh& mesh, int dimension) {
     if (mesh.point_count() > INT32_MAX || mesh.cell_count() > INT32_MAX)
         return bad_mesh("more than 2147483647 nodes or cells");
     if (!all_finite(mesh.points)) return bad_mesh("a coordinate that is not finite");
-    return Done{};
-}
-
-Status check_options(const Mesh& mesh, const CutOptions& options) {
     for (const Field* const field : options.point_fields) {
         if (Status fits = mesh::check_field(field, mesh.point_count(), "node"); !fits) return fits;
     }
@@ -61,6 +50,25 @@ Status check_options(const Mesh& mesh, const CutOptions& options) {
         if (Status fits = mesh::check_field(field, mesh.cell_count(), "cell"); !fits) return fits;
     }
     return Done{};
+}
+
+std::vector<double> take_rows(const std::vector<double>& from, std::size_t columns,
+                              const std::vector<Mesh::Index>& rows, std::size_t stride) {
+    std::vector<double> to;
+    base::resize_large(to, columns * (rows.size() / stride));
+    for_ranges(rows.size() / stride, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i != end; ++i)
+            std::copy_n(from.data() + columns * static_cast<std::size_t>(rows[stride * i]), columns,
+                        to.data() + columns * i);
+    });
+    return to;
+}
+
+void take_rows(const std::vector<const Field*>& fields, const std::vector<Mesh::Index>& rows, std::size_t stride,
+               std::vector<Field>& to) {
+    for (const Field* const field : fields)
+        to.push_back({field->name, field->components,
+                      take_rows(field->data, static_cast<std::size_t>(field->components), rows, stride)});
 }
 
 }  // namespace barycert::surface

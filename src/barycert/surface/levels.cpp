@@ -1,5 +1,7 @@
 #include "barycert/surface/levels.hpp"
 
+#include <initializer_list>
+
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/core/quotient.hpp"
@@ -12,50 +14,40 @@ using core::Integer;
 using core::scaled;
 using core::Unit;
 
+/// Of which all of these are multiples.
+Unit unit_of(std::initializer_list<double> numbers) {
+    Unit unit;
+    for (const double x : numbers) unit.add(scaled(x));
+    return unit;
+}
+
 /// offset - normal.x in units that depend on the plane and on `of_points` alone.
-Integer exact_height(const Plane& plane, const double* x, const Unit& of_plane, const Unit& of_points) {
+Integer exact_height(const Plane& plane, const double* x, const Unit& of_points) {
+    const Unit of_plane = unit_of({plane.offset, plane.normal[0], plane.normal[1], plane.normal[2]});
     Integer sum = of_plane.multiple<Integer>(scaled(plane.offset)) * of_points.multiple<Integer>(scaled(1));
     for (std::size_t k = 0; k < 3; ++k)
         sum = sum - of_plane.multiple<Integer>(scaled(plane.normal[k])) * of_points.multiple<Integer>(scaled(x[k]));
     return sum;
 }
 
-Unit unit_of(const Plane& plane) {
-    Unit unit;
-    unit.add(scaled(plane.offset));
-    for (const double n : plane.normal) unit.add(scaled(n));
-    return unit;
-}
-
-void add_point(Unit& unit, const double* x) {
-    for (std::size_t k = 0; k < 3; ++k) unit.add(scaled(x[k]));
-}
-
 }  // namespace
 
 ExactCrossing::ExactCrossing(double in, double out, double value) {
-    Unit unit;
-    for (const double x : {in, out, value}) unit.add(scaled(x));
+    const Unit unit = unit_of({in, out, value});
     const Integer level = unit.multiple<Integer>(scaled(value));
     in_ = unit.multiple<Integer>(scaled(in)) - level;
     out_ = level - unit.multiple<Integer>(scaled(out));
 }
 
 ExactCrossing::ExactCrossing(const Plane& plane, const double* in, const double* out) {
-    const Unit of_plane = unit_of(plane);
-    Unit of_points;
-    of_points.add(scaled(1));
-    add_point(of_points, in);
-    add_point(of_points, out);
-    in_ = exact_height(plane, in, of_plane, of_points);
-    out_ = Integer() - exact_height(plane, out, of_plane, of_points);
+    const Unit of_points = unit_of({1, in[0], in[1], in[2], out[0], out[1], out[2]});
+    in_ = exact_height(plane, in, of_points);
+    out_ = Integer() - exact_height(plane, out, of_points);
 }
 
 double ExactCrossing::value(double in, double out) const {
     // The weights of the ends are out_ / (in_ + out_) and in_ / (in_ + out_).
-    Unit unit;
-    unit.add(scaled(in));
-    unit.add(scaled(out));
+    const Unit unit = unit_of({in, out});
     const Integer sum = out_ * unit.multiple<Integer>(scaled(in)) + in_ * unit.multiple<Integer>(scaled(out));
     return core::round_quotient(sum.sign() < 0, sum.magnitude(), (in_ + out_).magnitude(), unit.exponent - 1074);
 }
@@ -74,11 +66,7 @@ State PlaneLevel::state(std::size_t node) const {
     const double bound = 4.5 * 0x1p-53 * magnitude + 0x1p-1070;
     if (height > bound) return inside;
     if (height < -bound) return outside;
-    const Unit of_plane = unit_of(plane_);
-    Unit of_points;
-    of_points.add(scaled(1));
-    add_point(of_points, x);
-    const int sign = exact_height(plane_, x, of_plane, of_points).sign();
+    const int sign = exact_height(plane_, x, unit_of({1, x[0], x[1], x[2]})).sign();
     return sign > 0 ? inside : sign < 0 ? outside : on;
 }
 

@@ -26,7 +26,7 @@ struct EdgeBlock {
 };
 
 /// g = f - value; f[i][j] is the field at end i of edge j.
-std::size_t level_lanes(double value, const double* const (&f)[2], const EdgeBlock& edges, double* out,
+std::size_t level_lanes(double value, const double* const* f, const EdgeBlock& edges, double* out,
                         std::uint32_t* undecided);
 
 /// g = offset - normal.x; the first three numbers are the coordinates.
@@ -73,8 +73,7 @@ public:
         to[1][j] = at(static_cast<std::size_t>(edge.out));
     }
     std::size_t lanes(const double* const* own, const EdgeBlock& edges, double* out, std::uint32_t* undecided) const {
-        const double* const f[2] = {own[0], own[1]};
-        return level_lanes(value_, f, edges, out, undecided);
+        return level_lanes(value_, own, edges, out, undecided);
     }
     ExactCrossing exact(const Edge& edge) const {
         return {at(static_cast<std::size_t>(edge.in)), at(static_cast<std::size_t>(edge.out)), value_};

@@ -3,7 +3,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/large_pages.hpp"
+#include "barycert/base/arena.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/result.hpp"
@@ -20,9 +20,10 @@
 
 namespace barycert::surface {
 
-/// The mesh has whole nodes and cells, finite coordinates and the dimension; 0: any. Indices of cells are left to those
-/// who read them: a pass over them takes a fifth of the time of a cut. On all threads of the calling arena.
-Status check_mesh(const Mesh& mesh, int dimension);
+/// The mesh has whole nodes and cells, finite coordinates and the dimension (0: any), and the fields to be carried
+/// along fit it. Indices of cells are left to those who read them: a pass over them takes a fifth of the time of a cut.
+/// On all threads of the calling arena.
+Status check_input(const Mesh& mesh, int dimension, const CutOptions& options);
 
 /// All of these are nodes.
 inline bool indices_fit(std::span<const Mesh::Index> indices, std::size_t nodes) {
@@ -34,32 +35,31 @@ inline bool indices_fit(std::span<const Mesh::Index> indices, std::size_t nodes)
 /// What to tell where they are not.
 Error bad_index();
 
-/// Those to be carried along.
-Status check_options(const Mesh& mesh, const CutOptions& options);
-
-/// Returns work() on `threads` threads, 0 for as many as the machine has, and never on more. They take over the
-/// floating-point environment of the caller.
+/// Returns work(), which returns a Result, if the input is good: on base::threads_of(options.threads), in an exact
+/// environment.
 template <class Work>
-auto in_arena(int threads, Work&& work) {
-    const int available = tbb::this_task_arena::max_concurrency();
-    tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
-    return arena.execute(std::forward<Work>(work));
+auto on_good_input(const Mesh& mesh, int dimension, const CutOptions& options, Work&& work) {
+    const ExactEnvironment environment;
+    return base::in_arena(options.threads, mesh.cells.size(), [&]() -> decltype(work()) {
+        if (Status good = check_input(mesh, dimension, options); !good) return good.error();
+        return work();
+    });
 }
 
-/// Copies the fields of cells to the cells of the surface, by mesh_cells.
-inline void carry_cell_fields(const CutOptions& options, Surface& surface) {
-    for (const Field* const field : options.cell_fields) {
-        Field& to = surface.cell_fields.emplace_back(Field{field->name, field->components, {}});
-        const auto components = static_cast<std::size_t>(field->components);
-        base::resize_large(to.data, components * surface.mesh_cells.size());
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.mesh_cells.size(), 4096), [&](const auto& range) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                const auto cell = static_cast<std::size_t>(surface.mesh_cells[i]);
-                std::copy_n(field->data.data() + components * cell, components, to.data.data() + components * i);
-            }
-        });
-    }
+/// f(begin, end) for the parts of [0, count), on all threads of the calling arena.
+template <class F>
+void for_ranges(std::size_t count, F&& f) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096),
+                      [&](const auto& range) { f(range.begin(), range.end()); });
 }
+
+/// Rows rows[0], rows[stride], rows[2 * stride] ... of an array of so many columns.
+std::vector<double> take_rows(const std::vector<double>& from, std::size_t columns,
+                              const std::vector<Mesh::Index>& rows, std::size_t stride);
+
+/// The same rows of each field are added to `to`.
+void take_rows(const std::vector<const Field*>& fields, const std::vector<Mesh::Index>& rows, std::size_t stride,
+               std::vector<Field>& to);
 
 /// Of the cell with these corners: exact.
 inline Sign orientation(const Mesh& mesh, const Mesh::Index* corners) {
@@ -69,24 +69,12 @@ inline Sign orientation(const Mesh& mesh, const Mesh::Index* corners) {
     return mesh.dimension == 2 ? orient2d(at(0), at(1), at(2)) : orient3d(at(0), at(1), at(2), at(3));
 }
 
-/// Orientations that cells of zero volume take from their neighbours: cells on both sides of a facet see its corners
-/// turn in opposite ways. It is made only where there are such cells, for it needs the neighbours of all.
-class FlatCells {
-public:
-    explicit FlatCells(const Mesh& mesh);
-
-    /// 1 or -1; 0 if a corner is there twice: then its facets come in equal pairs, turned in opposite ways, and the
-    /// surface is whole without it. Cells of zero volume that are connected take the orientation of the first cell with
-    /// volume that is met from the first of them that was asked for; if there is none, that one is taken for positive.
-    int sign(Mesh::Index cell);
-
-private:
-    void settle(Mesh::Index cell);
-
-    const Mesh& mesh_;
-    std::vector<Mesh::Index> neighbours_;
-    std::vector<std::int8_t> sign_;  ///< of each cell; `not_asked` at first
-};
+/// Orientations that cells of zero volume take from their neighbours, of each of `flat`: cells on both sides of a facet
+/// see its corners turn in opposite ways. 1 or -1; 0 if a corner is there twice: then its facets come in equal pairs,
+/// turned in opposite ways, and the surface is whole without it. Cells of zero volume that are connected take the
+/// orientation of the first cell with volume that is met from the first of them in `flat`; if there is none, that one
+/// is taken for positive. Needs the neighbours of all cells.
+std::vector<int> flat_signs(const Mesh& mesh, const std::vector<Mesh::Index>& flat);
 
 /// Sets cells, mesh_cells and mesh_edges of the surface, and the counts of cells and points, from the State of each
 /// node. On all threads of the calling arena. Error: a corner of a cell that is no node; more points or triangles than

@@ -1,15 +1,11 @@
 #include "barycert/surface/parts.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <span>
 #include <string>
 
 #include "barycert/base/large_pages.hpp"
-#include "barycert/predicates.hpp"
 #include "barycert/surface/cell_cases.hpp"
 
 namespace barycert::surface {
@@ -31,12 +27,6 @@ struct Block {
     std::size_t first_part = 0;  ///< of the surface
 };
 constexpr std::size_t block_size = std::size_t{1} << 13;
-
-template <class F>
-void for_ranges(std::size_t count, std::size_t grain, F&& f) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const auto& range) { f(range.begin(), range.end()); });
-}
 
 template <std::size_t n>
 class Cutter {
@@ -106,13 +96,17 @@ private:
     }
 
     void orient_flat_cells() {
-        if (std::all_of(blocks_.begin(), blocks_.end(), [](const Block& b) { return b.degenerate == 0; })) return;
-        FlatCells flat(mesh_);
+        std::vector<Index> flat;
+        for (const Block& block : blocks_) {
+            for (const CutCell& c : block.cells)
+                if (c.sign == 0) flat.push_back(c.cell);
+        }
+        if (flat.empty()) return;
+        const std::vector<int> signs = flat_signs(mesh_, flat);
+        auto next = signs.begin();
         for (Block& block : blocks_) {
-            if (block.degenerate == 0) continue;
-            for (CutCell& c : block.cells) {
-                if (c.sign == 0) c.sign = static_cast<std::int8_t>(flat.sign(c.cell));
-            }
+            for (CutCell& c : block.cells)
+                if (c.sign == 0) c.sign = static_cast<std::int8_t>(*next++);
             std::erase_if(block.cells, [](const CutCell& c) { return c.sign == 0; });
         }
     }
@@ -167,7 +161,7 @@ private:
             high_[std::atomic_ref(next[e.low]).fetch_add(1, std::memory_order_relaxed)] = e.high;
         });
         first_.assign(nodes + 1, 0);
-        for_ranges(nodes, 4096, [&](std::size_t from, std::size_t to) {
+        for_ranges(nodes, [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i) {
                 Index* const list = high_.data() + begin_[i];
                 Index* const end = high_.data() + begin_[i + 1];
@@ -188,7 +182,7 @@ private:
         base::resize_large(surface.mesh_edges, 2 * points);
         base::resize_large(end_, points + at_a_time);
         std::atomic<std::uint64_t> at_nodes{0};
-        for_ranges(mesh_.point_count(), 4096, [&](std::size_t from, std::size_t to) {
+        for_ranges(mesh_.point_count(), [&](std::size_t from, std::size_t to) {
             std::uint64_t own = 0;
             for (std::size_t i = from; i < to; ++i) {
                 for (std::size_t k = 0; k < first_[i + 1] - first_[i]; ++k) {

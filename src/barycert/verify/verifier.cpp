@@ -6,12 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/verify.hpp"
 #include "barycert/verify/errors.hpp"
 
@@ -275,7 +276,7 @@ Result<Verdicts> Verifier::verify(const ClaimedRows& rows) const {
     constexpr std::size_t block = std::size_t{1} << 17;
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<std::optional<Result<Verdicts>>> parts(blocks);
-    locate::in_arena(options_.threads, [&] {
+    base::in_arena(options_.threads, count, [&] {
         tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
             const ExactEnvironment of_task;
             const std::size_t first = b * block;
@@ -296,7 +297,7 @@ Status Verifier::measure(Verdicts& verdicts) const {
     const ExactEnvironment environment;
     std::vector<WrongRow>& rows = verdicts.invented_rows;
     std::vector<std::optional<Error>> errors(rows.size());
-    locate::in_arena(options_.threads, [&] {
+    base::in_arena(options_.threads, 1024 * rows.size(), [&] {
         tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
             const ExactEnvironment of_task;
             constexpr double anywhere = std::numeric_limits<double>::infinity();

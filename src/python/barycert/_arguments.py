@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import operator
-from typing import Any, Callable, Iterator, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, Optional, Tuple, Union
 
 import numpy as np
 
@@ -104,29 +104,32 @@ def options_of(
 @contextlib.contextmanager
 def telling(progress: Progress) -> Iterator[Optional[Callable[[str, int, int], Any]]]:
     """Who is told of progress: None, a callable, or True for tqdm where that is installed."""
-    bar: Any = None
-    told = ""
+    bars: Dict[str, Any] = {}
+
+    def close() -> None:
+        while bars:
+            bars.popitem()[1].close()
 
     def show(stage: str, done: int, total: int) -> None:
-        nonlocal bar, told
-        if stage != told or bar is None:
-            if bar is not None:
-                bar.close()
-            bar, told = tqdm(total=total or None, desc=stage, unit_scale=True, leave=False), stage
-        bar.update(done - bar.n)
+        if stage not in bars:
+            close()
+            bars[stage] = tqdm(total=total or None, desc=stage, unit_scale=True, leave=False)
+        bars[stage].update(done - bars[stage].n)
 
-    tell: Any = None if progress is False else progress
+    tell: Any = None if isinstance(progress, bool) else progress
     if progress is True:
-        try:
+        with contextlib.suppress(ImportError):
             from tqdm.auto import tqdm
 
             tell = show
-        except ImportError:
-            tell = None
     if tell is not None and not callable(tell):
         _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
     try:
         yield tell
     finally:
-        if bar is not None:
-            bar.close()
+        close()
+
+
+def forwarded(path: str, doc: str) -> Any:
+    """A property that another attribute answers, such as "_core.points"."""
+    return property(operator.attrgetter(path), doc=doc)

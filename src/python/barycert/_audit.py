@@ -15,7 +15,7 @@ from ._mesh import Mesh
 Kernel = Union[Callable[[np.ndarray, np.ndarray], Any], str, os.PathLike]
 
 
-class KernelResult(Mapping):
+class KernelResult(dict):
     """What was found of one kernel: the members of its JSON by name, and the most important as attributes.
 
     Attributes:
@@ -27,7 +27,7 @@ class KernelResult(Mapping):
     """
 
     def __init__(self, entry: Dict[str, Any], witnesses: List[Dict[str, Any]]) -> None:
-        self._entry = entry
+        super().__init__(entry)
         self.name: str = entry["name"]
         self.cases: int = entry["cases"]
         self.wrong_cases: int = entry["wrong_cases"]
@@ -35,15 +35,6 @@ class KernelResult(Mapping):
         self.worst_weight_ulp: Optional[float] = entry["worst_weight_ulp"]
         self.worst_value_ulp: Optional[float] = entry["worst_value_ulp"]
         self.witnesses = witnesses
-
-    def __getitem__(self, name: str) -> Any:
-        return self._entry[name]
-
-    def __iter__(self) -> Any:
-        return iter(self._entry)
-
-    def __len__(self) -> int:
-        return len(self._entry)
 
     def __repr__(self) -> str:
         found = ", ".join(f"{count} {name}" for name, count in self.findings.items())

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Tuple
 import numpy as np
 
 from . import _core
+from ._arguments import forwarded
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
@@ -109,9 +110,7 @@ class CheckReport:
         self.contacts: List[Contact] = [Contact(**contact) for contact in core.contacts]
         self._mesh = mesh
 
-    @property
-    def measures(self) -> Dict[str, np.ndarray]:
-        return self._core.measures
+    measures: Dict[str, np.ndarray] = forwarded("_core.measures", "One entry a cell.")
 
     def text(self, name: str = "mesh") -> str:
         """The report for a terminal."""

@@ -12,10 +12,11 @@ from . import _core
 # VTK's numbers of cell types; corners and nodes at mid-edges.
 _TETRA, _QUADRATIC_TETRA, _TRIANGLE, _QUADRATIC_TRIANGLE = 10, 24, 5, 22
 _COLUMNS = {_TETRA: 4, _QUADRATIC_TETRA: 10, _TRIANGLE: 3, _QUADRATIC_TRIANGLE: 6}
-_MESHIO = {"tetra": _TETRA, "tetra10": _QUADRATIC_TETRA, "triangle": _TRIANGLE, "triangle6": _QUADRATIC_TRIANGLE}
-_MESHIO_LOWER = ("vertex", "line", "line3")
+_KINDS = {columns: kind for kind, columns in _COLUMNS.items()}
 # Vertices, poly-vertices, lines, poly-lines, quadratic edges: of lower dimension than any cell of a mesh.
 _LOWER = (1, 2, 3, 4, 21)
+_MESHIO = {"tetra": _TETRA, "tetra10": _QUADRATIC_TETRA, "triangle": _TRIANGLE, "triangle6": _QUADRATIC_TRIANGLE,
+           "vertex": 1, "line": 3, "line3": 21}  # fmt: skip
 
 
 @dataclass
@@ -39,9 +40,7 @@ def parts_of(source: Any) -> Parts:
         return Parts(np.asarray(source.points), np.asarray(source.simplices))
     if hasattr(source, "triangles"):  # matplotlib.tri.Triangulation
         return _of_triangulation(source)
-    if hasattr(source, "celltypes") and hasattr(source, "cells"):  # pyvista.UnstructuredGrid
-        return _of_pyvista(source)
-    if hasattr(source, "GetPoints"):
+    if hasattr(source, "GetPoints"):  # of VTK, and so of pyvista
         return _of_vtk(source)
     if hasattr(source, "cells") and hasattr(source, "points"):  # meshio.Mesh
         return _of_meshio(source)
@@ -81,87 +80,51 @@ def _of_triangulation(source: Any) -> Parts:
     return Parts(points, triangles[kept], kept, notes=[note])
 
 
-# Cells of one kind: VTK's type, nodes, numbers in the source.
-Block = Tuple[int, np.ndarray, np.ndarray]
+# Cells of one kind: VTK's type or another's word for it, their nodes, their numbers in the source.
+Block = Tuple[Any, np.ndarray, np.ndarray]
 
 
-def _of_blocks(points: Any, blocks: List[Block], left_out: Dict[str, int], point_data: Any, cell_data: Any) -> Parts:
-    """The cells of the highest dimension make a mesh. `left_out`: what is no cell of a mesh, and how many."""
-    blocks = [block for block in blocks if len(block[2])]
-    solid = [block for block in blocks if block[0] in (_TETRA, _QUADRATIC_TETRA)]
-    chosen = solid or blocks
-    left_out["triangles beside tetrahedra"] = sum(len(b[2]) for b in blocks) - sum(len(b[2]) for b in chosen)
-    others = [f"{count} {what}" for what, count in left_out.items() if count]
+def _of_blocks(points: Any, blocks: List[Block], ghosts: int, point_data: Any, cell_data: Any) -> Parts:
+    """The cells of the highest dimension make a mesh. `ghosts`: cells of the source that are in no block."""
+    count = {dimension: 0 for dimension in (1, 2, 3)}
+    for kind, _, numbers in blocks:
+        if len(numbers) and kind not in _COLUMNS and kind not in _LOWER:
+            _core.fail("cells of another kind", expected="triangles or tetrahedra",
+                       found=f"{len(numbers)} cells of type {kind}, the first is cell {numbers[0]}",
+                       remedy="vtkDataSetTriangleFilter, or pyvista's triangulate(), makes tetrahedra of them")  # fmt: skip
+        count[_dimension(kind)] += len(numbers)
+    solid = count[3] > 0
+    chosen = [block for block in blocks if len(block[2]) and _dimension(block[0]) == (3 if solid else 2)]
+    left_out = {"ghost cells": ghosts, "vertices and lines": count[1], "triangles beside tetrahedra": count[2] if solid else 0}
+    others = [f"{number} {what}" for what, number in left_out.items() if number]
     if len({kind for kind, _, _ in chosen}) > 1:
         _core.fail("cells of first and second order in one mesh", remedy="make all of them linear, or all quadratic")
     if not chosen:
         _core.fail("a mesh without triangles and tetrahedra", found=", ".join(others) or "no cells")
-    nodes = np.concatenate([block[1] for block in chosen])
-    numbers = np.concatenate([block[2] for block in chosen])
+    nodes, numbers = (np.concatenate([block[i] for block in chosen]) for i in (1, 2))
     order = np.argsort(numbers, kind="stable")
     nodes, numbers = nodes[order], numbers[order]
-    whole = numbers.size == 0 or (numbers[0] == 0 and numbers[-1] == numbers.size - 1 and not others)
+    whole = numbers[0] == 0 and numbers[-1] == numbers.size - 1 and not others
     notes = [f"left out: {other}" for other in others]
     points = np.asarray(points)
     if not solid and points.ndim == 2 and points.shape[1] == 3:
         points = _in_plane(points, "triangles in space are no mesh")
-    return Parts(
-        points,
-        nodes,
-        None if whole else numbers.astype(np.int32),
-        dict(_numbers_only(point_data, notes)),
-        {name: values if whole else values[numbers] for name, values in _numbers_only(cell_data, notes)},
-        notes,
-    )
+    cell_arrays = _numbers_only(cell_data, notes)
+    if not whole:
+        cell_arrays = {name: values[numbers] for name, values in cell_arrays.items()}
+    return Parts(points, nodes, None if whole else numbers, _numbers_only(point_data, notes), cell_arrays, notes)
 
 
-def _numbers_only(data: Dict[str, np.ndarray], notes: List[str]) -> List[Tuple[str, np.ndarray]]:
-    kept = []
-    for name, values in data.items():
-        values = np.asarray(values)
-        if values.dtype.kind in "fiub" and values.dtype.itemsize <= 8:
-            kept.append((name, values))
-        else:
-            notes.append(f'left out: array "{name}" of {values.dtype}')
+def _dimension(kind: Any) -> int:
+    """Of cells of that type; 1 stands for all that are left out."""
+    return 3 if kind in (_TETRA, _QUADRATIC_TETRA) else 2 if kind in _COLUMNS else 1
+
+
+def _numbers_only(data: Dict[str, Any], notes: List[str]) -> Dict[str, np.ndarray]:
+    arrays = {name: np.asarray(values) for name, values in data.items()}
+    kept = {name: a for name, a in arrays.items() if a.dtype.kind in "fiub" and a.dtype.itemsize <= 8}
+    notes += [f'left out: array "{name}" of {a.dtype}' for name, a in arrays.items() if name not in kept]
     return kept
-
-
-def _of_types(points: Any, connectivity: np.ndarray, offsets: np.ndarray, types: np.ndarray,
-              point_data: Dict[str, np.ndarray], cell_data: Dict[str, np.ndarray]) -> Parts:  # fmt: skip
-    """VTK's arrays: the nodes of cell i are connectivity[offsets[i]:offsets[i + 1]]."""
-    ghost = cell_data.pop("vtkGhostType", None)
-    # Duplicate, refined and hidden cells.
-    kept = np.ones(types.size, dtype=bool) if ghost is None else (np.asarray(ghost) & (1 | 8 | 32)) == 0
-    lower = kept & np.isin(types, _LOWER)
-    left_out = {"ghost cells": int(np.count_nonzero(~kept)), "vertices and lines": int(np.count_nonzero(lower))}
-    blocks: List[Block] = []
-    for kind in np.unique(types[kept & ~lower]).tolist():
-        numbers = np.flatnonzero(kept & (types == kind))
-        if kind not in _COLUMNS:
-            _core.fail("cells of another kind", expected="triangles or tetrahedra",
-                       found=f"{numbers.size} cells of VTK's type {kind}, the first is cell {numbers[0]}",
-                       remedy="vtkDataSetTriangleFilter, or pyvista's triangulate(), makes tetrahedra of them")  # fmt: skip
-        columns, sizes = _COLUMNS[kind], offsets[numbers + 1] - offsets[numbers]
-        wrong = np.flatnonzero(sizes != columns)
-        if wrong.size:
-            _core.fail(f"nodes of cell {numbers[wrong[0]]}", expected=str(columns), found=str(sizes[wrong[0]]))
-        blocks.append((kind, connectivity[offsets[numbers][:, None] + np.arange(columns)], numbers))
-    return _of_blocks(points, blocks, left_out, point_data, cell_data)
-
-
-def _of_pyvista(source: Any) -> Parts:
-    types = np.asarray(source.celltypes)
-    if hasattr(source, "offset") and hasattr(source, "cell_connectivity"):
-        connectivity, offsets = np.asarray(source.cell_connectivity), np.asarray(source.offset)
-    else:
-        # Cell after cell: the number of its nodes, its nodes.
-        flat, starts = np.asarray(source.cells), [0]
-        for _ in range(types.size):
-            starts.append(starts[-1] + int(flat[starts[-1]]) + 1)
-        connectivity, offsets = np.delete(flat, starts[:-1]), np.asarray(starts) - np.arange(types.size + 1)
-    point_data = {name: np.asarray(source.point_data[name]) for name in source.point_data.keys()}
-    cell_data = {name: np.asarray(source.cell_data[name]) for name in source.cell_data.keys()}
-    return _of_types(np.asarray(source.points), connectivity, offsets, types, point_data, cell_data)
 
 
 def _numpy(array: Any) -> np.ndarray:
@@ -173,19 +136,17 @@ def _numpy(array: Any) -> np.ndarray:
 def _arrays_of(attributes: Any, notes: List[str]) -> Dict[str, np.ndarray]:
     arrays = {}
     for i in range(attributes.GetNumberOfArrays()):
-        array = attributes.GetAbstractArray(i)
-        name = array.GetName()
-        if not name or not hasattr(array, "GetDataTypeAsString") or attributes.GetArray(i) is None:
+        array, name = attributes.GetArray(i), attributes.GetAbstractArray(i).GetName()
+        if name and array is not None:
+            arrays[name] = _numpy(array)
+        else:
             notes.append(f"left out: array {name or i} that has no name or no numbers")
-            continue
-        arrays[name] = _numpy(array)
     return arrays
 
 
 def _of_vtk(source: Any) -> Parts:
     if source.GetPoints() is None:
         _core.fail("a data set without points", found=type(source).__name__)
-    notes: List[str] = []
     if hasattr(source, "GetCellTypesArray"):  # vtkUnstructuredGrid
         grid = source.GetCells()
         types = _numpy(source.GetCellTypesArray()) if grid.GetNumberOfCells() else np.empty(0, dtype=np.uint8)
@@ -198,30 +159,35 @@ def _of_vtk(source: Any) -> Parts:
     else:
         _core.fail("a data set of VTK", expected="vtkUnstructuredGrid or vtkPolyData", found=type(source).__name__,
                    remedy="vtkDataSetTriangleFilter makes an unstructured grid of it")
+    notes: List[str] = []
+    point_data, cell_data = (_arrays_of(data, notes) for data in (source.GetPointData(), source.GetCellData()))
+    # The nodes of cell i are connectivity[offsets[i]:offsets[i + 1]].
     connectivity, offsets = _numpy(grid.GetConnectivityArray()), _numpy(grid.GetOffsetsArray())
-    cell_data = _arrays_of(source.GetCellData(), notes)
-    parts = _of_types(_numpy(source.GetPoints().GetData()), connectivity, offsets, types,
-                      _arrays_of(source.GetPointData(), notes), cell_data)  # fmt: skip
+    # Duplicate, refined and hidden cells.
+    ghost = (cell_data.pop("vtkGhostType", np.zeros(types.size, dtype=np.uint8)) & (1 | 8 | 32)) != 0
+    blocks: List[Block] = []
+    for kind in np.unique(types[~ghost]).tolist():
+        numbers = np.flatnonzero(~ghost & (types == kind))
+        columns, sizes = _COLUMNS.get(kind, 0), offsets[numbers + 1] - offsets[numbers]
+        wrong = np.flatnonzero(sizes != columns) if columns else numbers[:0]
+        if len(wrong):
+            _core.fail(f"nodes of cell {numbers[wrong[0]]}", expected=str(columns), found=str(sizes[wrong[0]]))
+        blocks.append((kind, connectivity[offsets[numbers][:, None] + np.arange(columns)], numbers))
+    parts = _of_blocks(_numpy(source.GetPoints().GetData()), blocks, np.count_nonzero(ghost), point_data, cell_data)
     parts.notes = notes + parts.notes
     return parts
 
 
 def _of_meshio(source: Any) -> Parts:
     blocks: List[Block] = []
-    lower = first = 0
+    first = 0
     for block in source.cells:
-        nodes, kind = np.asarray(block.data), block.type
-        numbers = np.arange(first, first + len(nodes))
-        first += len(nodes)
-        if kind in _MESHIO:
-            # Tetrahedra of second order stand in VTK's order.
-            blocks.append((_MESHIO[kind], nodes, numbers))
-        elif kind in _MESHIO_LOWER:
-            lower += len(nodes)
-        else:
-            _core.fail("cells of another kind", expected="triangles or tetrahedra", found=f"{len(nodes)} cells {kind}")
-    cell_data = {name: np.concatenate([np.asarray(block) for block in blocks]) for name, blocks in source.cell_data.items()}
-    return _of_blocks(source.points, blocks, {"vertices and lines": lower}, source.point_data, cell_data)
+        # Tetrahedra of second order stand in VTK's order.
+        numbers = np.arange(first, first + len(block.data))
+        blocks.append((_MESHIO.get(block.type, block.type), np.asarray(block.data), numbers))
+        first += len(numbers)
+    cell_data = {name: np.concatenate([np.asarray(part) for part in parts]) for name, parts in source.cell_data.items()}
+    return _of_blocks(source.points, blocks, 0, source.point_data, cell_data)
 
 
 class GivenBack:
@@ -235,7 +201,7 @@ class GivenBack:
         import meshio
 
         nodes = self._all_nodes().copy()
-        (kind,) = (name for name, kind in _MESHIO.items() if _COLUMNS[kind] == nodes.shape[1])
+        (kind,) = (name for name, kind in _MESHIO.items() if kind == _KINDS[nodes.shape[1]])
         return meshio.Mesh(
             self.points.copy(),
             [(kind, nodes)],
@@ -261,8 +227,7 @@ class GivenBack:
             numpy_to_vtkIdTypeArray(np.arange(0, nodes.size + 1, nodes.shape[1], dtype=np.int64), deep=True),
             numpy_to_vtkIdTypeArray(nodes.ravel(), deep=True),
         )
-        (kind,) = (kind for kind, columns in _COLUMNS.items() if columns == nodes.shape[1])
-        grid.SetCells(kind, cells)
+        grid.SetCells(_KINDS[nodes.shape[1]], cells)
         for data, attributes in ((self.point_data, grid.GetPointData()), (self.cell_data, grid.GetCellData())):
             for name, values in data.items():
                 array = numpy_to_vtk(np.ascontiguousarray(values.reshape(len(values), -1)), deep=True)

@@ -8,7 +8,7 @@ from typing import Any, Optional, Tuple
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, exact_doubles, options_of, points_of, telling, values_of
+from ._arguments import Progress, exact_doubles, forwarded, options_of, points_of, telling, values_of
 from ._mesh import Mesh
 
 
@@ -52,12 +52,9 @@ class Interpolator:
         if values is None:
             _core.fail("Interpolator without values", expected="Interpolator(points, cells, values)")
         self.mesh = _mesh_of(points, cells)
-        values = np.asanyarray(values)
+        self._values = values = np.asanyarray(values)
         self._complex = values.dtype.kind == "c"
-        self._values = values
-        if self._complex:
-            values = _parts(values)
-        self._rows, self._shape = values_of(values, len(self.mesh.points), "values")
+        rows, self._shape = values_of(_parts(values) if self._complex else values, len(self.mesh.points), "values")
         if self._complex:
             self._shape = self._shape[:-1]
         self._fill_value = fill_value
@@ -66,35 +63,19 @@ class Interpolator:
         self._nonfinite_count, self._lock = 0, threading.Lock()
         # A complex number takes the place of two: it is put in afterwards.
         self._fill_after = self._complex and (outside == "fill" or (outside is None and not np.isnan(fill_value)))
-        self._options = (
-            options_of("nan", np.nan, limit, rounding, threads, nonfinite_points)
-            if self._fill_after
-            else options_of(outside, np.real(fill_value), limit, rounding, threads, nonfinite_points)
-        )
+        filled = ("nan", np.nan) if self._fill_after else (outside, np.real(fill_value))
+        self._options = options_of(*filled, limit, rounding, threads, nonfinite_points)
         if not self._complex and np.iscomplexobj(fill_value):
             _core.fail("fill_value", expected="a real number, as the values are", found=repr(fill_value))
         with telling(progress) as tell:
-            self._sampler = self.mesh._core.sampler_of(self._rows, tell)
+            self._sampler = self.mesh._core.sampler_of(rows, tell)
 
-    @property
-    def points(self) -> np.ndarray:
-        """(n, d) the nodes."""
-        return self.mesh.points
-
-    @property
-    def cells(self) -> np.ndarray:
-        """(m, d + 1) the vertices of the cells."""
-        return self.mesh.cells
-
-    @property
-    def values(self) -> np.ndarray:
-        """(n, ...) the values, as they were given."""
-        return self._values
-
-    @property
-    def nonfinite_count(self) -> int:
-        """How many points of all calls so far were not finite, and got NaN."""
-        return self._nonfinite_count
+    points: np.ndarray = forwarded("mesh.points", "(n, d) the nodes.")
+    cells: np.ndarray = forwarded("mesh.cells", "(m, d + 1) the vertices of the cells.")
+    values: np.ndarray = forwarded("_values", "(n, ...) the values, as they were given.")
+    nonfinite_count: int = forwarded(
+        "_nonfinite_count", "How many points of all calls so far were not finite, and got NaN."
+    )
 
     def __call__(self, *args: Any, progress: Progress = None) -> np.ndarray:
         """Values at points.

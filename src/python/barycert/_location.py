@@ -58,7 +58,9 @@ class Location:
         Of cells of second order these are the weights in the cell with straight sides; `matrix` has those of their
         nodes."""
         if self._weights is None:
-            self._weights = _core.weights_of(self.mesh._core, self._points, self._cell, None)
+            inside = self._cell >= 0
+            self._weights = np.full((len(inside), self.mesh.dimension + 1), np.nan)
+            self._weights[inside] = _core.weights_of(self.mesh._core, self._points[inside], self._cell[inside])
         return self._weights.reshape(self._shape + (self.mesh.dimension + 1,))
 
     def matrix(self, *, outside: str = "nan", limit: float = np.inf, progress: Progress = None) -> Any:
@@ -85,8 +87,8 @@ class Location:
         """As `Mesh.sample` at these points, which are not located again."""
         # Points that are not finite are here only if they were to be outside.
         options = options_of(outside, fill_value, limit, rounding, threads, "nan")
-        return self.mesh._sampled(fields, self._shape, progress, lambda sampler, tell: sampler.evaluate(
-            self._points, self._cell, self._feature, options, tell))  # fmt: skip
+        return self.mesh._sampled(fields, self._shape, progress, lambda sampler, tell: sampler.sample(
+            self._points, options, tell, self._cell, self._feature))  # fmt: skip
 
     def __len__(self) -> int:
         return len(self.cell)

@@ -6,12 +6,14 @@ import difflib
 import os
 import warnings
 from collections.abc import MutableMapping
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union, cast
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, contiguous, count_of, exact_doubles, options_of, points_of, real, telling, values_of
+from ._arguments import (
+    Progress, contiguous, count_of, exact_doubles, forwarded, options_of, points_of, real, telling, values_of,
+)  # fmt: skip
 from ._check import CheckReport, Repair
 from ._exchange import GivenBack, parts_of
 from ._location import Location
@@ -24,6 +26,13 @@ def _no_field(name: object, names: Iterable[str]) -> KeyError:
     near = difflib.get_close_matches(str(name), all_names, 1)
     meant = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(all_names) or 'none'}"
     return KeyError(f"no field {name!r}; {meant}")
+
+
+def _refuse(bad: np.ndarray, array: np.ndarray, name: str, why: str, **more: str) -> None:
+    """Error that names the first entry that is bad, if there is one."""
+    if bad.any():
+        row, column = np.argwhere(bad)[0]
+        _core.fail(f"{name}[{row}, {column}] {why}", found=str(array[row, column]), **more)
 
 
 class FieldData(MutableMapping):
@@ -82,44 +91,34 @@ class AllFields(MutableMapping):
     def __init__(self, point_data: FieldData, cell_data: FieldData) -> None:
         self._of = {"point": point_data, "cell": cell_data}
 
-    def _place(self, name: object) -> Optional[Tuple[FieldData, str]]:
-        for data in self._of.values():
-            if name in data:
-                return data, str(name)
+    def _place(self, name: str, shape: Optional[Tuple[int, ...]] = None) -> Tuple[FieldData, str]:
+        """The data that has the field, and its name there. Where a new one of that shape belongs."""
         of, colon, rest = str(name).partition(":")
-        return (self._of[of], rest) if colon and of in self._of and rest in self._of[of] else None
-
-    def _found(self, name: str) -> Tuple[FieldData, str]:
-        place = self._place(name)
-        if place is None:
+        named = [(self._of[of], rest)] if colon and of in self._of else []
+        places = [(data, name) for data in self._of.values()]
+        for data, own in places + named:
+            if own in data:
+                return data, own
+        if shape is None:
             raise _no_field(name, self)
-        return place
+        fits = named or [place for place in places if shape[:1] == (place[0]._count,)]
+        if len(fits) != 1:
+            nodes, cells = (data._count for data in self._of.values())
+            _core.fail(f"nodes or cells for field {name!r}", expected=f"{nodes} rows for nodes, or {cells} for cells",
+                       found=str(shape), remedy="put it into point_data or cell_data")
+        return fits[0]
 
     def __getitem__(self, name: str) -> np.ndarray:
-        data, own = self._found(name)
+        data, own = self._place(name)
         return data[own]
 
     def __setitem__(self, name: str, values: Any) -> None:
-        place = self._place(name)
-        if place is None and isinstance(name, str):
-            of, colon, rest = name.partition(":")
-            fits = [data for data in self._of.values() if np.shape(values)[:1] == (data._count,)]
-            if colon and of in self._of:
-                place = self._of[of], rest
-            elif len(fits) == 1:
-                place = fits[0], name
-        if place is None:
-            nodes, cells = (data._count for data in self._of.values())
-            _core.fail(f"nodes or cells for field {name!r}", expected=f"{nodes} rows for nodes, or {cells} for cells",
-                       found=str(np.shape(values)), remedy="put it into point_data or cell_data")
-        place[0][place[1]] = values
+        data, own = self._place(name, np.shape(values))
+        data[own] = values
 
     def __delitem__(self, name: str) -> None:
-        data, own = self._found(name)
+        data, own = self._place(name)
         del data[own]
-
-    def __contains__(self, name: object) -> bool:
-        return self._place(name) is not None
 
     def __iter__(self) -> Iterator[str]:
         points, cells = self._of.values()
@@ -170,10 +169,9 @@ class Mesh(GivenBack):
             cells, numbers, notes = parts.cells, parts.cell_numbers, parts.notes
             point_data = {**parts.point_data, **(point_data or {})}
             cell_data = {**parts.cell_data, **(cell_data or {})}
-        coordinates = exact_doubles(points, "points")
+        coordinates, indices = exact_doubles(points, "points"), np.asarray(cells)
         if coordinates.ndim != 2 or coordinates.shape[1] not in (2, 3):
             _core.fail("shape of the points of a mesh", expected="(n, 2) or (n, 3)", found=str(coordinates.shape))
-        indices = np.asarray(cells)
         dimension = coordinates.shape[1]
         columns = (3, 6) if dimension == 2 else (4, 10)
         if indices.ndim != 2 or indices.shape[1] not in columns:
@@ -183,7 +181,6 @@ class Mesh(GivenBack):
                        remedy="triangles in space are no mesh; in a plane z = 0 pass points[:, :2]" if in_space else "")  # fmt: skip
         if indices.dtype.kind not in "iu":
             _core.fail("type of the cells", expected="integers", found=str(indices.dtype))
-        indices = contiguous(indices, indices.dtype.newbyteorder("="))
         self._make(coordinates, indices, numbers, point_data or {}, cell_data or {}, notes)
         self._take_as_straight("", curved)
 
@@ -191,8 +188,15 @@ class Mesh(GivenBack):
         self, points: np.ndarray, cells: np.ndarray, numbers: Optional[np.ndarray], point_data: Mapping[str, Any],
         cell_data: Mapping[str, Any], notes: Sequence[str],
     ) -> None:  # fmt: skip
-        left = [] if numbers is None else cast(List[int], numbers.tolist())
-        self._set_core(_core.Mesh(contiguous(points), cells, left), notes)
+        if max(len(points), len(cells)) > 2**31 - 1:
+            _core.fail("a mesh has at most 2147483647 nodes and cells")
+        nodes = f"0 to {len(points) - 1}" if len(points) else "no cells, as there are no nodes"
+        _refuse((cells < 0) | (cells >= len(points)), cells, "cells", "is no node", expected=nodes,
+                remedy="indices count from 0: see where they were made")  # fmt: skip
+        _refuse(~np.isfinite(points), points, "points", "is not finite")
+        corners = points.shape[1] + 1
+        indices = (cells[:, :corners], cells[:, corners:], () if numbers is None else numbers)
+        self._set_core(_core.Mesh(contiguous(points), *(contiguous(some, np.int32) for some in indices)), notes)
         self.point_data.update(point_data)
         self.cell_data.update(cell_data)
 
@@ -217,45 +221,20 @@ class Mesh(GivenBack):
 
     # What it is made of.
 
-    @property
-    def dimension(self) -> int:
-        """2: triangles in the plane; 3: tetrahedra."""
-        return self._core.dimension
-
-    @property
-    def points(self) -> np.ndarray:
-        """(n, d) float64, the nodes; cannot be written to."""
-        return self._core.points
-
-    @property
-    def cells(self) -> np.ndarray:
-        """(m, d + 1) int32, the vertices of the cells; cannot be written to."""
-        return self._core.cells
-
-    @property
-    def mid_nodes(self) -> Optional[np.ndarray]:
-        """(m, 3 or 6) int32, the nodes at mid-edges in VTK's order; None if the cells are linear."""
-        return self._core.mid_nodes
-
-    @property
-    def cell_numbers(self) -> Optional[np.ndarray]:
-        """(m,) int32, the number of each cell in the file or data set it came from; None if all its cells are here."""
-        return self._core.cell_numbers
-
-    @property
-    def point_markers(self) -> Optional[np.ndarray]:
-        """(n,) int64, the markers of the nodes in a file that had some."""
-        return self._core.point_markers
-
-    @property
-    def point_data(self) -> FieldData:
-        """Fields of the nodes, name to (n, ...)."""
-        return self._point_data
-
-    @property
-    def cell_data(self) -> FieldData:
-        """Fields of the cells, name to (m, ...)."""
-        return self._cell_data
+    dimension: int = forwarded("_core.dimension", "2: triangles in the plane; 3: tetrahedra.")
+    points: np.ndarray = forwarded("_core.points", "(n, d) float64, the nodes; cannot be written to.")
+    cells: np.ndarray = forwarded("_core.cells", "(m, d + 1) int32, the vertices of the cells; cannot be written to.")
+    mid_nodes: Optional[np.ndarray] = forwarded(
+        "_core.mid_nodes", "(m, 3 or 6) int32, the nodes at mid-edges in VTK's order; None if the cells are linear."
+    )
+    cell_numbers: Optional[np.ndarray] = forwarded(
+        "_core.cell_numbers", "(m,) int32, the number of each cell where it came from; None if all of its cells are here."
+    )
+    point_markers: Optional[np.ndarray] = forwarded(
+        "_core.point_markers", "(n,) int64, the markers of the nodes in a file that had some."
+    )
+    point_data: FieldData = forwarded("_point_data", "Fields of the nodes, name to (n, ...).")
+    cell_data: FieldData = forwarded("_cell_data", "Fields of the cells, name to (m, ...).")
 
     @property
     def fields(self) -> AllFields:
@@ -295,7 +274,7 @@ class Mesh(GivenBack):
     def certified(self) -> bool:
         """Whether it is proved that the cells partition their domain: they meet in common faces or not at all. Makes the
         index if there is none. `check` says why not."""
-        return _core.certified(self._core, None)
+        return _core.certified(self._core)
 
     # What can be asked of it.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
+from typing import Any, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -97,13 +97,9 @@ class Verification:
         return self.wrong == 0
 
     def __repr__(self) -> str:
-        kinds = (
-            (self.missed, "missed"),
-            (self.invented, "invented"),
-            (self.wrong_cell, "in a wrong cell"),
-            (self.wrong_value, "with a wrong value"),
-        )
-        found = ", ".join(f"{count} {text}" for count, text in kinds if count)
+        kinds = {"missed": self.missed, "invented": self.invented, "in a wrong cell": self.wrong_cell,
+                 "with a wrong value": self.wrong_value}  # fmt: skip
+        found = ", ".join(f"{count} {text}" for text, count in kinds.items() if count)
         return f"<barycert.Verification: {self.right} of {self.rows} rows right{': ' if found else ''}{found}>"
 
 
@@ -134,16 +130,13 @@ def verify(
     """
     rows, shape = points_of(points, mesh.dimension, nonfinite_points)
     count = len(rows)
-    if (values is None or (isinstance(values, Mapping) and not values)) and cells is None and inside is None:
+    if values is not None and not isinstance(values, Mapping):
+        if not isinstance(fields, str):
+            _core.fail("values without a name", expected='a dict, or fields="NAME"')
+        values = {fields: values}
+    claimed = dict(values or {})
+    if not claimed and cells is None and inside is None:
         _core.fail("nothing to compare", expected="values, cells or inside")
-    if values is None:
-        claimed: Dict[str, Any] = {}
-    elif isinstance(values, Mapping):
-        claimed = dict(values)
-    elif isinstance(fields, str):
-        claimed = {fields: values}
-    else:
-        _core.fail("values without a name", expected='a dict, or fields="NAME"')
 
     def flat(array: Any, dtype: Any, what: str) -> Optional[np.ndarray]:
         if array is None:
@@ -157,16 +150,14 @@ def verify(
         _core.fail("type of cells", expected="integers", found=str(np.asarray(cells).dtype))
     with telling(progress) as tell:
         sampler = mesh._core.sampler(list(claimed), tell) if claimed else mesh._core.sampler_of(None, tell)
-        table = None
-        if claimed:
-            parts = []
-            for name, components in sampler.fields:
-                part = exact_doubles(claimed[name], f'values of "{name}"')
-                if part.size != count * components:
-                    _core.fail(f'shape of the values of "{name}"', expected=f"{shape}, {components} numbers each",
-                               found=str(part.shape))  # fmt: skip
-                parts.append(part.reshape(count, components))
-            table = np.ascontiguousarray(np.hstack(parts))
+        parts = []
+        for name, components in sampler.fields:
+            part = exact_doubles(claimed[name], f'values of "{name}"')
+            if part.size != count * components:
+                _core.fail(f'shape of the values of "{name}"', expected=f"{shape}, {components} numbers each",
+                           found=str(part.shape))  # fmt: skip
+            parts.append(part.reshape(count, components))
+        table = np.ascontiguousarray(np.hstack(parts)) if parts else None
         found = _core.verify(
             sampler, rows, flat(cells, np.int64, "cells"),
             None if inside is None else flat(np.asarray(inside) != 0, np.uint8, "inside"),

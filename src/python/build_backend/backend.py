@@ -14,13 +14,17 @@ import zipfile
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 
 
+def _read(*path):
+    with open(os.path.join(ROOT, *path), "rb") as file:
+        return file.read()
+
+
 def _project():
     import tomllib
 
-    with open(os.path.join(ROOT, "pyproject.toml"), "rb") as file:
-        project = tomllib.load(file)["project"]
-    with open(os.path.join(ROOT, "CMakeLists.txt"), encoding="utf-8") as file:
-        project["version"] = re.search(r"project\(barycert VERSION ([0-9.]+)", file.read()).group(1)
+    project = tomllib.loads(_read("pyproject.toml").decode())["project"]
+    project["version"] = re.search(r"project\(barycert VERSION ([0-9.]+)", _read("CMakeLists.txt").decode()).group(1)
+    project["base"] = f"{project['name']}-{project['version']}"
     return project
 
 
@@ -37,8 +41,8 @@ def _metadata(project):
     for extra, names in project["optional-dependencies"].items():
         lines.append(f"Provides-Extra: {extra}")
         lines += [f"Requires-Dist: {name}; extra == '{extra}'" for name in names]
-    with open(os.path.join(ROOT, project["readme"]), encoding="utf-8") as file:
-        return "\n".join([*lines, "Description-Content-Type: text/markdown", "", file.read()])
+    lines += ["Description-Content-Type: text/markdown", "", ""]
+    return "\n".join(lines).encode() + _read(project["readme"])
 
 
 def _tag():
@@ -48,17 +52,15 @@ def _tag():
 
 def _information(project):
     """Files of the folder .dist-info, but the record of all."""
-    with open(os.path.join(ROOT, "LICENSE"), "rb") as source:
-        licence = source.read()
     wheel = f"Wheel-Version: 1.0\nGenerator: barycert\nRoot-Is-Purelib: false\nTag: {_tag()}\n"
-    return {"LICENSE": licence, "METADATA": _metadata(project).encode(), "WHEEL": wheel.encode()}
+    return {"LICENSE": _read("LICENSE"), "METADATA": _metadata(project), "WHEEL": wheel.encode()}
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
     """Without this, pip would build the wheel to learn its name."""
     del config_settings
     project = _project()
-    folder = f"{project['name']}-{project['version']}.dist-info"
+    folder = project["base"] + ".dist-info"
     os.mkdir(os.path.join(metadata_directory, folder))
     for name, content in _information(project).items():
         with open(os.path.join(metadata_directory, folder, name), "wb") as file:
@@ -92,20 +94,13 @@ def _stage(settings, folder):
     raise RuntimeError(f"{build} has no package for Python: configure it with -DBARYCERT_PYTHON=ON")
 
 
-def _add_files(add, package):
-    for file in sorted(os.listdir(package)):
-        with open(os.path.join(package, file), "rb") as source:
-            add(f"barycert/{file}", source.read())
-
-
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Settings (pip --config-settings): build-dir=FOLDER; audit=OFF leaves out the audit, and GMP and MPFR with it;
     prebuilt=FOLDER takes the package from a build by CMake that has it."""
     del metadata_directory
     project = _project()
-    base = f"{project['name']}-{project['version']}"
-    info = base + ".dist-info"
-    name = f"{base}-{_tag()}.whl"
+    info = project["base"] + ".dist-info"
+    name = f"{project['base']}-{_tag()}.whl"
     record = []
     with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(
         os.path.join(wheel_directory, name), "w", zipfile.ZIP_DEFLATED
@@ -116,7 +111,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
             digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
             record.append(f"{path},sha256={digest},{len(content)}")
 
-        _add_files(add, _stage(config_settings or {}, folder))
+        package = _stage(config_settings or {}, folder)
+        for file in sorted(os.listdir(package)):
+            add(f"barycert/{file}", _read(package, file))
         for file, content in _information(project).items():
             add(f"{info}/{file}", content)
         wheel.writestr(f"{info}/RECORD", "\n".join([*record, f"{info}/RECORD,,", ""]))
@@ -127,7 +124,7 @@ def build_sdist(sdist_directory, config_settings=None):
     """What git knows of."""
     del config_settings
     project = _project()
-    base = f"{project['name']}-{project['version']}"
+    base = project["base"]
     files = subprocess.run(["git", "ls-files", "-z"], check=True, cwd=ROOT, capture_output=True).stdout.decode().split("\0")
     with tempfile.TemporaryDirectory() as folder, tarfile.open(
         os.path.join(sdist_directory, base + ".tar.gz"), "w:gz", format=tarfile.PAX_FORMAT
@@ -135,7 +132,7 @@ def build_sdist(sdist_directory, config_settings=None):
         for file in filter(None, files):
             archive.add(os.path.join(ROOT, file), f"{base}/{file}", recursive=False)
         info = os.path.join(folder, "PKG-INFO")
-        with open(info, "w", encoding="utf-8") as out:
+        with open(info, "wb") as out:
             out.write(_metadata(project))
         archive.add(info, f"{base}/PKG-INFO")
     return base + ".tar.gz"

@@ -1,4 +1,4 @@
-// Points in a .node file, which is read in pieces.
+// Points in a .node file.
 #include "fuzz/files.hpp"
 #include "fuzz/points_round_trip.hpp"
 #include "fuzz/target.hpp"

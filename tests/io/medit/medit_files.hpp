@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/medit/read_medit.hpp"
+#include "barycert/io/medit/medit_file.hpp"
 #include "io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {

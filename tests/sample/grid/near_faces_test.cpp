@@ -1,5 +1,4 @@
-// The bounds of fill_lanes.cpp and raster_lanes.cpp: points within some ulps of faces of ever flatter cells, against
-// the oracle.
+// The bounds of fill_lanes.cpp: points within some ulps of faces of ever flatter cells, against the oracle.
 //
 // Cells are (x, y, z) -> (x, y, a x + b y + h z) of lattice cells, so that many points of a lattice grid lie exactly in
 // their faces; then nodes move by some ulps, and so the same points come to lie just inside or just outside. The

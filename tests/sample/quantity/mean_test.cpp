@@ -1,5 +1,5 @@
 // Means at nodes: the filter's and the integers', against GMP's rationals.
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Which text names what.
 #include <gtest/gtest.h>
 
-#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 #include "check/meshes.hpp"
 
 namespace barycert::testing {

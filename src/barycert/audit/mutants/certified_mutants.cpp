@@ -6,15 +6,11 @@
 // sum of the products' magnitudes, to first order; what is of higher order, and the rounding of that sum itself, is
 // below the margin taken: 10 u and 5 u. All that holds where no product underflows: differences are 0 or at least
 // 2^-300. (Beyond the largest double the sum of magnitudes is infinite or not a number, and decides nothing.)
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "barycert/audit/mutants/mutants.hpp"
 #include "barycert/base/ulp.hpp"
 #include "barycert/kernels/tetrahedron_formulas.hpp"
 #include "barycert/kernels/triangle_formulas.hpp"
-#include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::audit {

@@ -26,22 +26,17 @@ Telling compare_figures(const KernelStatistics& sound, const KernelStatistics& m
         if (weight > best.weight) best = {{"", std::string(figure), s, m}, weight};
     };
     const auto cases = static_cast<double>(mutant.cases);
-    const auto count = [&](std::string_view figure, std::uint64_t s, std::uint64_t m) {
-        // Findings go before errors, which are at most 2^1024 ulps.
-        if (m > s)
-            consider(figure, static_cast<double>(s), static_cast<double>(m),
-                     1e6 * (1 + static_cast<double>(m - s) / cases));
-    };
-    // More of one class alone may be fewer of another: more wrong cases are asked for.
-    if (mutant.wrong_cases > sound.wrong_cases) {
-        count("wrong_cases", sound.wrong_cases, mutant.wrong_cases);
-        for (std::size_t f = 0; f < finding_count; ++f) count(finding_texts[f].name, sound.counts[f], mutant.counts[f]);
+    for (std::size_t f = 0; f < first_residual; ++f) {
+        const auto& [name, value] = figures()[f];
+        const double s = value(sound), m = value(mutant);
+        // Findings go before errors, which are at most 2^1024 ulps. More of one class alone may be fewer of another:
+        // more wrong cases are asked for.
+        if (f >= first_error) {
+            if (m > 2 * std::max(s, 0.0)) consider(name, s, m, std::log2(m) - std::log2(std::max(s, 0.5)));
+        } else if (name != "not_run" && m > s && mutant.wrong_cases > sound.wrong_cases) {
+            consider(name, s, m, 1e6 * (1 + (m - s) / cases));
+        }
     }
-    const auto error = [&](std::string_view figure, double s, double m) {
-        if (m > 2 * std::max(s, 0.0)) consider(figure, s, m, std::log2(m) - std::log2(std::max(s, 0.5)));
-    };
-    for (std::size_t i = 0; i < ulp_figures; ++i)
-        error(error_figures[i].name, error_figures[i].of(sound), error_figures[i].of(mutant));
     return best;
 }
 
@@ -101,11 +96,7 @@ Result<MutantReport> audit_mutants(AuditOptions options, const MeshSource& meshe
     const Result<AuditReport> audit = run_audit(options, meshes);
     if (!audit) return audit.error();
     MutantReport report;
-    report.environment = audit->environment;
-    report.seed = audit->seed;
-    report.count = audit->count;
-    report.threads = audit->threads;
-    report.seconds = audit->seconds;
+    static_cast<AuditRun&>(report) = *audit;
     for (const Mutant& m : mutants) report.mutants.push_back(judged(m, *audit));
     return report;
 }

@@ -1,9 +1,6 @@
 /// How the file of each kind of kernel adds its mutants.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "barycert/audit_search.hpp"
 
 namespace barycert::audit {

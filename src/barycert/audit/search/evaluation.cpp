@@ -4,8 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "barycert/audit/asking.hpp"
-#include "barycert/audit/comparison.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert::audit {
@@ -32,13 +30,9 @@ double relative_error(const OracleAnswer& exact, const Comparison& comparison) {
 Evaluation evaluate(const Kernel& kernel, const Case& c) {
     Evaluation e;
     e.exact = ask_oracle(c);
-    Statement said;
-    e.detail = ask_kernel(kernel, std::span(&c, 1), std::span(&said, 1), false).detail;
-    e.ran = said.ran;
-    if (!e.ran) return e;
-    e.comparison = compare(kernel, c, e.exact, said);
+    e.detail = ask_kernel(kernel, std::span(&c, 1), std::span(&e.said, 1), false).detail;
+    e.comparison = compare(kernel, c, e.exact, e.said);
     ExactEnvironment::renew();
-    e.weight_ulp = *std::max_element(e.comparison.weight_ulps.begin(), e.comparison.weight_ulps.end());
     e.relative_error = relative_error(e.exact, e.comparison);
     return e;
 }
@@ -50,7 +44,7 @@ std::size_t search_reason_named(std::string_view name) {
 }
 
 double badness(std::size_t reason, const Evaluation& e) {
-    if (reason == finding_count) return e.weight_ulp;
+    if (reason == finding_count) return e.comparison.worst_weight_ulp();
     if (reason == finding_count + 1) return e.comparison.value_ulp;
     if (reason == witness_reasons) return std::isfinite(e.relative_error) ? e.relative_error : -1;
     if (e.comparison.counts[reason] == 0) return -1;
@@ -68,11 +62,11 @@ Height height(std::size_t reason, const Evaluation& e) {
     if (is(reason, Finding::missed_degenerate) || is(reason, Finding::false_declaration) ||
         is(reason, Finding::not_finite))
         return {-1, largest_weight(e.exact)};
-    return {-1, e.weight_ulp};
+    return {-1, e.comparison.worst_weight_ulp()};
 }
 
 double magnitude(std::size_t reason, const Evaluation& e) {
-    if (reason == finding_count) return e.weight_ulp;
+    if (reason == finding_count) return e.comparison.worst_weight_ulp();
     if (reason == finding_count + 1) return e.comparison.value_ulp;
     if (reason == witness_reasons) return e.relative_error;
     return e.comparison.weight_error;

@@ -1,21 +1,14 @@
 /// One step of a search: a case, the exact answer, the kernel's; and how bad it is.
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <string_view>
-
-#include "barycert/audit.hpp"
-#include "barycert/kernels.hpp"
-#include "barycert/oracle.hpp"
+#include "barycert/audit/asking.hpp"
 
 namespace barycert::audit {
 
 struct Evaluation {
-    bool ran = true;  ///< false: the kernel has been given up, and was not asked; the members below say nothing
+    Statement said;  ///< if it did not run, the kernel has been given up, and the members below say nothing of it
     OracleAnswer exact;
     Comparison comparison;
-    double weight_ulp = -1;      ///< largest error of a weight in ulps; -1 if undefined
     double relative_error = -1;  ///< relative_error()
     std::string detail;          ///< what the kernel did besides answering, in words; empty if nothing
 };

@@ -1,7 +1,6 @@
 #include "barycert/audit/search/moves.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "barycert/audit/recipes.hpp"
 

@@ -1,8 +1,6 @@
 /// The numbers of a case that a search changes, as one row; the steps of a walk, and where walks start.
 #pragma once
 
-#include <bit>
-#include <cmath>
 #include <functional>
 #include <limits>
 

@@ -1,11 +1,8 @@
 // Plain witnesses: the same fault on fewer bits.
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "barycert/audit/search/moves.hpp"
 #include "barycert/audit_search.hpp"
-#include "barycert/base/random.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {

@@ -1,16 +1,11 @@
 #include "barycert/audit_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cmath>
-#include <limits>
 #include <optional>
-#include <utility>
 
 #include "barycert/audit/search/moves.hpp"
 #include "barycert/audit/threads.hpp"
-#include "barycert/base/random.hpp"
 
 namespace barycert {
 
@@ -26,20 +21,9 @@ constexpr std::size_t kept = 12;         ///< worst cases of a reason to start f
 /// A case that showed a reason, and what is told of it: the kernel may end before it could be asked again.
 struct Met {
     Case c;
-    Height height;
-    double magnitude = 0, weight_ulp = -1, relative_error = -1;
-    std::string detail;
     int cost = std::numeric_limits<int>::max();  ///< plain_cost()
-
-    Met() = default;
-    Met(const Case& met, int its_cost, std::size_t reason, const Height& h, const Evaluation& e)
-        : c(met),
-          height(h),
-          magnitude(audit::magnitude(reason, e)),
-          weight_ulp(e.weight_ulp),
-          relative_error(e.relative_error),
-          detail(e.detail),
-          cost(its_cost) {}
+    Height height;
+    Evaluation evaluation;
 };
 
 /// What a walk, or all so far, have met.
@@ -51,7 +35,7 @@ struct Harvest {
     bool given_up = false;                               ///< the kernel failed to answer too often
 
     void add(const Case& c, const Evaluation& e) {
-        if (!e.ran) {
+        if (!e.said.ran) {
             given_up = true;
             return;
         }
@@ -63,8 +47,8 @@ struct Harvest {
             if (h.shown < 0) continue;
             ++cases[r];
             if (!cost) cost = plain_cost(c);
-            if (enters(r, h, 1)) include(r, Met(c, *cost, r, h, e), 1);
-            if (r < finding_count && *cost < plain[r].cost) plain[r] = Met(c, *cost, r, h, e);
+            if (enters(r, h, 1)) include(r, {c, *cost, h, e}, 1);
+            if (r < finding_count && *cost < plain[r].cost) plain[r] = {c, *cost, h, e};
         }
     }
 
@@ -192,8 +176,8 @@ Witness witness_of(const SearchOptions& o, std::size_t reason, const Met& met) {
     w.reason = search_reason_name(reason);
     w.family = "search";
     w.seed = o.seed;
-    w.magnitude = met.magnitude;
-    w.detail = is_incident(reason) ? met.detail : "";
+    w.magnitude = magnitude(reason, met.evaluation);
+    w.detail = is_incident(reason) ? met.evaluation.detail : "";
     w.c = met.c;
     return w;
 }
@@ -204,10 +188,10 @@ struct Shown {
     bool given_up = false;
 };
 
-void set_plain(Shown& s, const Witness& plain, double weight_ulp, double relative_error) {
+void set_plain(Shown& s, const Witness& plain, const Evaluation& e) {
     s.find.plain = plain;
-    s.find.plain_weight_ulp = weight_ulp;
-    s.find.plain_relative_error = relative_error;
+    s.find.plain_weight_ulp = e.comparison.worst_weight_ulp();
+    s.find.plain_relative_error = e.relative_error;
     for (int k = 0; k < coordinate_count(plain.c); ++k) s.find.plain_bits += significant_bits(coordinate(plain.c, k));
 }
 
@@ -222,9 +206,9 @@ bool make_plain(const SearchOptions& o, std::size_t reason, const Harvest& all, 
         if (plain_cost(other.c) < plain_cost(plain.c)) plain = std::move(other);
     }
     const Evaluation p = evaluate(o.kernel, plain.c);
-    if (!p.ran) return false;
+    if (!p.said.ran) return false;
     if (is_incident(reason)) plain.detail = p.detail;
-    set_plain(s, plain, p.weight_ulp, p.relative_error);
+    set_plain(s, plain, p);
     return true;
 }
 
@@ -234,15 +218,15 @@ Shown shown(const SearchOptions& o, std::size_t reason, const Harvest& all) {
     s.find.reason = search_reason_name(reason);
     s.find.cases = all.cases[reason];
     s.find.found = witness_of(o, reason, worst);
-    s.find.weight_ulp = worst.weight_ulp;
-    s.find.relative_error = worst.relative_error;
+    s.find.weight_ulp = worst.evaluation.comparison.worst_weight_ulp();
+    s.find.relative_error = worst.evaluation.relative_error;
     // Each trial of an accident may cost a process, or the time limit: the plainest that was met is plain enough.
     if (!is_accident(reason) && !all.given_up) {
         if (make_plain(o, reason, all, s)) return s;
         s.given_up = true;
     }
     const Met& plain = reason < finding_count ? all.plain[reason] : worst;
-    set_plain(s, witness_of(o, reason, plain), plain.weight_ulp, plain.relative_error);
+    set_plain(s, witness_of(o, reason, plain), plain.evaluation);
     return s;
 }
 

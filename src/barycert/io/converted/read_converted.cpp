@@ -1,4 +1,4 @@
-#include "barycert/io/converted/read_converted.hpp"
+#include "barycert/io/formats.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -15,7 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/base/run_files.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/converted/meshio_script.hpp"
@@ -38,20 +37,25 @@ constexpr std::chrono::seconds most_time{600};
 constexpr std::int64_t tick = 50;                        // milliseconds after which it is looked at
 constexpr std::size_t most_text = std::size_t{1} << 18;  // of each stream
 
-/// Both ends, closed when it goes.
+/// Closed when it goes.
+struct Descriptor {
+    int value = -1;
+    explicit Descriptor(int descriptor = -1) : value(descriptor) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() { close(); }
+    void close() {
+        if (value >= 0) ::close(std::exchange(value, -1));
+    }
+};
+
 struct Pipe {
-    std::array<int, 2> ends{-1, -1};
+    Descriptor out, in;
     Pipe() {
-        if (::pipe2(ends.data(), O_CLOEXEC) != 0) ends = {-1, -1};
-    }
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    ~Pipe() {
-        close(0);
-        close(1);
-    }
-    void close(std::size_t end) {
-        if (ends[end] >= 0) ::close(std::exchange(ends[end], -1));
+        std::array<int, 2> ends{-1, -1};
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
+        out.value = ends[0];
+        in.value = ends[1];
     }
 };
 
@@ -65,7 +69,7 @@ struct Process {
         posix_spawnattr_t attributes;
         posix_spawn_file_actions_init(&files);
         posix_spawnattr_init(&attributes);
-        const std::array<int, 5> from{life.ends[0], answer.ends[1], messages.ends[1], output, input};
+        const std::array<int, 5> from{life.out.value, answer.in.value, messages.in.value, output, input};
         for (const int end : from) failure = end < 0 ? EMFILE : failure;
         // Onto high numbers first: one of them may be in the place of another.
         for (int i = 0; i < 5; ++i)
@@ -92,9 +96,9 @@ struct Process {
         if (failure != 0) id = -1;
         posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&files);
-        life.close(0);
-        answer.close(1);
-        messages.close(1);
+        life.out.close();
+        answer.in.close();
+        messages.in.close();
     }
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
@@ -118,7 +122,7 @@ struct Process {
 
     /// All that it prints, up to its end, whoever else holds the other ends. False: it takes too long.
     bool listen(std::string& text, std::string& errors) {
-        std::array<pollfd, 2> open{{{answer.ends[0], POLLIN, 0}, {messages.ends[0], POLLIN, 0}}};
+        std::array<pollfd, 2> open{{{answer.out.value, POLLIN, 0}, {messages.out.value, POLLIN, 0}}};
         const auto until = Clock::now() + most_time;
         while (open[0].fd >= 0 || open[1].fd >= 0) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
@@ -170,21 +174,10 @@ std::string half_of_memory() {
 
 /// A file that meshio has read.
 struct MeshioFile {
-    std::string vtu;       ///< the path of the mesh as a .vtu file without a name, there as long as this is
-    std::string answer;    ///< what was read, JSON
-    std::string messages;  ///< what meshio printed, cut off where it is long
-
-    int descriptor = -1;
-
-    MeshioFile() = default;
-    MeshioFile(MeshioFile&& other) noexcept
-        : vtu(std::move(other.vtu)),
-          answer(std::move(other.answer)),
-          messages(std::move(other.messages)),
-          descriptor(std::exchange(other.descriptor, -1)) {}
-    ~MeshioFile() {
-        if (descriptor >= 0) ::close(descriptor);
-    }
+    std::shared_ptr<Descriptor> descriptor = {};  ///< of the mesh as a .vtu file without a name
+    std::string vtu = {};                         ///< its path
+    std::string answer = {};                      ///< what was read, JSON
+    std::string messages = {};                    ///< what meshio printed, cut off where it is long
 };
 
 /// Has `path` read as what meshio calls `format`, by the Python of BARYCERT_MESHIO, else python3 or /usr/bin/python3.
@@ -214,11 +207,10 @@ Result<MeshioFile> run_meshio(const std::string& path, const std::string& format
                                              memory, memory,        std::to_string(most_time.count())};
     std::string tried;
     for (const std::string& python : pythons) {
-        MeshioFile file;
-        file.descriptor = ::memfd_create("barycert-meshio", MFD_CLOEXEC);
-        if (file.descriptor < 0) return base::read_failure(path, errno);
-        file.vtu = "/proc/self/fd/" + std::to_string(file.descriptor);
-        Process process(python, arguments, file.descriptor, input->descriptor());
+        MeshioFile file{.descriptor = std::make_shared<Descriptor>(::memfd_create("barycert-meshio", MFD_CLOEXEC))};
+        if (file.descriptor->value < 0) return base::read_failure(path, errno);
+        file.vtu = "/proc/self/fd/" + std::to_string(file.descriptor->value);
+        Process process(python, arguments, file.descriptor->value, input->descriptor());
         const bool ended = process.failure != 0 || process.listen(file.answer, file.messages);
         const int status = process.end();
         tried += (tried.empty() ? "" : ", ") + python + ": ";

@@ -10,10 +10,8 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
-#include "barycert/io/csv/csv_types.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
-#include "barycert/io/tetgen/row_errors.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/mesh/columns.hpp"
 
@@ -38,17 +36,15 @@ Complaint about_coordinate(std::string_view field, char separator) {
         // A number in form: either it overflows, or its signs and exponent are askew.
         return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
     }
-    if (only_digits_and(field, ".,eE+-") && field.find(',') != std::string_view::npos) {
+    if (only_digits_and(field, ".,eE+-") && field.find(',') != std::string_view::npos)
         return {"a number", "write it with a decimal point, not a comma"};
-    }
     if (only_digits_and(field, ".dD+-")) return {"a number", "write the exponent with e"};
     std::string word(field.substr(field.find_first_not_of("+-") == 1 ? 1 : 0, 3));
     for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (word == "nan" || word == "inf")
         return {"a finite number", std::string("remove the point, give it coordinates") + or_nan_for_it};
-    if (field.find('\r') != std::string_view::npos) {
+    if (field.find('\r') != std::string_view::npos)
         return {"a number", "end the lines with LF or CR LF, not with CR alone"};
-    }
     if (std::any_of(field.begin(), field.end(),
                     [](char c) { return static_cast<unsigned char>(c) < 32 && c != '\t'; })) {
         return {"a number", "save the points as text: this looks like binary data"};
@@ -167,7 +163,7 @@ Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePl
         const int role = layout.role_of[count];
         if (role == CsvLayout::must_be_empty && !field.empty())
             return refused("a value behind the last separator", "none, as in the first line", base::quoted(field),
-                           "say which columns are the coordinates, such as --columns 1,2,3");
+                           "say which columns are the coordinates, such as options.columns 1,2,3");
         if (role < 0) continue;
         if (role >= CsvLayout::first_kept) {
             const ColumnFormat& column = layout.kept[static_cast<std::size_t>(role - CsvLayout::first_kept)];

@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "barycert/io/column_source.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/row_sink.hpp"
+#include "barycert/io/streams.hpp"
 
 namespace barycert::io {
 namespace {

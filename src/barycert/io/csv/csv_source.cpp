@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/io/column_source.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
-#include "barycert/io/csv/csv_types.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {

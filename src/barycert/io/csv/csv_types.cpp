@@ -1,4 +1,4 @@
-#include "barycert/io/csv/csv_types.hpp"
+#include "barycert/io/csv/csv_layout.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,20 +11,19 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/base/run_files.hpp"
-#include "barycert/base/unpack.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 
 Result<LineReader> LineReader::open(const std::string& path) {
     LineReader reader(path == "-" ? "standard input" : path);
-    reader.owned_ = path != "-";
+    const bool own = path != "-";
     // A named pipe waits for its writer, as every reader of streams does: `gen > p.csv & barycert ... p.csv`.
-    reader.descriptor_ = reader.owned_ ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
+    reader.descriptor_ = own ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
     if (reader.descriptor_ < 0) return base::read_failure(reader.name_, errno);
-    if (Status plain = base::unpack(reader.descriptor_, reader.name_); reader.owned_ && !plain) return plain.error();
+    Status plain = base::unpack(reader.descriptor_, reader.name_);
+    if (own) reader.owned_.reset(new int(reader.descriptor_));
+    if (own && !plain) return plain.error();
     struct stat status {};
     if (::fstat(reader.descriptor_, &status) != 0) return base::read_failure(reader.name_, errno);
     if (S_ISDIR(status.st_mode)) return base::read_failure(reader.name_, EISDIR);
@@ -38,22 +37,9 @@ Result<LineReader> LineReader::open(const std::string& path) {
     return reader;
 }
 
-LineReader::LineReader(LineReader&& other) noexcept
-    : name_(std::move(other.name_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      then_(other.then_),
-      owned_(std::exchange(other.owned_, false)),
-      ended_(other.ended_),
-      buffer_(std::move(other.buffer_)),
-      begin_(other.begin_),
-      end_(other.end_),
-      searched_(other.searched_),
-      line_ended_(other.line_ended_),
-      number_(other.number_),
-      error_(std::move(other.error_)) {}
-
-LineReader::~LineReader() {
-    if (owned_ && descriptor_ >= 0) ::close(descriptor_);
+void LineReader::Close::operator()(const int* descriptor) const {
+    ::close(*descriptor);
+    delete descriptor;
 }
 
 bool LineReader::skip_mark() {

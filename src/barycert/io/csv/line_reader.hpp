@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,10 +21,6 @@ public:
 
     /// "-" is the standard input. Errors: missing, unreadable, a folder.
     static Result<LineReader> open(const std::string& path);
-
-    LineReader(LineReader&& other) noexcept;
-    LineReader& operator=(LineReader&& other) = delete;
-    ~LineReader();
 
     /// The next line without its LF or CR LF; valid until the next call, and one byte after it may be read.
     /// False at the end of the file, or after an error: see failed().
@@ -60,11 +57,14 @@ private:
     /// False: nothing more comes, and failed() if the file was changed.
     bool end();
 
+    struct Close {
+        void operator()(const int* descriptor) const;
+    };
     std::string name_;
     int descriptor_ = -1;
-    std::optional<base::FileState> then_;  // of a regular file
-    bool owned_ = false;                   // the standard input stays open
-    bool ended_ = false;                   // nothing more comes from the system
+    std::unique_ptr<const int, Close> owned_;  // the same; not of the standard input, which stays open
+    std::optional<base::FileState> then_;      // of a regular file
+    bool ended_ = false;                       // nothing more comes from the system
     std::vector<char> buffer_;
     std::size_t begin_ = 0;     // of the next line
     std::size_t end_ = 0;       // of what has been read

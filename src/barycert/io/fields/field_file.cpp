@@ -7,13 +7,11 @@
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/base/mapped_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
-#include "barycert/io/csv/csv_types.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy_file.hpp"
@@ -112,71 +110,35 @@ Result<Field> read_csv_column(Field field, const std::string& path, const std::s
     return field;
 }
 
-/// The words of a line.
-class Words {
-public:
-    explicit Words(std::string_view line) : rest_(line.substr(0, line.find('#'))) {}
-
-    /// The next word, empty at the end. Two commas stand for a word that is missing.
-    std::string_view next() {
-        skip_blanks();
-        if (rest_.empty()) return {};
-        const std::size_t end = std::min(rest_.find_first_of(" \t\r,;"), rest_.size());
-        const std::string_view word = rest_.substr(0, end);
-        rest_.remove_prefix(end);
-        skip_blanks();
-        if (!rest_.empty() && (rest_.front() == ',' || rest_.front() == ';')) {
-            rest_.remove_prefix(1);
-            separated_ = true;
-        } else {
-            separated_ = false;
-        }
-        return word;
-    }
-    /// A separator stood after the last word, so that there is to be another one.
-    bool separated() const { return separated_; }
-    bool at_end() {
-        skip_blanks();
-        return rest_.empty();
-    }
-
-private:
-    void skip_blanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r"), rest_.size())); }
-    std::string_view rest_;
-    bool separated_ = false;
-};
-
 Result<Field> read_text(Field field, const std::string& path, std::string_view bytes) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     const char* const file_end = bytes.data() + bytes.size();
     std::size_t line_number = 0, components = 0;
+    std::vector<std::string_view> words;
+    const auto refused = [&](const std::string& expected, const std::string& found, const char* remedy) {
+        return line_error(path, line_number, "a row of field \"" + field.name + '"', expected, found, remedy);
+    };
     while (!bytes.empty()) {
-        const std::size_t end = std::min(bytes.find('\n'), bytes.size());
-        Words words(bytes.substr(0, end));
-        bytes.remove_prefix(std::min(end + 1, bytes.size()));
+        const std::string_view line = bytes.substr(0, bytes.find('\n'));
+        bytes.remove_prefix(std::min(line.size() + 1, bytes.size()));
         ++line_number;
-        if (words.at_end()) continue;
-        const std::size_t before = field.data.size();
-        do {
-            const std::string_view word = words.next();
+        cut_fields(line.substr(0, line.find('#')), " \t\r", ",;", words);
+        if (words.empty()) continue;
+        for (const std::string_view word : words) {
             const auto x = base::parse_double(word);
             if (!x)
-                return line_error(path, line_number, "a row of field \"" + field.name + '"', "numbers",
-                                  base::quoted(word),
-                                  "write one row of numbers per node or cell; start header lines with #");
+                return refused("numbers", base::quoted(word),
+                               "write one row of numbers per node or cell; start header lines with #");
             if (is_inexact(word, *x))
-                return line_error(path, line_number, "a row of field \"" + field.name + '"',
-                                  "an integer that a double holds exactly", base::quoted(word),
-                                  "write it with a decimal point to round it");
+                return refused("an integer that a double holds exactly", base::quoted(word),
+                               "write it with a decimal point to round it");
             if (word.data() + word.size() == file_end) return base::unended_number(path, line_number);
             field.data.push_back(*x);
-        } while (!words.at_end() || words.separated());
-        const std::size_t found = field.data.size() - before;
-        if (components == 0) components = found;
-        if (found != components)
-            return line_error(path, line_number, "a row of field \"" + field.name + '"',
-                              std::to_string(components) + " numbers, as in the first row", std::to_string(found),
-                              "rows have one number for each component of the field");
+        }
+        if (components == 0) components = words.size();
+        if (words.size() != components)
+            return refused(std::to_string(components) + " numbers, as in the first row", std::to_string(words.size()),
+                           "rows have one number for each component of the field");
     }
     field.components = static_cast<int>(std::max<std::size_t>(components, 1));
     return field;

@@ -1,4 +1,4 @@
-#include "barycert/io/gmsh/cell_groups.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "barycert/io/gmsh/element_type.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
-#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -17,23 +17,15 @@ std::string order_remedy(const MshFile& file) {
 
 /// The type of the cells.
 Result<const ElementType*> choose(const MshFile& file, const TypeCounts& counts) {
-    int dimension = 0, max_order = 0;
-    bool simplices = true;
-    const ElementType* chosen = nullptr;
-    std::size_t kinds = 0;
+    int dimension = 0;
+    std::vector<const ElementType*> kinds;  // of that dimension
     for (const ElementType& type : element_types()) {
         if (counts[static_cast<std::size_t>(type.number)] == 0 || type.dimension() < dimension) continue;
-        if (type.dimension() > dimension) {
-            dimension = type.dimension();
-            max_order = 0;
-            kinds = 0;
-            simplices = true;
-        }
-        ++kinds;
-        chosen = &type;
-        max_order = std::max(max_order, type.order);
-        simplices = simplices && (type.family == ElementFamily::tetrahedron || type.family == ElementFamily::triangle);
+        if (type.dimension() > dimension) kinds.clear();
+        dimension = type.dimension();
+        kinds.push_back(&type);
     }
+    const auto any = [&](auto is_one) { return std::any_of(kinds.begin(), kinds.end(), is_one); };
     const std::string found = counted_types(counts, dimension, dimension);
     const auto no_cells = [&](const char* what, const char* expected, const std::string& remedy) {
         return file_error(file.path(), what, expected, found.empty() ? "no elements" : found, remedy);
@@ -43,12 +35,15 @@ Result<const ElementType*> choose(const MshFile& file, const TypeCounts& counts)
                         "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the "
                         "volume one, or add -save_all");
     const char* const expected = dimension == 3 ? "tetrahedra of order 1 or 2" : "triangles of order 1 or 2";
-    if (!simplices)
+    if (any([](const ElementType* type) {
+            return type->family != ElementFamily::tetrahedron && type->family != ElementFamily::triangle;
+        }))
         return no_cells(dimension == 3 ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
                         to_simplices(file.path()));
-    if (max_order > 2) return no_cells("cells of a higher order", expected, order_remedy(file));
-    if (kinds > 1) return no_cells("cells of both orders in one mesh", "cells of one order", order_remedy(file));
-    return chosen;
+    if (any([](const ElementType* type) { return type->order > 2; }))
+        return no_cells("cells of a higher order", expected, order_remedy(file));
+    if (kinds.size() > 1) return no_cells("cells of both orders in one mesh", "cells of one order", order_remedy(file));
+    return kinds.front();
 }
 
 /// Takes the tags of nodes and gives their positions.
@@ -57,12 +52,8 @@ bool take_node(Row& row, const TagIndex& nodes, Mesh::Index& node) {
     std::int64_t tag = 0;
     if (!row.tag(tag, "the tag of a node")) return false;
     node = nodes.find(tag);
-    if (node >= 0) return true;
-    return row.refuse({.what = "an unknown node",
-                       .expected = "the tag of a node of $Nodes",
-                       .remedy = "check that the file is complete",
-                       .has_number = true,
-                       .number = tag});
+    return node >= 0 ||
+           row.refuse({"an unknown node", "the tag of a node of $Nodes", tag, "check that the file is complete"});
 }
 
 /// What stands before the nodes of an element.
@@ -74,12 +65,8 @@ struct Head {
 template <class Row>
 bool take_head(Row& row, int version, const ElementBlock& block, Head& head) {
     if (!row.tag(head.tag, "the tag of an element")) return false;
-    if (version == 41 && head.tag < 0) {
-        return row.refuse({.what = "bad tag of an element",
-                           .expected = "a number that is not negative",
-                           .has_number = true,
-                           .number = head.tag});
-    }
+    if (version == 41 && head.tag < 0)
+        return row.refuse({"bad tag of an element", "a number that is not negative", head.tag});
     if (version != 22) return true;
     std::int64_t value = 0;
     for (int i = 0; Row::text && i < 2; ++i) {  // the type and the number of tags, which are known

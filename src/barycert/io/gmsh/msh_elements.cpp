@@ -2,6 +2,7 @@
 // 2.x binary  count, groups: type count tag-count, rows: tag tag... node...
 // 4.0         blocks count, blocks: entity dimension type count, rows: tag node...
 // 4.1         blocks count lowest highest, blocks: dimension entity type count, rows: tag node...
+#include <cstring>
 #include <string>
 
 #include "barycert/io.hpp"
@@ -26,6 +27,18 @@ bool append_block(Walk& walk, MshElements& elements, ElementBlock block) {
     return walk.skip_rows(static_cast<std::int64_t>(block.run.count), block.run.numbers, block.run.bytes, "elements");
 }
 
+/// The blanks behind the tag of an element of 2.x, its type and the number of its tags, if they are few bytes.
+FewBytes type_and_tags(const Walk& walk) {
+    std::size_t one = 1, three = 3;
+    const char* const from = skip_words(walk.at(), walk.end(), one);
+    const auto size = static_cast<std::size_t>(skip_words(walk.at(), walk.end(), three) - from) + 1;  // a blank, too
+    FewBytes out;
+    if (size >= 8) return out;
+    std::memcpy(&out.bytes, from, size);
+    std::memset(&out.mask, 0xFF, size);
+    return out;
+}
+
 /// The next elements of 2.x text that are of one type and have as many tags.
 bool find_rows_alike(const MshFile& file, Walk& walk, std::int64_t most, MshElements& elements) {
     Walk row = walk;
@@ -47,7 +60,8 @@ bool find_rows_alike(const MshFile& file, Walk& walk, std::int64_t most, MshElem
         return next.integer(values[0], "") && next.integer(values[1], "") && next.integer(values[2], "") &&
                values[1] == number && values[2] == tags;
     };
-    const std::size_t count = rows_alike(file, walk.at(), walk.end(), words, static_cast<std::size_t>(most), like);
+    const std::size_t count =
+        rows_alike(file, walk.at(), walk.end(), words, static_cast<std::size_t>(most), like, type_and_tags(walk));
     return append_block(
         walk, elements,
         {.type = type, .tags = static_cast<std::size_t>(tags), .run = {.count = count, .numbers = words}});

@@ -6,7 +6,6 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -24,17 +23,6 @@ std::string_view trimmed(std::string_view text) {
 /// Bytes before the text.
 std::size_t byte_order_mark(std::string_view bytes) {
     return bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-}
-
-/// The words of a line.
-std::vector<std::string_view> words_of(std::string_view line) {
-    std::vector<std::string_view> words;
-    for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
-        const std::size_t stop = std::min(line.find_first_of(" \t\r"), line.size());
-        words.push_back(line.substr(0, stop));
-        line.remove_prefix(stop);
-    }
-    return words;
 }
 
 /// Where `mark` stands next, or nullptr.
@@ -79,43 +67,38 @@ Status MshFile::read_format() {
     const char* const end = bytes_.data() + bytes_.size();
     const char* const first = at;
     const std::string_view head = trimmed(take_line(at, end));
-    if (head == "$NOD") {
+    if (head == "$NOD")
         return error_at(first, "a .msh file of version 1", "version 2.2 or 4.1", "\"$NOD\"", convert_remedy);
-    }
     if (head.starts_with("$MeshFormat") && head.find('\r') != std::string_view::npos)
         return error_at(first, "the lines have other ends", "LF or CR LF", "CR alone", "convert the ends of the lines");
     if (head.empty() && first != end)
         return error_at(first, "not a file of Gmsh", "a first line \"$MeshFormat\"", "an empty line",
                         "remove the empty lines at the beginning");
-    if (head != "$MeshFormat") {
+    if (head != "$MeshFormat")
         return error_at(first, "not a file of Gmsh", "a first line \"$MeshFormat\"", word_at(first, end),
                         "check the path");
-    }
     const char* const line = at;
-    const std::vector<std::string_view> words = words_of(take_line(at, end));
+    std::vector<std::string_view> words;
+    cut_fields(take_line(at, end), " \t\r", "", words);
     after_format_ = at;
-    if (words.size() != 3) {
+    if (words.size() != 3)
         return error_at(line, "bad $MeshFormat", "version, file type and data size, such as 4.1 0 8",
                         word_at(line, end), save_remedy);
-    }
     constexpr std::array<std::pair<std::string_view, int>, 7> versions{
         {{"2", 22}, {"2.0", 22}, {"2.1", 22}, {"2.2", 22}, {"4", 40}, {"4.0", 40}, {"4.1", 41}}};
     const auto* const version =
         std::find_if(versions.begin(), versions.end(), [&](const auto& v) { return v.first == words[0]; });
-    if (version == versions.end()) {
+    if (version == versions.end())
         return error_at(line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]),
                         words[0].starts_with("2.") || words[0].starts_with("3") ? convert_remedy : save_remedy);
-    }
     version_ = version->second;
-    if (words[1] != "0" && words[1] != "1") {
+    if (words[1] != "0" && words[1] != "1")
         return error_at(line, "bad file type in $MeshFormat", "0 (text) or 1 (binary)", base::quoted(words[1]),
                         save_remedy);
-    }
     if (words[1] == "0") return Done{};
-    if (words[2] != "8") {
+    if (words[2] != "8")
         return error_at(line, "bad data size in $MeshFormat", "8 in a binary file", base::quoted(words[2]),
                         convert_remedy);
-    }
     if (version_ == 40) {  // of which Gmsh itself writes text alone
         return error_at(line, "a binary file of version 4.0", "version 4.1 or 2.2", base::quoted(words[0]),
                         save_remedy);
@@ -124,10 +107,9 @@ Status MshFile::read_format() {
     std::int32_t one = 0;
     if (end - at >= 4) std::memcpy(&one, at, 4);
     swapped_ = one == 0x01000000;
-    if (one != 1 && !swapped_) {
+    if (one != 1 && !swapped_)
         return error_at(line, "bad byte order mark in $MeshFormat", "the number 1 in 4 bytes after this line",
                         "other bytes", "check whether the file was changed on the way, such as by a transfer as text");
-    }
     return Done{};
 }
 
@@ -135,11 +117,10 @@ Status MshFile::add_section(const char* at, const char* end) {
     const char* const file_end = bytes_.data() + bytes_.size();
     const char* body = at;
     const std::string_view name = trimmed(take_line(body, file_end)).substr(1);
-    if (end == nullptr) {
+    if (end == nullptr)
         return error_at(at, "section $" + base::printable(name.substr(0, 40)) + " has no end",
                         "a line \"$End" + base::printable(name.substr(0, 40)) + "\"", "none in the rest of the file",
                         "the file may be cut short: write it again");
-    }
     sections_.push_back({name, {body, static_cast<std::size_t>(end - body)}});
     return Done{};
 }
@@ -178,10 +159,9 @@ Status MshFile::list_binary_sections() {
     while (true) {
         while (at != end && is_space(*at)) ++at;
         if (at == end) return Done{};
-        if (*at != '$') {
+        if (*at != '$')
             return error_at(at, "bytes between sections", "\"$\", which begins a section", word_at(at, end),
                             "the file may be damaged: write it again");
-        }
         const char* body = at;
         const std::string mark = "$End" + std::string(trimmed(take_line(body, end)).substr(1));
         const char* const last = find_mark({body, static_cast<std::size_t>(end - body)}, mark);
@@ -197,10 +177,9 @@ Status MshFile::check_sections() const {
         const MshSection* first = nullptr;
         for (const MshSection& section : sections_) {
             if (section.name != name) continue;
-            if (first != nullptr) {
+            if (first != nullptr)
                 return error_at(section.name.data(), "a second section $" + std::string(name), "one of each kind",
                                 "two", "keep one mesh a file");
-            }
             first = &section;
         }
     }

@@ -91,25 +91,22 @@ void note_cells(const MshCells& cells, const MshGroups& groups, const std::strin
     // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result, and to
     // tell it each time would teach users to look away. What has nodes of its own is another matter: a wire or a shell
     // beside the cells, of which nothing is left.
-    if (!others.empty()) {
+    if (!others.empty())
         notes.push_back(
             {Note::Kind::left_out,
              "elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
              path, cells.apart});
-    }
-    if (cells.repeated != 0) {
+    if (cells.repeated != 0)
         notes.push_back({Note::Kind::left_out,
                          std::to_string(cells.repeated) +
                              " elements that repeat the one before them for a further physical group: gmsh:physical "
                              "has the first group of each cell",
                          path, true});
-    }
-    if (cells.unused_nodes != 0) {
+    if (cells.unused_nodes != 0)
         notes.push_back({Note::Kind::left_out,
                          std::to_string(cells.unused_nodes) +
                              " nodes of no cell: no value is taken from them; all nodes keep their numbers",
                          path});
-    }
     if (cells.partitioned || groups.partitioned)
         notes.push_back({Note::Kind::left_out, "partitions of the mesh: it is read as one", path});
 }

@@ -7,8 +7,8 @@
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
-#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -79,10 +79,8 @@ bool find_rows(const MshFile& file, Walk& walk, bool parametric, NodeRows& rows)
 
 template <class Row>
 bool take_tag(Row& row, std::int64_t& tag) {
-    if (!row.tag(tag, "the tag of a node")) return false;
-    if (tag >= 0) return true;
-    return row.refuse(
-        {.what = "bad tag of a node", .expected = "a number that is not negative", .has_number = true, .number = tag});
+    return row.tag(tag, "the tag of a node") &&
+           (tag >= 0 || row.refuse({"bad tag of a node", "a number that is not negative", tag}));
 }
 
 }  // namespace

@@ -1,22 +1,107 @@
 /// What a .msh file of any version holds, in one form: nodes, elements in blocks, cells, groups, views.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "barycert/io/gmsh/element_type.hpp"
 #include "barycert/io/gmsh/msh_file.hpp"
 #include "barycert/io/gmsh/rows.hpp"
-#include "barycert/io/gmsh/tag_index.hpp"
+#include "barycert/io.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
+
+enum class ElementFamily : std::uint8_t { point, line, triangle, quadrangle, tetrahedron, hexahedron, prism, pyramid };
+
+struct ElementType {
+    int number;  ///< Gmsh's
+    ElementFamily family;
+    int order;
+    std::size_t nodes;
+
+    int dimension() const;
+    /// "tetrahedra of order 3"; with a count of one, "tetrahedron of order 3".
+    std::string counted(std::size_t count) const;
+};
+
+/// nullptr if the type is not known.
+const ElementType* element_type(std::int64_t number);
+
+/// All types that are known, by number.
+std::span<const ElementType> element_types();
+
+inline constexpr std::int64_t max_element_type = 140;
+
+/// How many elements there are of each type.
+using TypeCounts = std::array<std::size_t, max_element_type + 1>;
+
+/// "8 points, 120 lines": of types whose dimension is at least `low` and at most `high`.
+std::string counted_types(const TypeCounts& counts, int low, int high);
+
+class TagIndex {
+public:
+    /// Tags in any order, with gaps of any size. `first_twice` gets the position of the first one that stood before, if
+    /// there is one; then the index is of no use. Precondition: fewer than 2^31.
+    TagIndex(std::span<const std::int64_t> tags, std::optional<std::size_t>& first_twice) {
+        first_twice.reset();
+        if (tags.empty()) return;
+        const auto [low, high] = std::minmax_element(tags.begin(), tags.end());
+        low_ = *low;
+        span_ = offset_of(*high) + 1;
+        std::size_t same = 0;
+        while (same != tags.size() && offset_of(tags[same]) == same) ++same;
+        if (same == tags.size()) return;
+        if (span_ <= 8 * tags.size() + 1024) {
+            table_.assign(span_, -1);
+            for (std::size_t i = 0; i < tags.size() && !first_twice; ++i) {
+                Mesh::Index& entry = table_[offset_of(tags[i])];
+                if (entry != -1) first_twice = i;
+                entry = static_cast<Mesh::Index>(i);
+            }
+            return;
+        }
+        in_order_.reserve(tags.size());
+        for (std::size_t i = 0; i < tags.size(); ++i) in_order_.emplace_back(tags[i], static_cast<Mesh::Index>(i));
+        std::sort(in_order_.begin(), in_order_.end());
+        for (std::size_t i = 1; i < in_order_.size(); ++i) {
+            const auto position = static_cast<std::size_t>(in_order_[i].second);
+            if (in_order_[i].first == in_order_[i - 1].first)
+                first_twice = std::min(first_twice.value_or(position), position);
+        }
+    }
+    TagIndex() = default;
+
+    /// The position of a tag, or -1.
+    Mesh::Index find(std::int64_t tag) const {
+        const std::uint64_t offset = offset_of(tag);
+        if (offset >= span_) return -1;
+        if (!table_.empty()) return table_[offset];
+        return in_order_.empty() ? static_cast<Mesh::Index>(offset) : search(tag);
+    }
+
+private:
+    std::uint64_t offset_of(std::int64_t tag) const {
+        return static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(low_);
+    }
+    Mesh::Index search(std::int64_t tag) const {
+        const auto found = std::lower_bound(in_order_.begin(), in_order_.end(), std::pair(tag, Mesh::Index{0}));
+        return found != in_order_.end() && found->first == tag ? found->second : -1;
+    }
+
+    std::int64_t low_ = 0;
+    std::uint64_t span_ = 0;                                      ///< highest - lowest + 1
+    std::vector<Mesh::Index> table_;                              ///< where it is not much larger than the tags
+    std::vector<std::pair<std::int64_t, Mesh::Index>> in_order_;  ///< by tag, where it would be; neither: in sequence
+};
 
 struct MshNodes {
     std::vector<double> points;  ///< x, y, z a node, finite
@@ -120,16 +205,12 @@ void note_cells(const MshCells& cells, const MshGroups& groups, const std::strin
 void label_cells(const MshFile& file, const MshElements& elements, MshCells cells, const MshGroups& groups, Mesh& mesh);
 
 /// The header of a section $NodeData, $ElementData or $ElementNodeData: a field, or a step in time of it.
-struct MshView {
+struct MshView : GmshStep {
     enum class Of : std::uint8_t { nodes, elements, element_nodes };
     Of of = Of::nodes;
     const MshSection* section = nullptr;
-    std::string name = {};
     bool interpolated = false;  ///< names an interpolation scheme
-    double time = 0;
-    std::int64_t step = 0;
-    int components = 1;
-    Run rows = {};  ///< of element_nodes: not set
+    Run rows = {};              ///< of element_nodes: not set
 };
 
 /// All such sections, in the order of the file. Error: what the grammar does not have.
@@ -148,5 +229,20 @@ struct ViewTargets {
 Status read_msh_fields(const MshFile& file, const std::vector<MshView>& views, MshView::Of of,
                        const ViewTargets& targets, std::optional<std::int64_t> step, std::vector<Field>& fields,
                        Notes& notes);
+
+struct CellGroups {
+    std::vector<std::int64_t> tags;                    ///< of elements
+    std::vector<std::int32_t> physical;                ///< a cell; empty: none
+    std::vector<std::int32_t> entity;                  ///< a cell; empty: 1
+    std::map<std::int32_t, std::int32_t> physical_of;  ///< of each entity, 0 for none; `by_entity` alone
+    std::map<std::int32_t, std::string> names;         ///< of physical groups
+    std::vector<const Field*> data;                    ///< the cell fields that are written as such
+
+    std::int32_t entity_of(std::size_t cell) const { return entity.empty() ? 1 : entity[cell]; }
+    std::int32_t group_of(std::size_t cell) const { return physical.empty() ? 0 : physical[cell]; }
+};
+
+/// `by_entity`: an entity can be in one group only (4.1). Error: one group with two names.
+Result<CellGroups> group_cells(const Mesh& mesh, bool by_entity, const std::string& path);
 
 }  // namespace barycert::io

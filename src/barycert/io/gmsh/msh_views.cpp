@@ -34,7 +34,7 @@ Status read_header(const MshFile& file, MshView& view) {
     for (std::int64_t i = 0; i < count; ++i) {
         if (walk.at() == end) return bad("a string", word_at(end, end));
         std::string text = string_of(walk.line());
-        if (i == 0) view.name = std::move(text);
+        if (i == 0) view.field = std::move(text);
         if (i == 1) view.interpolated = true;
     }
     if (!walk.integer(count, "the number of real numbers")) return walk.error();
@@ -97,7 +97,7 @@ class FieldMaker {
 public:
     FieldMaker(const MshFile& file, const ViewTargets& targets, const MshView& first, Notes& notes)
         : file_(file), targets_(targets), first_(first), notes_(notes) {
-        field_.name = first.name;
+        field_.name = first.field;
         field_.components = first.components;
         if (field_.name.empty()) {
             field_.name = first.section->name;
@@ -125,18 +125,16 @@ public:
 
     void finish(std::vector<Field>& fields) {
         const std::string name = base::quoted(field_.name);
-        if (lost_ != 0) {
+        if (lost_ != 0)
             note(Note::Kind::left_out, std::to_string(lost_) + " values of " + name + ", of what is no " + targets_.one,
                  placed_ == 0);
-        }
         if (lost_ == 0 && placed_ == 0) note(Note::Kind::left_out, "view " + name + ", which has no values", false);
         if (placed_ == 0) return;
-        if (placed_ != targets_.count) {
+        if (placed_ != targets_.count)
             note(Note::Kind::guessed,
                  "NaN for the values of " + name + " at " + std::to_string(targets_.count - placed_) + " of " +
                      std::to_string(targets_.count) + " " + targets_.many + ", which have none",
                  true);
-        }
         fields.push_back(std::move(field_));
     }
 
@@ -146,7 +144,7 @@ private:
     }
     Status skip(const MshView& view, const char* why) {
         note(Note::Kind::left_out,
-             "a second section " + base::quoted(view.name) + " of " + step_text(view) + ": it " + why, true);
+             "a second section " + base::quoted(view.field) + " of " + step_text(view) + ": it " + why, true);
         return Done{};
     }
 
@@ -166,11 +164,10 @@ private:
                 continue;
             }
             const auto i = static_cast<std::size_t>(to[row]);
-            if (has_[i] == 2) {
+            if (has_[i] == 2)
                 return file_.error_at(view.section->name.data(),
-                                      "two values of " + base::quoted(view.name) + " for one " + targets_.one,
+                                      "two values of " + base::quoted(view.field) + " for one " + targets_.one,
                                       "each tag once in a section", "tag " + std::to_string(rows.tags[row]) + " again");
-            }
             has_[i] = 2;
             ++placed_;
             std::copy_n(&rows.values[row * components], components, &field_.data[i * components]);
@@ -194,7 +191,7 @@ std::optional<std::int64_t> choose_step(const std::vector<const MshView*>& views
     std::set<std::int64_t> steps;
     for (const MshView* view : views) steps.insert(view->step);
     if (steps.size() == 1) return *steps.begin();
-    const std::string has = base::quoted(views.front()->name) + " has " + std::to_string(steps.size()) + " steps, " +
+    const std::string has = base::quoted(views.front()->field) + " has " + std::to_string(steps.size()) + " steps, " +
                             std::to_string(*steps.begin()) + " to " + std::to_string(*steps.rbegin());
     if (!wanted) {
         const auto* const first = *std::find_if(views.begin(), views.end(),
@@ -215,7 +212,10 @@ Result<std::vector<MshView>> find_msh_views(const MshFile& file) {
     for (const MshSection& section : file.sections()) {
         const auto* const name = std::find(names.begin(), names.end(), section.name);
         if (name == names.end()) continue;
-        MshView view{.of = static_cast<MshView::Of>(name - names.begin()), .section = &section};
+        MshView view;
+        view.of = static_cast<MshView::Of>(name - names.begin());
+        view.of_cells = view.of == MshView::Of::elements;
+        view.section = &section;
         if (Status s = read_header(file, view); !s) return s.error();
         views.push_back(std::move(view));
     }
@@ -229,13 +229,12 @@ Status read_msh_fields(const MshFile& file, const std::vector<MshView>& views, M
     std::map<std::string, std::size_t> position;
     for (const MshView& view : views) {
         if (view.of != of) continue;
-        const auto [it, added] = position.emplace(view.name, by_name.size());
+        const auto [it, added] = position.emplace(view.field, by_name.size());
         if (added) by_name.emplace_back();
         by_name[it->second].push_back(&view);
-        if (view.interpolated) {
+        if (view.interpolated)
             notes.push_back(
-                {Note::Kind::left_out, "the interpolation scheme of " + base::quoted(view.name), file.path(), true});
-        }
+                {Note::Kind::left_out, "the interpolation scheme of " + base::quoted(view.field), file.path(), true});
     }
     for (const std::vector<const MshView*>& same : by_name) {
         const std::optional<std::int64_t> chosen = choose_step(same, step, file.path(), notes);

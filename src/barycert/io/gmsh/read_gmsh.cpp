@@ -1,16 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <new>
 #include <set>
 #include <utility>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
-#include "barycert/io/other_formats.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
@@ -21,11 +17,10 @@ namespace {
 Status flatten(std::vector<double>& points, const std::string& path, const std::string& triangles) {
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
-        if (points[i + 2] != 0) {
+        if (points[i + 2] != 0)
             return file_error(path, "z of node " + std::to_string(i / 3) + " (from 0)",
                               "0, as the mesh is of triangles", base::shortest(points[i + 2]),
                               plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
-        }
         points[to++] = points[i];
         points[to++] = points[i + 1];
     }
@@ -48,9 +43,9 @@ void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes
     if (!text.empty()) notes.push_back({Note::Kind::left_out, text, file.path()});
     std::set<std::string> names;
     for (const MshView& view : views) {
-        if (view.of != MshView::Of::element_nodes || !names.insert(view.name).second) continue;
+        if (view.of != MshView::Of::element_nodes || !names.insert(view.field).second) continue;
         notes.push_back({Note::Kind::left_out,
-                         base::quoted(view.name) + " ($ElementNodeData): it has a value for each node of each element",
+                         base::quoted(view.field) + " ($ElementNodeData): it has a value for each node of each element",
                          file.path(), true});
     }
 }
@@ -91,12 +86,11 @@ Result<Mesh> read_whole(const MshFile& file, const GmshReadOptions& options) {
     if (std::any_of(views->begin(), views->end(), [](const MshView& v) { return v.of == MshView::Of::elements; })) {
         std::optional<std::size_t> twice;
         const TagIndex index(cells->tags, twice);
-        if (twice) {
+        if (twice)
             return file.error_at(
                 file.find("Elements")->name.data(), "two cells with the tag " + std::to_string(cells->tags[*twice]),
                 "each tag once, for $ElementData refers to them",
                 "it again at cell " + std::to_string(*twice) + " from 0", "give each element a tag of its own");
-        }
         const ViewTargets targets{index, mesh.cell_count(), "cell", "cells"};
         status =
             read_msh_fields(file, *views, MshView::Of::elements, targets, options.step, mesh.cell_fields, mesh.notes);
@@ -107,57 +101,43 @@ Result<Mesh> read_whole(const MshFile& file, const GmshReadOptions& options) {
     return mesh;
 }
 
-template <class T>
-Result<T> guarded(const std::string& path, const std::function<Result<T>(const MshFile&)>& read, int threads) {
-    const ExactEnvironment environment;
-    try {
-        const Result<MshFile> file = MshFile::open(path, threads);
-        if (!file) return file.error();
-        return read(*file);
-    } catch (const std::bad_alloc&) {
-        return base::too_little_memory(path);
-    }
-}
-
 }  // namespace
 }  // namespace io
 
 Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options) {
-    return io::guarded<Mesh>(
-        path, [&](const io::MshFile& file) { return io::read_whole(file, options); }, options.threads);
+    return io::read_guarded(path, [&]() -> Result<Mesh> {
+        const Result<io::MshFile> file = io::MshFile::open(path, options.threads);
+        return file ? io::read_whole(*file, options) : file.error();
+    });
 }
 
 Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
-    return io::guarded<std::vector<GmshStep>>(
-        path,
-        [](const io::MshFile& file) -> Result<std::vector<GmshStep>> {
-            const Result<std::vector<io::MshView>> views = io::find_msh_views(file);
-            if (!views) return views.error();
-            std::vector<GmshStep> steps;
-            for (const io::MshView& v : *views) {
-                if (v.of == io::MshView::Of::element_nodes) continue;
-                steps.push_back({v.name, v.of == io::MshView::Of::elements, v.components, v.step, v.time});
-            }
-            return steps;
-        },
-        0);
+    return io::read_guarded(path, [&]() -> Result<std::vector<GmshStep>> {
+        const Result<io::MshFile> file = io::MshFile::open(path, 0);
+        if (!file) return file.error();
+        const Result<std::vector<io::MshView>> views = io::find_msh_views(*file);
+        if (!views) return views.error();
+        std::vector<GmshStep> steps;
+        for (const io::MshView& v : *views) {
+            if (v.of != io::MshView::Of::element_nodes) steps.push_back(v);
+        }
+        return steps;
+    });
 }
 
 Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimension, int threads) {
-    if (dimension != 2 && dimension != 3) {
+    if (dimension != 2 && dimension != 3)
         return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
-    }
-    return io::guarded<std::vector<double>>(
-        path,
-        [&](const io::MshFile& file) -> Result<std::vector<double>> {
-            Result<io::MshNodes> nodes = io::read_msh_nodes(file);
-            if (!nodes) return nodes.error();
-            if (dimension == 2) {
-                if (Status s = io::flatten(nodes->points, path, {}); !s) return s.error();
-            }
-            return std::move(nodes->points);
-        },
-        threads);
+    return io::read_guarded(path, [&]() -> Result<std::vector<double>> {
+        const Result<io::MshFile> file = io::MshFile::open(path, threads);
+        if (!file) return file.error();
+        Result<io::MshNodes> nodes = io::read_msh_nodes(*file);
+        if (!nodes) return nodes.error();
+        if (dimension == 2) {
+            if (Status s = io::flatten(nodes->points, path, {}); !s) return s.error();
+        }
+        return std::move(nodes->points);
+    });
 }
 
 }  // namespace barycert

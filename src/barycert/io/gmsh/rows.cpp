@@ -138,10 +138,10 @@ std::vector<RunPart> cut_runs(const MshFile& file, std::span<const Run> runs) {
 Error row_error(const MshFile& file, const char* section, const char* at, const RowFault& fault, std::size_t row) {
     const char* const end = file.bytes().data() + file.bytes().size();
     const bool text = !file.binary();
-    while (text && at != end && (is_blank(*at) || *at == '\r' || *at == '\n') && !fault.has_number) ++at;
+    while (text && at != end && (is_blank(*at) || *at == '\r' || *at == '\n') && !fault.number) ++at;
     std::string what = std::string(fault.what) + " in $" + section;
     if (!text) what += ", row " + std::to_string(row) + " from 0";
-    const std::string found = fault.has_number ? std::to_string(fault.number) : text ? word_at(at, end) : "another one";
+    const std::string found = fault.number ? std::to_string(*fault.number) : text ? word_at(at, end) : "another one";
     return file.error_at(at, what, fault.expected, found, fault.remedy);
 }
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,9 +30,29 @@ namespace barycert::io {
 struct RowFault {
     const char* what = "bad number";
     const char* expected = "a number";
+    std::optional<std::int64_t> number = {};  ///< else what stands in the file is told
     const char* remedy = "";
-    bool has_number = false;  ///< else what stands in the file is told
-    std::int64_t number = 0;
+};
+
+/// What rows of either kind have.
+class Row {
+public:
+    /// Back to where a step began.
+    void back(const char* at) { at_ = at; }
+    bool refuse(const RowFault& fault) {
+        fault_ = fault;
+        return false;
+    }
+
+    const char* at() const { return at_; }
+    const RowFault& fault() const { return fault_; }
+
+protected:
+    explicit Row(const char* at) : at_(at) {}
+    const char* at_;
+
+private:
+    RowFault fault_;
 };
 
 /// A number that may be infinite or NaN, if it is written so: too large a number is none.
@@ -41,11 +62,11 @@ inline const char* scan_any_real(const char* at, const char* end, double& value)
 }
 
 /// Of text: as many words as the row has numbers.
-class TextRow {
+class TextRow : public Row {
 public:
     static constexpr bool text = true;
 
-    TextRow(const char* at, const char* end) : at_(at), end_(end) {}
+    TextRow(const char* at, const char* end) : Row(at), end_(end) {}
 
     bool integer(std::int64_t& value, const char* name) {
         skip();
@@ -69,16 +90,6 @@ public:
         if (after != nullptr) at_ = after;
         return after != nullptr;
     }
-    /// Back to where plain() began.
-    void back(const char* at) { at_ = at; }
-
-    bool refuse(const RowFault& fault) {
-        fault_ = fault;
-        return false;
-    }
-
-    const char* at() const { return at_; }
-    const RowFault& fault() const { return fault_; }
 
 private:
     void skip() {
@@ -90,9 +101,7 @@ private:
         return true;
     }
 
-    const char* at_;
     const char* end_;
-    RowFault fault_;
 };
 
 /// The word at `at`, which must be there.
@@ -105,12 +114,12 @@ Word word_in(const char* at, bool swapped) {
 }
 
 /// Binary. The bytes of the row must be there.
-class BinaryRow {
+class BinaryRow : public Row {
 public:
     static constexpr bool text = false;
 
     /// `wide`: tags have 8 bytes, else 4.
-    BinaryRow(const char* at, bool wide, bool swapped) : at_(at), wide_(wide), swapped_(swapped) {}
+    BinaryRow(const char* at, bool wide, bool swapped) : Row(at), wide_(wide), swapped_(swapped) {}
 
     bool integer(std::int64_t& value, const char*) {
         value = static_cast<std::int32_t>(take<std::uint32_t>());
@@ -133,14 +142,6 @@ public:
     bool plain(std::array<std::uint32_t, Count>&) {
         return false;
     }
-    void back(const char* at) { at_ = at; }
-    bool refuse(const RowFault& fault) {
-        fault_ = fault;
-        return false;
-    }
-
-    const char* at() const { return at_; }
-    const RowFault& fault() const { return fault_; }
 
 private:
     template <class Word>
@@ -149,9 +150,7 @@ private:
         return word_in<Word>(at_ - sizeof(Word), swapped_);
     }
 
-    const char* at_;
     bool wide_, swapped_;
-    RowFault fault_;
 };
 
 /// Rows of as many numbers each, one after the other.
@@ -206,10 +205,11 @@ Status parse_runs(const MshFile& file, const char* section, std::span<const Run>
 }
 
 /// How many rows of text of `words` words from `at` on are whole and like the first one, `most` at most: same(row)
-/// looks at the beginning of each. The text of the section ends at `end`.
+/// looks at the beginning of each. The text of the section ends at `end`. `second`: what stands behind the first word
+/// of all integer rows that are alike.
 template <class Same>
 std::size_t rows_alike(const MshFile& file, const char* at, const char* end, std::size_t words, std::size_t most,
-                       const Same& same) {
+                       const Same& same, const FewBytes& second = {}) {
     std::size_t alike = 0;
     for (std::size_t few = std::min<std::size_t>(most, 16); alike < few; ++alike) {
         std::size_t skipped = words;
@@ -228,13 +228,17 @@ std::size_t rows_alike(const MshFile& file, const char* at, const char* end, std
         base::share_work(file.threads(), parts.size(), [&](std::size_t p) {
             const char* next = parts[p].at;
             for (std::size_t i = parts[p].first; i < parts[p].last && i < found; ++i) {
+                if (const char* const plain = second.mask == 0 ? nullptr : plain_row_end(next, words, second);
+                    plain != nullptr) {
+                    next = plain;
+                    continue;
+                }
                 if (!same(TextRow(next, end))) {
                     for (std::size_t other = found; i < other && !found.compare_exchange_weak(other, i);) {
                     }
                 }
                 std::size_t skipped = words;
-                const char* const plain = plain_row_end(next, words);
-                next = plain != nullptr ? plain : skip_words(next, end, skipped);
+                next = skip_words(next, end, skipped);
             }
             return true;
         });

@@ -1,4 +1,4 @@
-#include "barycert/io/gmsh/word_index.hpp"
+#include "barycert/io/gmsh/msh_file.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/gmsh/cell_groups.hpp"
+#include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -69,6 +69,19 @@ private:
         out_.binary() ? out_.number(static_cast<std::int32_t>(value)) : out_.number(value);
     }
     void wide(std::uint64_t value) { out_.number(value); }  // size_t
+    /// A row of these, of their own types.
+    template <class... Numbers>
+    void row(Numbers... numbers) {
+        const auto put = [&](auto number) {
+            if constexpr (sizeof(number) == 8) {
+                wide(number);
+            } else {
+                integer(number);
+            }
+        };
+        (put(numbers), ...);
+        out_.end_row();
+    }
     /// "$EndName", after binary data on a line of its own.
     void end_section(std::string_view name) {
         out_.text((out_.binary() ? "\n$End" : "$End") + std::string(name) + "\n");
@@ -132,17 +145,9 @@ private:
 
     void write_nodes_41(std::size_t dimension) {
         const std::size_t count = mesh_.point_count();
-        for (const std::size_t number : {std::size_t{1}, count, std::size_t{1}, count}) wide(number);
-        out_.end_row();
-        integer(mesh_.dimension);
-        integer(groups_.physical_of.begin()->first);
-        integer(0);
-        wide(count);
-        out_.end_row();
-        for (std::size_t node = 0; node < count; ++node) {
-            wide(node + 1);
-            out_.end_row();
-        }
+        row(std::size_t{1}, count, std::size_t{1}, count);
+        row(mesh_.dimension, groups_.physical_of.begin()->first, 0, count);
+        for (std::size_t node = 0; node < count; ++node) row(node + 1);
         for (std::size_t node = 0; node < count; ++node) write_point(node, dimension);
     }
 
@@ -178,18 +183,11 @@ private:
             if (cell == 0 || groups_.entity_of(cell) != groups_.entity_of(cell - 1)) starts.push_back(cell);
         }
         const auto [low, high] = std::minmax_element(groups_.tags.begin(), groups_.tags.end());
-        wide(starts.size());
-        wide(count);
-        wide(count == 0 ? 0 : static_cast<std::uint64_t>(*low));
-        wide(count == 0 ? 0 : static_cast<std::uint64_t>(*high));
-        out_.end_row();
+        row(starts.size(), count, count == 0 ? 0 : static_cast<std::size_t>(*low),
+            count == 0 ? 0 : static_cast<std::size_t>(*high));
         for (std::size_t b = 0; b < starts.size(); ++b) {
             const std::size_t last = b + 1 < starts.size() ? starts[b + 1] : count;
-            integer(mesh_.dimension);
-            integer(groups_.entity_of(starts[b]));
-            integer(type());
-            wide(last - starts[b]);
-            out_.end_row();
+            row(mesh_.dimension, groups_.entity_of(starts[b]), type(), last - starts[b]);
             for (std::size_t cell = starts[b]; cell < last; ++cell) {
                 wide(static_cast<std::uint64_t>(groups_.tags[cell]));
                 put_nodes(cell, [&](std::int64_t tag) { wide(static_cast<std::uint64_t>(tag)); });
@@ -200,11 +198,7 @@ private:
 
     void write_elements_22() {
         line(mesh_.cell_count());
-        if (out_.binary() && mesh_.cell_count() != 0) {
-            integer(type());
-            integer(static_cast<std::int64_t>(mesh_.cell_count()));
-            integer(2);
-        }
+        if (out_.binary() && mesh_.cell_count() != 0) row(type(), static_cast<int>(mesh_.cell_count()), 2);
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
             integer(groups_.tags[cell]);
             if (!out_.binary()) {

@@ -9,7 +9,6 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/other_formats.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 
@@ -19,10 +18,6 @@ namespace {
 constexpr const char* cut_short = "the file may be cut short: write it again, or mend the count";
 constexpr std::int64_t max_rows = INT32_MAX, max_fields = 1 << 16;
 constexpr std::int64_t code_of_dimension = 3, code_of_end = 54;
-
-bool same(std::string_view word, std::string_view name) {
-    return word.size() == name.size() && strncasecmp(word.data(), name.data(), name.size()) == 0;
-}
 
 /// Takes the text up to the next keyword and the keyword itself off `text`; empty, at its end, if there is none. Names
 /// in quotes are passed over, and so are nan and inf.
@@ -41,7 +36,7 @@ std::string_view next_keyword(std::string_view& text) {
         while (i < text.size() && !is_white(text[i])) ++i;
         if (letter >= 26) continue;
         const std::string_view word = text.substr(begin, i - begin);
-        if (same(word, "nan") || same(word, "inf") || same(word, "infinity")) continue;
+        if (same_word(word, "nan") || same_word(word, "inf") || same_word(word, "infinity")) continue;
         text.remove_prefix(i);
         return word;
     }
@@ -78,9 +73,13 @@ void make_rows(std::size_t count, MeditRows& rows) {
 
 }  // namespace
 
+bool same_word(std::string_view word, std::string_view name) {
+    return word.size() == name.size() && strncasecmp(word.data(), name.data(), name.size()) == 0;
+}
+
 bool is_medit(std::string_view head) {
     if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
-    if (same(first_word(head, '#').substr(0, 11), "MeshVersion")) return true;
+    if (same_word(first_word(head, '#').substr(0, 11), "MeshVersion")) return true;
     if (head.size() < 12) return false;
     const bool swapped = head[0] == 0;
     return take_integer(head, 4, swapped) == 1 && static_cast<std::uint64_t>(take_integer(head, 4, swapped) - 1) < 4 &&
@@ -91,21 +90,16 @@ Result<MeditFile> MeditFile::open(const std::string& path) {
     MeditFile file;
     file.path_ = path;
     // A large file that is none is not read for that.
-    const Result<base::InputFile> input = base::InputFile::open(path);
-    if (!input) return input.error();
-    std::string head(4096, '\0');
-    const Result<std::size_t> size = input->read_at(0, head, path);
-    if (!size) return size.error();
-    head.resize(*size);
-    const std::string_view begin = std::string_view(head).substr(head.starts_with("\xEF\xBB\xBF") ? 3 : 0);
+    const Result<std::string> head = head_of(path, 4096);
+    if (!head) return head.error();
+    const std::string_view begin = std::string_view(*head).substr(head->starts_with("\xEF\xBB\xBF") ? 3 : 0);
     const std::string_view word = first_word(begin, '#');
     file.binary_ = is_medit(begin.substr(0, 12)) && begin[1] == 0;
-    if (!file.binary_ && !same(word, "MeshVersionFormatted")) {
+    if (!file.binary_ && !same_word(word, "MeshVersionFormatted"))
         return line_error(path, 1, "not a file of Medit",
                           "\"MeshVersionFormatted\", or in a binary file the numbers 1, 1 to 4, 3",
-                          head.empty() ? "an empty file" : base::quoted(word),
+                          head->empty() ? "an empty file" : base::quoted(word),
                           "check the path: other programs have files of this suffix, too");
-    }
     Result<base::MappedFile> data = base::MappedFile::open(path);
     if (!data) return data.error();
     file.data_ = std::move(*data);
@@ -207,12 +201,12 @@ Status MeditFile::list_text() {
         std::string_view body = rest;
         next = next_keyword(rest);
         body = body.substr(0, static_cast<std::size_t>(next.data() - body.data()));
-        if (same(keyword, "End")) {
+        if (same_word(keyword, "End")) {
             if (next.empty() && next_word(body).empty()) return Done{};
             return error_at(body.data(), "text after the keyword End", "the end of the file", "more");
         }
-        Status added = same(keyword, "MeshVersionFormatted") ? set_header(version_, body, 1, 4)
-                       : same(keyword, "Dimension")
+        Status added = same_word(keyword, "MeshVersionFormatted") ? set_header(version_, body, 1, 4)
+                       : same_word(keyword, "Dimension")
                            ? set_header(dimension_, body, 2, 3)
                            : add(base::printable(keyword.substr(0, 40)), medit_keyword(keyword), body);
         if (!added) return added;

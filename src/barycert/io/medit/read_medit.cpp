@@ -1,20 +1,16 @@
-#include "barycert/io/medit/read_medit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <new>
 #include <optional>
 #include <system_error>
 #include <utility>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
-#include "barycert/io/other_formats.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
@@ -295,31 +291,23 @@ private:
     Mesh mesh_;
 };
 
-/// read(file) of the open file.
-template <class Read>
-Result<Mesh> read_open(const std::string& path, const Read& read) {
-    const ExactEnvironment environment;
-    try {
-        const Result<MeditFile> file = MeditFile::open(path);
-        if (!file) return file.error();
-        return read(*file);
-    } catch (const std::bad_alloc&) {
-        return base::too_little_memory(path);
-    }
-}
-
 }  // namespace
 
 Result<Mesh> read_medit(const std::string& path, const ReadOptions& options) {
-    return read_open(path, [&](const MeditFile& file) { return MeditReader(file, options).read(); });
+    return read_guarded(path, [&]() -> Result<Mesh> {
+        const Result<MeditFile> file = MeditFile::open(path);
+        return file ? MeditReader(*file, options).read() : file.error();
+    });
 }
 
 Result<Mesh> read_medit_fields(const std::string& path, int dimension) {
-    return read_open(path, [&](const MeditFile& file) -> Result<Mesh> {
+    return read_guarded(path, [&]() -> Result<Mesh> {
+        const Result<MeditFile> file = MeditFile::open(path);
+        if (!file) return file.error();
         Mesh mesh;
         mesh.dimension = dimension;
-        if (Status s = add_medit_fields(file, mesh); !s) return s.error();
-        note_medit_sections(file, mesh.notes);
+        if (Status s = add_medit_fields(*file, mesh); !s) return s.error();
+        note_medit_sections(*file, mesh.notes);
         return mesh;
     });
 }

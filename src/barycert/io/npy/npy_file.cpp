@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "barycert/io.hpp"
-#include "barycert/io/npy/npy_types.hpp"
+#include "barycert/io/npy/npy_header.hpp"
 
 namespace barycert::io {
 namespace {
@@ -127,11 +127,11 @@ Status NpyFile::values(const NpyColumn& column, const std::string& what, Column&
             std::get<std::vector<double>>(out.values).push_back(*npy_double(at, column.type));
         } else if (column.type.is_integer()) {
             const auto x = npy_integer(at, column.type);
-            if (!x) return value_error(what, i, "an integer below 2^63", "leave the column out of --keep");
+            if (!x) return value_error(what, i, "an integer below 2^63", "leave the column out of options.keep");
             std::get<std::vector<std::int64_t>>(out.values).push_back(*x);
         } else {
             auto text = npy_text(at, column.type);
-            if (!text) return value_error(what, i, "characters of Unicode", "leave the column out of --keep");
+            if (!text) return value_error(what, i, "characters of Unicode", "leave the column out of options.keep");
             std::get<std::vector<std::string>>(out.values).push_back(std::move(*text));
         }
         return Done{};

@@ -1,5 +1,6 @@
 #include "barycert/io/npy/npy_header.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -10,127 +11,93 @@
 namespace barycert::io {
 namespace {
 
-/// The few Python literals that stand in such a header.
-class Literals {
-public:
-    explicit Literals(std::string_view text) : rest_(text) {}
-
-    bool accept(char c) {
-        skip_blanks();
-        if (!rest_.starts_with(c)) return false;
-        rest_.remove_prefix(1);
-        return true;
-    }
-
-    bool at_end() {
-        skip_blanks();
-        return rest_.empty();
-    }
-
-    /// A string; escapes stand for what they say.
-    bool string(std::string& value) {
-        skip_blanks();
-        if (rest_.empty() || (rest_.front() != '\'' && rest_.front() != '"')) return false;
-        const char quote = rest_.front();
-        rest_.remove_prefix(1);
-        value.clear();
-        while (!rest_.empty() && rest_.front() != quote) {
-            if (rest_.front() != '\\') {
-                value += rest_.front();
-                rest_.remove_prefix(1);
-            } else if (!escape(value)) {
-                return false;
-            }
-        }
-        return accept_here(quote);
-    }
-
-    /// A list, skipped over with all that stands in it.
-    bool list(std::string& text) {
-        skip_blanks();
-        if (!rest_.starts_with('[')) return false;
-        int depth = 0;
-        char quote = '\0';
-        for (std::size_t i = 0; i < rest_.size(); ++i) {
-            const char c = rest_[i];
-            if (quote != '\0') {
-                if (c == '\\') ++i;
-                if (c == quote) quote = '\0';
-            } else if (c == '\'' || c == '"') {
-                quote = c;
-            } else if (c == '[') {
-                ++depth;
-            } else if (c == ']' && --depth == 0) {
-                text = rest_.substr(0, i + 1);
-                rest_.remove_prefix(i + 1);
-                return true;
-            }
-        }
-        return false;
-    }
-
-    bool boolean(bool& value) {
-        skip_blanks();
-        value = rest_.starts_with("True");
-        if (!value && !rest_.starts_with("False")) return false;
-        rest_.remove_prefix(value ? 4 : 5);
-        return true;
-    }
-
-    /// (5, 3) or (5,) or (); Python 2 wrote (5L, 3L).
-    bool tuple(std::vector<std::uint64_t>& values) {
-        values.clear();
-        if (!accept('(')) return false;
-        while (!accept(')')) {
-            if (!values.empty() && !accept(',')) return false;
-            if (accept(')')) return !values.empty();
-            skip_blanks();
-            std::uint64_t value = 0;
-            const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-            if (error != std::errc{}) return false;
-            rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-            if (rest_.starts_with('L')) rest_.remove_prefix(1);
-            values.push_back(value);
-        }
-        return true;
-    }
-
-private:
-    bool accept_here(char c) {
-        if (!rest_.starts_with(c)) return false;
-        rest_.remove_prefix(1);
-        return true;
-    }
-
-    /// One of those that Python writes: \\ \' \" \n \r \t, and \xHH, \uHHHH, \UHHHHHHHH.
-    bool escape(std::string& value) {
-        if (rest_.size() < 2) return false;
-        const char c = rest_[1];
-        rest_.remove_prefix(2);
-        constexpr std::string_view plain = "\\'\"nrt", means = "\\'\"\n\r\t";
-        if (const std::size_t at = plain.find(c); at != std::string_view::npos) {
-            value += means[at];
-            return true;
-        }
-        const std::size_t digits = c == 'x' ? 2 : c == 'u' ? 4 : c == 'U' ? 8 : 0;
-        if (digits == 0 || rest_.size() < digits) return false;
-        std::uint32_t code = 0;
-        const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + digits, code, 16);
-        if (error != std::errc{} || end != rest_.data() + digits) return false;
-        rest_.remove_prefix(digits);
-        if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return false;
-        append_utf8(value, code);
-        return true;
-    }
-
-    void skip_blanks() {
-        while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\n')) {
-            rest_.remove_prefix(1);
-        }
-    }
-
-    std::string_view rest_;
+/// A Python literal of those that stand in such a header.
+struct Literal {
+    char kind = '\0';  ///< ( [ { for what holds others, ' for a text, T or F, 0 for a number
+    std::string text{};
+    std::uint64_t number = 0;
+    std::vector<Literal> items{};
 };
+
+void skip_blanks(std::string_view& rest) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t\n"), rest.size()));
+}
+
+bool accept(std::string_view& rest, char c) {
+    skip_blanks(rest);
+    if (!rest.starts_with(c)) return false;
+    rest.remove_prefix(1);
+    return true;
+}
+
+/// One of those that Python writes: \\ \' \" \n \r \t, and \xHH, \uHHHH, \UHHHHHHHH.
+bool take_escape(std::string_view& rest, std::string& value) {
+    if (rest.size() < 2) return false;
+    const char c = rest[1];
+    rest.remove_prefix(2);
+    constexpr std::string_view plain = "\\'\"nrt", means = "\\'\"\n\r\t";
+    if (const std::size_t at = plain.find(c); at != std::string_view::npos) {
+        value += means[at];
+        return true;
+    }
+    const std::size_t digits = c == 'x' ? 2 : c == 'u' ? 4 : c == 'U' ? 8 : 0;
+    if (digits == 0 || rest.size() < digits) return false;
+    std::uint32_t code = 0;
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + digits, code, 16);
+    if (error != std::errc{} || end != rest.data() + digits) return false;
+    rest.remove_prefix(digits);
+    if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return false;
+    append_utf8(value, code);
+    return true;
+}
+
+/// Takes a literal off the text. Python 2 wrote numbers as 5L.
+bool take_literal(std::string_view& rest, Literal& out, int depth = 0) {
+    constexpr int most_depth = 64;
+    skip_blanks(rest);
+    if (rest.empty() || depth > most_depth) return false;
+    const char c = rest.front();
+    out.kind = c == '"' ? '\'' : c;
+    if (out.kind == '\'') {
+        rest.remove_prefix(1);
+        while (!rest.empty() && rest.front() != c) {
+            if (rest.front() == '\\') {
+                if (!take_escape(rest, out.text)) return false;
+                continue;
+            }
+            out.text += rest.front();
+            rest.remove_prefix(1);
+        }
+        return accept(rest, c);
+    }
+    if (c == '(' || c == '[') {
+        const char close = c == '(' ? ')' : ']';
+        rest.remove_prefix(1);
+        while (!accept(rest, close)) {
+            if (!out.items.empty() && !accept(rest, ',')) return false;
+            if (!out.items.empty() && accept(rest, close)) return true;
+            if (!take_literal(rest, out.items.emplace_back(), depth + 1)) return false;
+        }
+        return true;
+    }
+    for (const std::string_view word : {"True", "False"}) {
+        if (!rest.starts_with(word)) continue;
+        rest.remove_prefix(word.size());
+        return true;
+    }
+    out.kind = '0';
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), out.number);
+    if (error != std::errc{}) return false;
+    rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+    if (rest.starts_with('L')) rest.remove_prefix(1);
+    return true;
+}
+
+/// (5, 3) or (5,) or ().
+bool is_tuple(const Literal& literal) {
+    return literal.kind == '(' && std::all_of(literal.items.begin(), literal.items.end(),
+                                              [](const Literal& item) { return item.kind == '0'; });
+}
 
 Error not_npy(const std::string& file, std::string expected, std::string found, std::string remedy) {
     return file_error(file, "cannot read the header of the NPY file", std::move(expected), std::move(found),
@@ -139,96 +106,54 @@ Error not_npy(const std::string& file, std::string expected, std::string found, 
 
 constexpr const char* save_again = "save the array again with numpy.save";
 
-/// One of the three entries, whichever it is; `seen` has a bit for each.
-bool parse_entry(Literals& literals, NpyHeader& header, unsigned& seen) {
-    std::string key;
-    if (!literals.string(key) || !literals.accept(':')) return false;
-    const unsigned bit = key == "descr" ? 1U : key == "fortran_order" ? 2U : key == "shape" ? 4U : 0U;
-    if (bit == 0 || (seen & bit) != 0) return false;
-    seen |= bit;
-    if (bit == 2U) return literals.boolean(header.fortran_order);
-    if (bit == 4U) return literals.tuple(header.shape);
-    if (literals.string(header.descr)) return true;
-    header.structured = true;
-    return literals.list(header.descr);
-}
-
 /// Values of a field at most that become columns, and structures within structures.
 constexpr std::uint64_t most_values = 1024;
 constexpr int deepest = 16;
 
-/// The list of fields of a structured type.
-class Fields {
-public:
-    Fields(std::string_view text, std::vector<NpyColumn>& columns) : literals_(text), columns_(columns) {}
-
-    /// False if it is none, or the size of an item is not known.
-    bool parse(std::uint64_t& size) { return list(size, 0) && literals_.at_end(); }
-
-private:
-    bool list(std::uint64_t& size, int depth) {
-        if (depth > deepest || !literals_.accept('[')) return false;
-        size = 0;
-        for (bool first = true; !literals_.accept(']'); first = false) {
-            if (!first && !literals_.accept(',')) return false;
-            if (!first && literals_.accept(']')) return true;
-            if (!field(size, depth)) return false;
-        }
-        return true;
+/// `array`: the field is one of `count` values.
+void add_field(const std::string& name, NpyType type, std::uint64_t at, bool array, std::uint64_t count,
+               std::vector<NpyColumn>& columns) {
+    if (array && count != 0 && count <= most_values) {
+        for (std::uint64_t i = 0; i < count; ++i)
+            columns.push_back({name + "." + std::to_string(i), type, at + i * type.size, 0});
+        return;
     }
+    if (array) type.kind = 'V';
+    columns.push_back({name, std::move(type), at, 0});
+}
 
-    /// (name, type) or (name, type, shape); the name may be (title, name). `size`: of the fields before; and then this.
-    bool field(std::uint64_t& size, int depth) {
-        std::string name, simple;
-        if (!literals_.accept('(') || !field_name(name) || !literals_.accept(',')) return false;
+/// The fields of a structured type and the bytes of an item; false if these are not known. A field is (name, type) or
+/// (name, type, shape); the name may be (title, name).
+bool take_fields(const Literal& list, std::vector<NpyColumn>& columns, std::uint64_t& size, int depth) {
+    if (list.kind != '[' || depth > deepest) return false;
+    size = 0;
+    for (const Literal& field : list.items) {
+        const std::vector<Literal>& parts = field.items;
+        if (field.kind != '(' || parts.size() < 2 || parts.size() > 3) return false;
+        const bool titled = parts[0].kind == '(' && parts[0].items.size() == 2 && parts[0].items[0].kind == '\'';
+        const Literal& name = titled ? parts[0].items[1] : parts[0];
+        if (name.kind != '\'' || (parts.size() == 3 && !is_tuple(parts[2]))) return false;
         NpyType type;
-        std::uint64_t item = 0;
-        if (literals_.string(simple)) {
-            const auto known = npy_type(simple);
+        std::uint64_t item = 0, count = 1, whole = 0, after = 0;
+        if (parts[1].kind == '\'') {
+            const auto known = npy_type(parts[1].text);
             if (!known) return false;
             type = *known;
             item = type.size;
-        } else if (!list(item, depth + 1)) {
+        } else if (!take_fields(parts[1], columns, item, depth + 1)) {
             return false;
         }
-        std::vector<std::uint64_t> shape;
-        std::uint64_t count = 1;
-        if (literals_.accept(',')) {
-            if (!literals_.accept(')') && !(literals_.tuple(shape) && literals_.accept(')'))) return false;
-        } else if (!literals_.accept(')')) {
-            return false;
+        const bool array = parts.size() == 3 && !parts[2].items.empty();
+        for (std::size_t i = 0; array && i < parts[2].items.size(); ++i) {
+            if (__builtin_mul_overflow(count, parts[2].items[i].number, &count)) return false;
         }
-        for (const std::uint64_t n : shape) {
-            if (__builtin_mul_overflow(count, n, &count)) return false;
-        }
-        std::uint64_t whole = 0, after = 0;
         if (__builtin_mul_overflow(count, item, &whole) || __builtin_add_overflow(size, whole, &after)) return false;
-        if (depth == 0 && !name.empty()) add(name, type, size, !shape.empty(), count);
+        if (depth == 0 && !name.text.empty()) add_field(name.text, std::move(type), size, array, count, columns);
         size = after;
-        return columns_.size() <= most_npy_columns;
+        if (columns.size() > most_npy_columns) return false;
     }
-
-    bool field_name(std::string& name) {
-        if (literals_.string(name)) return true;
-        std::string title;
-        return literals_.accept('(') && literals_.string(title) && literals_.accept(',') && literals_.string(name) &&
-               literals_.accept(')');
-    }
-
-    /// `array`: the field is one of `count` values.
-    void add(const std::string& name, NpyType type, std::uint64_t at, bool array, std::uint64_t count) {
-        if (array && count != 0 && count <= most_values) {
-            for (std::uint64_t i = 0; i < count; ++i)
-                columns_.push_back({name + "." + std::to_string(i), type, at + i * type.size, 0});
-            return;
-        }
-        if (array) type.kind = 'V';
-        columns_.push_back({name, std::move(type), at, 0});
-    }
-
-    Literals literals_;
-    std::vector<NpyColumn>& columns_;
-};
+    return true;
+}
 
 /// The columns and the bytes of a row of an array without fields.
 Status simple_table(const NpyHeader& header, const std::string& file, NpyTable& table) {
@@ -252,31 +177,27 @@ Status simple_table(const NpyHeader& header, const std::string& file, NpyTable& 
 }  // namespace
 
 Result<NpyText> find_npy_text(std::string_view head, const std::string& file) {
-    if (head.starts_with("PK\x03\x04")) {
+    if (head.starts_with("PK\x03\x04"))
         return not_npy(file, "one array", "a ZIP archive, as numpy.savez writes it",
                        "save the one array of points with numpy.save");
-    }
-    if (!head.starts_with(npy_magic)) {
+    if (!head.starts_with(npy_magic))
         return not_npy(file, "a file that begins with \\x93NUMPY",
                        head.empty() ? "nothing" : base::quoted(head.substr(0, npy_magic.size())), save_again);
-    }
     if (head.size() < 10) return not_npy(file, "a whole header", "the end of the file", save_again);
     const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(head[i])); };
     const std::size_t major = byte(6);
-    if (major < 1 || major > 3) {
+    if (major < 1 || major > 3)
         return not_npy(file, "version 1, 2 or 3", "version " + std::to_string(major) + "." + std::to_string(byte(7)),
                        save_again);
-    }
     NpyText text{.offset = 10, .size = byte(8) | byte(9) << 8, .latin1 = major != 3};
     if (major != 1) {
         if (head.size() < npy_head) return not_npy(file, "a whole header", "the end of the file", save_again);
         text.offset = npy_head;
         text.size |= byte(10) << 16 | byte(11) << 24;
     }
-    if (text.size > longest_npy_text) {
+    if (text.size > longest_npy_text)
         return not_npy(file, "a header of at most " + std::to_string(longest_npy_text) + " bytes",
                        std::to_string(text.size), save_again);
-    }
     return text;
 }
 
@@ -284,17 +205,40 @@ Result<NpyHeader> parse_npy_text(std::string_view text, bool latin1, const std::
     std::string utf8;
     for (const char byte : text) append_utf8(utf8, static_cast<unsigned char>(byte));
     NpyHeader header;
-    Literals literals(latin1 ? utf8 : text);
-    unsigned seen = 0;
-    bool good = literals.accept('{');
-    while (good && !literals.accept('}')) {
-        good = parse_entry(literals, header, seen);
-        if (good && !literals.accept(',')) {
-            good = literals.accept('}');
+    std::string_view rest = latin1 ? utf8 : text;
+    unsigned seen = 0;  // a bit for each of the three entries
+    bool good = accept(rest, '{');
+    while (good && !accept(rest, '}')) {
+        Literal key, value;
+        good = take_literal(rest, key) && key.kind == '\'' && accept(rest, ':');
+        skip_blanks(rest);
+        const std::string_view from = rest;
+        const bool whole = good && take_literal(rest, value);
+        if (key.text == "descr" && value.kind == '[') {
+            header.structured = true;
+            if (!whole || !take_fields(value, header.fields, header.item_size, 0) || header.item_size == 0 ||
+                header.item_size > longest_npy_text << 10)
+                return file_error(file, "cannot read a structured array of that type",
+                                  "a list of names and types of known size, and no Python objects",
+                                  base::quoted(from.substr(0, from.size() - rest.size())),
+                                  "save the fields that are needed: a[['x', 'y']]");
+        }
+        unsigned bit = 0;
+        if (key.text == "descr" && (value.kind == '[' || value.kind == '\'')) bit = 1;
+        if (key.text == "fortran_order" && (value.kind == 'T' || value.kind == 'F')) bit = 2;
+        if (key.text == "shape" && is_tuple(value)) bit = 4;
+        good = whole && bit != 0 && (seen & bit) == 0;
+        seen |= bit;
+        if (bit == 1) header.descr = value.text;
+        if (bit == 2) header.fortran_order = value.kind == 'T';
+        for (std::size_t i = 0; bit == 4 && i < value.items.size(); ++i) header.shape.push_back(value.items[i].number);
+        if (good && !accept(rest, ',')) {
+            good = accept(rest, '}');
             break;
         }
     }
-    if (good && seen == 7U && literals.at_end()) return header;
+    skip_blanks(rest);
+    if (good && seen == 7 && rest.empty()) return header;
     return not_npy(file, "a dictionary of descr, fortran_order and shape", base::quoted(text), save_again);
 }
 
@@ -312,13 +256,9 @@ Result<NpyTable> npy_table(const NpyHeader& header, const std::string& file) {
                           as_tuple(header.shape), "save an array with a row for each point");
     table.rows = header.shape[0];
     if (header.structured) {
-        std::uint64_t size = 0;
-        if (!Fields(header.descr, table.columns).parse(size) || size == 0 || size > longest_npy_text << 10)
-            return file_error(file, "cannot read a structured array of that type",
-                              "a list of names and types of known size, and no Python objects",
-                              base::quoted(header.descr), "save the fields that are needed: a[['x', 'y']]");
-        table.row_size = size;
-        for (NpyColumn& column : table.columns) column.step = size;
+        table.columns = header.fields;
+        table.row_size = header.item_size;
+        for (NpyColumn& column : table.columns) column.step = table.row_size;
     } else if (Status simple = simple_table(header, file, table); !simple) {
         return simple.error();
     }

@@ -8,11 +8,9 @@
 #include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/column_source.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy_header.hpp"
-#include "barycert/io/npy/npy_types.hpp"
-#include "barycert/io/row_sink.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
@@ -148,11 +146,10 @@ Status NpySink::settle_types() {
 
 Status NpySink::begin() {
     if (!file_.status()) return file_.status();
-    if (!file_.can_replace()) {
+    if (!file_.can_replace())
         return file_error(path_, "cannot write NPY to a pipe or device",
                           "a regular file: the number of rows is written into its header at the end", {},
                           "name a regular file, or write CSV");
-    }
     if (Status settled = settle_types(); !settled) return settled;
     for (std::size_t f = 0; f < features_.size(); ++f) {
         std::array<char, feature_size> text{};
@@ -170,11 +167,10 @@ Status NpySink::begin() {
     head_size_ = version_ == 1 ? 10 : 12;
     const std::size_t whole = (head_size_ + header(UINT64_MAX).size() + 1 + alignment - 1) / alignment * alignment;
     text_size_ = whole - head_size_;
-    if (text_size_ > longest_npy_text) {
+    if (text_size_ > longest_npy_text)
         return file_error(path_, "too many columns for an NPY file",
                           "a header of at most " + std::to_string(longest_npy_text) + " bytes",
                           std::to_string(text_size_), "choose fewer fields, or write CSV");
-    }
     std::string head(npy_magic);
     head += {version_, '\0'};
     for (std::size_t i = 8; i < head_size_; ++i) head += static_cast<char>(text_size_ >> 8 * (i - 8) & 0xFFU);

@@ -6,10 +6,10 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/column_source.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy_file.hpp"
 #include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 
 namespace barycert::io {
 namespace {
@@ -46,8 +46,8 @@ Error NpySource::shape_error(const std::vector<std::uint64_t>& shape) const {
     std::string remedy = "save an array with a row of " + d + " coordinates for each point";
     if (shape.size() == 1) remedy = "if it holds the coordinates point after point, save a.reshape(-1, " + d + ")";
     if (shape.size() == 2 && shape[1] > dimension_)
-        remedy =
-            "say which columns are the coordinates, such as --columns 1,2" + std::string(dimension_ == 3 ? ",3" : "");
+        remedy = "say which columns are the coordinates, such as options.columns 1,2" +
+                 std::string(dimension_ == 3 ? ",3" : "");
     if (shape.size() == 2 && shape[0] == dimension_ && shape[1] != dimension_ + 1)
         remedy = "if it has a column for each point, save a.T";
     return file_error(path_, "an array of another shape", "(n, " + d + "), for the mesh is " + d + "-dimensional",
@@ -114,7 +114,7 @@ Status NpySource::keep(const NpyColumn& column, std::string name) {
     if (!type.is_number() && !type.is_text())
         return file_error(path_, "column " + base::quoted(column.name) + " cannot be carried through",
                           "integers, floating-point numbers or texts", base::quoted(type.text),
-                          "leave it out of --keep, or save it as another type");
+                          "leave it out of options.keep, or save it as another type");
     kept_.push_back(column);
     formats_.push_back(std::move(format));
     return Done{};

@@ -1,4 +1,4 @@
-#include "barycert/io/npy/npy_types.hpp"
+#include "barycert/io/npy/npy_header.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-#include "barycert/base/utf8.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {

@@ -19,38 +19,6 @@
 
 namespace barycert::io {
 
-/// Arrays one after the other, stored without compression; of any size, by ZIP64 where it takes that. The file appears
-/// whole at commit(), or not at all.
-class NpzWriter {
-public:
-    /// Error: the file cannot be written, or is a pipe or device: sizes are known only at the end of an array.
-    static Result<std::unique_ptr<NpzWriter>> open(const std::string& path);
-
-    /// Begins the array NAME.npy. `descr`: NumPy's name of the type, such as <f8.
-    void begin(const std::string& name, const std::string& descr);
-    void write(std::string_view bytes);
-    /// `shape`: as many numbers as were written.
-    void end(const std::vector<std::uint64_t>& shape);
-
-    Status commit();
-
-private:
-    struct Member {
-        std::string name, descr;
-        std::uint64_t offset = 0, size = 0;
-        std::uint32_t checksum = 0;
-    };
-    explicit NpzWriter(const std::string& path) : file_(path) {}
-    void put(std::string_view bytes);
-    std::string local_header(const Member& member) const;
-    std::string central_header(const Member& member) const;
-
-    base::OutputFile file_;
-    std::uint64_t size_ = 0;
-    std::vector<Member> members_;
-    std::uint32_t numbers_ = 0;  ///< CRC-32 of the numbers of the array that was begun
-};
-
 namespace {
 
 // The header of an array has one size whatever the shape, for that is known last: NumPy reads past the blanks.
@@ -85,10 +53,7 @@ std::uint64_t or_limit(std::uint64_t x) {
 }
 
 std::string npy_header_of(const std::string& descr, const std::vector<std::uint64_t>& shape) {
-    std::string text = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': (";
-    for (const std::uint64_t n : shape) text += std::to_string(n) + (shape.size() == 1 ? "," : ", ");
-    if (shape.size() > 1) text.resize(text.size() - 2);
-    text += "), }";
+    std::string text = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': " + as_tuple(shape) + ", }";
     constexpr std::size_t head = 10;
     text.resize(npz_npy_header - head - 1, ' ');
     text += '\n';
@@ -124,6 +89,110 @@ std::string_view bytes_of(std::span<const T> numbers) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+}  // namespace
+
+/// Arrays one after the other, stored without compression; of any size, by ZIP64 where it takes that. The file appears
+/// whole at commit(), or not at all.
+class NpzWriter {
+public:
+    explicit NpzWriter(const std::string& path) : file_(path) {}
+
+    /// Error: the file cannot be written, or is a pipe or device: sizes are known only at the end of an array.
+    Status check(const std::string& path) const {
+        if (!file_.status() || file_.can_replace()) return file_.status();
+        return file_error(path, "cannot write NPZ to a pipe or device",
+                          "a regular file: sizes are written into its headers at the end", {}, "name a regular file");
+    }
+
+    /// Begins the array NAME.npy. `descr`: NumPy's name of the type, such as <f8.
+    void begin(const std::string& name, const std::string& descr) {
+        members_.push_back({name + ".npy", descr, size_});
+        put(local_header(members_.back()));
+        put(npy_header_of(descr, {}));
+        numbers_ = 0;
+    }
+
+    void write(std::string_view bytes) {
+        numbers_ = libdeflate_crc32(numbers_, bytes.data(), bytes.size());
+        members_.back().size += bytes.size();
+        put(bytes);
+    }
+
+    /// `shape`: as many numbers as were written.
+    void end(const std::vector<std::uint64_t>& shape) {
+        Member& m = members_.back();
+        const std::string header = npy_header_of(m.descr, shape);
+        m.checksum = joined(libdeflate_crc32(0, header.data(), header.size()), numbers_, m.size);
+        m.size += header.size();
+        file_.replace(m.offset, local_header(m) + header);
+    }
+
+    Status commit() {
+        const std::uint64_t begin = size_;
+        for (const Member& m : members_) put(central_header(m));
+        const std::uint64_t end = size_, count = members_.size();
+        Bytes b;
+        if (begin >= zip_limit || end - begin >= zip_limit) {
+            b.four(0x06064b50).eight(44).two(3U << 8 | zip64_version).two(zip64_version).four(0).four(0);
+            b.eight(count).eight(count).eight(end - begin).eight(begin);
+            b.four(0x07064b50).four(0).eight(end).four(1);
+        }
+        b.four(0x06054b50).two(0).two(0).two(count).two(count).four(or_limit(end - begin)).four(or_limit(begin)).two(0);
+        put(b.all());
+        return file_.commit();
+    }
+
+private:
+    struct Member {
+        std::string name, descr;
+        std::uint64_t offset = 0, size = 0;
+        std::uint32_t checksum = 0;
+    };
+
+    void put(std::string_view bytes) {
+        file_.write(bytes);
+        size_ += bytes.size();
+    }
+
+    /// With room for the sizes in 8 bytes, which is used only where it is needed.
+    static std::string local_header(const Member& m) {
+        const bool large = m.size >= zip_limit;
+        Bytes b;
+        b.four(0x04034b50).two(large ? zip64_version : zip_version).two(0).two(0).two(0).two(zip_date);
+        b.four(m.checksum).four(or_limit(m.size)).four(or_limit(m.size)).two(m.name.size()).two(20).text(m.name);
+        b.two(large ? zip64_field : padding_field).two(16).eight(large ? m.size : 0).eight(large ? m.size : 0);
+        return b.all();
+    }
+
+    static std::string central_header(const Member& m) {
+        Bytes field;
+        if (m.size >= zip_limit) field.eight(m.size).eight(m.size);
+        if (m.offset >= zip_limit) field.eight(m.offset);
+        const std::size_t extra = field.all().empty() ? 0 : 4 + field.all().size();
+        const unsigned version = extra == 0 ? zip_version : zip64_version;
+        Bytes b;
+        b.four(0x02014b50).two(3U << 8 | version).two(version).two(0).two(0).two(0).two(zip_date);
+        b.four(m.checksum)
+            .four(or_limit(m.size))
+            .four(or_limit(m.size))
+            .two(m.name.size())
+            .two(extra)
+            .two(0)
+            .two(0)
+            .two(0);
+        b.four(0100644ULL << 16).four(or_limit(m.offset)).text(m.name);
+        if (extra != 0) b.two(zip64_field).two(field.all().size()).text(field.all());
+        return b.all();
+    }
+
+    base::OutputFile file_;
+    std::uint64_t size_ = 0;
+    std::vector<Member> members_;
+    std::uint32_t numbers_ = 0;  ///< CRC-32 of the numbers of the array that was begun
+};
+
+namespace {
+
 /// All numbers as numbers of type To, each changed by `change`, piece by piece.
 template <class To, class From, class Change>
 void write_changed(std::span<const From> all, NpzWriter& file, Change change) {
@@ -154,89 +223,15 @@ void write_pattern(NpzWriter& file, std::span<const std::uint8_t> counts, std::s
 
 }  // namespace
 
-Result<std::unique_ptr<NpzWriter>> NpzWriter::open(const std::string& path) {
-    std::unique_ptr<NpzWriter> writer(new NpzWriter(path));
-    if (Status opened = writer->file_.status(); !opened) return opened.error();
-    if (!writer->file_.can_replace())
-        return file_error(path, "cannot write NPZ to a pipe or device",
-                          "a regular file: sizes are written into its headers at the end", {}, "name a regular file");
-    return writer;
-}
-
-void NpzWriter::put(std::string_view bytes) {
-    file_.write(bytes);
-    size_ += bytes.size();
-}
-
-/// With room for the sizes in 8 bytes, which is used only where it is needed.
-std::string NpzWriter::local_header(const Member& m) const {
-    const bool large = m.size >= zip_limit;
-    Bytes b;
-    b.four(0x04034b50).two(large ? zip64_version : zip_version).two(0).two(0).two(0).two(zip_date);
-    b.four(m.checksum).four(or_limit(m.size)).four(or_limit(m.size)).two(m.name.size()).two(20).text(m.name);
-    b.two(large ? zip64_field : padding_field).two(16).eight(large ? m.size : 0).eight(large ? m.size : 0);
-    return b.all();
-}
-
-std::string NpzWriter::central_header(const Member& m) const {
-    Bytes field;
-    if (m.size >= zip_limit) field.eight(m.size).eight(m.size);
-    if (m.offset >= zip_limit) field.eight(m.offset);
-    const std::size_t extra = field.all().empty() ? 0 : 4 + field.all().size();
-    const unsigned version = extra == 0 ? zip_version : zip64_version;
-    Bytes b;
-    b.four(0x02014b50).two(3U << 8 | version).two(version).two(0).two(0).two(0).two(zip_date);
-    b.four(m.checksum).four(or_limit(m.size)).four(or_limit(m.size)).two(m.name.size()).two(extra).two(0).two(0).two(0);
-    b.four(0100644ULL << 16).four(or_limit(m.offset)).text(m.name);
-    if (extra != 0) b.two(zip64_field).two(field.all().size()).text(field.all());
-    return b.all();
-}
-
-void NpzWriter::begin(const std::string& name, const std::string& descr) {
-    members_.push_back({name + ".npy", descr, size_});
-    put(local_header(members_.back()));
-    put(npy_header_of(descr, {}));
-    numbers_ = 0;
-}
-
-void NpzWriter::write(std::string_view bytes) {
-    numbers_ = libdeflate_crc32(numbers_, bytes.data(), bytes.size());
-    members_.back().size += bytes.size();
-    put(bytes);
-}
-
-void NpzWriter::end(const std::vector<std::uint64_t>& shape) {
-    Member& m = members_.back();
-    const std::string header = npy_header_of(m.descr, shape);
-    m.checksum = joined(libdeflate_crc32(0, header.data(), header.size()), numbers_, m.size);
-    m.size += header.size();
-    file_.replace(m.offset, local_header(m) + header);
-}
-
-Status NpzWriter::commit() {
-    const std::uint64_t begin = size_;
-    for (const Member& m : members_) put(central_header(m));
-    const std::uint64_t end = size_, count = members_.size();
-    Bytes b;
-    if (begin >= zip_limit || end - begin >= zip_limit) {
-        b.four(0x06064b50).eight(44).two(3U << 8 | zip64_version).two(zip64_version).four(0).four(0);
-        b.eight(count).eight(count).eight(end - begin).eight(begin);
-        b.four(0x07064b50).four(0).eight(end).four(1);
-    }
-    b.four(0x06054b50).two(0).two(0).two(count).two(count).four(or_limit(end - begin)).four(or_limit(begin)).two(0);
-    put(b.all());
-    return file_.commit();
-}
-
 WeightsFile::WeightsFile(std::unique_ptr<NpzWriter> file, const std::string& path, std::uint64_t nodes)
     : file_(std::move(file)), counts_(path), indices_(path), cells_(path), nodes_(nodes) {}
 
 WeightsFile::~WeightsFile() = default;
 
 Result<std::unique_ptr<WeightsFile>> WeightsFile::open(const std::string& path, std::uint64_t nodes) {
-    auto file = NpzWriter::open(path);
-    if (!file) return file.error();
-    std::unique_ptr<WeightsFile> weights(new WeightsFile(std::move(*file), path, nodes));
+    auto file = std::make_unique<NpzWriter>(path);
+    if (Status opened = file->check(path); !opened) return opened.error();
+    std::unique_ptr<WeightsFile> weights(new WeightsFile(std::move(file), path, nodes));
     weights->file_->begin("data", "<f8");
     return weights;
 }

@@ -33,18 +33,16 @@ void read_nodes(PlcText& in, const NodeHeader& header, Plc& plc) {
             if (id != 0 && id != 1) in.fail("cannot read", "numbering from 0 or 1", std::to_string(id));
             plc.index_base = id;
         }
-        if (id < 0 || static_cast<std::size_t>(id) != i + static_cast<std::size_t>(plc.index_base)) {
+        if (id < 0 || static_cast<std::size_t>(id) != i + static_cast<std::size_t>(plc.index_base))
             in.fail("nodes are not numbered in order", std::to_string(i + static_cast<std::size_t>(plc.index_base)),
                     std::to_string(id));
-        }
         for (int axis = 0; axis < 3; ++axis) plc.points.push_back(in.take_number("a coordinate"));
         for (int a = 0; a < header.attributes; ++a) plc.attributes.push_back(in.take_number("an attribute"));
         // A marker may be left out and is 0 then, as in TetGen.
         if (header.markers) plc.point_markers.push_back(in.words_left() > 0 ? in.take_integer("a marker") : 0);
-        if (in.words_left() > 0) {
+        if (in.words_left() > 0)
             in.fail("more words than the header announces", "the end of the line", in.take(""),
                     "state attributes and markers in the header");
-        }
     }
 }
 

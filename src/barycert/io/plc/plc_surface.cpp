@@ -6,26 +6,11 @@
 #include <optional>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/io/other_formats.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/plc/plc_text.hpp"
 
 namespace barycert::io {
 namespace {
-
-std::vector<std::int32_t> read_ring(PlcText& in, std::size_t nodes) {
-    const std::size_t n = in.take_count("the number of a polygon's corners");
-    if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
-    std::vector<std::int32_t> ring;
-    for (std::size_t k = 0; k < n; ++k) {
-        const std::int32_t id = in.take_integer("a polygon's corner");
-        // One more than the last is let through here: files that number from 1 exist.
-        if (id < 0 || static_cast<std::size_t>(id) > nodes) {
-            in.fail("no such node", "0 to " + std::to_string(nodes - 1), std::to_string(id));
-        }
-        ring.push_back(id);
-    }
-    return ring;
-}
 
 /// These formats number from 0. A file that never uses 0 and does use `nodes` numbers from 1.
 void settle_index_base(PlcText& in, Plc& plc) {
@@ -38,13 +23,29 @@ void settle_index_base(PlcText& in, Plc& plc) {
         }
     }
     if (static_cast<std::size_t>(max) < plc.point_count()) return;
-    if (min == 0) {
-        in.fail("no such node", "0 to " + std::to_string(plc.point_count() - 1), std::to_string(max));
-    }
+    if (min == 0) in.fail("no such node", "0 to " + std::to_string(plc.point_count() - 1), std::to_string(max));
     plc.index_base = 1;
     for (PlcFacet& facet : plc.facets) {
         for (std::int32_t& id : facet.polygons[0]) --id;
     }
+}
+
+/// A line for each polygon, up to the end of the file if `last`.
+void read_polygons(PlcText& in, std::size_t count, std::size_t nodes, bool last, Plc& plc) {
+    for (std::size_t i = 0; i < count; ++i) {
+        in.need_line("polygon " + std::to_string(i) + " of " + std::to_string(count));
+        const std::size_t n = in.take_count("the number of a polygon's corners");
+        if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
+        std::vector<std::int32_t>& ring = plc.facets.emplace_back().polygons.emplace_back();
+        for (std::size_t k = 0; k < n; ++k) {
+            ring.push_back(in.take_integer("a polygon's corner"));
+            // One more than the last is let through here: files that number from 1 exist.
+            if (ring.back() < 0 || static_cast<std::size_t>(ring.back()) > nodes)
+                in.fail("no such node", "0 to " + std::to_string(nodes - 1), std::to_string(ring.back()));
+        }
+    }
+    if (last && in.next_line()) in.fail("more lines than the header announces", "the end of the file", in.line());
+    settle_index_base(in, plc);
 }
 
 /// Corners of a triangle soup: corners with equal coordinates are one node.
@@ -97,10 +98,9 @@ Plc read_binary_stl(const std::string& path, std::string_view bytes) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const std::size_t at = header + record * i + 12 * (corner + 1) + 4 * axis;
                 point[axis] = static_cast<double>(std::bit_cast<float>(little_endian(bytes.substr(at))));
-                if (!std::isfinite(point[axis])) {
+                if (!std::isfinite(point[axis]))
                     throw Exception(
                         file_error(path, "a coordinate of triangle " + std::to_string(i) + " is not finite"));
-                }
             }
             soup.add(point);
         }
@@ -137,9 +137,8 @@ PlyHeader read_ply_header(PlcText& in, const std::string& path) {
             const bool list = in.take("a type") == "list";
             if (element == "vertex") {
                 if (list) in.fail("cannot read a list at a vertex", "numbers", in.line());
-                if (name == "x" || name == "y" || name == "z") {
+                if (name == "x" || name == "y" || name == "z")
                     header.axis[static_cast<std::size_t>(name[0] - 'x')] = header.properties;
-                }
                 ++header.properties;
             }
         }
@@ -167,12 +166,7 @@ Plc read_off(const std::string& path, std::string_view text) {
         for (int axis = 0; axis < 3; ++axis) plc.points.push_back(in.take_number("a coordinate"));
         if (in.words_left() > 0) in.fail("cannot read", "three coordinates", in.line());
     }
-    for (std::size_t i = 0; i < polygons; ++i) {
-        in.need_line("polygon " + std::to_string(i) + " of " + std::to_string(polygons));
-        plc.facets.push_back({.polygons = {read_ring(in, nodes)}, .holes = {}});
-    }
-    if (in.next_line()) in.fail("more lines than the header announces", "the end of the file", in.line());
-    settle_index_base(in, plc);
+    read_polygons(in, polygons, nodes, true, plc);
     return plc;
 }
 
@@ -210,11 +204,7 @@ Plc read_ply(const std::string& path, std::string_view text) {
         for (double& value : row) value = in.take_number("a property of a node");
         for (const std::optional<std::size_t>& at : header.axis) plc.points.push_back(row[*at]);
     }
-    for (std::size_t i = 0; i < header.polygons; ++i) {
-        in.need_line("polygon " + std::to_string(i) + " of " + std::to_string(header.polygons));
-        plc.facets.push_back({.polygons = {read_ring(in, header.nodes)}, .holes = {}});
-    }
-    settle_index_base(in, plc);
+    read_polygons(in, header.polygons, header.nodes, false, plc);
     return plc;
 }
 

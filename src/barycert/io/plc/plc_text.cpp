@@ -11,7 +11,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/other_formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -43,9 +42,8 @@ std::string read_whole_file(const std::string& path) {
     if (code == std::errc::permission_denied)
         throw Exception(file_error(path, "cannot read", "a file in a folder that you may search", "permission denied"));
     if (!std::filesystem::exists(status)) throw Exception(file_error(path, "no such file"));
-    if (std::filesystem::is_directory(status)) {
+    if (std::filesystem::is_directory(status))
         throw Exception(file_error(path, "cannot read", "a file", "a directory"));
-    }
     // A binary .stl may begin with zeros; its size tells at once whether it is one.
     const bool stl = has_suffix(path, ".stl");
     if (stl) check_stl_size(path);
@@ -68,13 +66,7 @@ bool PlcText::next_line() {
         line_ = rest_.substr(0, end);
         rest_.remove_prefix(std::min(end + 1, rest_.size()));
         ++line_number_;
-        const std::string_view content = line_.substr(0, line_.find('#'));
-        constexpr std::string_view blanks = " \t\r,";
-        for (std::size_t i = content.find_first_not_of(blanks); i != std::string_view::npos;) {
-            const std::size_t stop = std::min(content.find_first_of(blanks, i), content.size());
-            words_.push_back(content.substr(i, stop - i));
-            i = content.find_first_not_of(blanks, stop);
-        }
+        cut_fields(line_.substr(0, line_.find('#')), " \t\r,", "", words_);
     }
     return !words_.empty();
 }
@@ -114,9 +106,8 @@ double PlcText::take_number(std::string_view expected) {
 std::size_t PlcText::take_count(std::string_view expected) {
     const std::int32_t value = take_integer(expected);
     if (value < 0) fail("cannot read", expected, std::to_string(value));
-    if (static_cast<std::size_t>(value) > size_ / 2) {
+    if (static_cast<std::size_t>(value) > size_ / 2)
         fail("the count is more than the file can hold", {}, std::to_string(value));
-    }
     return static_cast<std::size_t>(value);
 }
 
@@ -152,10 +143,9 @@ std::vector<std::string> plc_files(const std::string& path) {
 Result<Plc> read_plc(const std::string& path) {
     const ExactEnvironment environment;
     const std::string extension = std::filesystem::path(without_gz(path)).extension().string();
-    if (std::find(plc_extensions.begin(), plc_extensions.end(), extension) == plc_extensions.end()) {
+    if (std::find(plc_extensions.begin(), plc_extensions.end(), extension) == plc_extensions.end())
         return file_error(path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply",
                           extension.empty() ? "no extension" : extension);
-    }
     try {
         const std::string text = read_whole_file(path);
         Plc plc = extension == ".off"   ? read_off(path, text)

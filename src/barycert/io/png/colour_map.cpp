@@ -1,7 +1,5 @@
 #include "barycert/io/png/colour_map.hpp"
 
-#include <cstddef>
-
 namespace barycert::io {
 namespace {
 

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io/png/caption.hpp"
-#include "barycert/io/png/colour_bar.hpp"
 #include "barycert/io/png/colour_map.hpp"
+#include "barycert/io/png/panels.hpp"
 #include "barycert/io/png/png_file.hpp"
 
 namespace barycert {
@@ -21,32 +22,30 @@ std::string by(std::size_t width, std::size_t height) {
     return std::to_string(width) + " by " + std::to_string(height);
 }
 
+Error too_long(const std::string& path, const char* what, const std::string& found, const char* remedy) {
+    return file_error(path, what, "at most " + std::to_string(longest_png_side) + " pixels a side", found, remedy);
+}
+
 Status check(const std::string& path, const Slice& s) {
-    const std::string max = std::to_string(longest_png_side);
-    if (s.width < 1 || s.height < 1 || s.width > longest_png_side || s.height > longest_png_side) {
-        return file_error(path, "a slice of that size cannot be a picture", "1 to " + max + " values a side",
-                          by(s.width, s.height), "choose fewer points, or at least one, on each axis");
-    }
-    if (s.values.size() != s.width * s.height || (!s.valid.empty() && s.valid.size() != s.values.size())) {
+    if (s.width < 1 || s.height < 1 || std::max(s.width, s.height) > longest_png_side)
+        return file_error(path, "a slice of that size cannot be a picture",
+                          "1 to " + std::to_string(longest_png_side) + " values a side", by(s.width, s.height),
+                          "choose fewer points, or at least one, on each axis");
+    if (s.values.size() != s.width * s.height || (!s.valid.empty() && s.valid.size() != s.values.size()))
         return file_error(path, "the arrays of the slice do not fit together", by(s.width, s.height) + " values",
                           std::to_string(s.values.size()) + " values and " + std::to_string(s.valid.size()) +
                               " marks of which are valid",
                           "give one value, and one mark or none, for each point");
-    }
-    if (!(s.aspect > 0) || !std::isfinite(s.aspect)) {
+    if (!(s.aspect > 0) || !std::isfinite(s.aspect))
         return file_error(path, "the aspect of a slice is none", "a positive number", base::shortest(s.aspect),
                           "divide the spacing along a line by the spacing of lines");
-    }
-    if (!(s.pixel_length >= 0) || !std::isfinite(s.pixel_length)) {
+    if (!(s.pixel_length >= 0) || !std::isfinite(s.pixel_length))
         return file_error(path, "the length of a pixel is none", "a finite number, 0 or more",
                           base::shortest(s.pixel_length), "leave it at 0 for a picture without a scale");
-    }
-    if (s.range &&
-        (!std::isfinite(s.range->first) || !std::isfinite(s.range->second) || s.range->first > s.range->second)) {
+    const auto [low, high] = s.range.value_or(std::pair(0.0, 0.0));
+    if (!std::isfinite(low) || !std::isfinite(high) || low > high)
         return file_error(path, "the range of colours is none", "two finite numbers, the lower one first",
-                          base::shortest(s.range->first) + " and " + base::shortest(s.range->second),
-                          "choose another range");
-    }
+                          base::shortest(low) + " and " + base::shortest(high), "choose another range");
     return Done{};
 }
 
@@ -85,11 +84,11 @@ SliceCounts count(const Slice& s) {
         if (s.range && s.values[i] < s.range->first) ++c.below;
         if (s.range && s.values[i] > s.range->second) ++c.above;
     }
-    c.low = s.range ? s.range->first : c.drawn != 0 ? low : std::numeric_limits<double>::quiet_NaN();
-    c.high = s.range ? s.range->second : c.drawn != 0 ? high : std::numeric_limits<double>::quiet_NaN();
+    if (c.drawn == 0) low = high = std::numeric_limits<double>::quiet_NaN();
+    std::tie(c.low, c.high) = s.range.value_or(std::pair(low, high));
     // A zero may come with either sign, and first come is what std::min keeps: the bar says 0.
-    if (c.low == 0) c.low = 0;
-    if (c.high == 0) c.high = 0;
+    c.low += 0.0;
+    c.high += 0.0;
     return c;
 }
 
@@ -101,11 +100,9 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     const double wide = s.aspect > 1 ? std::round(static_cast<double>(s.width) * s.aspect) : 0;
     const double tall = s.aspect < 1 ? std::round(static_cast<double>(s.height) / s.aspect) : 0;
     const auto limit = static_cast<double>(longest_png_side);
-    if (wide > limit || tall > limit) {
-        return file_error(path, "a slice of that aspect cannot be a picture",
-                          "at most " + std::to_string(longest_png_side) + " pixels a side",
-                          base::shortest(std::max(wide, tall)), "choose spacings that differ less");
-    }
+    if (wide > limit || tall > limit)
+        return too_long(path, "a slice of that aspect cannot be a picture", base::shortest(std::max(wide, tall)),
+                        "choose spacings that differ less");
     const std::size_t columns = wide != 0 ? static_cast<std::size_t>(wide) : s.width;
     const std::size_t lines = tall != 0 ? static_cast<std::size_t>(tall) : s.height;
 
@@ -115,30 +112,23 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     const std::size_t height = with_bar ? std::max(lines, min_bar_height) : lines;
     const ColourBar bar(told.low, told.high, std::max(height, min_bar_height));
     const std::size_t width = columns + (with_bar ? bar.width() : 0);
-    if (width > longest_png_side) {
-        return file_error(path, "there is no room for the colour bar",
-                          "at most " + std::to_string(longest_png_side) + " pixels a side", std::to_string(width),
-                          "leave out the bar, or choose fewer points");
-    }
+    if (width > longest_png_side)
+        return too_long(path, "there is no room for the colour bar", std::to_string(width),
+                        "leave out the bar, or choose fewer points");
     const double column_length = wide != 0 ? s.pixel_length / s.aspect : s.pixel_length;
     const Caption caption(s.title, column_length, columns, width, bar.scale());
-    if (height + caption.height() > longest_png_side) {
-        return file_error(path, "there is no room for the caption",
-                          "at most " + std::to_string(longest_png_side) + " pixels a side",
-                          std::to_string(height + caption.height()), "leave it out, or choose fewer points");
-    }
+    if (height + caption.height() > longest_png_side)
+        return too_long(path, "there is no room for the caption", std::to_string(height + caption.height()),
+                        "leave it out, or choose fewer points");
     const auto row = [&](std::size_t r, std::uint8_t* pixels) {
         if (r >= height) return caption.row(r - height, pixels);
-        for (std::size_t i = 0; i < 4 * columns; ++i) pixels[i] = 0;
+        std::fill_n(pixels, 4 * columns, std::uint8_t{0});
         if (r < lines) {
             const std::size_t upwards = lines - 1 - r;
             const std::size_t first = (2 * upwards + 1) * s.height / (2 * lines) * s.width;
             for (std::size_t x = 0; x < columns; ++x) {
                 const std::size_t i = first + (2 * x + 1) * s.width / (2 * columns);
-                if (!has_colour(s, i)) continue;
-                const Colour c = colour(scale(s.values[i]));
-                for (std::size_t k = 0; k < 3; ++k) pixels[4 * x + k] = c[k];
-                pixels[4 * x + 3] = 255;
+                if (has_colour(s, i)) put_pixel(colour(scale(s.values[i])), pixels + 4 * x);
             }
         }
         if (with_bar) bar.row(r, pixels + 4 * columns);

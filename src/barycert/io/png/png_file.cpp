@@ -11,7 +11,6 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/output_file.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/png/indexed_png.hpp"
 
 namespace barycert::io {
 namespace {
@@ -160,10 +159,9 @@ Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pix
     if (decoder.png != nullptr) decoder.info = png_create_info_struct(decoder.png);
     if (decoder.info == nullptr || !decode_header(decoder)) return failure(decoder);
     PngPixels& pixels = decoder.pixels;
-    if (std::uint64_t{pixels.width} * pixels.height > max_pixels) {
+    if (std::uint64_t{pixels.width} * pixels.height > max_pixels)
         return file_error(path, "the PNG file is too large", "at most " + std::to_string(max_pixels) + " pixels",
                           std::to_string(pixels.width) + " by " + std::to_string(pixels.height), "scale it down");
-    }
     // Deflate makes a byte of 1032 at most: where the file cannot hold so many pixels, no memory is taken for them.
     constexpr std::uint64_t most_of_a_byte = 1032;
     if (std::uint64_t{pixels.width} * pixels.height * decoder.bits / 8 > most_of_a_byte * file->size()) {

@@ -1,12 +1,14 @@
-/// PNG files into memory, and out of rows of pixels, by libpng.
+/// PNG files into memory, and out of pixels, by libpng.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "barycert/io/png/colour_map.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
@@ -25,6 +27,12 @@ enum class PngContent : std::uint8_t {
 Status write_png_rows(const std::string& path, std::size_t width, std::size_t height,
                       const std::function<void(std::size_t, std::uint8_t*)>& row,
                       PngContent content = PngContent::few_colours);
+
+/// A small picture of few colours as the bytes of a PNG file. `pixels`: the index of each pixel's colour, row by row
+/// from the top. Error: libpng does not make it, as without memory. Preconditions: pixels.size() is a multiple of
+/// `width`, both > 0; 1 to 256 colours; indices are those of colours.
+Result<std::string> indexed_png(std::size_t width, std::span<const std::uint8_t> pixels,
+                                std::span<const Colour> colours);
 
 struct PngPixels {
     std::uint32_t width = 0, height = 0;

@@ -19,15 +19,13 @@ inline constexpr std::size_t text_width(std::size_t characters) {
     return characters == 0 ? 0 : glyph_advance * characters - (glyph_advance - glyph_width);
 }
 
-/// True if the character has ink there. What is not printable ASCII is drawn as a box.
-bool glyph_dot(char character, std::size_t line, std::size_t column);
-
 /// How a picture writes a text: each byte that is not printable ASCII stands for a character that is not there, of
 /// several bytes in UTF-8 only the first.
 std::size_t character_count(std::string_view text);
 
-/// Draws line `line` (0 to scale * glyph_height - 1) of the text, scaled up, from `left` on into a row of RGBA pixels;
-/// other pixels stay. Precondition: `left` + scale * text_width(character_count(text)) pixels in the row.
+/// Draws line `line` of the text, scaled up, from `left` on into a row of RGBA pixels; other pixels stay, and all if
+/// the text has no such line: it has scale * glyph_height. What is not printable ASCII is a box. Precondition: `left` +
+/// scale * text_width(character_count(text)) pixels in the row.
 void draw_text(std::string_view text, std::size_t scale, std::size_t line, std::size_t left, std::uint8_t* pixels);
 
 }  // namespace barycert::io

@@ -7,11 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "barycert/base/output_file.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/row_output.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 #include "barycert/surface.hpp"
 
@@ -48,14 +45,17 @@ Result<SurfaceFile> write_off(const Surface& s, const std::string& path) {
     for (const auto* const fields : {&s.point_fields, &s.cell_fields}) {
         for (const Field& f : *fields) result.left_out.push_back(f.name);
     }
-    base::OutputFile file(path);
-    file.write("OFF\n" + std::to_string(s.point_count()) + ' ' + std::to_string(s.cell_count()) + " 0\n");
-    for (std::size_t v = 0; v < s.points.size(); v += 3)
-        file.write(base::shortest(s.points[v]) + ' ' + base::shortest(s.points[v + 1]) + ' ' +
-                   base::shortest(s.points[v + 2]) + '\n');
-    for (std::size_t c = 0; c < s.cells.size(); c += 3)
-        file.write("3 " + std::to_string(s.cells[c]) + ' ' + std::to_string(s.cells[c + 1]) + ' ' +
-                   std::to_string(s.cells[c + 2]) + '\n');
+    RowOutput file(path);
+    file.text("OFF\n" + std::to_string(s.point_count()) + ' ' + std::to_string(s.cell_count()) + " 0\n");
+    for (std::size_t v = 0; v < s.point_count(); ++v) {
+        file.numbers(std::span(s.points).subspan(3 * v, 3));
+        file.end_row();
+    }
+    for (std::size_t c = 0; c < s.cell_count(); ++c) {
+        file.number(3);
+        file.numbers(std::span(s.cells).subspan(3 * c, 3));
+        file.end_row();
+    }
     if (Status written = file.commit(); !written) return written.error();
     return result;
 }
@@ -99,31 +99,6 @@ std::string properties_of(const std::vector<Field>& fields, PropertyNames names,
     return text;
 }
 
-template <class T>
-void append_numbers(std::string& bytes, const T* numbers, std::size_t count) {
-    bytes.append(reinterpret_cast<const char*>(numbers), count * sizeof(T));
-}
-
-void append_rows(std::string& bytes, const std::vector<Field>& fields, std::size_t row) {
-    for (const Field& f : fields) {
-        const auto components = static_cast<std::size_t>(f.components);
-        append_numbers(bytes, f.data.data() + components * row, components);
-    }
-}
-
-/// Calls add(bytes, row) for each row and writes the bytes, some at a time.
-template <class Add>
-void write_rows(base::OutputFile& file, std::size_t count, Add add) {
-    constexpr std::size_t enough = std::size_t{1} << 18;
-    std::string bytes;
-    for (std::size_t row = 0; row < count; ++row) {
-        add(bytes, row);
-        if (bytes.size() < enough && row + 1 < count) continue;
-        file.write(bytes);
-        bytes.clear();
-    }
-}
-
 /// Binary, little-endian: vertices with coordinates and fields as double properties; faces, or edges (vertex1,
 /// vertex2) at z = 0, with fields of cells. Names of properties have letters, digits and underscores only, and differ.
 Result<SurfaceFile> write_ply(const Surface& s, const std::string& path) {
@@ -136,19 +111,18 @@ Result<SurfaceFile> write_ply(const Surface& s, const std::string& path) {
     head += std::string("element ") + (lines ? "edge " : "face ") + std::to_string(s.cell_count()) + '\n';
     head += lines ? "property int vertex1\nproperty int vertex2\n" : "property list uchar int vertex_indices\n";
     head += properties_of(s.cell_fields, PropertyNames({"vertex1", "vertex2", "vertex_indices"}), result.renamed);
-    base::OutputFile file(path);
-    file.write(head + "end_header\n");
-    write_rows(file, s.point_count(), [&](std::string& bytes, std::size_t v) {
-        constexpr double zero = 0;
-        append_numbers(bytes, s.points.data() + corners * v, corners);
-        if (lines) append_numbers(bytes, &zero, 1);
-        append_rows(bytes, s.point_fields, v);
-    });
-    write_rows(file, s.cell_count(), [&](std::string& bytes, std::size_t c) {
-        if (!lines) bytes += '\3';
-        append_numbers(bytes, s.cells.data() + corners * c, corners);
-        append_rows(bytes, s.cell_fields, c);
-    });
+    RowOutput file(path, true);
+    file.text(head + "end_header\n");
+    for (std::size_t v = 0; v < s.point_count(); ++v) {
+        file.numbers(std::span(s.points).subspan(corners * v, corners));
+        if (lines) file.number(0.0);
+        file.row_of(s.point_fields, v);
+    }
+    for (std::size_t c = 0; c < s.cell_count(); ++c) {
+        if (!lines) file.number(std::uint8_t{3});
+        file.numbers(std::span(s.cells).subspan(corners * c, corners));
+        file.row_of(s.cell_fields, c);
+    }
     if (Status written = file.commit(); !written) return written.error();
     return result;
 }
@@ -161,8 +135,7 @@ Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData
     for (const Field& f : s.cell_fields) of_cells.push_back(array_of_field(f));
     const bool named =
         std::any_of(s.cell_fields.begin(), s.cell_fields.end(), [](const Field& f) { return f.name == "cell"; });
-    if (!s.mesh_cells.empty() && !named)
-        of_cells.push_back(array_in_memory<Mesh::Index>({"cell", 1, NumberType::int32}, s.mesh_cells));
+    if (!s.mesh_cells.empty() && !named) of_cells.push_back(array_in_memory<Mesh::Index>("cell", s.mesh_cells));
     for (const auto* const arrays : {&of_points, &of_cells}) {
         std::vector<ArrayFormat> formats;
         for (const OutArray& a : *arrays) formats.push_back(a.format);
@@ -173,17 +146,17 @@ Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData
     // VTK's own indices are 64 bits wide: it takes these as they are.
     const auto node = [&s](std::size_t i) { return s.cells[i]; };
     const auto end = [n = s.corners()](std::size_t i) { return n * (i + 1); };
-    const OutFile file{
-        .data_set = "PolyData",
-        .attributes = {},
-        .piece = " NumberOfPoints=\"" + std::to_string(s.point_count()) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
-                 (lines ? cells : "0") + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + (lines ? "0" : cells) + "\"",
-        .sections = {{"PointData", std::move(of_points)},
-                     {"CellData", std::move(of_cells)},
-                     {"Points", {array_of_points(s.points, s.dimension)}},
-                     {lines ? "Lines" : "Polys",
-                      {array_made<std::int64_t>({"connectivity", 1, NumberType::int64}, s.cells.size(), node),
-                       array_made<std::int64_t>({"offsets", 1, NumberType::int64}, s.cell_count(), end)}}}};
+    const OutFile file{.data_set = "PolyData",
+                       .attributes = {},
+                       .piece = " NumberOfPoints=\"" + std::to_string(s.point_count()) +
+                                "\" NumberOfVerts=\"0\" NumberOfLines=\"" + (lines ? cells : "0") +
+                                "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + (lines ? "0" : cells) + "\"",
+                       .sections = {{"PointData", std::move(of_points)},
+                                    {"CellData", std::move(of_cells)},
+                                    {"Points", {array_of_points(s.points, s.dimension)}},
+                                    {lines ? "Lines" : "Polys",
+                                     {array_made<std::int64_t>("connectivity", s.cells.size(), node),
+                                      array_made<std::int64_t>("offsets", s.cell_count(), end)}}}};
     if (Status written = write_xml(file, path, data); !written) return written.error();
     return SurfaceFile{};
 }
@@ -198,10 +171,7 @@ Result<SurfaceFile> write_surface(const Surface& surface, const std::string& pat
     if (io::has_suffix(path, ".vtp")) return io::write_vtp(surface, path, data);
     if (io::has_suffix(path, ".ply")) return io::write_ply(surface, path);
     if (io::has_suffix(path, ".off")) return io::write_off(surface, path);
-    const std::size_t dot = path.find_last_of("./");
-    const bool suffix = dot != std::string::npos && path[dot] == '.';
-    return file_error(path, "unknown suffix of a surface", ".vtp, .ply or .off",
-                      suffix ? '"' + path.substr(dot) + '"' : "no suffix", "choose another name");
+    return io::unknown_suffix(path, "unknown suffix of a surface", ".vtp, .ply or .off", "choose another name");
 }
 
 }  // namespace barycert

@@ -18,6 +18,11 @@
 
 namespace barycert::io {
 
+/// At most 8 bytes of a text, as one word.
+struct FewBytes {
+    std::uint64_t bytes = 0, mask = 0;  ///< mask 0: none
+};
+
 #ifdef __SSE2__
 
 /// Number of the lowest set bit. Precondition: there is one (std::countr_zero would spend time on asking).
@@ -73,21 +78,24 @@ const char* scan_plain_row(const char* at, std::array<std::uint32_t, Count>& val
     return at + lowest_bit(masks.feeds) + 1;
 }
 
-/// The place after the LF of a row of that many numbers from 0 on, separated by spaces and ended within 64 bytes;
-/// nullptr for any other row. Precondition: 72 bytes can be read.
-inline const char* plain_row_end(const char* at, std::size_t count) {
+/// The place after the LF of a row of that many numbers from 0 on, separated by spaces and ended within 64 bytes, with
+/// these bytes behind the first of them; nullptr for any other row. Precondition: 72 bytes can be read.
+inline const char* plain_row_end(const char* at, std::size_t count, const FewBytes& second) {
     const ByteMasks masks(at);
     if (masks.feeds == 0) return nullptr;
     const std::uint64_t row = (masks.feeds & (~masks.feeds + 1)) - 1;
-    const std::uint64_t digits = masks.digits & row;
-    if (((digits | masks.spaces) & row) != row) return nullptr;
+    const std::uint64_t digits = masks.digits & row, ends = (digits << 1) & ~digits;
+    if (((digits | masks.spaces) & row) != row || ends == 0) return nullptr;
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, at + lowest_bit(ends), 8);
+    if (((bytes ^ second.bytes) & second.mask) != 0) return nullptr;
     for (std::uint64_t starts = digits & ~(digits << 1); starts != 0; starts &= starts - 1) --count;
     return count == 0 ? at + lowest_bit(masks.feeds) + 1 : nullptr;
 }
 
 #else
 
-inline const char* plain_row_end(const char*, std::size_t) {
+inline const char* plain_row_end(const char*, std::size_t, const FewBytes&) {
     return nullptr;
 }
 

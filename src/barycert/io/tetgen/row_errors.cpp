@@ -1,7 +1,8 @@
-#include "barycert/io/tetgen/row_errors.hpp"
+#include "barycert/io/tetgen/text_table.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -36,9 +37,8 @@ std::string described_columns(const TextTable& table) {
 std::string remedy_for_text(std::string_view field) {
     if (field.find(';') != std::string_view::npos) return separators_remedy;
     if (field.find('\r') != std::string_view::npos) return "end the lines with LF or CR LF, not with CR alone";
-    if (std::any_of(field.begin(), field.end(), [](char c) { return static_cast<unsigned char>(c) < 32; })) {
+    if (std::any_of(field.begin(), field.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }))
         return "save the mesh as text: this looks like binary data";
-    }
     return {};
 }
 
@@ -63,9 +63,8 @@ struct Complaint {
 Complaint about_integer(std::string_view field) {
     const std::string_view body = without_sign(field);
     if (looks_like_number(body, "")) {
-        if (body.front() == '0') {
+        if (body.front() == '0')
             return {"an integer without leading zeros", "write it without them: TetGen would read it as octal"};
-        }
         return {"an integer of at most 64 bits", "check the number"};
     }
     if (looks_like_number(body, ".eE+-")) return {"an integer", "write it without point and exponent"};
@@ -74,12 +73,10 @@ Complaint about_integer(std::string_view field) {
 
 Complaint about_real(std::string_view field, const std::string& finite_remedy) {
     const std::string_view body = without_sign(field);
-    if (looks_like_number(body, ".eEdD+-") && body.find_first_of("dD") != std::string_view::npos) {
+    if (looks_like_number(body, ".eEdD+-") && body.find_first_of("dD") != std::string_view::npos)
         return {"a number", "write the exponent with e: TetGen would silently stop reading at the d"};
-    }
-    if (looks_like_number(body, ".eE+-")) {
+    if (looks_like_number(body, ".eE+-"))
         return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
-    }
     std::string word(body.substr(0, 3));
     for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (word == "nan" || word == "inf") return {"a finite number", finite_remedy};
@@ -92,11 +89,10 @@ Error id_error(const TextTable& table, std::string_view field, std::size_t row) 
         "number the rows without gaps: TetGen ignores the numbers and would silently take the rows as they come";
     if (row != 0)
         return error_at(table, field.data(), "a row out of sequence", "row " + expected, base::quoted(field), remedy);
-    if (table.base_is_given && (field == "0" || field == "1")) {
+    if (table.base_is_given && (field == "0" || field == "1"))
         return error_at(table, field.data(), "the files of this mesh count from different bases",
                         "row " + expected + " first, as in the .node file", base::quoted(field),
                         "number all files from 0 or all from 1");
-    }
     return error_at(table, field.data(), "a bad first row number", table.base_is_given ? expected : "0 or 1",
                     base::quoted(field), remedy);
 }
@@ -111,50 +107,33 @@ Error index_error(const TextTable& table, const Columns& columns, std::string_vi
                     "check that the files belong together and count from the same base");
 }
 
-/// True if the field is a number of its kind, in range.
-bool good_field(const TextTable& table, const Columns& columns, std::string_view field, std::size_t row, Error& error) {
+/// Why the field is no number of its kind, in range, if it is none.
+std::optional<Error> field_error(const TextTable& table, const Columns& columns, std::string_view field,
+                                 std::size_t row) {
     const char* const end = field.data() + field.size();
-    if (field.empty()) {
-        error = error_at(table, field.data(), "bad " + columns.name, "a number before and after each comma", "nothing",
-                         "fill in the missing number or remove the comma");
-        return false;
-    }
-    if (columns.kind == ColumnKind::real) {
-        double value = 0;
-        if (scan_real(field.data(), end, value) == end) return true;
-        Complaint complaint = about_real(field, table.finite_remedy);
-        error = error_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
-        return false;
-    }
+    if (field.empty())
+        return error_at(table, end, "bad " + columns.name, "a number before and after each comma", "nothing",
+                        "fill in the missing number or remove the comma");
+    const bool real = columns.kind == ColumnKind::real;
     std::int64_t value = 0;
-    if (scan_integer(field.data(), value) != end) {
-        Complaint complaint = about_integer(field);
-        error = error_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
-        return false;
+    double number = 0;
+    if ((real ? scan_real(field.data(), end, number) : scan_integer(field.data(), value)) != end) {
+        const Complaint complaint = real ? about_real(field, table.finite_remedy) : about_integer(field);
+        return error_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
     }
-    switch (columns.kind) {
-        case ColumnKind::id:
-            if (value == table.base + static_cast<std::int64_t>(row)) return true;
-            error = id_error(table, field, row);
-            return false;
-        case ColumnKind::index:
-        case ColumnKind::neighbour:
-            if (columns.kind == ColumnKind::neighbour && value == -1) return true;
-            if (value >= table.base && value - table.base < columns.limit) return true;
-            error = index_error(table, columns, field);
-            return false;
-        default:
-            return true;
-    }
+    if (columns.kind == ColumnKind::id && value != table.base + static_cast<std::int64_t>(row))
+        return id_error(table, field, row);
+    const bool index = columns.kind == ColumnKind::index || (columns.kind == ColumnKind::neighbour && value != -1);
+    if (index && (value < table.base || value - table.base >= columns.limit)) return index_error(table, columns, field);
+    return std::nullopt;
 }
 
 Error column_count_error(const TextTable& table, const std::vector<std::string_view>& fields) {
     const std::size_t expected = table.column_count();
     const char* const at = fields.front().data();
-    if (fields.size() < expected) {
+    if (fields.size() < expected)
         return error_at(table, at, "too few columns in a row", described_columns(table), std::to_string(fields.size()),
                         "complete the row, or mend the header: it tells how many columns there are");
-    }
     const std::string found =
         std::to_string(fields.size()) + ", the first too many being " +
         (fields[expected].empty() ? "an empty one after a comma" : base::quoted(fields[expected]));
@@ -174,20 +153,7 @@ std::vector<std::string_view> fields_of_line(const TextTable& table, const char*
     line = line.substr(0, line.find('#'));
 
     std::vector<std::string_view> fields;
-    bool after_comma = false;
-    std::size_t i = 0;
-    const auto skip_blanks = [&] {
-        while (i < line.size() && is_blank(line[i])) ++i;
-    };
-    for (skip_blanks(); i < line.size(); skip_blanks()) {
-        const std::size_t stop = std::min(line.find_first_of(" \t,", i), line.size());
-        fields.push_back(line.substr(i, stop - i));
-        i = stop;
-        skip_blanks();
-        after_comma = i < line.size() && line[i] == ',';
-        if (after_comma) ++i;
-    }
-    if (after_comma) fields.push_back(line.substr(line.size()));
+    cut_fields(line, " \t", ",", fields);
     return fields;
 }
 
@@ -198,10 +164,9 @@ Error header_error(const TextTable& table, std::string what, std::string expecte
 }
 
 Error count_error(const TextTable& table, std::string_view field, const char* name) {
-    if (field == "BIN") {
+    if (field == "BIN")
         return header_error(table, "a binary file", "text", "\"BIN\" in the header",
                             "save the mesh as text: in Chaste, leave out SetWriteFilesAsBinary()");
-    }
     std::int64_t value = 0;
     const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
     const Complaint complaint = integer ? Complaint{} : about_integer(field);
@@ -218,11 +183,10 @@ Error count_error(const TextTable& table, std::string_view field, const char* na
 
 Error row_error(const TextTable& table, const char* at, std::size_t row) {
     const std::vector<std::string_view> fields = fields_of_line(table, at);
-    Error error;
     std::size_t i = 0;
     for (const Columns& columns : table.columns) {
         for (std::size_t k = 0; k < columns.count && i < fields.size(); ++k, ++i) {
-            if (!good_field(table, columns, fields[i], row, error)) return error;
+            if (const auto error = field_error(table, columns, fields[i], row)) return *error;
         }
     }
     if (!fields.empty() && fields.size() != table.column_count()) return column_count_error(table, fields);
@@ -241,10 +205,9 @@ Error surplus_text(const TextTable& table, const char* at) {
     std::int64_t value = 0;
     const bool another_row = scan_integer(at, value) == field.data() + field.size() &&
                              value == table.base + static_cast<std::int64_t>(table.rows);
-    if (another_row) {
+    if (another_row)
         return error_at(table, at, "more rows than the header tells", plural(table.rows, "row"),
                         "a row " + base::quoted(field), "mend the header or remove the row");
-    }
     return error_at(table, at, "text after the last row", "the end of the file or a comment", base::quoted(field),
                     "remove the text, put # before it, or mend the number of rows in the header");
 }

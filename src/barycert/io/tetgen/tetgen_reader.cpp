@@ -27,7 +27,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/tetgen/row_errors.hpp"
 #include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
@@ -84,25 +83,6 @@ private:
         return Done{};
     }
 
-    /// Makes the fields of the attributes, which are the columns.
-    void make_attributes(std::vector<Field>& fields, std::vector<double*>& to, TextTable& table) {
-        if (table.rows == 0) return;  // a count that no row bears out may be anything
-        Columns& columns = table.columns[2];
-        fields.resize(columns.count);
-        for (std::size_t i = 0; i < columns.count; ++i) {
-            fields[i].name = "attribute" + std::to_string(i);
-            base::resize_large(fields[i].data, table.rows);
-            to.push_back(fields[i].data.data());
-        }
-        columns.fields = to.data();
-    }
-
-    template <class T>
-    T* room(std::vector<T>& values, Columns& columns, std::size_t rows) {
-        base::resize_large(values, rows * (columns.step == 0 ? columns.step = columns.count : columns.step));
-        return values.data();
-    }
-
     Status prepare_nodes();
     Status prepare_cells();
     Status prepare_faces();
@@ -114,7 +94,6 @@ private:
     Mesh mesh_;
     TextTable nodes_, cells_;
     std::unique_ptr<TextTable> faces_, neighbours_;  // where there is such a file
-    std::vector<double*> point_attributes_, cell_attributes_;
 };
 
 Status TetgenReader::prepare_nodes() {
@@ -134,15 +113,10 @@ Status TetgenReader::prepare_nodes() {
                                ? "if the last column is a marker, make the header " +
                                      header_text({count, dimension, attributes, 1}) + "; if it is an attribute, " + more
                                : "if there is one attribute more, make the header " + more;
-    if (Status settled = settle_node_columns(table, dimension); !settled) return settled;
-
-    mesh_.index_base = table.base;
     mesh_.dimension = static_cast<int>(dimension);
-    Columns &coordinates = table.columns[1], &marks = table.columns[3];
-    coordinates.reals = room(mesh_.points, coordinates, table.rows);
-    make_attributes(mesh_.point_fields, point_attributes_, table);
-    marks.integers = room(mesh_.point_markers, marks, table.rows);
-    return Done{};
+    Status settled = settle_node_columns(table, dimension, mesh_.points, mesh_.point_fields, mesh_.point_markers);
+    mesh_.index_base = table.base;
+    return settled;
 }
 
 Status TetgenReader::prepare_cells() {
@@ -170,10 +144,10 @@ Status TetgenReader::prepare_cells() {
 
     Columns& nodes = table.columns[1];
     nodes.step = mesh_.corners();
-    nodes.indices = room(mesh_.cells, nodes, table.rows);
+    nodes.indices = room_for(mesh_.cells, nodes, table.rows);
     base::resize_large(mesh_.mid_nodes, table.rows * (nodes.count - nodes.step));
     nodes.more_indices = mesh_.mid_nodes.data();
-    make_attributes(mesh_.cell_fields, cell_attributes_, table);
+    make_attributes(table, mesh_.cell_fields);
     return Done{};
 }
 
@@ -203,10 +177,10 @@ Status TetgenReader::prepare_faces() {
 
     Columns &nodes = table.columns[1], &marks = table.columns[2];
     nodes.step = 3;
-    nodes.indices = room(mesh_.faces, nodes, table.rows);
+    nodes.indices = room_for(mesh_.faces, nodes, table.rows);
     base::resize_large(mesh_.face_mid_nodes, table.rows * (nodes.count - nodes.step));
     nodes.more_indices = mesh_.face_mid_nodes.data();
-    marks.integers = room(mesh_.face_markers, marks, table.rows);
+    marks.integers = room_for(mesh_.face_markers, marks, table.rows);
     return Done{};
 }
 
@@ -226,20 +200,19 @@ Status TetgenReader::prepare_neighbours() {
     table.columns = {{ColumnKind::id, 1, "id"}, {ColumnKind::neighbour, sides, "neighbour", cells_.limit(), "cells"}};
     table.surplus_remedy = "let each row have an id and " + std::to_string(sides) + " neighbours";
     if (Status room = check_room(table); !room) return room;
-    table.columns[1].indices = room(mesh_.neighbours, table.columns[1], table.rows);
+    table.columns[1].indices = room_for(mesh_.neighbours, table.columns[1], table.rows);
     return Done{};
 }
 
 Status TetgenReader::settle_mid_edge_order() {
     if (mesh_.mid_nodes.empty()) return Done{};
     const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
-    if (!vote) {
+    if (!vote)
         return header_error(cells_, "the order of the mid-edge nodes is unknown",
                             "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
                             "another order in most cells",
                             "check that the files belong together, or write the mesh again as " +
                                 std::to_string(mesh_.corners()) + "-node cells");
-    }
     mesh_.mid_edge_order = vote->order;
     if (vote->guessed)
         mesh_.notes.push_back({Note::Kind::guessed,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -32,79 +33,61 @@ std::size_t component_count(const std::vector<Field>& fields) {
     return count;
 }
 
-void write_fields(RowOutput& out, const std::vector<Field>& fields, std::size_t row) {
-    for (const Field& field : fields) {
-        const auto components = static_cast<std::size_t>(field.components);
-        for (std::size_t c = 0; c < components; ++c) out.number(field.data[row * components + c]);
+/// The numbers of a header, of which the first is how many rows there are; and these, each behind its own number.
+template <class Row>
+void write_table(RowOutput& out, const Mesh& mesh, std::initializer_list<std::size_t> header, const Row& row) {
+    for (const std::size_t number : header) out.number(number);
+    out.end_row();
+    for (std::size_t i = 0; i < *header.begin(); ++i) {
+        out.number(i + static_cast<std::size_t>(mesh.index_base));
+        row(i);
+        out.end_row();
     }
+}
+
+/// `width` of the nodes or cells, if there are any; -1 stays.
+void write_indices(RowOutput& out, const Mesh& mesh, const std::vector<Mesh::Index>& all, std::size_t width,
+                   std::size_t row) {
+    for (std::size_t i = width * row; i < width * (row + 1) && !all.empty(); ++i)
+        out.number(all[i] == -1 ? std::int64_t{-1} : std::int64_t{all[i]} + mesh.index_base);
 }
 
 void write_nodes(RowOutput& out, const Mesh& mesh) {
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
-    const bool markers = !mesh.point_markers.empty();
-    out.number(mesh.point_count());
-    out.number(dimension);
-    out.number(component_count(mesh.point_fields));
-    out.number(markers ? 1 : 0);
-    out.end_row();
-    for (std::size_t row = 0; row < mesh.point_count(); ++row) {
-        out.number(row + static_cast<std::size_t>(mesh.index_base));
-        for (std::size_t axis = 0; axis < dimension; ++axis) out.number(mesh.points[row * dimension + axis]);
-        write_fields(out, mesh.point_fields, row);
-        if (markers) out.number(mesh.point_markers[row]);
-        out.end_row();
-    }
+    const std::size_t markers = mesh.point_markers.empty() ? 0 : 1;
+    write_table(out, mesh, {mesh.point_count(), dimension, component_count(mesh.point_fields), markers},
+                [&](std::size_t row) {
+                    out.numbers(std::span(mesh.points).subspan(row * dimension, dimension));
+                    out.row_of(mesh.point_fields, row);
+                    if (markers != 0) out.number(mesh.point_markers[row]);
+                });
 }
 
 void write_cells(RowOutput& out, const Mesh& mesh) {
     const std::size_t corners = mesh.corners();
     const std::size_t mids = mesh.mid_nodes.empty() ? 0 : mesh::edges_of(mesh.dimension).size();
     const std::span<const std::size_t> sequence = mesh::edge_sequence(mesh.mid_edge_order, mesh.dimension);
-    out.number(mesh.cell_count());
-    out.number(corners + mids);
-    out.number(component_count(mesh.cell_fields));
-    out.end_row();
-    for (std::size_t row = 0; row < mesh.cell_count(); ++row) {
-        out.number(row + static_cast<std::size_t>(mesh.index_base));
-        for (std::size_t i = 0; i < corners; ++i)
-            out.number(mesh.cells[row * corners + i] + std::int64_t{mesh.index_base});
-        for (std::size_t k = 0; k < mids; ++k) {
-            out.number(mesh.mid_nodes[row * mids + sequence[k]] + std::int64_t{mesh.index_base});
-        }
-        write_fields(out, mesh.cell_fields, row);
-        out.end_row();
-    }
+    write_table(out, mesh, {mesh.cell_count(), corners + mids, component_count(mesh.cell_fields)},
+                [&](std::size_t row) {
+                    write_indices(out, mesh, mesh.cells, corners, row);
+                    for (std::size_t k = 0; k < mids; ++k)
+                        out.number(mesh.mid_nodes[row * mids + sequence[k]] + std::int64_t{mesh.index_base});
+                    out.row_of(mesh.cell_fields, row);
+                });
 }
 
 void write_faces(RowOutput& out, const Mesh& mesh) {
-    const bool markers = !mesh.face_markers.empty();
-    out.number(mesh.face_count());
-    out.number(markers ? 1 : 0);
-    out.end_row();
-    for (std::size_t row = 0; row < mesh.face_count(); ++row) {
-        out.number(row + static_cast<std::size_t>(mesh.index_base));
-        for (std::size_t i = 3 * row; i < 3 * row + 3; ++i) out.number(mesh.faces[i] + std::int64_t{mesh.index_base});
-        for (std::size_t i = 3 * row; i < 3 * row + 3 && !mesh.face_mid_nodes.empty(); ++i) {
-            out.number(mesh.face_mid_nodes[i] + std::int64_t{mesh.index_base});
-        }
-        if (markers) out.number(mesh.face_markers[row]);
-        out.end_row();
-    }
+    const std::size_t markers = mesh.face_markers.empty() ? 0 : 1;
+    write_table(out, mesh, {mesh.face_count(), markers}, [&](std::size_t row) {
+        write_indices(out, mesh, mesh.faces, 3, row);
+        write_indices(out, mesh, mesh.face_mid_nodes, 3, row);
+        if (markers != 0) out.number(mesh.face_markers[row]);
+    });
 }
 
 void write_neighbours(RowOutput& out, const Mesh& mesh) {
-    const std::size_t sides = mesh.corners();
-    out.number(mesh.cell_count());
-    out.number(sides);
-    out.end_row();
-    for (std::size_t row = 0; row < mesh.cell_count(); ++row) {
-        out.number(row + static_cast<std::size_t>(mesh.index_base));
-        for (std::size_t i = row * sides; i < (row + 1) * sides; ++i) {
-            const std::int64_t cell = mesh.neighbours[i];
-            out.number(cell == -1 ? cell : cell + mesh.index_base);
-        }
-        out.end_row();
-    }
+    write_table(out, mesh, {mesh.cell_count(), mesh.corners()},
+                [&](std::size_t row) { write_indices(out, mesh, mesh.neighbours, mesh.corners(), row); });
 }
 
 }  // namespace

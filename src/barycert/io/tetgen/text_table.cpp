@@ -6,9 +6,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/other_formats.hpp"
 #include "barycert/io/tetgen/integer_row.hpp"
-#include "barycert/io/tetgen/row_errors.hpp"
 
 namespace barycert::io {
 namespace {
@@ -74,6 +72,40 @@ std::size_t plain_corners(const TextTable& table) {
     return table.columns[1].count == count - 1 && table.columns[1].step == count - 1 ? count - 1 : 0;
 }
 
+/// Moves from the first field of row number `row` over its end, and puts the values where they belong. False: the row
+/// is not as it should be.
+bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row) {
+    for (const Columns& c : table.columns) {
+        for (std::size_t k = 0; k < c.count; ++k) {
+            if (c.kind != ColumnKind::id && !scanner.separator()) return false;
+            if (c.kind == ColumnKind::real) {
+                double value = 0;
+                if (!scanner.real(value) && !(table.any_real && scanner.nonfinite(value))) return false;
+                (c.fields != nullptr ? c.fields[k][row] : c.reals[row * c.step + k]) = value;
+                continue;
+            }
+            std::int64_t value = 0;
+            if (!scanner.integer(value)) return false;
+            if (c.kind == ColumnKind::integer) {
+                c.integers[row * c.step + k] = value;
+                continue;
+            }
+            const bool none = c.kind == ColumnKind::neighbour && value == -1;
+            value -= none ? 0 : table.base;
+            if (c.kind == ColumnKind::id) {
+                if (value != static_cast<std::int64_t>(row)) return false;
+                continue;
+            }
+            if (!none && static_cast<std::uint64_t>(value) >= static_cast<std::uint64_t>(c.limit)) return false;
+            if (c.indices == nullptr) continue;
+            Mesh::Index& to =
+                k < c.step ? c.indices[row * c.step + k] : c.more_indices[row * (c.count - c.step) + k - c.step];
+            to = static_cast<Mesh::Index>(value);
+        }
+    }
+    return scanner.end_row();
+}
+
 /// Parses the rows [row, last) that stand before `stop`. On failure `row` and the scanner tell where.
 bool parse_rows(const TextTable& table, Scanner& scanner, const char* stop, std::size_t& row, std::size_t last) {
     Scanner local = scanner;  // its address is not known elsewhere, so it may stay in registers
@@ -118,9 +150,8 @@ Status read_header(TextTable& table, std::span<const char* const> header_names) 
     Scanner scanner{table.begin(), table.end()};
     if (table.bytes.starts_with("\xEF\xBB\xBF")) scanner.at += 3;
     const std::string expected = std::string("a header that begins with the number of ") + header_names[0];
-    if (!scanner.next_row(table.end())) {
+    if (!scanner.next_row(table.end()))
         return header_error(table, "the file is empty", expected, "nothing", "write the file again");
-    }
     table.header_at = scanner.at;
     scanner.skip_line();
     table.body = scanner.at;
@@ -130,14 +161,12 @@ Status read_header(TextTable& table, std::span<const char* const> header_names) 
         const std::size_t i = table.header.size();
         std::int64_t value = 0;
         const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
-        if (i == header_names.size() && field != "BIN") {
+        if (i == header_names.size() && field != "BIN")
             return header_error(table, "too many numbers in the header",
                                 "at most " + std::to_string(header_names.size()), base::quoted(field),
                                 "remove it or put # before it");
-        }
-        if (!integer || value < 0 || value > max_count) {
+        if (!integer || value < 0 || value > max_count)
             return count_error(table, field, i < header_names.size() ? header_names[i] : "columns");
-        }
         table.header.push_back(value);
     }
     return Done{};
@@ -145,39 +174,20 @@ Status read_header(TextTable& table, std::span<const char* const> header_names) 
 
 }  // namespace
 
-bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row) {
-    for (const Columns& c : table.columns) {
-        for (std::size_t k = 0; k < c.count; ++k) {
-            if (c.kind != ColumnKind::id && !scanner.separator()) return false;
-            if (c.kind == ColumnKind::real) {
-                double value = 0;
-                if (!scanner.real(value) && !(table.any_real && scanner.nonfinite(value))) return false;
-                (c.fields != nullptr ? c.fields[k][row] : c.reals[row * c.step + k]) = value;
-                continue;
-            }
-            std::int64_t value = 0;
-            if (!scanner.integer(value)) return false;
-            if (c.kind == ColumnKind::integer) {
-                c.integers[row * c.step + k] = value;
-                continue;
-            }
-            const bool none = c.kind == ColumnKind::neighbour && value == -1;
-            value -= none ? 0 : table.base;
-            if (c.kind == ColumnKind::id) {
-                if (value != static_cast<std::int64_t>(row)) return false;
-                continue;
-            }
-            if (!none && static_cast<std::uint64_t>(value) >= static_cast<std::uint64_t>(c.limit)) return false;
-            if (c.indices == nullptr) continue;
-            Mesh::Index& to =
-                k < c.step ? c.indices[row * c.step + k] : c.more_indices[row * (c.count - c.step) + k - c.step];
-            to = static_cast<Mesh::Index>(value);
-        }
+void make_attributes(TextTable& table, std::vector<Field>& fields) {
+    Columns& columns = table.columns[2];
+    if (table.rows == 0) columns.count = 0;  // a count that no row bears out may be anything
+    fields.resize(columns.count);
+    for (std::size_t i = 0; i < columns.count; ++i) {
+        fields[i].name = "attribute" + std::to_string(i);
+        base::resize_large(fields[i].data, table.rows);
+        table.attributes.push_back(fields[i].data.data());
     }
-    return scanner.end_row();
+    columns.fields = table.attributes.data();
 }
 
-Status settle_node_columns(TextTable& table, std::int64_t dimension) {
+Status settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
+                           std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
     const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
     if (markers > 1)
         return header_error(table, "bad number of markers in the header", "0 or 1", std::to_string(markers),
@@ -189,7 +199,11 @@ Status settle_node_columns(TextTable& table, std::int64_t dimension) {
     const std::vector<std::string_view> first = table.first_row();
     std::int64_t id = 0;
     table.base = !first.empty() && scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
-    return check_room(table);
+    if (Status room = check_room(table); !room) return room;
+    table.columns[1].reals = room_for(points, table.columns[1], table.rows);
+    make_attributes(table, fields);
+    table.columns[3].integers = room_for(markers_of_nodes, table.columns[3], table.rows);
+    return Done{};
 }
 
 std::size_t TextTable::column_count() const {

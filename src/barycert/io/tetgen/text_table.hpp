@@ -13,7 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/base/mapped_file.hpp"
+#include "barycert/base/input_file.hpp"
+#include "barycert/base/large_pages.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
@@ -60,7 +61,8 @@ struct TextTable {
     int base = 0;
     bool base_is_given = false;  ///< by another file of the mesh
     std::vector<Columns> columns;
-    std::string surplus_remedy;  ///< what to mend if rows have more columns than the header tells
+    std::vector<double*> attributes;  ///< where the values of attributes go
+    std::string surplus_remedy;       ///< what to mend if rows have more columns than the header tells
     std::string finite_remedy = "give every node and cell finite numbers";
     bool any_real = false;  ///< numbers may be nan and inf
 
@@ -85,15 +87,41 @@ Result<TextTable> open_table(const std::string& path, std::span<const char* cons
 /// Needs the columns and the base.
 Status check_room(const TextTable& table);
 
-/// Sets the columns and the base of a .node file of that dimension, by its header and its first row. Error: another
-/// number of markers; as check_room.
-Status settle_node_columns(TextTable& table, std::int64_t dimension);
+/// Room for the values of these columns, of which `step` or all go there.
+template <class T>
+T* room_for(std::vector<T>& values, Columns& columns, std::size_t rows) {
+    base::resize_large(values, rows * (columns.step == 0 ? columns.step = columns.count : columns.step));
+    return values.data();
+}
 
-/// Moves from the first field of row number `row` over its end, and puts the values where they belong. False: the row
-/// is not as it should be.
-bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row);
+/// Makes the fields of the attributes, which are the columns number 2.
+void make_attributes(TextTable& table, std::vector<Field>& fields);
+
+/// Sets the columns and the base of a .node file of that dimension, by its header and its first row, and makes room for
+/// their values. Error: another number of markers; as check_room.
+Status settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
+                           std::vector<Field>& fields, std::vector<std::int64_t>& markers);
 
 /// Parses the rows of all tables; the error of the first table that has one.
 Status parse_tables(std::span<TextTable* const> tables, int threads);
+
+/// The fields of the line that holds `at`, without its comment; an empty field where a comma has no neighbour.
+std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at);
+
+/// The error of a header field or of the whole header.
+Error header_error(const TextTable& table, std::string what, std::string expected, std::string found,
+                   std::string remedy);
+
+/// The error of header field `field` that is no count; `name` is what it counts.
+Error count_error(const TextTable& table, std::string_view field, const char* name);
+
+/// The error of row number `row` (from 0), which holds `at` and which the row parser refused.
+Error row_error(const TextTable& table, const char* at, std::size_t row);
+
+/// The file ended after `found` rows.
+Error too_few_rows(const TextTable& table, std::size_t found);
+
+/// At `at` there is text after the last row.
+Error surplus_text(const TextTable& table, const char* at);
 
 }  // namespace barycert::io

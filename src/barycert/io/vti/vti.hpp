@@ -60,8 +60,6 @@ private:
         : path_(path), grid_(grid), data_(data), arrays_(std::move(arrays)), file_(path) {}
     OutFile layout() const;
     bool put(std::uint64_t at, std::string_view bytes);
-    Status commit_spools();
-    Error error(std::string what, std::string expected, std::string found) const;
 
     std::string path_;
     VtiGrid grid_;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -16,17 +15,14 @@ namespace {
 Status check_grid(const std::string& path, const VtiGrid& grid) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::string of_axis = " along axis " + std::to_string(axis);
-        if (grid.counts[axis] < 1 || grid.counts[axis] > INT32_MAX) {
+        if (grid.counts[axis] < 1 || grid.counts[axis] > INT32_MAX)
             return wrong_in_memory(path, "the points" + of_axis, "1 to 2147483647", std::to_string(grid.counts[axis]));
-        }
-        if (!std::isfinite(grid.origin[axis])) {
+        if (!std::isfinite(grid.origin[axis]))
             return wrong_in_memory(path, "the origin" + of_axis, "a finite number", base::shortest(grid.origin[axis]));
-        }
         const double spacing = grid.spacing[axis];
         const bool none = grid.counts[axis] == 1 && spacing == 0;
-        if (!none && !(spacing > 0 && std::isfinite(spacing))) {
+        if (!none && !(spacing > 0 && std::isfinite(spacing)))
             return wrong_in_memory(path, "the spacing" + of_axis, "a finite number above 0", base::shortest(spacing));
-        }
     }
     return Done{};
 }
@@ -102,61 +98,45 @@ bool VtiWriter::put(std::uint64_t at, std::string_view bytes) {
     return true;
 }
 
-Error VtiWriter::error(std::string what, std::string expected, std::string found) const {
-    return file_error(path_, std::move(what), std::move(expected), std::move(found));
-}
-
 Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
     const ExactEnvironment environment;
-    if (array >= places_.size()) {
-        return error("the number of an array", "less than " + std::to_string(places_.size()), std::to_string(array));
-    }
+    if (array >= places_.size())
+        return file_error(path_, "the number of an array", "less than " + std::to_string(places_.size()),
+                          std::to_string(array));
     ArrayPlace& place = places_[array];
     const std::string name = "array \"" + arrays_[array].name + '"';
-    if (bytes.size() > place.size - place.done) {
-        return error("the bytes of " + name, std::to_string(place.size) + " in all", "more");
-    }
+    if (bytes.size() > place.size - place.done)
+        return file_error(path_, "the bytes of " + name, std::to_string(place.size) + " in all", "more");
     if (data_ != VtkData::raw) {
         place.done += bytes.size();
         return spools_[array].append(bytes);
     }
-    bool fits = true;
-    if (place.done == 0) {
-        std::array<char, appended_header> header{};
-        std::memcpy(header.data(), &place.size, appended_header);
-        fits = put(place.begin, {header.data(), appended_header});
-    }
-    fits = fits &&
-           put(place.begin + appended_header + place.done, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    if (!fits) {
-        Error e = error(name + " is not next", "one array after the other, as the file cannot be written elsewhere",
-                        "arrays that take turns");
-        e.remedy = "write to a file instead of a pipe or device";
-        return e;
-    }
+    const std::string_view header(reinterpret_cast<const char*>(&place.size), appended_header),
+        numbers(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if ((place.done == 0 && !put(place.begin, header)) || !put(place.begin + appended_header + place.done, numbers))
+        return file_error(path_, name + " is not next",
+                          "one array after the other, as the file cannot be written elsewhere",
+                          "arrays that take turns", "write to a file instead of a pipe or device");
     place.done += bytes.size();
     return file_.status();
 }
 
-Status VtiWriter::commit_spools() {
+Status VtiWriter::commit() {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (places_[i].done != places_[i].size)
+            return file_error(path_, "the bytes of array \"" + arrays_[i].name + '"', std::to_string(places_[i].size),
+                              std::to_string(places_[i].done));
+    }
+    if (data_ == VtkData::raw) {
+        put(tail_, appended_tail);
+        return file_.commit();
+    }
     OutFile file = layout();
     for (std::size_t i = 0; i < arrays_.size(); ++i) {
         if (Status done = spools_[i].finish(); !done) return done;
         file.sections.front().arrays[i].bytes = spools_[i].values<char>().data();
     }
     return write_xml(file, path_, data_);
-}
-
-Status VtiWriter::commit() {
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        if (places_[i].done != places_[i].size) {
-            return error("the bytes of array \"" + arrays_[i].name + '"', std::to_string(places_[i].size),
-                         std::to_string(places_[i].done));
-        }
-    }
-    if (data_ != VtkData::raw) return commit_spools();
-    put(tail_, appended_tail);
-    return file_.commit();
 }
 
 }  // namespace barycert::io

@@ -65,11 +65,6 @@ Result<std::optional<Collection>> collection_of(const XmlTree& tree) {
     return std::optional(std::move(collection));
 }
 
-bool is_series_file(std::string_view bytes) {
-    bytes = bytes.substr(0, base::first_block);
-    return next_word(bytes).starts_with('{');
-}
-
 Result<Collection> read_series_file(std::string_view bytes, const std::string& path) {
     const auto wrong = [&](const std::string& what, const std::string& expected, const std::string& found) {
         return file_error(path, what, expected, found, "correct the file");
@@ -103,7 +98,7 @@ Result<Collection> read_series_file(std::string_view bytes, const std::string& p
     return collection;
 }
 
-std::vector<SeriesStep> steps_of(const std::vector<CollectionFile>& files) {
+std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files) {
     std::vector<SeriesStep> steps;
     for (const CollectionFile& file : files) {
         if (steps.empty() || steps.back().time != file.time) steps.push_back({file.time, {}});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,15 +30,12 @@ struct Collection {
 /// a file, or a time that is none.
 Result<std::optional<Collection>> collection_of(const XmlTree& tree);
 
-/// Whether the text can be ParaView's series file (NAME.vtu.series): it begins with an object of JSON.
-bool is_series_file(std::string_view bytes);
-
-/// What it names: {"files": [{"name": "a.vtu", "time": 0.5}, ...]}. Error: no JSON, a member that is missing or of
-/// another kind, a time that is not finite, a file of more than 64 MiB.
+/// What ParaView's series file (NAME.vtu.series) names: {"files": [{"name": "a.vtu", "time": 0.5}, ...]}. Error: no
+/// JSON, a member that is missing or of another kind, a time that is not finite, a file of more than 64 MiB.
 Result<Collection> read_series_file(std::string_view bytes, const std::string& path);
 
 /// The steps of a series: consecutive files of one time are one step.
-std::vector<SeriesStep> steps_of(const std::vector<CollectionFile>& files);
+std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files);
 
 /// The number of the step that is chosen. Error: there is none such.
 Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const StepChoice& choice,

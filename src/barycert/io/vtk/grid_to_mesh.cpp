@@ -8,39 +8,13 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/other_formats.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
 
-enum class Kind : std::uint8_t { tetrahedron, triangle, lower, other };
-
-struct CellType {
-    Kind kind = Kind::other;
-    std::size_t nodes = 0;  ///< of tetrahedra and triangles
-};
-
-CellType cell_type(std::uint8_t type) {
-    switch (type) {
-        case vtk_tetra:
-            return {Kind::tetrahedron, 4};
-        case vtk_quadratic_tetra:
-            return {Kind::tetrahedron, 10};
-        case vtk_triangle:
-            return {Kind::triangle, 3};
-        case vtk_quadratic_triangle:
-            return {Kind::triangle, 6};
-        default:
-            return {type <= vtk_poly_line || type == vtk_quadratic_edge || type == vtk_cubic_line ||
-                            type == vtk_lagrange_curve
-                        ? Kind::lower
-                        : Kind::other,
-                    0};
-    }
-}
-
 std::string name_of(std::uint8_t type) {
-    return vtk_class_name(type) + " (type " + std::to_string(type) + ")";
+    return cell_types()[type].name + " (type " + std::to_string(type) + ")";
 }
 
 using TypeCounts = std::array<std::size_t, 256>;
@@ -53,7 +27,7 @@ std::string counts_by_name(const TypeCounts& counts, bool with_numbers, IsOne is
         const auto number = static_cast<std::uint8_t>(type);
         if (counts[type] == 0 || !is_one(number)) continue;
         text += (text.empty() ? "" : ", ") + std::to_string(counts[type]) + " " +
-                (with_numbers ? name_of(number) : vtk_class_name(number));
+                (with_numbers ? name_of(number) : cell_types()[type].name);
     }
     return text;
 }
@@ -72,19 +46,15 @@ TypeCounts count_types(const RawGrid& grid) {
     return counts;
 }
 
-/// Polygons of any order: triangles, once they are cut, and nothing more.
-bool is_surface(std::uint8_t type) {
-    constexpr std::array<std::uint8_t, 15> surfaces{6, 7, 8, 9, 23, 28, 30, 34, 36, 61, 62, 69, 70, 76, 77};
-    return cell_type(type).kind != Kind::tetrahedron &&
-           (cell_type(type).kind != Kind::other || std::find(surfaces.begin(), surfaces.end(), type) != surfaces.end());
-}
-
 /// The type of the cells that make the mesh.
 Result<CellType> choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
     const std::string others =
-        counts_by_name(counts, true, [](std::uint8_t type) { return cell_type(type).kind == Kind::other; });
+        counts_by_name(counts, true, [](std::uint8_t type) { return cell_types()[type].kind >= CellKind::surface; });
     if (!others.empty()) {
-        const bool surface = std::all_of(grid.types.begin(), grid.types.end(), is_surface) && !in_plane(grid.points);
+        const auto in_surface = [](std::uint8_t type) {
+            return cell_types()[type].kind != CellKind::tetrahedron && cell_types()[type].kind != CellKind::other;
+        };
+        const bool surface = std::all_of(grid.types.begin(), grid.types.end(), in_surface) && !in_plane(grid.points);
         return file_error(path, "cells that are neither tetrahedra nor triangles",
                           "tetrahedra or triangles, linear or quadratic", others,
                           surface ? plane_remedy(grid.points, {}) : to_simplices(path));
@@ -101,7 +71,7 @@ Result<CellType> choose(const TypeCounts& counts, const RawGrid& grid, const std
                               "make all cells linear, or all quadratic: " + to_simplices(path));
         }
         for (const std::uint8_t type : {linear, quadratic}) {
-            if (counts[type] != 0) return cell_type(type);
+            if (counts[type] != 0) return cell_types()[type];
         }
     }
     return file_error(path, "the file contains no mesh", "tetrahedra or triangles",
@@ -123,7 +93,7 @@ Status check_cells(const RawGrid& grid, const std::string& path) {
     }
     if (!grid.types.empty() && is_uniform(grid.types)) {
         // As most files have it: each cell ends behind those before it.
-        const auto nodes = static_cast<std::int64_t>(cell_type(grid.types.front()).nodes);
+        const auto nodes = static_cast<std::int64_t>(cell_types()[grid.types.front()].nodes);
         std::int64_t end = 0, differs = 0;
         for (const std::int64_t own : grid.ends) {
             end += nodes;
@@ -131,11 +101,12 @@ Status check_cells(const RawGrid& grid, const std::string& path) {
         }
         if (differs == 0 && nodes != 0) return Done{};
     }
+    const std::array<CellType, 256>& types = cell_types();
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
         const auto nodes = static_cast<std::size_t>(grid.ends[cell] - std::exchange(begin, grid.ends[cell]));
-        const CellType type = cell_type(grid.types[cell]);
-        if (type.kind == Kind::lower || nodes == type.nodes) continue;
+        const CellType& type = types[grid.types[cell]];
+        if (type.kind == CellKind::lower || nodes == type.nodes) continue;
         return file_error(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
                           std::to_string(type.nodes) + " in a " + name_of(grid.types[cell]), std::to_string(nodes));
     }
@@ -147,7 +118,7 @@ constexpr const char* ghost_name = "vtkGhostType";
 constexpr unsigned duplicate_cell = 1, refined_cell = 8, hidden_cell = 32;
 
 /// The numbers of the cells that make the mesh; empty if that is all of them. Others are counted.
-std::vector<Mesh::Index> kept_cells(const RawGrid& grid, Kind kind, TypeCounts& left_out, std::size_t& ghosts) {
+std::vector<Mesh::Index> kept_cells(const RawGrid& grid, CellKind kind, TypeCounts& left_out, std::size_t& ghosts) {
     const RawArray* ghost = nullptr;
     for (const RawArray& array : grid.cell_arrays) {
         if (array.name == ghost_name && array.fault.empty() && !array.has_labels() && array.components == 1)
@@ -159,10 +130,11 @@ std::vector<Mesh::Index> kept_cells(const RawGrid& grid, Kind kind, TypeCounts& 
         return flags >= 0 && flags < 256 &&
                (static_cast<unsigned>(flags) & (duplicate_cell | refined_cell | hidden_cell)) != 0;
     };
+    const std::array<CellType, 256>& types = cell_types();
     std::vector<Mesh::Index> kept;
     if (ghost == nullptr && is_uniform(grid.types)) return kept;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
-        if (cell_type(grid.types[cell]).kind != kind) {
+        if (types[grid.types[cell]].kind != kind) {
             ++left_out[grid.types[cell]];
         } else if (is_ghost(cell)) {
             ++ghosts;
@@ -194,31 +166,30 @@ void copy_cells(RawGrid& grid, std::size_t nodes, std::size_t count, Mesh& mesh)
     });
 }
 
-void note_left_out(const TypeCounts& left_out, std::size_t ghosts, Kind kind, const std::string& path, Notes& notes) {
+void note_left_out(const TypeCounts& left_out, std::size_t ghosts, CellKind kind, const std::string& path,
+                   Notes& notes) {
     std::size_t cells = 0;
     for (const std::size_t count : left_out) cells += count;
     if (cells != 0) {
         notes.push_back({Note::Kind::left_out,
                          std::to_string(cells) + " cells that are no " +
-                             (kind == Kind::tetrahedron ? "tetrahedra: " : "triangles: ") +
+                             (kind == CellKind::tetrahedron ? "tetrahedra: " : "triangles: ") +
                              counts_by_name(left_out, false, [](std::uint8_t) { return true; }),
                          path, true});
     }
-    if (ghosts != 0) {
+    if (ghosts != 0)
         notes.push_back({Note::Kind::left_out,
                          std::to_string(ghosts) + " ghost cells, which stand for cells of other pieces or are hidden "
                                                   "(vtkGhostType)",
                          path, true});
-    }
 }
 
 /// Notes on what concerns no array of points or cells.
 void note_the_rest(const RawGrid& grid, const std::string& path, Notes& notes) {
     note_narrow_points(grid, path, notes);
-    if (!grid.loose_arrays.empty()) {
+    if (!grid.loose_arrays.empty())
         notes.push_back({Note::Kind::left_out,
                          "arrays of neither points nor cells (field data): " + list_of(grid.loose_arrays), path});
-    }
     if (grid.has_steps)
         notes.push_back(
             {Note::Kind::left_out, "all steps but the first of arrays with several time steps", path, true});
@@ -291,18 +262,17 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
     const Result<CellType> type = choose(counts, grid, path);
     if (!type) return type.error();
     Mesh mesh;
-    mesh.dimension = type->kind == Kind::tetrahedron ? 3 : 2;
+    mesh.dimension = type->kind == CellKind::tetrahedron ? 3 : 2;
     if (Status s = check_cells(grid, path); !s) return s.error();
     mesh.notes = std::move(grid.notes);
     TypeCounts left_out{};
     std::size_t ghosts = 0;
     mesh.cell_numbers = kept_cells(grid, type->kind, left_out, ghosts);
     const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
-    if (cells == 0) {
+    if (cells == 0)
         return file_error(path, "the file contains no mesh", "cells of its own",
                           std::to_string(ghosts) + " ghost cells (vtkGhostType)",
                           "name the file of all pieces (.pvtu)");
-    }
     note_left_out(left_out, ghosts, type->kind, path, mesh.notes);
     copy_cells(grid, type->nodes, cells, mesh);
     if (type->nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
@@ -316,12 +286,12 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
         for (RawArray& array : grid.cell_arrays) make_field_of_doubles(array);
     }
     // Point markers are an array like any other but for its name and type.
-    for (std::size_t i = 0; i < grid.point_arrays.size(); ++i) {
-        RawArray& array = grid.point_arrays[i];
-        if (array.name != marker_name || array.integers() == nullptr || !array.fault.empty()) continue;
-        mesh.point_markers = std::move(*array.integers());
-        grid.point_arrays.erase(grid.point_arrays.begin() + static_cast<std::ptrdiff_t>(i));
-        break;
+    const auto markers = std::ranges::find_if(grid.point_arrays, [](RawArray& array) {
+        return array.name == marker_name && array.integers() != nullptr && array.fault.empty();
+    });
+    if (markers != grid.point_arrays.end()) {
+        mesh.point_markers = std::move(*markers->integers());
+        grid.point_arrays.erase(markers);
     }
     take_fields(grid.point_arrays, "point array", path, mesh.point_fields, nullptr, mesh.notes);
     take_fields(grid.cell_arrays, "cell array", path, mesh.cell_fields, &mesh.cell_labels, mesh.notes);

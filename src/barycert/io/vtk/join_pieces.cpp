@@ -2,32 +2,31 @@
 #include <array>
 #include <bit>
 #include <cstring>
-#include <numeric>
-#include <utility>
+#include <functional>
+#include <unordered_map>
 
+#include "barycert/base/random.hpp"
 #include "barycert/io/vtk/collection.hpp"
 
 namespace barycert::io {
 namespace {
 
 /// The first point with each key; points that come later stand for it.
-template <class Key>
-std::vector<std::int32_t> first_of_each(std::size_t points, Key key) {
-    std::vector<std::int32_t> order(points), first(points);
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-        const auto ka = key(static_cast<std::size_t>(a)), kb = key(static_cast<std::size_t>(b));
-        return ka != kb ? ka < kb : a < b;
-    });
-    for (std::size_t i = 0; i < points; ++i) {
-        const auto point = static_cast<std::size_t>(order[i]);
-        const bool same = i != 0 && key(point) == key(static_cast<std::size_t>(order[i - 1]));
-        first[point] = same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
-    }
+template <class Key, class Hash = std::hash<Key>, class KeyAt>
+std::vector<std::int32_t> first_of_each(std::size_t points, const KeyAt& key_at) {
+    std::vector<std::int32_t> first(points);
+    std::unordered_map<Key, std::int32_t, Hash> known(points);
+    for (std::size_t i = 0; i < points; ++i)
+        first[i] = known.try_emplace(key_at(i), static_cast<std::int32_t>(i)).first->second;
     return first;
 }
 
 using PointBits = std::array<std::uint64_t, 3>;
+struct HashOfBits {
+    std::size_t operator()(const PointBits& x) const {
+        return base::mix64(base::mix64(base::mix64(x[0]) ^ x[1]) ^ x[2]);
+    }
+};
 
 PointBits bits_of_point(const RawGrid& grid, std::size_t point) {
     PointBits bits{};
@@ -89,7 +88,7 @@ void join_pieces(RawGrid& grid, const std::string& path) {
     const std::vector<double>* const ids = global_ids_of(grid);
     std::vector<std::int32_t> first;
     if (ids == nullptr) {
-        first = first_of_each(points, [&](std::size_t i) { return bits_of_point(grid, i); });
+        first = first_of_each<PointBits, HashOfBits>(points, [&](std::size_t i) { return bits_of_point(grid, i); });
         // Those of one piece are as their writer wants them.
         for (std::size_t piece = 0; piece < grid.piece_points.size(); ++piece) {
             const std::size_t begin = grid.piece_points[piece],
@@ -100,7 +99,7 @@ void join_pieces(RawGrid& grid, const std::string& path) {
                     " nodes stand where another piece has one, and are kept apart: the file gives no GlobalNodeId, by "
                     "which pieces could be joined");
     }
-    first = first_of_each(points, [&](std::size_t i) { return (*ids)[i]; });
+    first = first_of_each<double>(points, [&](std::size_t i) { return (*ids)[i]; });
     for (std::size_t i = 0; i < points; ++i) {
         const auto own = static_cast<std::size_t>(first[i]);
         if (own == i) continue;

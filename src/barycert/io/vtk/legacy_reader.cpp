@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "barycert/io/other_formats.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/legacy_text.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
@@ -129,11 +129,10 @@ private:
         cells.connectivity.reserve(rows.size());
         for (std::size_t cell = 0; cell < count; ++cell) {
             const std::int32_t nodes = at < rows.size() ? rows[at] : -1;
-            if (nodes < 0 || static_cast<std::size_t>(nodes) > rows.size() - at - 1) {
+            if (nodes < 0 || static_cast<std::size_t>(nodes) > rows.size() - at - 1)
                 return text_.fail("the nodes of cell " + std::to_string(cell) + " (from 0)",
                                   "as many as fit in the " + std::to_string(size) + " numbers of the section",
                                   at < rows.size() ? std::to_string(nodes) : "none");
-            }
             const auto first = rows.begin() + static_cast<std::ptrdiff_t>(at + 1);
             cells.connectivity.insert(cells.connectivity.end(), first, first + nodes);
             at += 1 + static_cast<std::size_t>(nodes);
@@ -157,10 +156,9 @@ private:
     }
 
     void gather_cells() {
-        if (!polydata_ && grid_.types.size() != cell_count()) {
+        if (!polydata_ && grid_.types.size() != cell_count())
             return text_.fail("the cell types", std::to_string(cell_count()) + ", one a cell",
                               std::to_string(grid_.types.size()));
-        }
         for (std::size_t i = 0; i < section_count; ++i) {
             Cells& cells = sections_[i];
             const auto before = static_cast<std::int64_t>(grid_.connectivity.size());

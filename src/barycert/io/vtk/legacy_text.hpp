@@ -1,16 +1,49 @@
 /// The words and numbers of VTK's legacy files.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
 
-std::string capitals(std::string_view word);
+inline std::string capitals(std::string_view word) {
+    std::string text(word);
+    for (char& c : text) {
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    }
+    return text;
+}
+
+/// An error shows no more of a file than tells what it is about.
+inline std::string shown(std::string_view word) {
+    return in_quotes(word.substr(0, 60));
+}
+
+/// %20 and the like are one byte.
+inline std::string decoded(std::string_view word) {
+    std::string text;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        unsigned code = 0;
+        if (word[i] == '%' && i + 2 < word.size() &&
+            std::from_chars(&word[i + 1], &word[i + 1] + 2, code, 16).ptr == &word[i + 1] + 2) {
+            text += static_cast<char>(code);
+            i += 2;
+        } else {
+            text += word[i];
+        }
+    }
+    return text;
+}
 
 /// A place in a legacy file. Words are separated by white space; in a binary file the numbers of an array stand in
 /// big-endian order behind the end of the line that announces it.
@@ -24,7 +57,22 @@ public:
     const std::string& path() const { return path_; }
 
     /// The first three lines: version, title, ASCII or BINARY.
-    void read_head();
+    void read_head() {
+        constexpr std::string_view start = "# vtk DataFile Version ";
+        const std::string_view all = rest_;
+        std::string_view first = rest_of_line();
+        const bool known = capitals(first.substr(0, start.size())) == capitals(start);
+        if (known) first.remove_prefix(start.size());
+        const char* const end = first.data() + first.size();
+        if (!known || std::from_chars(first.data(), end, major_version_).ec != std::errc{}) {
+            rest_ = all;  // of the line itself, not of the next one
+            return fail("the first line", "\"# vtk DataFile Version 4.2\" or the like", shown(first));
+        }
+        rest_of_line();  // title
+        const std::string type = keyword();
+        if (type != "ASCII" && type != "BINARY") return fail("the third line", "ASCII or BINARY", shown(type));
+        binary_ = type == "BINARY";
+    }
     int major_version() const { return major_version_; }
     bool binary() const { return binary_; }
 
@@ -35,37 +83,125 @@ public:
     /// The next word; empty at the end of the file.
     std::string word() { return std::string(next_word(rest_)); }
     /// The next word in capitals, as which keywords are compared.
-    std::string keyword();
+    std::string keyword() { return capitals(next_word(rest_)); }
     /// The same, which stays the next word.
-    std::string next_keyword() const;
+    std::string next_keyword() const {
+        std::string_view rest = rest_;
+        return capitals(next_word(rest));
+    }
     /// The next word as a name: %20 and the like are one byte.
-    std::string name();
+    std::string name() { return decoded(next_word(rest_)); }
     /// What is left of the line, which is then behind.
-    std::string_view rest_of_line();
-    void expect(const char* wanted);
+    std::string_view rest_of_line() {
+        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+        std::string_view text = rest_.substr(0, end);
+        rest_.remove_prefix(std::min(end + 1, rest_.size()));
+        if (text.ends_with('\r')) text.remove_suffix(1);
+        return text;
+    }
+    void expect(const char* wanted) {
+        const std::string found = keyword();
+        if (found != wanted) fail("a keyword of the format", wanted, shown(found));
+    }
     /// Lines up to an empty one.
-    void skip_metadata();
+    void skip_metadata() {
+        rest_of_line();
+        while (!rest_.empty() && !rest_of_line().empty()) {
+        }
+    }
 
     /// The next word as a count, at most that of entities in a mesh.
-    std::size_t count(const std::string& what);
-    NumberType number_type(const std::string& what);
+    std::size_t count(const std::string& what) {
+        const std::string_view word = next_word(rest_);
+        const std::optional<std::uint64_t> value = parse_count(word);
+        if (value.has_value() && *value <= max_entities) return static_cast<std::size_t>(*value);
+        fail(what, "a count up to " + std::to_string(max_entities), word.empty() ? "the end of the file" : shown(word));
+        return 0;
+    }
+    NumberType number_type(const std::string& what) {
+        const std::string_view word = next_word(rest_);
+        const std::optional<NumberType> type = type_of_name(capitals(word));
+        if (type && type != NumberType::text) return *type;
+        fail("the type of " + what, "double, float, int and the like", shown(word));
+        return NumberType::float64;
+    }
 
     /// Exactly `count` numbers; as XmlArrays::read.
     void numbers(const std::string& what, NumberType type, std::uint64_t count, NumbersTo values,
-                 NumberFault* fault = nullptr);
+                 NumberFault* fault = nullptr) {
+        if (!status_) return;
+        const char* const start = rest_.data();
+        NumberFault found;
+        if (!binary_) {
+            found = read_text(rest_, type, static_cast<std::size_t>(count), values);
+            if (!found && count != 0 && rest_.empty() && !is_white(bytes_.back()))
+                return fail(base::unended_number(path_, line_at(rest_.data())));
+        } else {
+            rest_of_line();
+            const std::optional<std::uint64_t> size = byte_count(type, count);
+            if (!size.has_value() || *size > rest_.size())
+                return fail(what, std::to_string(count) + " numbers", "the end of the file before that", cut_off);
+            const std::string_view bytes = rest_.substr(0, static_cast<std::size_t>(*size));
+            rest_.remove_prefix(bytes.size());
+            found = read_binary(bytes, type, std::endian::native == std::endian::little,
+                                static_cast<std::size_t>(count), values);
+        }
+        if (fault != nullptr && found.kind == NumberFault::Kind::not_exact) {
+            *fault = std::move(found);
+        } else if (found) {
+            // A number stands in a line of its own.
+            fail(number_error(path_, line_at(found.place != nullptr ? found.place : start), what, count, found));
+        }
+    }
     /// Bytes 0 to 255, which in an ASCII file are written as shares of 255.
-    void colors(const std::string& what, std::uint64_t count, std::vector<double>& values);
+    void colors(const std::string& what, std::uint64_t count, std::vector<double>& values) {
+        numbers(what, binary_ ? NumberType::uint8 : NumberType::float32, count, values);
+        if (binary_) return;
+        for (double& value : values) {
+            if (!(value >= 0 && value <= 1)) return fail(what, "shares from 0 to 1", std::to_string(value));
+            value = std::floor(255 * value + 0.5);
+        }
+    }
     /// Strings of an array: a line each, or in a binary file, but for variants (`in_lines`), their length and bytes.
     /// `texts`: where they go, if they are wanted.
-    void strings(const std::string& what, bool in_lines, std::uint64_t count, std::vector<std::string>* texts);
+    void strings(const std::string& what, bool in_lines, std::uint64_t count, std::vector<std::string>* texts) {
+        rest_of_line();
+        for (std::uint64_t i = 0; i < count; ++i) {
+            if (rest_.empty()) return fail(what, std::to_string(count) + " strings", std::to_string(i), cut_off);
+            if (!binary_ || in_lines) {
+                const std::string_view text = rest_of_line();
+                if (texts != nullptr) texts->push_back(decoded(text));
+                continue;
+            }
+            // The two highest bits say how many bytes the length takes: 8, 4, 2 or 1.
+            const auto lead = static_cast<unsigned char>(rest_.front());
+            const std::size_t width = std::size_t{8} >> (lead >> 6U);
+            if (rest_.size() < width) return fail(what, "the length of a string", "the end of the file", cut_off);
+            std::uint64_t length = lead & 0x3FU;
+            for (std::size_t k = 1; k < width; ++k) length = length << 8U | static_cast<unsigned char>(rest_[k]);
+            rest_.remove_prefix(width);
+            if (length > rest_.size())
+                return fail(what, "a string of " + std::to_string(length) + " bytes", "less", cut_off);
+            if (texts != nullptr) texts->emplace_back(rest_.substr(0, static_cast<std::size_t>(length)));
+            rest_.remove_prefix(static_cast<std::size_t>(length));
+        }
+    }
 
     /// An error at this place.
-    void fail(std::string what, std::string expected, std::string found, std::string remedy = {});
+    void fail(std::string what, std::string expected, std::string found, std::string remedy = {}) {
+        fail({std::move(what), path_, line_at(rest_.data()), std::move(expected), std::move(found), std::move(remedy)});
+    }
 
 private:
-    void fail(Error error);
+    void fail(Error error) {
+        if (status_) status_ = std::move(error);
+        rest_ = {};
+    }
     /// Of that place in the file.
-    std::size_t line_at(const char* place) const;
+    std::size_t line_at(const char* place) const {
+        // Binary numbers hold line breaks by chance.
+        return binary_ || !status_ ? 0 : line_of(bytes_, static_cast<std::size_t>(place - bytes_.data()));
+    }
 
     std::string_view bytes_;
     std::string_view rest_;

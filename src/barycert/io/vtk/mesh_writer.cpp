@@ -1,6 +1,10 @@
-#include <limits>
+// Meshes as VTK's files, in XML and in the legacy format.
+#include <algorithm>
+#include <bit>
+#include <functional>
 #include <new>
 
+#include "barycert/base/output_file.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/vtk/out_file.hpp"
@@ -31,32 +35,195 @@ std::string fault_of_mesh(const Mesh& mesh, Names names) {
     return !fault.empty() ? fault : fault_of_names(std::move(of_cells), names);
 }
 
-template <class Offset>
-OutArray offsets_of(const Mesh& mesh, NumberType type) {
-    return array_made<Offset>({"offsets", 1, type}, mesh.cell_count(),
-                              [nodes = nodes_a_cell(mesh)](std::size_t i) { return nodes * (i + 1); });
+/// The nodes of all cells: corners, then mid-edge nodes, whose order in the mesh is VTK's.
+struct CellNodes {
+    explicit CellNodes(const Mesh& m)
+        : mesh(m),
+          corners(m.corners()),
+          nodes(corners + (m.mid_nodes.empty() ? 0 : mesh::edges_of(m.dimension).size())) {}
+
+    Mesh::Index operator()(std::size_t i) const {
+        const std::size_t cell = i / nodes, k = i % nodes;
+        return k < corners ? mesh.cells[cell * corners + k] : mesh.mid_nodes[cell * (nodes - corners) + k - corners];
+    }
+    VtkCell type() const {
+        if (mesh.dimension == 2) return nodes == corners ? vtk_triangle : vtk_quadratic_triangle;
+        return nodes == corners ? vtk_tetra : vtk_quadratic_tetra;
+    }
+
+    const Mesh& mesh;
+    std::size_t corners, nodes;  ///< a cell
+};
+
+/// Arrays of points: fields and markers.
+std::vector<OutArray> point_arrays_of(const Mesh& mesh) {
+    std::vector<OutArray> arrays;
+    for (const Field& field : mesh.point_fields) arrays.push_back(array_of_field(field));
+    if (!mesh.point_markers.empty()) arrays.push_back(array_in_memory<std::int64_t>(marker_name, mesh.point_markers));
+    return arrays;
+}
+
+/// Arrays of cells: fields and labels. Texts go to `room`, which must outlive them.
+std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>& room) {
+    std::vector<OutArray> arrays;
+    room.resize(mesh.cell_labels.size());
+    for (const Field& field : mesh.cell_fields) arrays.push_back(array_of_field(field));
+    for (std::size_t i = 0; i < room.size(); ++i) {
+        const auto& [name, values] = mesh.cell_labels[i];
+        std::visit(
+            [&, &name = name, &text = room[i]]<class T>(const std::vector<T>& all) {
+                if constexpr (std::is_same_v<T, std::string>) {
+                    for (const std::string& one : all) text.append(one).push_back('\0');
+                    arrays.push_back(array_in_memory<char>(name, text));
+                } else {
+                    arrays.push_back(array_in_memory<T>(name, all));
+                }
+            },
+            values);
+    }
+    return arrays;
 }
 
 Status write_unstructured(const Mesh& mesh, const std::string& path, VtkData data) {
     std::vector<std::string> room;
-    const std::size_t nodes = nodes_a_cell(mesh), cells = mesh.cell_count();
-    const bool wide = nodes * cells > std::numeric_limits<std::int32_t>::max();
-    const ArrayFormat format{"connectivity", 1, NumberType::int32};
-    const auto node = [&mesh, nodes](std::size_t i) { return node_of(mesh, nodes, i / nodes, i % nodes); };
-    const auto type = [own = cell_type_of(mesh)](std::size_t) { return own; };
-    return write_xml({.data_set = "UnstructuredGrid",
-                      .piece = " NumberOfPoints=\"" + std::to_string(mesh.point_count()) + "\" NumberOfCells=\"" +
-                               std::to_string(cells) + "\"",
-                      .sections = {{"PointData", point_arrays_of(mesh)},
-                                   {"CellData", cell_arrays_of(mesh, room)},
-                                   {"Points", {array_of_points(mesh.points, mesh.dimension)}},
-                                   {"Cells",
-                                    {mesh.mid_nodes.empty() ? array_in_memory<Mesh::Index>(format, mesh.cells)
-                                                            : array_made<std::int32_t>(format, nodes * cells, node),
-                                     wide ? offsets_of<std::int64_t>(mesh, NumberType::int64)
-                                          : offsets_of<std::int32_t>(mesh, NumberType::int32),
-                                     array_made<std::uint8_t>({"types", 1, NumberType::uint8}, cells, type)}}}},
-                     path, data);
+    const CellNodes node(mesh);
+    const std::size_t cells = mesh.cell_count();
+    return write_grid(
+        {.point_arrays = point_arrays_of(mesh),
+         .cell_arrays = cell_arrays_of(mesh, room),
+         .points = array_of_points(mesh.points, mesh.dimension),
+         .connectivity = mesh.mid_nodes.empty() ? array_in_memory<Mesh::Index>("connectivity", mesh.cells)
+                                                : array_made<Mesh::Index>("connectivity", node.nodes * cells, node),
+         .cells = cells,
+         .nodes = node.nodes,
+         .type = node.type()},
+        path, data);
+}
+
+/// All but printable ASCII as %20 and the like. `but`: a character that stands for itself.
+std::string legacy_name(std::string_view name, char but = '!') {
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    std::string text;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == but || (byte > ' ' && byte < 0x7F && c != '%' && c != '"')) {
+            text += c;
+        } else {
+            text += {'%', digits[byte / 16], digits[byte % 16]};
+        }
+    }
+    return text;
+}
+
+/// The bytes of each number the other way round.
+void reverse_numbers(std::string& bytes, std::uint64_t size) {
+    if (std::endian::native == std::endian::big || size == 1) return;
+    for (auto at = bytes.begin(); at != bytes.end(); at += static_cast<std::ptrdiff_t>(size))
+        std::reverse(at, at + static_cast<std::ptrdiff_t>(size));
+}
+
+class LegacyFile {
+public:
+    LegacyFile(const std::string& path, bool text) : file_(path), text_(text) {}
+
+    void write(std::string_view bytes) { file_.write(bytes); }
+    void write(const OutArray& array, std::size_t per_line) {
+        const auto out = [&](std::string_view bytes) { file_.write(bytes); };
+        if (text_) {
+            write_as_text(array, per_line, out);
+        } else {
+            const std::uint64_t size = number_bytes(array.format.type);
+            write_parts(
+                array, std::size_t{1} << 15,
+                [size](std::size_t, std::size_t, std::string& bytes) { reverse_numbers(bytes, size); }, out);
+            file_.write("\n");
+        }
+    }
+    /// FIELD FieldData: any number of arrays of any type; texts last.
+    void write_arrays(const char* section, std::size_t rows, std::vector<OutArray> arrays) {
+        if (arrays.empty()) return;
+        const auto is_text = [](const OutArray& a) { return a.format.type == NumberType::text; };
+        std::stable_partition(arrays.begin(), arrays.end(), std::not_fn(is_text));
+        file_.write(std::string(section) + " " + std::to_string(rows) + "\nFIELD FieldData " +
+                    std::to_string(arrays.size()) + "\n");
+        for (const OutArray& a : arrays) {
+            const auto& [name, components, type] = a.format;
+            file_.write(legacy_name(name) + " " + std::to_string(components) + " " + std::to_string(rows) +
+                        (is_text(a)                  ? " string\n"
+                         : type == NumberType::int64 ? " vtktypeint64\n"
+                                                     : " double\n"));
+            is_text(a) ? write_texts({a.bytes, a.count})
+                       : write(a, components > 1 ? static_cast<std::size_t>(components) : 12);
+        }
+    }
+    Status commit() { return file_.commit(); }
+
+private:
+    /// In a binary file the length of each text stands before it, in 1, 2, 4 or 8 bytes, which its two highest bits
+    /// tell: 3, 2, 1 or 0.
+    void write_texts(std::string_view all) {
+        for (std::size_t end = all.find('\0'); end != std::string_view::npos; end = all.find('\0')) {
+            const std::string_view text = all.substr(0, end);
+            all.remove_prefix(end + 1);
+            if (text_) {
+                file_.write(legacy_name(text, ' ') + "\n");  // blanks may stand in a line
+                continue;
+            }
+            const std::uint64_t length = text.size();
+            const unsigned width = length < (1U << 6U) ? 1 : length < (1U << 14U) ? 2 : length < (1U << 30U) ? 4 : 8;
+            const std::uint64_t mark = width == 1 ? 3 : width == 2 ? 2 : width == 4 ? 1 : 0;
+            const std::uint64_t word = length | mark << (8 * width - 2);
+            for (unsigned i = width; i-- > 0;) {
+                const char byte = static_cast<char>(word >> (8 * i));
+                file_.write({&byte, 1});
+            }
+            file_.write(text);
+        }
+        file_.write("\n");
+    }
+
+    base::OutputFile file_;
+    bool text_;
+};
+
+/// Version 4.2: the number of its nodes before the nodes of each cell.
+void write_cells(const CellNodes& node, std::size_t cells, LegacyFile& file) {
+    const std::size_t row = node.nodes + 1;
+    file.write("CELLS " + std::to_string(cells) + " " + std::to_string(cells * row) + "\n");
+    const auto number = [node, row](std::size_t i) {
+        return i % row == 0 ? static_cast<std::int32_t>(node.nodes) : node(i / row * node.nodes + i % row - 1);
+    };
+    file.write(array_made<std::int32_t>("cells", cells * row, number), row);
+}
+
+/// Version 5.1: where the nodes of each cell begin and the last ones end, then all nodes.
+void write_wide_cells(const CellNodes& node, std::size_t cells, LegacyFile& file) {
+    const std::size_t nodes = node.nodes;
+    file.write("CELLS " + std::to_string(cells + 1) + " " + std::to_string(cells * nodes) + "\nOFFSETS vtktypeint64\n");
+    const auto begin = [nodes](std::size_t i) { return nodes * i; };
+    file.write(array_made<std::int64_t>("offsets", cells + 1, begin), 12);
+    file.write("CONNECTIVITY vtktypeint64\n");
+    file.write(array_made<std::int64_t>("connectivity", cells * nodes, node), nodes);
+}
+
+/// A legacy file: numbers in big-endian order, or as text.
+Status write_legacy(const Mesh& mesh, const std::string& path, VtkData data) {
+    const std::size_t points = mesh.point_count(), cells = mesh.cell_count();
+    const CellNodes node(mesh);
+    // Version 4.2 counts all numbers of the cells, the lengths among them, with 32 bits.
+    const bool wide = cells * (node.nodes + 1) > max_entities;
+    LegacyFile file(path, data == VtkData::ascii);
+    file.write(std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") + "\nmesh\n" +
+               (data == VtkData::ascii ? "ASCII" : "BINARY") + "\nDATASET UNSTRUCTURED_GRID\nPOINTS " +
+               std::to_string(points) + " double\n");
+    file.write(array_of_points(mesh.points, mesh.dimension), 3);
+    wide ? write_wide_cells(node, cells, file) : write_cells(node, cells, file);
+    file.write("CELL_TYPES " + std::to_string(cells) + "\n");
+    file.write(array_made<std::int32_t>("types", cells, [type = node.type()](std::size_t) { return type; }), 12);
+    std::vector<std::string> room;
+    file.write_arrays("CELL_DATA", cells, cell_arrays_of(mesh, room));
+    file.write_arrays("POINT_DATA", points, point_arrays_of(mesh));
+    return file.commit();
 }
 
 Status write_checked(const Mesh& mesh, const std::string& path, VtkData data, Names names,
@@ -72,43 +239,6 @@ Status write_checked(const Mesh& mesh, const std::string& path, VtkData data, Na
 }
 
 }  // namespace
-
-std::uint8_t cell_type_of(const Mesh& mesh) {
-    if (mesh.dimension == 2) return mesh.mid_nodes.empty() ? vtk_triangle : vtk_quadratic_triangle;
-    return mesh.mid_nodes.empty() ? vtk_tetra : vtk_quadratic_tetra;
-}
-
-std::size_t nodes_a_cell(const Mesh& mesh) {
-    return mesh.corners() + (mesh.mid_nodes.empty() ? 0 : mesh::edges_of(mesh.dimension).size());
-}
-
-std::vector<OutArray> point_arrays_of(const Mesh& mesh) {
-    std::vector<OutArray> arrays;
-    for (const Field& field : mesh.point_fields) arrays.push_back(array_of_field(field));
-    if (!mesh.point_markers.empty())
-        arrays.push_back(array_in_memory<std::int64_t>({marker_name, 1, NumberType::int64}, mesh.point_markers));
-    return arrays;
-}
-
-std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>& room) {
-    std::vector<OutArray> arrays;
-    room.resize(mesh.cell_labels.size());
-    for (const Field& field : mesh.cell_fields) arrays.push_back(array_of_field(field));
-    for (std::size_t i = 0; i < room.size(); ++i) {
-        const auto& [name, values] = mesh.cell_labels[i];
-        if (const auto* const numbers = std::get_if<std::vector<std::int64_t>>(&values); numbers != nullptr) {
-            arrays.push_back(array_in_memory<std::int64_t>({name, 1, NumberType::int64}, *numbers));
-        } else if (const auto* const reals = std::get_if<std::vector<double>>(&values); reals != nullptr) {
-            arrays.push_back(array_in_memory<double>({name, 1, NumberType::float64}, *reals));
-        } else {
-            for (const std::string& text : std::get<std::vector<std::string>>(values))
-                room[i].append(text).push_back('\0');
-            arrays.push_back(array_in_memory<char>({name, 1, NumberType::text}, room[i]));
-        }
-    }
-    return arrays;
-}
-
 }  // namespace barycert::io
 
 namespace barycert {
@@ -124,7 +254,7 @@ Status write_vtk(const Mesh& mesh, const std::string& path, VtkData data) {
     if (data != VtkData::raw && data != VtkData::ascii)
         return file_error(path, "legacy files of VTK (.vtk) know no compression", "raw or ascii",
                           std::string(name(data)), "write a .vtu file");
-    return io::write_checked(mesh, path, data, io::Names::any, &io::write_legacy);
+    return io::write_checked(mesh, path, data, io::Names::legacy, &io::write_legacy);
 }
 
 }  // namespace barycert

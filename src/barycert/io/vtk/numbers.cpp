@@ -13,22 +13,6 @@
 namespace barycert::io {
 namespace {
 
-/// Whether a number of those bytes is certain to be exact: all but what needs a closer look.
-template <class To, class From>
-bool plainly_exact(From from) {
-    if constexpr (std::is_same_v<To, From> || (std::is_floating_point_v<To> && sizeof(From) < sizeof(To))) {
-        return true;
-    } else if constexpr (std::is_floating_point_v<From>) {
-        return false;
-    } else if constexpr (std::is_floating_point_v<To>) {
-        constexpr std::uint64_t wide = std::uint64_t{1} << 53U;
-        if constexpr (std::is_unsigned_v<From>) return from <= wide;
-        return static_cast<std::uint64_t>(from) + wide <= 2 * wide;
-    } else {
-        return std::in_range<To>(from);
-    }
-}
-
 template <class T>
 std::string number_text(T value) {
     if constexpr (std::is_floating_point_v<T>) {
@@ -45,21 +29,12 @@ std::size_t convert_run(const char* bytes, std::size_t count, To* to) {
         if (count != 0) std::memcpy(to, bytes, count * sizeof(To));
         return count;
     } else {
-        bool plain = true;
-        for (std::size_t i = 0; i < count; ++i) {
-            const From from = number_at<From, swap>(bytes + i * sizeof(From));
-            plain = plain && plainly_exact<To>(from);
-            if constexpr (std::is_floating_point_v<From> && std::is_integral_v<To>) {
-                convert_number(from, to[i]);  // no plain cast: that of a number out of range is undefined
-            } else {
-                to[i] = static_cast<To>(from);  // NOLINT(bugprone-signed-char-misuse): a number, no character
-            }
-        }
-        if (plain) return count;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (!convert_number(number_at<From, swap>(bytes + i * sizeof(From)), to[i])) return i;
-        }
-        return count;
+        bool exact = true;
+        for (std::size_t i = 0; i < count; ++i)
+            exact &= convert_number(number_at<From, swap>(bytes + i * sizeof(From)), to[i]);
+        std::size_t i = exact ? count : 0;
+        while (i < count && convert_number(number_at<From, swap>(bytes + i * sizeof(From)), to[i])) ++i;
+        return i;
     }
 }
 
@@ -226,7 +201,7 @@ NumberFault read_words(std::string_view& text, std::size_t count, std::vector<To
         if (parts.empty()) return {NumberFault::Kind::too_few, done};
         if (read.size() < parts.size()) read.resize(parts.size());
         in_parallel(parts.size(), [&](std::size_t i) { read[i].read(parts[i], left); });
-        std::vector<std::size_t> places, taken;
+        std::vector<std::size_t> places;
         std::size_t size = values.size();
         bool ended = false;
         for (std::size_t i = 0; i < parts.size() && !ended; ++i) {
@@ -242,7 +217,6 @@ NumberFault read_words(std::string_view& text, std::size_t count, std::vector<To
                 if (fault.kind == NumberFault::Kind::no_number) return fault;
             }
             places.push_back(size);
-            taken.push_back(part.values.size());
             size += part.values.size();
             done += part.values.size();
             text.remove_prefix(static_cast<std::size_t>(part.end - text.data()));
@@ -250,8 +224,9 @@ NumberFault read_words(std::string_view& text, std::size_t count, std::vector<To
         }
         make_room(values, size - values.size());
         values.resize(size);
-        in_parallel(places.size(),
-                    [&](std::size_t i) { std::copy_n(read[i].values.data(), taken[i], values.data() + places[i]); });
+        in_parallel(places.size(), [&](std::size_t i) {
+            std::copy(read[i].values.begin(), read[i].values.end(), values.data() + places[i]);
+        });
     }
     return fault;
 }

@@ -1,6 +1,7 @@
 /// The numbers of VTK files, of every type and in every encoding, as those that meshes hold.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -32,6 +34,10 @@ enum class NumberType : std::uint8_t {
     float64,
     text  ///< no number: bytes up to a zero byte
 };
+
+/// In C++, in this order.
+using NumberTypes = std::tuple<std::uint8_t, std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
+                               std::uint32_t, std::int64_t, std::uint64_t, float, double, std::uint8_t>;
 
 /// "Float64": its name in XML files.
 std::string_view xml_name(NumberType type);
@@ -92,28 +98,11 @@ inline bool is_white(char c) {
 /// f.operator()<T>() for the C++ type of a number type; for bit and text that of uint8.
 template <class F>
 decltype(auto) with_number_type(NumberType type, F&& f) {
-    switch (type) {
-        case NumberType::int8:
-            return f.template operator()<std::int8_t>();
-        case NumberType::int16:
-            return f.template operator()<std::int16_t>();
-        case NumberType::uint16:
-            return f.template operator()<std::uint16_t>();
-        case NumberType::int32:
-            return f.template operator()<std::int32_t>();
-        case NumberType::uint32:
-            return f.template operator()<std::uint32_t>();
-        case NumberType::int64:
-            return f.template operator()<std::int64_t>();
-        case NumberType::uint64:
-            return f.template operator()<std::uint64_t>();
-        case NumberType::float32:
-            return f.template operator()<float>();
-        case NumberType::float64:
-            return f.template operator()<double>();
-        default:
-            return f.template operator()<std::uint8_t>();
-    }
+    using Own = std::remove_reference_t<F>;
+    const auto calls = []<class... T>(const std::tuple<T...>*) {
+        return std::array{+[](Own& own) { return own.template operator()<T>(); }...};
+    }(static_cast<const NumberTypes*>(nullptr));
+    return calls[static_cast<std::size_t>(type)](f);
 }
 
 /// Whether `to` became the same number.
@@ -122,6 +111,7 @@ bool convert_number(From from, To& to) {
     if constexpr (std::is_floating_point_v<To>) {
         to = static_cast<To>(from);
         if constexpr (std::is_integral_v<From> && sizeof(From) == 8) {
+            if (std::in_range<std::int32_t>(from)) return true;  // as most are
             const std::uint64_t size =
                 from < From{0} ? std::uint64_t{0} - static_cast<std::uint64_t>(from) : static_cast<std::uint64_t>(from);
             return size == 0 || std::bit_width(size) - std::countr_zero(size) <= std::numeric_limits<To>::digits;
@@ -140,11 +130,8 @@ bool convert_number(From from, To& to) {
 /// The number at those bytes, which stand in the order of this machine or in the other.
 template <class T, bool swap>
 T number_at(const char* bytes) {
-    using Word =
-        std::conditional_t<sizeof(T) == 8, std::uint64_t,
-                           std::conditional_t<sizeof(T) == 4, std::uint32_t,
-                                              std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>>;
-    Word word = 0;
+    using Words = std::tuple<std::uint8_t, std::uint16_t, std::uint32_t, std::uint64_t>;
+    std::tuple_element_t<std::bit_width(sizeof(T)) - 1, Words> word = 0;
     std::memcpy(&word, bytes, sizeof(T));
     if constexpr (swap && sizeof(T) == 8) word = __builtin_bswap64(word);
     if constexpr (swap && sizeof(T) == 4) word = __builtin_bswap32(word);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "barycert/base/utf8.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 
@@ -55,10 +55,9 @@ void OutArray::copy(std::size_t first, std::size_t last, char* to) const {
 }
 
 OutArray array_of_points(std::span<const double> points, int dimension) {
-    ArrayFormat format{"Points", 3, NumberType::float64};
-    if (dimension == 3) return array_in_memory(std::move(format), points);
-    return array_made<double>(std::move(format), points.size() / 2 * 3,
-                              [points](std::size_t i) { return i % 3 == 2 ? 0.0 : points[i / 3 * 2 + i % 3]; });
+    if (dimension == 3) return array_in_memory("Points", points, 3);
+    const auto at = [points](std::size_t i) { return i % 3 == 2 ? 0.0 : points[i / 3 * 2 + i % 3]; };
+    return array_made<double>("Points", points.size() / 2 * 3, at, 3);
 }
 
 void write_parts(const OutArray& array, std::size_t part, const Transform& transform,
@@ -107,11 +106,20 @@ std::optional<std::string> xml_attribute(std::string_view name) {
 }
 
 std::string fault_of_names(std::vector<std::string> all, Names names) {
+    const auto is_plain = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    };
     for (const std::string& name : all) {
+        const std::string named = "the name of field \"" + name + '"';
         if (name.empty()) return "a field has no name";
-        if (names == Names::xml && !xml_attribute(name)) {
-            return "the name of field \"" + name + "\" has bytes that XML cannot hold";
+        if (names == Names::xml) {
+            if (!xml_attribute(name)) return named + " has bytes that XML cannot hold";
+            continue;
         }
+        // VTK's readers take words of up to 255 bytes, and others than these may be written as three.
+        const auto plain = static_cast<std::size_t>(std::count_if(name.begin(), name.end(), is_plain));
+        if (3 * name.size() - 2 * plain > 200) return named + " is too long for the format";
+        if (name == "METADATA" || name == "NULL_ARRAY") return named + " means something else in the format";
     }
     std::sort(all.begin(), all.end());
     const auto twice = std::adjacent_find(all.begin(), all.end());
@@ -126,14 +134,12 @@ Status check_arrays(const std::string& path, const std::vector<ArrayFormat>& arr
     std::vector<std::string> names;
     for (const ArrayFormat& array : arrays) {
         if (array.name.empty()) return wrong_in_memory(path, "the name of an array", "one", "none");
-        if (!xml_attribute(array.name)) {
+        if (!xml_attribute(array.name))
             return wrong_in_memory(path, "the name of an array", "text in UTF-8 without control characters",
                                    '"' + array.name + '"');
-        }
-        if (array.components < 1) {
+        if (array.components < 1)
             return wrong_in_memory(path, "the components of array \"" + array.name + '"', "1 or more",
                                    std::to_string(array.components));
-        }
         names.push_back(array.name);
     }
     std::sort(names.begin(), names.end());

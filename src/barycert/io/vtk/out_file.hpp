@@ -1,6 +1,7 @@
 /// VTK's files on their way out: arrays whose numbers stand in memory, or are made some at a time; files of them.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,16 +37,29 @@ struct OutArray {
     void copy(std::size_t first, std::size_t last, char* to) const;
 };
 
+/// The type of numbers T; char stands for text.
+template <class T>
+constexpr NumberType number_type() {
+    if constexpr (std::is_same_v<T, char>) return NumberType::text;
+    if constexpr (std::is_floating_point_v<T>) return sizeof(T) == 4 ? NumberType::float32 : NumberType::float64;
+    constexpr int wide = std::bit_width(sizeof(T)) - 1;
+    return static_cast<NumberType>(static_cast<int>(NumberType::int8) + 2 * wide + (std::is_signed_v<T> ? 0 : 1));
+}
+
 /// Numbers as they stand in memory, which must outlive it.
 template <class T>
-OutArray array_in_memory(ArrayFormat format, std::span<const T> numbers) {
-    return {std::move(format), numbers.size(), reinterpret_cast<const char*>(numbers.data())};
+OutArray array_in_memory(std::string name, std::span<const T> numbers, int components = 1) {
+    return {
+        {std::move(name), components, number_type<T>()}, numbers.size(), reinterpret_cast<const char*>(numbers.data())};
 }
 
 /// count numbers at(0), at(1), ... of type T.
 template <class T, class At>
-OutArray array_made(ArrayFormat format, std::size_t count, At at) {
-    return {std::move(format), count, nullptr, [at](std::size_t first, std::size_t last, char* to) {
+OutArray array_made(std::string name, std::size_t count, At at, int components = 1) {
+    return {{std::move(name), components, number_type<T>()},
+            count,
+            nullptr,
+            [at](std::size_t first, std::size_t last, char* to) {
                 auto* const numbers = reinterpret_cast<T*>(to);
                 for (std::size_t i = first; i < last; ++i) numbers[i - first] = static_cast<T>(at(i));
             }};
@@ -54,7 +69,7 @@ OutArray array_made(ArrayFormat format, std::size_t count, At at) {
 OutArray array_of_points(std::span<const double> points, int dimension);
 
 inline OutArray array_of_field(const Field& field) {
-    return array_in_memory<double>({field.name, field.components, NumberType::float64}, field.data);
+    return array_in_memory<double>(field.name, field.data, field.components);
 }
 
 /// What is done to a part of an array on any thread: its numbers `first` to `last` - 1 are `bytes`.
@@ -71,8 +86,8 @@ void write_as_text(const OutArray& array, std::size_t per_line, const std::funct
 /// given); nothing if no escape can do that: where it is not UTF-8, or has a character that XML excludes.
 std::optional<std::string> xml_attribute(std::string_view name);
 
-/// Whether names are to stand in XML attributes.
-enum class Names : bool { any, xml };
+/// Where names are to stand.
+enum class Names : bool { legacy, xml };
 
 /// What is wrong with the names of fields, in one clause; empty if every name can be written and is the only one: VTK
 /// keeps but one array of a name.
@@ -105,6 +120,16 @@ struct OutFile {
 /// number of them; memory for some of them is taken, on a pipe or device for all.
 Status write_xml(const OutFile& file, const std::string& path, VtkData data);
 
+/// Cells of one type, of so many nodes each.
+struct OutGrid {
+    std::vector<OutArray> point_arrays, cell_arrays;
+    OutArray points, connectivity;
+    std::size_t cells = 0, nodes = 1;
+    std::uint8_t type = 0;  ///< VTK's number
+};
+/// An unstructured grid, likewise.
+Status write_grid(OutGrid grid, const std::string& path, VtkData data);
+
 // What stands around raw arrays, for those that write them themselves.
 
 /// All before the arrays, which stand one after the other in the order of their elements.
@@ -115,27 +140,6 @@ inline constexpr std::uint64_t appended_header = 8;
 
 /// Behind the last array.
 inline constexpr std::string_view appended_tail = "\n  </AppendedData>\n</VTKFile>\n";
-
-/// VTK's number for the type of the cells.
-std::uint8_t cell_type_of(const Mesh& mesh);
-
-/// Corners and mid-edge nodes a cell.
-std::size_t nodes_a_cell(const Mesh& mesh);
-
-/// Node k of a cell of so many: corners, then mid-edge nodes, whose order in the mesh is VTK's.
-inline Mesh::Index node_of(const Mesh& mesh, std::size_t nodes, std::size_t cell, std::size_t k) {
-    const std::size_t corners = mesh.corners();
-    return k < corners ? mesh.cells[cell * corners + k] : mesh.mid_nodes[cell * (nodes - corners) + k - corners];
-}
-
-/// Arrays of points: fields and markers.
-std::vector<OutArray> point_arrays_of(const Mesh& mesh);
-
-/// Arrays of cells: fields and labels. Texts go to `room`, which must outlive them.
-std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>& room);
-
-/// A legacy file, of a mesh that is consistent: numbers in big-endian order, or as text.
-Status write_legacy(const Mesh& mesh, const std::string& path, VtkData data);
 
 /// A sink of rows into a .vtu file. The format has one array after the other: rows are kept in files without names
 /// beside the target up to commit(), so that memory does not grow with them.

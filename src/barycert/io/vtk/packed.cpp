@@ -5,7 +5,6 @@
 #include <lzma.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <limits>
 #include <memory>

@@ -1,6 +1,7 @@
 /// Bytes of a file as they stand, written in base64, or compressed block by block.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -35,6 +36,10 @@ private:
 };
 
 enum class Compressor : std::uint8_t { none, zlib, lz4, lzma };
+
+/// As files name them.
+inline constexpr std::array<std::string_view, 4> compressor_names{"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor",
+                                                                  "vtkLZMADataCompressor"};
 
 /// Fills `size` bytes from those of a block. False if it gives fewer, or is damaged.
 bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_t size);

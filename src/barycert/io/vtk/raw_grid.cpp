@@ -6,47 +6,46 @@
 
 namespace barycert::io {
 
-std::string vtk_class_name(std::uint8_t type) {
-    struct Run {
-        std::uint8_t first;
-        std::string_view names;  // of the types from there on
-    };
-    static constexpr std::array<Run, 6> runs{
-        {{0,
-          "EmptyCell Vertex PolyVertex Line PolyLine Triangle TriangleStrip Polygon Pixel Quad Tetra Voxel Hexahedron "
-          "Wedge Pyramid PentagonalPrism HexagonalPrism"},
-         {21,
-          "QuadraticEdge QuadraticTriangle QuadraticQuad QuadraticTetra QuadraticHexahedron QuadraticWedge "
-          "QuadraticPyramid BiQuadraticQuad TriQuadraticHexahedron QuadraticLinearQuad QuadraticLinearWedge "
-          "BiQuadraticQuadraticWedge BiQuadraticQuadraticHexahedron BiQuadraticTriangle CubicLine QuadraticPolygon "
-          "TriQuadraticPyramid"},
-         {41, "ConvexPointSet Polyhedron"},
-         {51,
-          "ParametricCurve ParametricSurface ParametricTriSurface ParametricQuadSurface ParametricTetraRegion "
-          "ParametricHexRegion"},
-         {60, "HigherOrderEdge HigherOrderTriangle HigherOrderQuad HigherOrderPolygon HigherOrderTetrahedron"},
-         {68,
-          "LagrangeCurve LagrangeTriangle LagrangeQuadrilateral LagrangeTetra LagrangeHexahedron LagrangeWedge "
-          "LagrangePyramid BezierCurve BezierTriangle BezierQuadrilateral BezierTetra BezierHexahedron BezierWedge"}}};
-    std::size_t run = runs.size() - 1;
-    while (runs[run].first > type) --run;
-    std::string_view names = runs[run].names;
-    for (std::uint8_t before = runs[run].first; before != type; ++before) next_word(names);
-    const std::string_view name = next_word(names);
-    return name.empty() ? "unknown type " + std::to_string(type) : "vtk" + std::string(name);
+const std::array<CellType, 256>& cell_types() {
+    /// Numbers and names in vtkCellType.h.
+    constexpr std::array<std::pair<CellKind, std::string_view>, 5> known{
+        {{CellKind::tetrahedron, "10 Tetra 24 QuadraticTetra"},
+         {CellKind::triangle, "5 Triangle 22 QuadraticTriangle"},
+         {CellKind::lower,
+          "0 EmptyCell 1 Vertex 2 PolyVertex 3 Line 4 PolyLine 21 QuadraticEdge 35 CubicLine 68 LagrangeCurve"},
+         {CellKind::surface,
+          "6 TriangleStrip 7 Polygon 8 Pixel 9 Quad 23 QuadraticQuad 28 BiQuadraticQuad 30 QuadraticLinearQuad "
+          "34 BiQuadraticTriangle 36 QuadraticPolygon 61 HigherOrderTriangle 62 HigherOrderQuad 69 LagrangeTriangle "
+          "70 LagrangeQuadrilateral 76 BezierTriangle 77 BezierQuadrilateral"},
+         {CellKind::other,
+          "11 Voxel 12 Hexahedron 13 Wedge 14 Pyramid 15 PentagonalPrism 16 HexagonalPrism 25 QuadraticHexahedron "
+          "26 QuadraticWedge 27 QuadraticPyramid 29 TriQuadraticHexahedron 31 QuadraticLinearWedge "
+          "32 BiQuadraticQuadraticWedge 33 BiQuadraticQuadraticHexahedron 37 TriQuadraticPyramid 41 ConvexPointSet "
+          "42 Polyhedron 51 ParametricCurve 52 ParametricSurface 53 ParametricTriSurface 54 ParametricQuadSurface "
+          "55 ParametricTetraRegion 56 ParametricHexRegion 60 HigherOrderEdge 63 HigherOrderPolygon "
+          "64 HigherOrderTetrahedron 71 LagrangeTetra 72 LagrangeHexahedron 73 LagrangeWedge 74 LagrangePyramid "
+          "75 BezierCurve 78 BezierTetra 79 BezierHexahedron 80 BezierWedge"}}};
+    static const std::array<CellType, 256> types = [&] {
+        std::array<CellType, 256> all{};
+        for (std::size_t type = 0; type < all.size(); ++type) all[type].name = "unknown type " + std::to_string(type);
+        for (auto [kind, text] : known) {
+            for (std::string_view word = next_word(text); !word.empty(); word = next_word(text))
+                all[*parse_count(word)] = {kind, 0, "vtk" + std::string(next_word(text))};
+        }
+        all[vtk_triangle].nodes = 3;
+        all[vtk_tetra].nodes = 4;
+        all[vtk_quadratic_triangle].nodes = 6;
+        all[vtk_quadratic_tetra].nodes = 10;
+        return all;
+    }();
+    return types;
 }
 
 std::uint8_t type_in(Section section, std::int64_t nodes) {
-    switch (section) {
-        case vertices:
-            return nodes == 1 ? vtk_vertex : vtk_poly_vertex;
-        case lines:
-            return nodes == 2 ? vtk_line : vtk_poly_line;
-        case polygons:
-            return nodes == 3 ? vtk_triangle : nodes == 4 ? vtk_quad : vtk_polygon;
-        default:
-            return vtk_triangle_strip;
-    }
+    if (section == vertices) return nodes == 1 ? vtk_vertex : vtk_poly_vertex;
+    if (section == lines) return nodes == 2 ? vtk_line : vtk_poly_line;
+    if (section == strips) return vtk_triangle_strip;
+    return nodes == 3 ? vtk_triangle : nodes == 4 ? vtk_quad : vtk_polygon;
 }
 
 std::size_t line_of(std::string_view bytes, std::size_t at) {
@@ -57,19 +56,11 @@ std::size_t line_of(std::string_view bytes, std::size_t at) {
 Error number_error(const std::string& path, std::size_t line, const std::string& what, std::uint64_t count,
                    const NumberFault& fault) {
     const std::string number = "number " + std::to_string(fault.index) + " (from 0) of " + what;
-    switch (fault.kind) {
-        case NumberFault::Kind::too_few:
-            return {what,
-                    path,
-                    line,
-                    std::to_string(count) + " numbers",
-                    std::to_string(fault.index),
-                    "write the file again: it may be cut off"};
-        case NumberFault::Kind::no_number:
-            return {number, path, line, "a number of the type of the array", in_quotes(fault.text)};
-        default:
-            return {number, path, line, "a number that fits what it stands for", fault.text};
-    }
+    if (fault.kind == NumberFault::Kind::too_few)
+        return {what, path, line, std::to_string(count) + " numbers", std::to_string(fault.index), cut_off};
+    if (fault.kind == NumberFault::Kind::no_number)
+        return {number, path, line, "a number of the type of the array", in_quotes(fault.text)};
+    return {number, path, line, "a number that fits what it stands for", fault.text};
 }
 
 Status read_numbers(RawArray& array, bool of_points, bool may_label,
@@ -168,17 +159,11 @@ void append_array(RawArray& to, RawArray& from) {
 
 /// `before`: rows that there are.
 void append_arrays(std::vector<RawArray>& to, std::vector<RawArray>& from, std::size_t before) {
-    const auto named = [](std::vector<RawArray>& arrays, const std::string& name) -> RawArray* {
-        for (RawArray& array : arrays) {
-            if (array.name == name) return &array;
-        }
-        return nullptr;
-    };
     for (RawArray& array : to) {
-        if (array.fault.empty() && named(from, array.name) == nullptr) array.fault = missing;
+        if (array.fault.empty() && std::ranges::count(from, array.name, &RawArray::name) == 0) array.fault = missing;
     }
     for (RawArray& array : from) {
-        if (RawArray* const known = named(to, array.name); known != nullptr) {
+        if (const auto known = std::ranges::find(to, array.name, &RawArray::name); known != to.end()) {
             append_array(*known, array);
         } else {
             if (before != 0 && array.fault.empty()) array.fault = missing;
@@ -209,10 +194,9 @@ void make_field_of_doubles(RawArray& array) {
 
 Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
     const std::size_t points = grid.point_count(), cells = grid.types.size(), nodes = grid.connectivity.size();
-    if (points + piece.point_count() > max_entities || cells + piece.types.size() > max_entities) {
+    if (points + piece.point_count() > max_entities || cells + piece.types.size() > max_entities)
         return file_error(path, "more points or cells than a mesh can have",
                           "at most " + std::to_string(max_entities) + " in all pieces");
-    }
     grid.narrow_points = grid.narrow_points || piece.narrow_points;
     grid.has_steps = grid.has_steps || piece.has_steps;
     grid.checked_nodes = (cells == 0 || grid.checked_nodes) && piece.checked_nodes;

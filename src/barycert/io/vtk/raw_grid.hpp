@@ -1,7 +1,9 @@
 /// The points, cells and arrays of a VTK file before anything is asked of them, and the mesh that they make.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -12,9 +14,8 @@
 
 namespace barycert::io {
 
-/// VTK's types of cells by their numbers (vtkCellType.h).
+/// VTK's types of cells that have a name here, by their numbers (vtkCellType.h).
 enum VtkCell : std::uint8_t {
-    vtk_empty_cell = 0,
     vtk_vertex = 1,
     vtk_poly_vertex = 2,
     vtk_line = 3,
@@ -24,15 +25,24 @@ enum VtkCell : std::uint8_t {
     vtk_polygon = 7,
     vtk_quad = 9,
     vtk_tetra = 10,
-    vtk_quadratic_edge = 21,
     vtk_quadratic_triangle = 22,
     vtk_quadratic_tetra = 24,
-    vtk_cubic_line = 35,
-    vtk_lagrange_curve = 68,
 };
 
-/// "vtkTetra"; "unknown type 200".
-std::string vtk_class_name(std::uint8_t type);
+enum class CellKind : std::uint8_t {
+    tetrahedron,
+    triangle,
+    lower,    ///< points and lines
+    surface,  ///< polygons of any order: triangles, once they are cut, and nothing more
+    other,
+};
+
+struct CellType {
+    CellKind kind = CellKind::other;
+    std::size_t nodes = 0;  ///< of tetrahedra and triangles
+    std::string name;       ///< "vtkTetra"; "unknown type 200"
+};
+const std::array<CellType, 256>& cell_types();
 
 /// The sections of polygon data. VTK numbers the cells of all sections in this order, whatever the order in the file.
 enum Section : std::size_t { vertices, lines, polygons, strips, section_count };
@@ -90,6 +100,9 @@ inline constexpr std::uint64_t max_entities = INT32_MAX;
 inline bool is_time(std::string_view name) {
     return name == "TimeValue" || name == "TIME" || name == "CYCLE";
 }
+
+/// A remedy.
+inline constexpr const char* cut_off = "write the file again: it may be cut off";
 
 inline std::string in_quotes(std::string_view name) {
     return '"' + std::string(name) + '"';
@@ -152,9 +165,6 @@ Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path);
 Status check_legacy_head(std::string_view bytes, const std::string& path);
 /// The whole file.
 Result<RawGrid> read_legacy(std::string_view bytes, const std::string& path, Part part);
-
-/// The data set of a file, told by its first bytes; of a file that names files all of them, of a series the first step.
-Result<RawGrid> read_grid(const std::string& path, Part part);
 
 /// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages.
 Result<Mesh> to_mesh(RawGrid grid, const std::string& path);

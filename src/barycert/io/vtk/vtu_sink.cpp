@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -28,7 +29,7 @@ public:
         if (format.distances) distances_ = &add("distance", 1, NumberType::float64);
         for (const TableField& field : format.fields) {
             fields_.push_back(&add(field.name, field.components, NumberType::float64));
-            columns_ += static_cast<std::size_t>(field.components);
+            numbers_.push_back({field.name, field.components, {}});
         }
         for (const ColumnFormat& column : format.carried) {
             carried_.push_back(&add(column.name, 1,
@@ -56,16 +57,9 @@ public:
         std::vector<std::int8_t> inside(count);
         for (std::size_t i = 0; i < count; ++i) inside[i] = rows.cells[i] >= 0 ? 1 : 0;
         append(inside_, inside);
-        std::size_t first = 0;
-        for (std::size_t f = 0; f < fields_.size() && good; ++f) {
-            const auto n = static_cast<std::size_t>(format_.fields[f].components);
-            std::vector<double> numbers(n * count);
-            for (std::size_t i = 0; i < count; ++i) {
-                for (std::size_t c = 0; c < n; ++c) numbers[n * i + c] = rows.values[columns_ * i + first + c];
-            }
-            append(*fields_[f], numbers);
-            first += n;
-        }
+        for (Field& field : numbers_) field.data.clear();
+        if (good) append_rows(rows, numbers_);
+        for (std::size_t f = 0; f < fields_.size(); ++f) append(*fields_[f], std::span<const double>(numbers_[f].data));
         for (std::size_t k = 0; k < carried_.size() && good; ++k) {
             std::visit([&](const auto& values) { good = append_column(*carried_[k], values); }, rows.carried[k].values);
         }
@@ -90,21 +84,13 @@ public:
             if (count_ != 0) found.push_back({format, bytes.size() / number_bytes(format.type), bytes.data()});
         }
         // Each point a cell. Node numbers go up to 2^31 - 1.
-        const auto number = [](std::size_t i) { return i; };
-        const auto next = [](std::size_t i) { return i + 1; };
-        const auto vertex = [](std::size_t) { return vtk_vertex; };
-        const std::string points = std::to_string(count_);
-        return write_xml(
-            {.data_set = "UnstructuredGrid",
-             .piece = " NumberOfPoints=\"" + points + "\" NumberOfCells=\"" + points + "\"",
-             .sections = {{"PointData", std::move(found)},
-                          {"CellData", {}},
-                          {"Points", {array_of_points(points_.values<double>(), format_.dimension)}},
-                          {"Cells",
-                           {array_made<std::int32_t>({"connectivity", 1, NumberType::int32}, count_, number),
-                            array_made<std::int32_t>({"offsets", 1, NumberType::int32}, count_, next),
-                            array_made<std::uint8_t>({"types", 1, NumberType::uint8}, count_, vertex)}}}},
-            path_, format_.vtk_data);
+        return write_grid({.point_arrays = std::move(found),
+                           .cell_arrays = {},
+                           .points = array_of_points(points_.values<double>(), format_.dimension),
+                           .connectivity = array_made<std::int32_t>("connectivity", count_, std::identity()),
+                           .cells = count_,
+                           .type = vtk_vertex},
+                          path_, format_.vtk_data);
     }
 
 private:
@@ -132,7 +118,8 @@ private:
     std::deque<std::pair<ArrayFormat, base::Spool>> arrays_;  ///< in the order of the file; the members below are of it
     base::Spool points_, &cells_, &features_, &inside_, *distances_ = nullptr;
     std::vector<base::Spool*> fields_, carried_;
-    std::size_t columns_ = 0, count_ = 0;
+    std::vector<Field> numbers_;  ///< of the last rows, each field for itself
+    std::size_t count_ = 0;
 };
 
 }  // namespace

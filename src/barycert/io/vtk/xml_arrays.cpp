@@ -3,66 +3,59 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <initializer_list>
 #include <memory>
-#include <numeric>
+#include <span>
+#include <utility>
 
 namespace barycert::io {
 namespace {
 
-/// The next integer of a header; nothing at the end of the data.
-std::optional<std::uint64_t> read_header(Encoded& from, const XmlLayout& layout) {
-    std::vector<char> room;
-    const std::optional<std::string_view> bytes = from.take(layout.header_bytes, room);
-    if (!bytes) return std::nullopt;
-    const bool big = layout.swap_bytes != (std::endian::native == std::endian::big);
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < layout.header_bytes; ++i) {
-        const char byte = (*bytes)[big ? i : layout.header_bytes - 1 - i];
-        value = value << 8U | static_cast<unsigned char>(byte);
-    }
-    return value;
-}
-
-/// Data that are compressed block by block. Header: number of blocks, bytes of a block, bytes of the last one if it is
-/// shorter (else 0), then the compressed bytes of each block; then the blocks.
-class BlockData {
+/// The data of an array, of which a header tells the sizes. Compressed block by block: number of blocks, bytes of a
+/// block, bytes of the last one if it is shorter (else 0), then the compressed bytes of each block; then the blocks.
+/// Others: their bytes.
+class ArrayData {
 public:
-    BlockData(Encoded from, const XmlLayout& layout) : from_(from), layout_(layout) {}
+    ArrayData(Encoded from, const XmlLayout& layout) : from_(from), layout_(layout) {}
 
     /// Reads the header; what is wrong with it, or empty.
     std::string open() {
-        const std::optional<std::uint64_t> blocks = read_header(from_, layout_);
-        const std::optional<std::uint64_t> block = read_header(from_, layout_);
-        const std::optional<std::uint64_t> last = read_header(from_, layout_);
-        const char* const cut_off = "the data end before their header does";
-        if (!blocks || !block || !last || *blocks > from_.left() / layout_.header_bytes) return cut_off;
-        block_ = *block;
-        last_ = *last != 0 ? *last : block_;
-        if (*blocks == 0) return {};
-        if (last_ > block_ || __builtin_mul_overflow(*blocks - 1, block_, &size_) ||
-            __builtin_add_overflow(size_, last_, &size_)) {
+        constexpr const char* too_short = "the data end before their header does";
+        const bool plain = layout_.compressor == Compressor::none;
+        const std::optional<std::vector<std::uint64_t>> head = next_words(plain ? 1 : 3);
+        if (!head || (!plain && head->front() > from_.left() / layout_.header_bytes)) return too_short;
+        size_ = head->front();
+        if (plain || size_ == 0) return {};
+        const std::uint64_t blocks = size_, last = (*head)[2] != 0 ? (*head)[2] : (*head)[1];
+        block_ = (*head)[1];
+        if (last > block_ || __builtin_mul_overflow(blocks - 1, block_, &size_) ||
+            __builtin_add_overflow(size_, last, &size_))
             return "a header of compressed blocks that contradicts itself";
-        }
-        std::uint64_t packed = 0;
-        for (std::uint64_t i = 0; i < *blocks; ++i) {
-            const std::optional<std::uint64_t> bytes = read_header(from_, layout_);
-            if (!bytes) return cut_off;
-            packed_.push_back(*bytes);
-            if (__builtin_add_overflow(packed, *bytes, &packed)) return "compressed blocks of more than 2^64 bytes";
-            if ((i + 1 < *blocks ? block_ : last_) > max_unpacked(layout_.compressor, *bytes))
+        std::optional<std::vector<std::uint64_t>> packed = next_words(static_cast<std::size_t>(blocks));
+        if (!packed) return too_short;
+        packed_ = std::move(*packed);
+        for (const std::uint64_t& bytes : packed_) {
+            if (__builtin_add_overflow(packed_size_, bytes, &packed_size_))
+                return "compressed blocks of more than 2^64 bytes";
+            if ((&bytes != &packed_.back() ? block_ : last) > max_unpacked(layout_.compressor, bytes))
                 return "a block that holds more than its compressed bytes can";
         }
-        return packed > from_.left() ? "the data end before the last block does" : "";
+        return packed_size_ > from_.left() ? "the data end before the last block does" : "";
     }
 
     /// Bytes of all blocks, as the header has them.
     std::uint64_t size() const { return size_; }
 
-    /// As read_binary of numbers.hpp, of exactly size() bytes. The blocks are unpacked on all threads, some at a time,
-    /// so that memory grows with what the file really has.
+    /// As read_binary of numbers.hpp, of exactly size() bytes. Blocks are unpacked on all threads, some at a time, so
+    /// that memory grows with what the file really has.
     template <class To>
     NumberFault read(NumberType type, std::size_t count, std::vector<To>& values) {
+        if (layout_.compressor == Compressor::none) {
+            const std::uint64_t there = std::min(from_.left(), size_) / number_bytes(type);  // at most
+            std::vector<char> room;
+            const std::optional<std::string_view> bytes = from_.take(size_, room);
+            if (bytes) return read_binary(*bytes, type, layout_.swap_bytes, count, values);
+            return {NumberFault::Kind::too_few, std::min(static_cast<std::size_t>(there), count - 1)};
+        }
         const std::size_t number = number_bytes(type);
         constexpr std::uint64_t wave_bytes = std::uint64_t{1} << 24;
         auto per_wave =
@@ -74,10 +67,9 @@ public:
         // No block holds more than its bytes can. Those of lzma could hold a hundred times what data ever have: memory
         // grows with what there is.
         constexpr std::uint64_t likely = 64;
-        const std::uint64_t packed_all = std::accumulate(packed_.begin(), packed_.end(), std::uint64_t{0});
         const bool honest = layout_.compressor != Compressor::lzma;
         make_room(values,
-                  honest ? count : static_cast<std::size_t>(std::min<std::uint64_t>(count, likely * packed_all)));
+                  honest ? count : static_cast<std::size_t>(std::min<std::uint64_t>(count, likely * packed_size_)));
         std::vector<char> packed_room;
         std::unique_ptr<char[]> plain_room;  // not initialised: pages that no data reach take no memory
         NumberFault fault;
@@ -108,6 +100,17 @@ public:
     }
 
 private:
+    /// Integers of a header; nothing if the data end before.
+    std::optional<std::vector<std::uint64_t>> next_words(std::size_t count) {
+        const std::size_t width = layout_.header_bytes;
+        std::vector<char> room;
+        const std::optional<std::string_view> bytes = from_.take(count * width, room);
+        std::vector<std::int64_t> words;
+        if (!bytes) return std::nullopt;
+        read_binary(*bytes, width == 8 ? NumberType::int64 : NumberType::uint32, layout_.swap_bytes, count, words);
+        return std::vector<std::uint64_t>(words.begin(), words.end());
+    }
+
     /// Where the bytes of a block begin among those of all.
     std::size_t block_at(std::size_t block) const {
         return static_cast<std::size_t>(block == packed_.size() ? size_ : block * block_);
@@ -132,7 +135,7 @@ private:
     Encoded from_;
     const XmlLayout& layout_;
     std::vector<std::uint64_t> packed_;  // bytes of each block
-    std::uint64_t block_ = 0, last_ = 0, size_ = 0;
+    std::uint64_t block_ = 0, size_ = 0, packed_size_ = 0;
 };
 
 }  // namespace
@@ -141,23 +144,22 @@ Result<XmlArrays> XmlArrays::of(const XmlTree& tree) {
     XmlArrays arrays(tree);
     Status good = Done{};
     /// The place of the attribute among the known ones; the first is that of files without it.
-    const auto choose = [&](const char* key, std::initializer_list<std::string_view> known) -> std::size_t {
-        const std::string_view value = tree.root().attribute(key).value_or(*known.begin());
-        std::string names;
-        for (const std::string_view& name : known) {
-            if (name == value) return static_cast<std::size_t>(&name - known.begin());
-            if (!name.empty()) names += (names.empty() ? "" : ", ") + std::string(name);
-        }
-        if (good)
+    const auto choose = [&](const char* key, std::span<const std::string_view> known) {
+        const std::string_view value = tree.root().attribute(key).value_or(known.front());
+        const auto found = std::find(known.begin(), known.end(), value);
+        if (found == known.end()) {
+            std::string names;
+            for (const std::string_view& name : known) names += (names.empty() ? "" : ", ") + std::string(name);
             good =
                 tree.error(tree.root(), "the attribute " + std::string(key) + " of the file", names, in_quotes(value));
-        return 0;
+        }
+        return static_cast<std::size_t>(found - known.begin());
     };
-    const bool little = choose("byte_order", {"LittleEndian", "BigEndian"}) == 0;
+    constexpr std::array<std::string_view, 2> orders{"LittleEndian", "BigEndian"}, headers{"UInt32", "UInt64"};
+    const bool little = choose("byte_order", orders) == 0;
     arrays.layout_.swap_bytes = little != (std::endian::native == std::endian::little);
-    arrays.layout_.header_bytes = choose("header_type", {"UInt32", "UInt64"}) == 0 ? 4 : 8;
-    arrays.layout_.compressor = static_cast<Compressor>(
-        choose("compressor", {"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor", "vtkLZMADataCompressor"}));
+    arrays.layout_.header_bytes = choose("header_type", headers) == 0 ? 4 : 8;
+    arrays.layout_.compressor = static_cast<Compressor>(choose("compressor", compressor_names));
     if (!good) return good.error();
     return arrays;
 }
@@ -181,12 +183,11 @@ Error XmlArrays::error(const XmlElement& array, const std::string& what, std::ui
 Result<Encoded> XmlArrays::encoded(const XmlElement& array, const std::string& what) const {
     if (array.attribute("format") != "appended") return Encoded(tree_.text_of(array), true);
     const std::optional<std::uint64_t> offset = parse_count(array.attribute("offset").value_or(""));
-    if (!offset.has_value() || *offset >= tree_.appended.size()) {
+    if (!offset.has_value() || *offset >= tree_.appended.size())
         return tree_.error(
             array, "the offset of " + what + " into the appended data",
             "less than " + std::to_string(tree_.appended.size()) + ", the bytes from there to the end of the file",
-            in_quotes(array.attribute("offset").value_or("")), "write the file again: it may be cut off");
-    }
+            in_quotes(array.attribute("offset").value_or("")), cut_off);
     return Encoded(tree_.appended.substr(static_cast<std::size_t>(*offset)), !tree_.appended_raw);
 }
 
@@ -197,35 +198,14 @@ Status XmlArrays::read_encoded(const XmlElement& array, const std::string& what,
     if (!size.has_value()) return tree_.error(array, "the size of " + what, "less than 2^64 bytes", "more");
     Result<Encoded> from = encoded(array, what);
     if (!from) return from.error();
-    const auto damaged = [&](const std::string& found) {
+    ArrayData data(*from, layout_);
+    if (const std::string found = data.open(); !found.empty())
         return tree_.error(array, "the data of " + what, {}, found, "write the file again");
-    };
-    const auto other_size = [&](std::uint64_t found) {
-        return tree_.error(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(found),
+    if (count.has_value() && data.size() != *size)
+        return tree_.error(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(data.size()),
                            "its numbers do not match the counts of points, cells and components");
-    };
-    if (layout_.compressor != Compressor::none) {
-        BlockData blocks(*from, layout_);
-        if (const std::string found = blocks.open(); !found.empty()) return damaged(found);
-        if (count.has_value() && blocks.size() != *size) return other_size(blocks.size());
-        const std::uint64_t numbers = count.value_or(blocks.size() / number_bytes(type));
-        fault =
-            std::visit([&](auto to) { return blocks.read(type, static_cast<std::size_t>(numbers), to.get()); }, values);
-        return Done{};
-    }
-    const std::optional<std::uint64_t> found = read_header(*from, layout_);
-    if (!found.has_value()) return damaged("the data end before their header does");
-    if (count.has_value() && *found != *size) return other_size(*found);
-    std::vector<char> room;
-    const std::optional<std::string_view> bytes = from->take(*found, room);
-    const std::uint64_t numbers = count.value_or(*found / number_bytes(type));
-    if (bytes.has_value()) {
-        fault = read_binary(*bytes, type, layout_.swap_bytes, static_cast<std::size_t>(numbers), values);
-    } else {
-        fault = {NumberFault::Kind::too_few,
-                 static_cast<std::size_t>(std::min(from->left(), *found) / number_bytes(type))};
-        if (fault.index >= numbers && numbers != 0) fault.index = static_cast<std::size_t>(numbers - 1);
-    }
+    const auto numbers = static_cast<std::size_t>(count.value_or(data.size() / number_bytes(type)));
+    fault = std::visit([&](auto to) { return data.read(type, numbers, to.get()); }, values);
     return Done{};
 }
 
@@ -233,13 +213,11 @@ Status XmlArrays::read(const XmlElement& array, const std::string& what, std::ui
                        NumberFault* fault) const {
     const std::optional<NumberType> type = type_of(array);
     const std::string_view format = array.attribute("format").value_or("ascii");
-    if (!type.has_value()) {
+    if (!type.has_value())
         return tree_.error(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
                            in_quotes(array.attribute("type").value_or("")));
-    }
-    if (format != "ascii" && format != "binary" && format != "appended") {
+    if (format != "ascii" && format != "binary" && format != "appended")
         return tree_.error(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
-    }
     NumberFault found;
     if (format == "ascii") {
         std::string_view text = tree_.text_of(array);
@@ -277,10 +255,9 @@ Status XmlArrays::read_texts(const XmlElement& array, const std::string& what, s
     if (fault) return error(array, what, count, fault);
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto found = static_cast<std::uint64_t>(std::count(all.begin(), all.end(), '\0'));
-    if (found != count || !all.ends_with('\0')) {
+    if (found != count || !all.ends_with('\0'))
         return tree_.error(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
                            std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
-    }
     for (std::size_t begin = 0; begin < all.size();) {
         const std::size_t end = all.find('\0', begin);
         texts.emplace_back(all.substr(begin, end - begin));

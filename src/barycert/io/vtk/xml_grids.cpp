@@ -15,59 +15,45 @@ namespace {
 
 using Counts = std::array<std::size_t, 3>;
 
-/// So many numbers and no more, each by parse(word).
-template <class T, std::size_t count, class Parse>
-std::optional<std::array<T, count>> parse_all(std::string_view text, const Parse& parse) {
+using Extent = std::array<std::int64_t, 6>;
+
+/// So many finite numbers, or integers as large as counts may be, and no more.
+template <class T, std::size_t count>
+std::optional<std::array<T, count>> parse_all(std::string_view text) {
+    constexpr auto most = static_cast<std::int64_t>(max_entities);
     std::array<T, count> numbers{};
+    bool good = true;
     for (T& x : numbers) {
-        const std::optional<T> number = parse(next_word(text));
-        if (!number) return std::nullopt;
-        x = *number;
+        const std::string_view word = next_word(text);
+        if constexpr (std::is_same_v<T, double>) {
+            x = base::parse_double(word).value_or(HUGE_VAL);
+            good = good && std::isfinite(x);
+        } else {
+            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
+            good = good && error == std::errc{} && end == word.data() + word.size() && -most <= x && x <= most;
+        }
     }
-    if (!next_word(text).empty()) return std::nullopt;
+    if (!good || !next_word(text).empty()) return std::nullopt;
     return numbers;
 }
 
-/// "0 9 0 19 0 0": first and last index along each axis.
-std::optional<std::array<std::int64_t, 6>> parse_extent(std::string_view text) {
-    return parse_all<std::int64_t, 6>(text, [](std::string_view word) -> std::optional<std::int64_t> {
-        constexpr auto most = static_cast<std::int64_t>(max_entities);
-        std::int64_t bound = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), bound);
-        if (error != std::errc{} || end != word.data() + word.size() || bound < -most || bound > most)
-            return std::nullopt;
-        return bound;
-    });
-}
-
-template <std::size_t count>
-std::optional<std::array<double, count>> parse_doubles(std::string_view text) {
-    return parse_all<double, count>(text, [](std::string_view word) {
-        const std::optional<double> number = base::parse_double(word);
-        return number && std::isfinite(*number) ? number : std::nullopt;
-    });
-}
-
-Status read_image_points(const XmlArrays& arrays, const XmlElement& data, const std::array<std::int64_t, 6>& extent,
-                         const Counts& counts, RawGrid& grid) {
+Status read_image_points(const XmlArrays& arrays, const XmlElement& data, const Extent& extent, const Counts& counts,
+                         RawGrid& grid) {
     const std::string_view origin_text = data.attribute("Origin").value_or("0 0 0"),
                            spacing_text = data.attribute("Spacing").value_or("1 1 1");
-    const auto origin = parse_doubles<3>(origin_text), spacing = parse_doubles<3>(spacing_text);
-    if (!origin || !spacing) {
+    const auto origin = parse_all<double, 3>(origin_text), spacing = parse_all<double, 3>(spacing_text);
+    if (!origin || !spacing)
         return arrays.tree().error(data, "the origin and spacing of the grid", "three finite numbers each",
                                    in_quotes(origin_text) + " and " + in_quotes(spacing_text));
-    }
     if (const auto direction = data.attribute("Direction"); direction.has_value()) {
-        if (parse_doubles<9>(*direction) != std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}) {
+        if (parse_all<double, 9>(*direction) != std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1})
             return arrays.tree().error(data, "the direction of the grid", "1 0 0 0 1 0 0 0 1", in_quotes(*direction),
                                        "write its points as a structured or unstructured grid");
-        }
     }
     grid.points.resize(3 * counts[0] * counts[1] * counts[2]);
     in_parallel(counts[2], [&](std::size_t k) {
         std::size_t at = 3 * k * counts[0] * counts[1];
-        const std::array<std::size_t, 3> first{0, 0, k};
-        std::array<std::size_t, 3> i = first;
+        std::array<std::size_t, 3> i{0, 0, k};
         for (i[1] = 0; i[1] < counts[1]; ++i[1]) {
             for (i[0] = 0; i[0] < counts[0]; ++i[0]) {
                 for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -117,11 +103,10 @@ Status read_grid_points(const XmlArrays& arrays, const XmlElement& data, const X
                         const std::string& type, RawGrid& grid) {
     const std::string_view whole_text = data.attribute("WholeExtent").value_or(""),
                            text = piece.attribute("Extent").value_or("");
-    const auto whole = parse_extent(whole_text), extent = parse_extent(text);
-    if (!extent || whole != extent) {
+    const auto whole = parse_all<std::int64_t, 6>(whole_text), extent = parse_all<std::int64_t, 6>(text);
+    if (!extent || whole != extent)
         return arrays.tree().error(piece, "the extent of the piece", "that of the whole, six integers",
                                    in_quotes(text) + " of " + in_quotes(whole_text));
-    }
     Counts counts{};
     std::uint64_t points = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -130,19 +115,17 @@ Status read_grid_points(const XmlArrays& arrays, const XmlElement& data, const X
         if (__builtin_mul_overflow(points, counts[axis], &points)) points = max_entities + 1;
         points = std::min(points, max_entities + 1);
     }
-    if (points > max_entities) {
+    if (points > max_entities)
         return arrays.tree().error(piece, "the points of the grid", "at most " + std::to_string(max_entities),
                                    "the extent " + in_quotes(text));
-    }
     if (points == 0) return Done{};
     // Few bytes describe any number of points: no more than memory holds.
     const std::uint64_t memory =
         static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    if (type != "StructuredGrid" && points > memory / 2 / (3 * sizeof(double))) {
+    if (type != "StructuredGrid" && points > memory / 2 / (3 * sizeof(double)))
         return arrays.tree().error(piece, "the points of the grid",
                                    "as many as fit in half of the memory of this machine", std::to_string(points),
                                    "use a smaller grid");
-    }
     if (type == "ImageData") return read_image_points(arrays, data, *extent, counts, grid);
     if (type == "RectilinearGrid") return read_rectilinear_points(arrays, piece, counts, grid);
     return read_points(arrays, piece, points, grid);

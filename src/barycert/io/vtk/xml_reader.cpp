@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "barycert/io/other_formats.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 
@@ -18,19 +18,31 @@ public:
 
     Result<RawGrid> read() {
         const std::string type(tree_.root().attribute("type").value_or(""));
-        const bool mesh = type == "UnstructuredGrid" || type == "PolyData";
         const XmlElement* const data = tree_.root().name == "VTKFile" ? tree_.child(tree_.root(), type) : nullptr;
-        if (data == nullptr || !(mesh || (part_ != Part::all && is_structured(type)))) return wrong_kind(data, type);
-        if (!mesh) return read_structured(*data, type);
         is_polygons_ = type == "PolyData";
+        const bool structured = part_ != Part::all && is_structured(type);
+        if (data == nullptr || !(is_polygons_ || structured || type == "UnstructuredGrid"))
+            return wrong_kind(data, type);
         RawGrid grid;
+        std::size_t pieces = 0;
         for (const std::size_t i : data->children) {
             const XmlElement& element = tree_.elements[i];
-            note_loose(element, grid);
+            if (element.name == "FieldData") {
+                for (std::string& name : names_of(element))
+                    if (!is_time(name)) grid.loose_arrays.push_back(std::move(name));
+            }
             if (element.name != "Piece") continue;
+            // Grids have one piece, or the points on the borders of pieces would be there twice.
+            if (structured && ++pieces > 1)
+                return tree_.error(element, "a grid in several pieces", "one piece", "more",
+                                   "write it again in one piece, as ParaView's Merge Blocks or VTK's writer do");
             RawGrid piece;
-            if (Status s = read_piece(element, grid, piece); !s) return s.error();
-            if (Status s = append_piece(grid, std::move(piece), tree_.path); !s) return s.error();
+            Status read =
+                structured ? read_grid_points(arrays_, *data, element, type, piece) : read_piece(element, grid, piece);
+            if (read) read = read_point_arrays(element, piece);
+            if (read && part_ == Part::all) read = read_cells(element, grid.types.size(), piece);
+            if (read) read = append_piece(grid, std::move(piece), tree_.path);
+            if (!read) return read.error();
         }
         return grid;
     }
@@ -52,31 +64,30 @@ private:
 
     Result<std::size_t> count_of(const XmlElement& piece, std::string_view key, std::size_t before) const {
         const std::optional<std::string_view> text = piece.attribute(key);
-        const std::optional<std::uint64_t> count =
-            text.has_value() ? parse_count(*text) : std::optional<std::uint64_t>();
-        if (!count.has_value() || *count > max_entities - before) {
+        const std::optional<std::uint64_t> count = parse_count(text.value_or(""));
+        if (!count.has_value() || *count > max_entities - before)
             return tree_.error(piece, "the attribute " + std::string(key),
                                "a count, at most " + std::to_string(max_entities) + " in all pieces",
                                text.has_value() ? in_quotes(*text) : "none");
-        }
         return static_cast<std::size_t>(*count);
     }
 
-    Status read_piece(const XmlElement& piece, const RawGrid& before, RawGrid& grid) {
+    Status read_piece(const XmlElement& piece, const RawGrid& before, RawGrid& grid) const {
         const Result<std::size_t> points = count_of(piece, "NumberOfPoints", before.point_count());
         if (!points) return points.error();
-        if (*points != 0) {
-            if (Status s = read_points(arrays_, piece, *points, grid); !s) return s;
-        }
-        if (Status s = read_point_arrays(piece, grid); !s) return s;
-        if (part_ != Part::all) return Done{};
+        return *points != 0 ? read_points(arrays_, piece, *points, grid) : Done{};
+    }
+
+    /// Behind so many cells of other pieces.
+    Status read_cells(const XmlElement& piece, std::size_t before, RawGrid& grid) const {
+        Status read = Done{};
         if (is_polygons_) {
-            if (Status s = read_polygons(piece, before.types.size(), grid); !s) return s;
+            read = read_polygons(piece, before, grid);
         } else {
-            const Result<std::size_t> cells = count_of(piece, "NumberOfCells", before.types.size());
-            if (!cells) return cells.error();
-            if (Status s = read_cells(piece, "Cells", *cells, grid); !s) return s;
+            const Result<std::size_t> cells = count_of(piece, "NumberOfCells", before);
+            read = cells ? read_section(piece, "Cells", *cells, grid) : cells.error();
         }
+        if (!read) return read;
         grid.checked_nodes = true;
         const XmlElement* const data = tree_.child(piece, "CellData");
         return data == nullptr ? Done{} : read_arrays(*data, grid.types.size(), grid.has_steps, grid.cell_arrays);
@@ -88,11 +99,17 @@ private:
         if (data == nullptr) return Done{};
         grid.global_ids = data->attribute("GlobalIds").value_or("");
         if (part_ != Part::points) return read_arrays(*data, grid.point_count(), grid.has_steps, grid.point_arrays);
-        for (const std::size_t i : data->children) {
-            const std::string name(tree_.elements[i].attribute("Name").value_or(""));
-            if (!name.empty()) grid.unread_arrays.push_back(name);
-        }
+        grid.unread_arrays = names_of(*data);
         return Done{};
+    }
+
+    std::vector<std::string> names_of(const XmlElement& data) const {
+        std::vector<std::string> names;
+        for (const std::size_t i : data.children) {
+            const std::string_view name = tree_.elements[i].attribute("Name").value_or("");
+            if (!name.empty()) names.emplace_back(name);
+        }
+        return names;
     }
 
     const XmlElement* array_named(const XmlElement* in, std::string_view name) const {
@@ -104,18 +121,17 @@ private:
     }
 
     /// The cells of a section, behind those that there are. Types are read where the section has them.
-    Status read_cells(const XmlElement& piece, const char* section, std::size_t count, RawGrid& grid) {
+    Status read_section(const XmlElement& piece, const char* section, std::size_t count, RawGrid& grid) const {
         if (count == 0) return Done{};
         const XmlElement* const cells = tree_.child(piece, section);
         const XmlElement* const connectivity = array_named(cells, "connectivity");
         const XmlElement* const offsets = array_named(cells, "offsets");
         const XmlElement* const types = array_named(cells, "types");
-        if (connectivity == nullptr || offsets == nullptr || (types == nullptr && !is_polygons_)) {
+        if (connectivity == nullptr || offsets == nullptr || (types == nullptr && !is_polygons_))
             return tree_.error(
                 piece, "the cells of a piece",
                 is_polygons_ ? "arrays connectivity and offsets" : "arrays connectivity, offsets and types",
                 is_polygons_ ? "not both" : "not all three");
-        }
         if (!is_polygons_) {
             if (Status s = arrays_.read(*types, "the types of cells", count, grid.types); !s) return s;
         }
@@ -123,10 +139,9 @@ private:
         if (Status s = arrays_.read(*offsets, "the offsets of cells", count, grid.ends); !s) return s;
         std::int64_t end = 0;
         for (std::size_t i = cells_before; i < grid.ends.size(); ++i) {
-            if (grid.ends[i] < end) {
+            if (grid.ends[i] < end)
                 return tree_.error(*offsets, "the offsets of cells", "none below the one before it",
                                    std::to_string(grid.ends[i]) + " after " + std::to_string(end));
-            }
             end = grid.ends[i];
             grid.ends[i] += static_cast<std::int64_t>(nodes_before);
         }
@@ -141,7 +156,7 @@ private:
                            std::to_string(grid.connectivity[wrong]));
     }
 
-    Status read_polygons(const XmlElement& piece, std::size_t before, RawGrid& grid) {
+    Status read_polygons(const XmlElement& piece, std::size_t before, RawGrid& grid) const {
         constexpr std::array<std::pair<const char*, const char*>, section_count> sections{
             {{"Verts", "NumberOfVerts"},
              {"Lines", "NumberOfLines"},
@@ -154,21 +169,13 @@ private:
             if (!count) return count.error();
             std::size_t cell = grid.ends.size();
             auto end = static_cast<std::int64_t>(grid.connectivity.size());
-            if (Status s = read_cells(piece, name, *count, grid); !s) return s;
+            if (Status s = read_section(piece, name, *count, grid); !s) return s;
             for (; cell < grid.ends.size(); ++cell) {
                 grid.types.push_back(type_in(static_cast<Section>(i), grid.ends[cell] - end));
                 end = grid.ends[cell];
             }
         }
         return Done{};
-    }
-
-    void note_loose(const XmlElement& data, RawGrid& grid) const {
-        if (data.name != "FieldData") return;
-        for (const std::size_t i : data.children) {
-            const std::string name(tree_.elements[i].attribute("Name").value_or(""));
-            if (!name.empty() && !is_time(name)) grid.loose_arrays.push_back(name);
-        }
     }
 
     /// Those of PointData or CellData.
@@ -187,10 +194,9 @@ private:
             }
             RawArray read;
             read.name = array.attribute("Name").value_or("");
-            if (!seen.insert(read.name).second) {
+            if (!seen.insert(read.name).second)
                 return tree_.error(array, "two arrays in one " + data.name, "different names",
                                    in_quotes(read.name) + " twice", "give them different names");
-            }
             if (Status s = read_array(array, data.name == "PointData", count, read); !s) return s;
             arrays.push_back(std::move(read));
         }
@@ -219,25 +225,6 @@ private:
             return arrays_.read_texts(array, what, count, to.values.emplace<std::vector<std::string>>());
         }
         return Done{};
-    }
-
-    /// Grids have one piece, or the points on the borders of pieces would be there twice.
-    Result<RawGrid> read_structured(const XmlElement& data, const std::string& type) {
-        RawGrid grid;
-        const XmlElement* piece = nullptr;
-        for (const std::size_t i : data.children) {
-            note_loose(tree_.elements[i], grid);
-            if (tree_.elements[i].name != "Piece") continue;
-            if (piece != nullptr) {
-                return tree_.error(tree_.elements[i], "a grid in several pieces", "one piece", "more",
-                                   "write it again in one piece, as ParaView's Merge Blocks or VTK's writer do");
-            }
-            piece = &tree_.elements[i];
-        }
-        if (piece == nullptr) return grid;
-        if (Status s = read_grid_points(arrays_, data, *piece, type, grid); !s) return s.error();
-        if (Status s = read_point_arrays(*piece, grid); !s) return s.error();
-        return grid;
     }
 
     const XmlTree& tree_;

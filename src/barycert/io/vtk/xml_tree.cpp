@@ -17,8 +17,8 @@ public:
     ElementParser() : parser_(XML_ParserCreate(nullptr)) {
         if (parser_ == nullptr) throw std::bad_alloc();
         XML_SetUserData(parser_, this);
-        XML_SetElementHandler(parser_, &ElementParser::start, &ElementParser::end);
-        XML_SetStartDoctypeDeclHandler(parser_, &ElementParser::doctype);
+        XML_SetElementHandler(parser_, start, end);
+        XML_SetStartDoctypeDeclHandler(parser_, doctype);
     }
     ~ElementParser() { XML_ParserFree(parser_); }
     ElementParser(const ElementParser&) = delete;
@@ -60,11 +60,19 @@ private:
     static void XMLCALL start(void* data, const XML_Char* name, const XML_Char** attributes) {
         auto& self = *static_cast<ElementParser*>(data);
         try {
-            self.start_element(name, attributes);
+            XmlElement element;
+            element.name = name;
+            element.begin = element.end = self.place();
+            for (; attributes[0] != nullptr; attributes += 2)
+                element.attributes.emplace_back(attributes[0], attributes[1]);
+            if (!self.open_.empty()) self.elements[self.open_.back()].children.push_back(self.elements.size());
+            self.at_appended_data_ = element.name == "AppendedData" && self.open_.size() == 1;
+            self.open_.push_back(self.elements.size());
+            self.elements.push_back(std::move(element));
         } catch (const std::bad_alloc&) {  // no exception may pass through expat
             self.out_of_memory_ = true;
-            XML_StopParser(self.parser_, XML_FALSE);
         }
+        if (self.at_appended_data_ || self.out_of_memory_) XML_StopParser(self.parser_, XML_FALSE);
     }
     static void XMLCALL end(void* data, const XML_Char*) {
         auto& self = *static_cast<ElementParser*>(data);
@@ -76,18 +84,6 @@ private:
         auto& self = *static_cast<ElementParser*>(data);
         self.has_doctype_ = true;
         XML_StopParser(self.parser_, XML_FALSE);
-    }
-
-    void start_element(const XML_Char* name, const XML_Char** attributes) {
-        XmlElement element;
-        element.name = name;
-        element.begin = element.end = place();
-        for (; attributes[0] != nullptr; attributes += 2) element.attributes.emplace_back(attributes[0], attributes[1]);
-        if (!open_.empty()) elements[open_.back()].children.push_back(elements.size());
-        at_appended_data_ = element.name == "AppendedData" && open_.size() == 1;
-        open_.push_back(elements.size());
-        elements.push_back(std::move(element));
-        if (at_appended_data_) XML_StopParser(parser_, XML_FALSE);
     }
 
     XML_Parser parser_;
@@ -156,14 +152,14 @@ bool parse_tags(std::string_view bytes, ElementParser& parser) {
 
 Error not_well_formed(std::string_view bytes, const std::string& path, const ElementParser& parser) {
     const std::size_t line = line_of(bytes, parser.place());
-    if (!parser.has_doctype())
-        return {"not a well-formed XML file", path, line, {}, parser.fault(), "write it again: it may be cut off"};
-    return {"a document type in an XML file of VTK",
-            path,
-            line,
-            "none: entities that it defines could grow without bound",
-            "<!DOCTYPE",
-            "remove it"};
+    if (parser.has_doctype())
+        return {"a document type in an XML file of VTK",
+                path,
+                line,
+                "none: entities that it defines could grow without bound",
+                "<!DOCTYPE",
+                "remove it"};
+    return {"not a well-formed XML file", path, line, {}, parser.fault(), "write it again: it may be cut off"};
 }
 
 }  // namespace
@@ -209,9 +205,8 @@ Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path) {
     if (mark != std::string_view::npos && tree.appended[mark] == '_') tree.appended.remove_prefix(mark + 1);
     const std::optional<std::string_view> encoding = element.attribute("encoding");
     tree.appended_raw = encoding == "raw";
-    if (encoding.has_value() && encoding != "raw" && encoding != "base64") {
+    if (encoding.has_value() && encoding != "raw" && encoding != "base64")
         return tree.error(element, "the encoding of the appended data", "raw or base64", std::string(*encoding));
-    }
     return tree;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <limits>
 #include <utility>
 
 #include "barycert/base/output_file.hpp"
@@ -28,12 +29,6 @@ Compressor compressor_of(VtkData data) {
            : data == VtkData::lz4  ? Compressor::lz4
            : data == VtkData::lzma ? Compressor::lzma
                                    : Compressor::none;
-}
-
-std::string_view name_of_compressor(Compressor compressor) {
-    constexpr std::array<std::string_view, 4> names{"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor",
-                                                    "vtkLZMADataCompressor"};
-    return names[static_cast<std::size_t>(compressor)];
 }
 
 template <class T>
@@ -139,7 +134,7 @@ bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile&
     PatchedFile file(target);
     std::vector<std::uint64_t> places;
     write_elements(
-        f, name_of_compressor(compressor), [&](std::string_view text) { file.write(text); },
+        f, compressor_names[static_cast<std::size_t>(compressor)], [&](std::string_view text) { file.write(text); },
         [&](const OutArray&) {
             file.write(begin_of_offset);
             places.push_back(file.size());
@@ -195,6 +190,24 @@ Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
         return file_error(path, "too little memory to compress the data", {}, {}, "free some memory");
     }
     return file.commit();
+}
+
+Status write_grid(OutGrid grid, const std::string& path, VtkData data) {
+    const auto end = [nodes = grid.nodes](std::size_t i) { return nodes * (i + 1); };
+    const auto type = [own = grid.type](std::size_t) { return own; };
+    const bool wide = grid.nodes * grid.cells > std::numeric_limits<std::int32_t>::max();
+    return write_xml({.data_set = "UnstructuredGrid",
+                      .piece = " NumberOfPoints=\"" + std::to_string(grid.points.count / 3) + "\" NumberOfCells=\"" +
+                               std::to_string(grid.cells) + "\"",
+                      .sections = {{"PointData", std::move(grid.point_arrays)},
+                                   {"CellData", std::move(grid.cell_arrays)},
+                                   {"Points", {std::move(grid.points)}},
+                                   {"Cells",
+                                    {std::move(grid.connectivity),
+                                     wide ? array_made<std::int64_t>("offsets", grid.cells, end)
+                                          : array_made<std::int32_t>("offsets", grid.cells, end),
+                                     array_made<std::uint8_t>("types", grid.cells, type)}}}},
+                     path, data);
 }
 
 }  // namespace barycert::io

@@ -1,17 +1,10 @@
 // What an audit found, for people.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "barycert/audit_report.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/report/audit/audit_pictures.hpp"
 #include "barycert/report/audit/audit_words.hpp"
-#include "barycert/report/common/document.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
 

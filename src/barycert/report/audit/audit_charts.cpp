@@ -1,17 +1,11 @@
 // Accuracy against speed, and sizes of errors, as markup of the audit's page.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "barycert/base/decades.hpp"
-#include "barycert/report/audit/audit_pictures.hpp"
 #include "barycert/report/audit/audit_words.hpp"
-#include "barycert/report/common/html.hpp"
 #include "barycert/report/common/picture.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
 namespace {
@@ -62,11 +56,6 @@ struct ParetoAxes {
     double none = 0;
 };
 
-std::string without_simplex(const std::string& name) {
-    const std::size_t dot = name.find('.');
-    return dot == std::string::npos ? name : name.substr(dot + 1);
-}
-
 std::string figure_of(const std::string& kind, const std::vector<const KernelResult*>& kernels) {
     const ParetoAxes axes(kernels);
     const std::vector<const KernelResult*> front = front_of(kernels);
@@ -87,20 +76,15 @@ std::string figure_of(const std::string& kind, const std::vector<const KernelRes
         svg.dot(p, best ? 5 : 4, best ? "dot front" : "dot",
                 fmt::format("{}: {} ns, {} % wrong", k->kernel.name, brief_time(k->ns),
                             percent(k->total.wrong_cases, k->total.cases)));
-        if (best) labels.push_back({p, without_simplex(k->kernel.name), "front"});
+        if (best) labels.push_back({p, k->kernel.name.substr(k->kernel.name.find('.') + 1), "front"});
     }
     place_labels(svg, std::move(labels), axes.y.to);
-    std::string text;
-    for (const KernelResult* k : front)
-        text += fmt::format("{}{} ({} ns, {} %)", text.empty() ? "" : "; ", k->kernel.name, brief_time(k->ns),
-                            percent(k->total.wrong_cases, k->total.cases));
+    const std::string text = joined(front, "; ", [](const KernelResult* k) {
+        return fmt::format("{} ({} ns, {} %)", k->kernel.name, brief_time(k->ns),
+                           percent(k->total.wrong_cases, k->total.cases));
+    });
     return fmt::format("<figure><h3>{}</h3>{}<figcaption>Front: {}.</figcaption></figure>\n", html_escaped(kind),
                        std::move(svg).finish(), html_escaped(text));
-}
-
-std::string error_bin_label(std::size_t bin) {
-    if (bin == 0) return "no error";
-    return bin == ErrorSizes::bins - 1 ? "no finite answer" : base::decade_label(bin);
 }
 
 /// Bars on a logarithmic axis, for few cases with large errors are what matters.
@@ -115,17 +99,18 @@ std::string error_histogram(const KernelResult& k) {
         if (e.counts[b] == 0) continue;
         const double tall = std::max(scale * std::log10(2.0 * static_cast<double>(e.counts[b])), 1.0);
         svg.bar({wide * static_cast<double>(b) + 0.5, histogram_floor - tall}, wide - 1, tall,
-                b >= 19 ? "bar bad" : "bar", fmt::format("{}: {} cases", error_bin_label(b), e.counts[b]));
+                b >= 19 ? "bar bad" : "bar",
+                fmt::format("{}: {} cases",
+                            b == 0                      ? "no error"
+                            : b == ErrorSizes::bins - 1 ? "no finite answer"
+                                                        : base::decade_label(b),
+                            e.counts[b]));
     }
     svg.line({0, histogram_floor}, {histogram_width, histogram_floor}, "axis");
-    const auto label = [&](std::size_t bin, const char* text, std::string_view style) {
-        svg.text({wide * static_cast<double>(bin), histogram_height - 4}, text, style);
-    };
-    label(0, "0", "tick");
-    label(3, "1e-16", "tick m");
-    label(11, "1e-8", "tick m");
-    label(19, "1", "tick m");
-    label(ErrorSizes::bins, "none", "tick e");
+    for (const auto& [bin, text, style] :
+         {std::tuple(0.0, "0", "tick"), {3, "1e-16", "tick m"}, {11, "1e-8", "tick m"}, {19, "1", "tick m"}})
+        svg.text({wide * bin, histogram_height - 4}, text, style);
+    svg.text({histogram_width, histogram_height - 4}, "none", "tick e");
     return std::move(svg).finish();
 }
 

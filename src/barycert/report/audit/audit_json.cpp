@@ -1,9 +1,10 @@
-// What programs read of audits, of the catalogue and of the families.
+// What programs read of audits, of the catalogue and of the families; what systems that run audits are told.
 
-#include "barycert/audit/witness_json.hpp"
+#include <algorithm>
+
+#include "barycert/audit/json_members.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/json_text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 
 namespace barycert {
@@ -64,6 +65,27 @@ Json result_json(const AuditReport& r, const KernelResult& k) {
     return j;
 }
 
+using State = CiOutcome::State;
+
+std::string meaning_of(const std::string& rule) {
+    if (const auto finding = finding_named(rule))
+        return std::string(finding_texts[static_cast<std::size_t>(*finding)].meaning);
+    return rule + " of a kernel, over the cases of its families";
+}
+
+/// What is worse in a family than in the baseline, and the first such figure; empty if nothing is.
+std::pair<std::string, std::string> worse_in(const BaselineComparison& comparison, const std::string& kernel,
+                                             const std::string& family) {
+    std::string message, first;
+    for (const BaselineChange& c : comparison.worse) {
+        if (c.kernel != kernel || c.family != family) continue;
+        if (first.empty()) first = c.figure;
+        message += fmt::format("{}{} {} -> {}", message.empty() ? "worse than the baseline: " : ", ", c.figure,
+                               base::shortest(c.before), base::shortest(c.after));
+    }
+    return {message, first};
+}
+
 }  // namespace
 
 std::string audit_json(const AuditReport& r) {
@@ -90,6 +112,73 @@ std::string kernels_json(const std::vector<Kernel>& kernels) {
 std::string families_json(const std::vector<Family>& families) {
     const Json j = record("schema", audit_schema, "families", list(families, family_json));
     return base::json_text(j, 1);
+}
+
+CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,
+                        const BaselineComparison* comparison, const std::map<std::string, std::string>& artifacts) {
+    const ExactEnvironment environment;
+    CiReport ci{"barycert audit", "function", report.environment, report.seconds};
+    for (const KernelResult& k : report.kernels) {
+        const auto artifact = artifacts.find(k.kernel.name);
+        const auto add = [&](std::string what, const std::string& rule, State state, std::string message) {
+            ci.outcomes.push_back({k.kernel.name, std::move(what), rule, meaning_of(rule), state, std::move(message),
+                                   artifact == artifacts.end() ? "" : artifact->second});
+        };
+        const KernelStatistics& s = k.total;
+        for (std::size_t f = 0; f < finding_count; ++f) {
+            const FindingText& text = finding_texts[f];
+            if (s.counts[f] != 0)
+                add(std::string(text.name), std::string(text.name), State::noted,
+                    fmt::format("{} times in {} cases: {}", s.counts[f], s.cases, text.meaning));
+        }
+        if (s.not_run != 0)
+            add("not run", "not_run", State::noted,
+                fmt::format("{} cases were not run: the kernel had been given up", s.not_run));
+        else if (s.wrong_cases == 0)
+            add("no finding", "wrong_cases", State::passed, "");
+        AuditReport one;
+        one.kernels.push_back(k);
+        for (const Threshold& rule : rules) {
+            const std::vector<Violation> broken = violations(one, {rule});
+            const std::string limit = base::shortest(rule.limit);
+            add(fmt::format("{} <= {}", rule.name, limit), rule.name, broken.empty() ? State::passed : State::failed,
+                broken.empty() ? ""
+                               : fmt::format("{} = {}, limit {}", rule.name, base::shortest(broken[0].value), limit));
+        }
+        for (std::size_t i = 0; comparison != nullptr && i < k.families.size(); ++i) {
+            const std::string& family = report.families[k.families[i].family].name;
+            const auto [message, first] = worse_in(*comparison, k.kernel.name, family);
+            add("baseline, " + family, first.empty() ? "wrong_cases" : first,
+                first.empty() ? State::passed : State::failed, message);
+        }
+    }
+    return ci;
+}
+
+std::string baseline_text(const BaselineComparison& comparison, const std::string& path) {
+    const ExactEnvironment environment;
+    constexpr std::size_t most = 20;
+    std::string out;
+    const auto changes = [&](const char* word, const std::vector<BaselineChange>& list) {
+        for (std::size_t i = 0; i < std::min(most, list.size()); ++i) {
+            const BaselineChange& c = list[i];
+            out += fmt::format("{}: {} in {}: {} {} -> {}\n", word, c.kernel, c.family, c.figure,
+                               base::shortest(c.before), base::shortest(c.after));
+        }
+        if (list.size() > most) out += fmt::format("{}: and {} more\n", word, list.size() - most);
+    };
+    changes("worse", comparison.worse);
+    changes("better", comparison.better);
+    out += fmt::format("baseline {}: {} figures worse, {} better, in {} pairs of kernel and family",
+                       base::printable(path), comparison.worse.size(), comparison.better.size(), comparison.compared);
+    if (comparison.given_up != 0)
+        out += fmt::format("; in {} pairs the kernel was given up, and no figure but not_run is compared",
+                           comparison.given_up);
+    if (comparison.not_now != 0)
+        out += fmt::format("; {} pairs of the baseline are not in this audit", comparison.not_now);
+    if (comparison.not_before != 0)
+        out += fmt::format("; {} pairs of this audit are not in the baseline", comparison.not_before);
+    return out + "\n";
 }
 
 }  // namespace barycert

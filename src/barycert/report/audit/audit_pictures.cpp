@@ -1,16 +1,14 @@
 // Pictures of signs, and maps of meshes, as markup of the audit's page.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/png/indexed_png.hpp"
-#include "barycert/report/audit/audit_pictures.hpp"
-#include "barycert/report/common/html.hpp"
+#include "barycert/io/png/png_file.hpp"
+#include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/common/picture.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
@@ -140,15 +138,13 @@ Result<std::string> map_figure(const MeshMap& map, const MeshMap::OfKernel& k, c
 }
 
 std::string what_is_seen(const MeshMap& map) {
-    constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+    const auto axis_name = [](int axis) { return "xyz"[static_cast<std::size_t>(axis)]; };
     const auto range = [&](int axis, std::size_t side) {
-        return fmt::format("{} from {:.6g} to {:.6g}", axes[static_cast<std::size_t>(axis)], map.low[side],
-                           map.high[side]);
+        return fmt::format("{} from {:.6g} to {:.6g}", axis_name(axis), map.low[side], map.high[side]);
     };
     const std::string across = range(map.axis == 0 ? 1 : 0, 0), up = range(map.axis < 0 || map.axis == 2 ? 1 : 2, 1);
     const std::string section =
-        map.axis < 0 ? "the mesh"
-                     : fmt::format("section at {} = {:.6g}", axes[static_cast<std::size_t>(map.axis)], map.at);
+        map.axis < 0 ? "the mesh" : fmt::format("section at {} = {:.6g}", axis_name(map.axis), map.at);
     return fmt::format("{}, {} to the right, {} upwards; {} cells are seen", section, across, up, map.cells.size());
 }
 

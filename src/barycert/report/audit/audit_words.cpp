@@ -1,38 +1,51 @@
 #include "barycert/report/audit/audit_words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-
-#include "barycert/base/text.hpp"
-#include "barycert/report/common/terminal_text.hpp"
+#include <numeric>
 
 namespace barycert::report {
 namespace {
 
 std::uint64_t exactly(const KernelStatistics& s, Region r) {
-    std::uint64_t n = 0;
-    for (const std::uint64_t claimed : s.confusion[static_cast<std::size_t>(r)]) n += claimed;
-    return n;
-}
-
-std::string names_of(const AuditReport& report, auto which) {
-    std::string names;
-    for (const KernelResult& k : report.kernels) {
-        if (which(k)) names += (names.empty() ? "" : ", ") + k.kernel.name;
-    }
-    return names;
-}
-
-std::size_t wrong_kernels(const AuditReport& report) {
-    return static_cast<std::size_t>(std::count_if(report.kernels.begin(), report.kernels.end(),
-                                                  [](const auto& k) { return k.total.wrong_cases != 0; }));
+    const auto& claimed = s.confusion[static_cast<std::size_t>(r)];
+    return std::accumulate(claimed.begin(), claimed.end(), std::uint64_t{0});
 }
 
 /// All cases were run, and none has a finding.
 bool without_finding(const KernelStatistics& s) {
     return s.wrong_cases == 0 && s.not_run == 0;
+}
+
+/// What is wrong with a kernel, how often and by how much.
+std::string kernel_sentence(const AuditReport& report, const KernelResult& k) {
+    const KernelStatistics& s = k.total;
+    const Share out = inside_called_outside(s), in = outside_called_inside(s), none = unanswered(s);
+    std::vector<std::string> parts;
+    if (in.whole != 0) parts.push_back(fmt::format("takes {} % of the points outside for inside", percent(in)));
+    if (out.whole != 0)
+        parts.push_back(in.whole == 0 ? fmt::format("takes {} % of the points inside for outside", percent(out))
+                                      : fmt::format("{} % of those inside for outside", percent(out)));
+    if (none.part != 0) parts.push_back(fmt::format("gives no finite answer to {} % of the cases", percent(none)));
+    parts.push_back(incidents(s));
+    const double worst = s.errors.worst.value, meshes = worst_on_meshes(report, k), usual = s.errors.within(0.99);
+    if (worst == 0 && none.part == 0) {
+        parts.emplace_back("every weight is correctly rounded");
+    } else if (worst >= 0) {
+        parts.push_back(usual == 0
+                            ? "99 % of its answers have no error"
+                            : fmt::format("99 % of its answers are off by {}",
+                                          std::isinf(usual) ? "up to 100 and more" : "less than " + brief(usual)));
+        parts.push_back("the worst is off by " + brief(worst));
+        if (meshes >= 0 && meshes != worst) parts.push_back("the worst on meshes by " + brief(meshes));
+    }
+    return joined(parts, "; ", [](const std::string& part) { return part; });
+}
+
+/// The user's libraries, and how they are run and judged.
+std::string kernel_words(const TerminalStyle& style) {
+    return joined(style.library_arguments, "", [](const auto& l) { return " --kernel-library " + shell_word(l); }) +
+           style.kernel_arguments;
 }
 
 }  // namespace
@@ -93,14 +106,13 @@ std::string usual_error(const KernelStatistics& s) {
 }
 
 std::string incidents(const KernelStatistics& s) {
-    std::string out;
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(Finding::printed); ++i) {
-        const auto f = static_cast<Finding>(i);
-        if (count_of(s, f) != 0)
-            out += fmt::format("{}{} in {} cases", out.empty() ? "" : ", ", name(f), count_of(s, f));
-    }
-    if (s.not_run != 0) out += fmt::format("{}given up: {} cases were not run", out.empty() ? "" : "; ", s.not_run);
-    return out;
+    const std::string all = joined(std::span(finding_texts).first(static_cast<std::size_t>(Finding::printed) + 1), ", ",
+                                   [&](const FindingText& text) {
+                                       const std::uint64_t n = count_of(s, *finding_named(text.name));
+                                       return n == 0 ? "" : fmt::format("{} in {} cases", text.name, n);
+                                   });
+    return s.not_run == 0 ? all
+                          : fmt::format("{}{}given up: {} cases were not run", all, all.empty() ? "" : "; ", s.not_run);
 }
 
 bool any_wrong(const AuditReport& report) {
@@ -109,81 +121,51 @@ bool any_wrong(const AuditReport& report) {
 }
 
 std::string verdict_sentence(const AuditReport& report) {
-    const std::size_t all = report.kernels.size(), wrong = wrong_kernels(report);
+    const auto all = std::ssize(report.kernels),
+               wrong = std::count_if(report.kernels.begin(), report.kernels.end(),
+                                     [](const auto&k) { return k.total.wrong_cases != 0; });
     if (all == 1) {
         const KernelResult& k = report.kernels.front();
-        const std::string& name = k.kernel.name;
         const std::string left_out = k.total.not_run == 0 ? "" : fmt::format(", {} not run", k.total.not_run);
-        return wrong == 0 ? fmt::format("{}: no wrong answer in {} cases{}", name, k.total.cases, left_out)
-                          : fmt::format("{} is wrong in {} % of {} cases", name,
+        return wrong == 0 ? fmt::format("{}: no wrong answer in {} cases{}", k.kernel.name, k.total.cases, left_out)
+                          : fmt::format("{} is wrong in {} % of {} cases", k.kernel.name,
                                         percent(k.total.wrong_cases, k.total.cases), k.total.cases);
     }
-    if (wrong == 0)
-        return fmt::format("none of {} kernels gives a wrong answer{}", all,
-                           any_wrong(report) ? ", but not all cases were run" : "");
-    return fmt::format("{} of {} kernels give wrong answers", wrong, all);
+    if (wrong != 0) return fmt::format("{} of {} kernels give wrong answers", wrong, all);
+    return fmt::format("none of {} kernels gives a wrong answer{}", all,
+                       any_wrong(report) ? ", but not all cases were run" : "");
 }
-
-namespace {
-
-/// What is wrong with a kernel, how often and by how much.
-std::string kernel_sentence(const AuditReport& report, const KernelResult& k) {
-    const KernelStatistics& s = k.total;
-    const Share out = inside_called_outside(s), in = outside_called_inside(s), none = unanswered(s);
-    std::string text;
-    const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-    if (in.whole != 0) add(fmt::format("takes {} % of the points outside for inside", percent(in)));
-    if (out.whole != 0)
-        add(fmt::format("{}{} % of {} inside for outside", in.whole == 0 ? "takes " : "", percent(out),
-                        in.whole == 0 ? "the points" : "those"));
-    if (none.part != 0) add(fmt::format("gives no finite answer to {} % of the cases", percent(none)));
-    if (const std::string beside = incidents(s); !beside.empty()) add(beside);
-    const double worst = s.errors.worst.value, meshes = worst_on_meshes(report, k);
-    if (worst == 0 && none.part == 0) {
-        add("every weight is correctly rounded");
-    } else if (worst >= 0) {
-        const double usual = s.errors.within(0.99);
-        add(usual == 0 ? "99 % of its answers have no error"
-                       : fmt::format("99 % of its answers are off by {}",
-                                     std::isinf(usual) ? "up to 100 and more" : "less than " + brief(usual)));
-        add(fmt::format("the worst is off by {}", brief(worst)));
-        if (meshes >= 0 && meshes != worst) add(fmt::format("the worst on meshes by {}", brief(meshes)));
-    }
-    return text;
-}
-
-}  // namespace
 
 std::vector<std::string> verdict_details(const AuditReport& report) {
-    std::vector<std::string> lines;
+    const KernelResult& first = report.kernels.front();
     if (report.kernels.size() == 1) {
-        std::string text = kernel_sentence(report, report.kernels.front());
+        std::string text = kernel_sentence(report, first);
         if (text.empty()) return {};
         text.front() = static_cast<char>(text.front() >= 'a' && text.front() <= 'z' ? text.front() - 32 : text.front());
         return {text + "."};
     }
-    if (any_wrong(report)) {
-        const KernelResult& k = report.kernels.front();
-        lines.push_back(fmt::format("Worst: {}, wrong in {} % of its cases: {}.", k.kernel.name,
-                                    percent(k.total.wrong_cases, k.total.cases), kernel_sentence(report, k)));
-    }
-    const std::string broken =
-        names_of(report, [](const KernelResult& k) { return count_of(k.total, Finding::false_certificate) != 0; });
-    if (!broken.empty()) lines.push_back("Certified and wrong all the same: " + broken + ".");
-    const std::string right = names_of(report, [](const KernelResult& k) { return perfect(k.total); });
-    if (!right.empty()) lines.push_back("Right in every case, to the last bit: " + right + ".");
-    const std::string clean =
-        names_of(report, [](const KernelResult& k) { return without_finding(k.total) && !perfect(k.total); });
-    if (!clean.empty()) lines.push_back("No wrong sign or region, but rounding errors: " + clean + ".");
+    std::vector<std::string> lines;
+    if (any_wrong(report))
+        lines.push_back(fmt::format("Worst: {}, wrong in {} % of its cases: {}.", first.kernel.name,
+                                    percent(first.total.wrong_cases, first.total.cases),
+                                    kernel_sentence(report, first)));
+    const auto tell = [&](const char* what, auto which) {
+        const std::string names = joined(report.kernels, ", ", [&](const KernelResult& k) {
+            return which(k.total) ? k.kernel.name : std::string();
+        });
+        if (!names.empty()) lines.push_back(fmt::format("{}: {}.", what, names));
+    };
+    tell("Certified and wrong all the same",
+         [](const KernelStatistics& s) { return count_of(s, Finding::false_certificate) != 0; });
+    tell("Right in every case, to the last bit", perfect);
+    tell("No wrong sign or region, but rounding errors",
+         [](const KernelStatistics& s) { return without_finding(s) && !perfect(s); });
     return lines;
 }
 
 std::string regions_text(const AuditReport& report) {
-    std::string regions;
-    for (const Region r : all_regions)
-        regions += fmt::format("{}{} {}", r == Region::interior ? "" : ", ",
-                               report.regions[static_cast<std::size_t>(r)], name(r));
-    return regions;
+    return joined(all_regions, ", ",
+                  [&](Region r) { return fmt::format("{} {}", report.regions[static_cast<std::size_t>(r)], name(r)); });
 }
 
 std::string how_it_was_made(const AuditReport& report) {
@@ -215,17 +197,6 @@ std::string shows(const Witness& w) {
     return std::isfinite(w.magnitude) ? "a weight off by " + brief(w.magnitude) : "a weight that is not finite";
 }
 
-namespace {
-
-/// The user's libraries, and how they are run and judged.
-std::string kernel_words(const TerminalStyle& style) {
-    std::string words;
-    for (const std::string& library : style.library_arguments) words += " --kernel-library " + shell_word(library);
-    return words + style.kernel_arguments;
-}
-
-}  // namespace
-
 std::string replay_from_file(const std::string& kernel, const std::string& reason, const TerminalStyle& style) {
     return fmt::format("{} replay {}{} --kernel {} --reason {}", style.command, shell_word(style.witness_path),
                        kernel_words(style), shell_word(kernel), reason);
@@ -238,9 +209,8 @@ std::string replay_command(const AuditReport& report, const KernelResult& k, con
     std::string command = style.command + " replay" + kernel_words(style);
     const auto family =
         std::find_if(report.families.begin(), report.families.end(), [&](const auto& f) { return f.name == w.family; });
-    if (family != report.families.end() && family->needs_mesh) {
-        for (const std::string& mesh : style.mesh_arguments) command += " --mesh " + shell_word(mesh);
-    }
+    if (family != report.families.end() && family->needs_mesh)
+        command += joined(style.mesh_arguments, "", [](const auto& mesh) { return " --mesh " + shell_word(mesh); });
     command += fmt::format(" --kernel {} --family {} --case {} --seed {}", shell_word(k.kernel.name),
                            shell_word(w.family), w.index, w.seed);
     // The answers show what else was found; these may not come again.
@@ -249,16 +219,13 @@ std::string replay_command(const AuditReport& report, const KernelResult& k, con
 }
 
 std::string oracle_line(const OracleCounts& o) {
-    std::string decided, confirmed;
-    const auto add = [](std::string& to, std::uint64_t count, const std::string& text) {
-        if (count != 0) to += fmt::format("{}{} by {}", to.empty() ? "" : ", ", count, text);
-    };
-    add(decided, o.core, "barycert's core");
-    add(decided, o.integers, fmt::format("integers ({} of them wide)", o.wide));
-    add(decided, o.cgal, "CGAL");
-    add(confirmed, o.also_integers, "integers");
-    add(confirmed, o.also_cgal, "CGAL");
-    return "decided: " + decided + (confirmed.empty() ? "" : "; confirmed: " + confirmed + ", 0 disagreements");
+    const std::string confirmed = clauses({{o.also_integers, "by integers"}, {o.also_cgal, "by CGAL"}}, ", ");
+    return "decided: " +
+           clauses({{o.core, "by barycert's core"},
+                    {o.integers, fmt::format("by integers ({} of them wide)", o.wide)},
+                    {o.cgal, "by CGAL"}},
+                   ", ") +
+           (confirmed.empty() ? "" : "; confirmed: " + confirmed + ", 0 disagreements");
 }
 
 Json oracles_json(OracleChoice choice, const OracleCounts& o) {

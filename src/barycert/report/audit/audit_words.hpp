@@ -1,9 +1,5 @@
-/// The words of reports on audited kernels.
+/// The words and the pictures of reports on audited kernels.
 #pragma once
-
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "barycert/audit_report.hpp"
 #include "barycert/report/common/document.hpp"
@@ -70,5 +66,20 @@ std::string oracle_line(const OracleCounts& o);
 void tell_others(Document& d, const std::vector<OtherResults>& others);
 
 Json oracles_json(OracleChoice choice, const OracleCounts& o);
+
+// Pictures of a page, as markup.
+
+/// A figure for each kind of simplex with times: share of wrong cases over time, and the front of the best.
+std::string pareto_figures(const AuditReport& report);
+
+/// A small histogram a kernel: cases by the size of the error.
+std::string error_histograms(const AuditReport& report);
+
+/// The exact picture of each kind of case, and beside it those of the kernels; the same pictures are shown once.
+/// Error: a picture cannot be made.
+Result<std::string> sign_figures(const std::vector<SignPicture>& pictures);
+
+/// In which cells of the meshes kernels err. Error: a picture cannot be made.
+Result<std::string> map_figures(const AuditReport& report, const std::vector<MeshMap>& maps);
 
 }  // namespace barycert::report

@@ -1,8 +1,7 @@
 // Pictures that are files of their own: errors over condition numbers, and over sizes of triangles.
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "barycert/audit_report.hpp"
@@ -15,6 +14,30 @@ using namespace report;
 
 namespace {
 
+/// Of a picture that is a file of its own. Up to six curves with marks, in colours that most eyes tell apart (Okabe's
+/// and Ito's), classes k0 to k5, and in marks that differ without colour.
+constexpr std::string_view plot_style = R"(
+svg{font-family:Helvetica,Arial,"DejaVu Sans",sans-serif}
+text{font-size:13px;fill:#222}.m{text-anchor:middle}.e{text-anchor:end}
+.head{font-size:18px;font-weight:bold}.title{font-size:14px}.small{font-size:12px;fill:#555}
+path{fill:none;stroke-width:1.2px;stroke-linejoin:round}path.mark{stroke:none}
+.grid{stroke:#e4e4e4}.axis{stroke:#444}.median{stroke-dasharray:3 3}.worst{stroke-opacity:.6}
+.prediction{stroke:#000;stroke-width:2px}.level{stroke:#888;stroke-dasharray:8 4}
+path.k0{stroke:#d55e00}path.k1{stroke:#0072b2}path.k2{stroke:#009e73}
+path.k3{stroke:#cc79a7}path.k4{stroke:#e69f00}path.k5{stroke:#56b4e9}
+.k0.mark{fill:#d55e00}.k1.mark{fill:#0072b2}.k2.mark{fill:#009e73}
+.k3.mark{fill:#cc79a7}.k4.mark{fill:#e69f00}.k5.mark{fill:#56b4e9}
+)";
+
+constexpr std::array marks{Mark::up, Mark::circle, Mark::square, Mark::diamond, Mark::down, Mark::cross};
+constexpr std::size_t max_curves = marks.size();
+
+/// Numbers, not pixels. Names are shown without the simplex, which the title tells, and not too long.
+struct Curve {
+    std::string name, below;
+    std::vector<Pixel> line = {}, median = {};
+};
+
 /// The whole of such a picture: a title above, axes, a legend to the right, notes below.
 struct Plot {
     Axis x{.from = 76, .to = 700}, y{.from = 500, .to = 60};
@@ -22,18 +45,25 @@ struct Plot {
     double legend = 76;  ///< where its next entry stands
 
     explicit Plot(const std::string& title) : svg(980, 620, title, plot_style) { svg.text({70, 34}, title, "head"); }
-    void curve(std::size_t i, const std::vector<Pixel>& points, std::string_view style = {}) {
-        svg.path(points, fmt::format("{} {}", curve_style(i), style));
-        for (const Pixel& p : points) svg.mark(p, curve_mark(i), 3.4, curve_style(i));
-    }
-    /// Of a curve, with a second line; names are without the simplex, which the title tells, and not too long.
-    void entry(std::size_t i, const std::string& name, const std::string& below, std::string_view style = {}) {
-        svg.line({720, legend}, {748, legend}, fmt::format("{} {}", curve_style(i), style));
-        svg.mark({734, legend}, curve_mark(i), 4, curve_style(i));
-        const std::string rest = name.substr(name.find('.') + 1);
-        svg.text({758, legend + 4}, rest.size() <= 27 ? rest : rest.substr(0, 26) + "…", "title");
-        svg.text({758, legend + 20}, below, "small");
-        legend += 40;
+    /// The first on top; with a legend.
+    void curves(const std::vector<Curve>& all, std::string_view style = {}) {
+        const auto on_picture = [&](std::vector<Pixel> points) {
+            for (Pixel& p : points) p = {x.at(p.x), y.at(p.y)};
+            return points;
+        };
+        for (std::size_t i = all.size(); i-- > 0;) {
+            svg.path(on_picture(all[i].median), fmt::format("k{} median", i));
+            svg.path(on_picture(all[i].line), fmt::format("k{} {}", i, style));
+            for (const Pixel& p : on_picture(all[i].line)) svg.mark(p, marks[i], 3.4, fmt::format("k{}", i));
+        }
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            svg.line({720, legend}, {748, legend}, fmt::format("k{} {}", i, style));
+            svg.mark({734, legend}, marks[i], 4, fmt::format("k{}", i));
+            const std::string rest = all[i].name.substr(all[i].name.find('.') + 1);
+            svg.text({758, legend + 4}, rest.size() <= 27 ? rest : rest.substr(0, 26) + "…", "title");
+            svg.text({758, legend + 20}, all[i].below, "small");
+            legend += 40;
+        }
     }
     void entry(std::string_view style, std::string_view what) {
         svg.line({720, legend + 10}, {748, legend + 10}, style);
@@ -41,11 +71,8 @@ struct Plot {
         legend += 22;
     }
     void notes(const std::vector<std::string>& lines) {
-        double at = 568;
-        for (const std::string& line : lines) {
-            svg.text({70, at}, line, "small");
-            at += 18;
-        }
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            svg.text({70, 568 + 18 * static_cast<double>(i)}, lines[i], "small");
     }
 };
 
@@ -114,34 +141,28 @@ std::string condition_plot(const AuditReport& report) {
     x.low = Prediction::last_bits;
     y.low = min_bits - 1;
     y.high = 3;
+    std::vector<Curve> curves;
     for (const KernelResult* k : kernels) {
         cases = std::max(cases, k->prediction.cases());
+        Curve& curve =
+            curves.emplace_back(Curve{k->kernel.name, "worst factor " + factor_text(k->prediction.worst_factor())});
         for (const Prediction::Bin& bin : k->prediction.bins()) {
             x.low = std::min(x.low, static_cast<double>(bin.bits));
             bits = std::max(bits, bin.bits + 1.0);
             y.high = std::max(y.high, std::ceil(error_bits(bin.worst)) + 1);
+            curve.line.push_back({bin.bits + 0.5, error_bits(bin.worst)});
+            curve.median.push_back({bin.bits + 0.5, error_bits(bin.median)});
         }
     }
     x.high = std::max(bits, x.low + 4);
     x.title = "log2 κ: accuracy at risk from the cell's shape, bits";
     y.title = "log2 (error / 2⁻⁵³): accuracy lost, bits";
-    x.ticks = number_ticks(x.low, x.high);
-    y.ticks = number_ticks(y.low, y.high);
+    for (Axis* axis : {&x, &y})
+        for (const double t : round_ticks(axis->low, axis->high, 12)) axis->ticks.push_back({t, base::shortest(t)});
     draw_axes(plot.svg, x, y);
     draw_line_through(plot.svg, x, y, {0, 53}, {1, 53}, "level");
     draw_line_through(plot.svg, x, y, {0, 0}, {1, 1}, "prediction");
-    for (std::size_t i = kernels.size(); i-- > 0;) {
-        std::vector<Pixel> worst, median;
-        for (const Prediction::Bin& bin : kernels[i]->prediction.bins()) {
-            worst.push_back({x.at(bin.bits + 0.5), y.at(error_bits(bin.worst))});
-            median.push_back({x.at(bin.bits + 0.5), y.at(error_bits(bin.median))});
-        }
-        plot.svg.path(median, curve_style(i) + " median");
-        plot.curve(i, worst, "worst");
-    }
-    for (std::size_t i = 0; i < kernels.size(); ++i)
-        plot.entry(i, kernels[i]->kernel.name, "worst factor " + factor_text(kernels[i]->prediction.worst_factor()),
-                   "worst");
+    plot.curves(curves, "worst");
     plot.entry("axis", "marks: worst case of a bin");
     plot.entry("axis median", "median case of a bin");
     plot.entry("prediction", "prediction: κ · 2⁻⁵³");
@@ -159,19 +180,23 @@ std::string condition_plot(const AuditReport& report) {
 std::string drift_plot(const DriftReport& report) {
     const ExactEnvironment environment;
     Plot plot("Drift: error of an attribute over the size of the triangle");
-    std::vector<DriftCurve> curves = report.curves;
-    if (curves.size() > max_curves) curves.resize(max_curves);
     Axis &x = plot.x, &y = plot.y;
     x.low = 2;
     x.high = 12;
     y.low = no_error;
     y.high = 4;
-    for (const DriftCurve& curve : curves) {
-        for (const DriftPoint& p : curve.points) {
+    std::vector<Curve> curves;
+    for (const DriftCurve& of : report.curves) {
+        if (curves.size() == max_curves) break;
+        Curve& curve = curves.emplace_back(Curve{of.kernel.name, ""});
+        for (const DriftPoint& p : of.points) {
             x.low = std::min(x.low, std::log2(p.size));
             x.high = std::max(x.high, std::log2(p.size));
             y.high = std::max(y.high, std::ceil(log_error(p.worst_ulp)) + 1);
+            if (p.cases != 0) curve.line.push_back({std::log2(p.size), log_error(p.worst_ulp)});
         }
+        if (!of.points.empty() && of.points.back().cases != 0)
+            curve.below = fmt::format("relative {:.2g} at {}", of.points.back().worst_relative, of.points.back().size);
     }
     // A step of eight bits of colour, where an ulp is 2^-52: shown where errors come near it.
     const double colour = 52 - std::log2(255);
@@ -186,20 +211,7 @@ std::string drift_plot(const DriftReport& report) {
     y.ticks.push_back({no_error, "0"});
     draw_axes(plot.svg, x, y);
     if (colour_step) draw_line_through(plot.svg, x, y, {0, colour}, {1, colour}, "level");
-    for (std::size_t i = curves.size(); i-- > 0;) {
-        std::vector<Pixel> line;
-        for (const DriftPoint& p : curves[i].points) {
-            if (p.cases != 0) line.push_back({x.at(std::log2(p.size)), y.at(log_error(p.worst_ulp))});
-        }
-        plot.curve(i, line);
-    }
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-        const auto& points = curves[i].points;
-        plot.entry(i, curves[i].kernel.name,
-                   points.empty() || points.back().cases == 0
-                       ? ""
-                       : fmt::format("relative {:.2g} at {}", points.back().worst_relative, points.back().size));
-    }
+    plot.curves(curves);
     if (colour_step) plot.entry("level", "a step of 1/255: 8-bit colour");
     plot.notes({fmt::format("Largest of {} cases a size (seed {}): attributes of 1 to 2 at the vertices, the point a "
                             "pixel centre in the triangle.",

@@ -1,17 +1,12 @@
 // A worst-case search, and the mutation score of the families.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 
-#include "barycert/audit/witness_json.hpp"
+#include "barycert/audit/json_members.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/report/audit/audit_words.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
 
@@ -19,21 +14,14 @@ using namespace report;
 
 namespace {
 
-std::string numbers(int count, auto at) {
-    std::string out;
-    for (int axis = 0; axis < count; ++axis) out += (axis == 0 ? "" : ", ") + base::shortest(at(axis));
-    return out;
-}
-
 /// The case in decimal, a vertex a line, and how to see what kernels make of it.
 Item plain_case(const SearchReport& report, const SearchFind& f, const TerminalStyle& style) {
     const Case& c = f.plain.c;
     Item item{.title = f.reason};
     if (!f.plain.detail.empty()) item.lines.push_back({f.plain.detail});
     for (int i = 0; i < vertex_count(c.simplex); ++i)
-        item.lines.push_back({fmt::format("v{}  {}", i, numbers(c.stride(), [&](int k) { return c.vertex(i, k); }))});
-    item.lines.push_back(
-        {"p   " + numbers(space_dimension(c.simplex), [&](int k) { return c.point[static_cast<std::size_t>(k)]; })});
+        item.lines.push_back({fmt::format("v{}  {}", i, coordinates(c.vertices.data() + c.stride() * i, c.stride()))});
+    item.lines.push_back({"p   " + coordinates(c.point, space_dimension(c.simplex))});
     if (!style.witness_path.empty()) item.lines.push_back({replay_from_file(report.kernel.name, f.reason, style)});
     return item;
 }
@@ -138,10 +126,10 @@ void tell_catches(Document& d, const MutantReport& r) {
                      [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
     Listing table{.columns = {{"family", true, 24}, {"catches", false, 4}, {"", true, 0, 2}}};
     for (const auto& [family, caught] : all) {
-        std::string alone;
-        for (const MutantResult* m : caught) {
-            if (m->catches.size() == 1) alone += (alone.empty() ? "alone: " : ", ") + m->mutant.kernel.name;
-        }
+        std::string alone = joined(caught, ", ", [](const MutantResult* m) {
+            return m->catches.size() == 1 ? m->mutant.kernel.name : std::string();
+        });
+        if (!alone.empty()) alone.insert(0, "alone: ");
         table.rows.push_back({{family, std::to_string(caught.size()), alone}});
     }
     d.part();

@@ -1,15 +1,9 @@
 // One witness, with the exact answer and those of kernels; the catalogue and the families.
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <vector>
 
 #include "barycert/audit_report.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/report/common/document.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert {
 
@@ -18,14 +12,9 @@ using namespace report;
 namespace {
 
 /// In decimal, and below it as it is exactly.
-void tell_coordinates(Document& d, const std::string& what, int count, auto at) {
-    std::string decimal, hex;
-    for (int axis = 0; axis < count; ++axis) {
-        decimal += (axis == 0 ? "" : ", ") + base::shortest(at(axis));
-        hex += (axis == 0 ? "" : ", ") + base::hexadecimal(at(axis));
-    }
-    d.say(fmt::format("    {:<3} ({})", what, decimal));
-    d.say(fmt::format("        ({})", hex));
+void tell_coordinates(Document& d, const std::string& what, const double* at, int count) {
+    d.say(fmt::format("    {:<3} ({})", what, coordinates(at, count)));
+    d.say(fmt::format("        ({})", coordinates(at, count, base::hexadecimal)));
 }
 
 /// The case: where it comes from, its coordinates, what is exactly so.
@@ -40,9 +29,8 @@ void tell_case(Document& d, const Replay& replay) {
     if (!w.family.empty()) d.say(fmt::format("    family {}, case {}, seed {}", w.family, w.index, w.seed));
     if (w.cell >= 0) d.say(fmt::format("    cell {} of {}", w.cell, w.mesh));
     for (int i = 0; i < vertex_count(c.simplex); ++i)
-        tell_coordinates(d, fmt::format("v{}", i), c.stride(), [&](int axis) { return c.vertex(i, axis); });
-    tell_coordinates(d, "p", space_dimension(c.simplex),
-                     [&](int axis) { return c.point[static_cast<std::size_t>(axis)]; });
+        tell_coordinates(d, fmt::format("v{}", i), c.vertices.data() + c.stride() * i, c.stride());
+    tell_coordinates(d, "p", c.point.data(), space_dimension(c.simplex));
     std::string exact = fmt::format("    exact: {}", name(answer.region));
     if (answer.region == Region::boundary) exact += fmt::format(" ({})", name(answer.feature));
     if (answer.region == Region::degenerate)
@@ -50,14 +38,6 @@ void tell_case(Document& d, const Replay& replay) {
                      ? std::string(" (the ray through the point is parallel to the plane)")
                      : fmt::format(" (its vertices span {} dimensions)", replay.affine_dimension);
     d.say(exact);
-}
-
-std::string findings(const Comparison& r) {
-    std::string out;
-    for (std::size_t f = 0; f < finding_count; ++f) {
-        if (r.counts[f] != 0) out += (out.empty() ? "" : ", ") + std::string(finding_texts[f].name);
-    }
-    return out;
 }
 
 /// Two lines an answer, weights under each other, and a third for findings: one line would be too wide.
@@ -88,13 +68,16 @@ void tell_answers(Document& d, const Replay& replay, const std::vector<KernelAns
         const Comparison& r = a.comparison;
         const Tone tone = r.wrong() ? Tone::bad : Tone::plain;
         d.say(row(a.kernel == replay.witness.kernel ? ">" : "", a.kernel, name(r.claimed),
-                  figures(brief(r.relative_error), brief(a.worst_weight_ulp), brief(r.value_ulp))),
+                  figures(brief(r.relative_error), brief(r.worst_weight_ulp()), brief(r.value_ulp))),
               tone);
         d.say(weights([&](std::size_t i) {
                   return !a.answered ? "-" : a.status != 0 ? "declared" : base::shortest(a.weights[i]);
               }),
               tone);
-        if (r.wrong()) d.say("      " + findings(r), tone);
+        const std::string found = joined(finding_texts, ", ", [&](const FindingText& text) {
+            return r.counts[static_cast<std::size_t>(*finding_named(text.name))] == 0 ? "" : text.name;
+        });
+        if (!found.empty()) d.say("      " + found, tone);
         if (!a.detail.empty()) d.say("      " + a.detail, Tone::plain, For::all, Breaks::words);
     }
 }
@@ -155,8 +138,7 @@ std::string kernels_text(const std::vector<Kernel>& kernels) {
 std::string families_text(const std::vector<Family>& families) {
     Document d;
     for (const Family& f : families) {
-        std::string simplices;
-        for (const Simplex s : f.simplices) simplices += (simplices.empty() ? "" : ", ") + std::string(name(s));
+        std::string simplices = joined(f.simplices, ", ", [](Simplex simplex) { return name(simplex); });
         if (f.needs_mesh) simplices += " of a mesh";
         if (f.perspective) simplices += " with a depth at each vertex";
         d.add(Item{.text = f.name,

@@ -1,15 +1,8 @@
-// What a check of a mesh found, for people, and for systems that run it.
-
-#include <fmt/format.h>
+// What a check of a mesh found, for people.
 
 #include <algorithm>
 #include <array>
-#include <utility>
-#include <vector>
 
-#include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/report.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/document.hpp"
@@ -74,21 +67,20 @@ void tell_conditions(Document& d, const CheckReport& r, const Mesh& mesh) {
 
 /// The listed places of a defect. Where each is just one cell or one node, "cells" or "nodes" is said once.
 Item::Places places_of(const CheckReport& r, const Defect& f) {
-    const auto plain = [&](bool cells) {
-        return std::all_of(f.places.begin(), f.places.end(), [&](const DefectPlace& p) {
-            const auto alone = [](const auto& all) { return all[0] >= 0 && (all[1] < 0 || all[1] == all[0]); };
-            return *p.detail == '\0' && (cells ? alone(p.cells) && p.nodes[0] < 0 : alone(p.nodes) && p.cells[0] < 0);
+    const auto alone = [](const auto& all) { return all[0] >= 0 && (all[1] < 0 || all[1] == all[0]); };
+    const auto each_is = [&](auto here, auto not_here) {
+        return std::ranges::all_of(f.places, [&](const DefectPlace& p) {
+            return *p.detail == '\0' && alone(p.*here) && (p.*not_here)[0] < 0;
         });
     };
-    const bool cells = plain(true), nodes = !cells && plain(false);
-    Item::Places all{.count = f.count, .at_least = f.at_least, .between = cells || nodes ? ',' : ';'};
+    const bool plain =
+        each_is(&DefectPlace::cells, &DefectPlace::nodes) || each_is(&DefectPlace::nodes, &DefectPlace::cells);
+    Item::Places all{.count = f.count, .at_least = f.at_least, .between = plain ? ',' : ';'};
     for (const DefectPlace& p : f.places) {
         std::string text = place_text(r, f.kind, p);
-        if (cells || nodes) {
-            const std::string number = text.substr(text.find(' ') + 1);
-            const std::string what = cells ? "cell" : "node";
-            text = all.shown.empty() ? fmt::format("{}{} {}", what, f.places.size() > 1 ? "s" : "", number) : number;
-        }
+        const std::size_t word = 4;  // "cell", "node"
+        if (plain && !all.shown.empty()) text.erase(0, word + 1);
+        if (plain && all.shown.empty() && f.places.size() > 1) text.insert(word, "s");
         all.shown.push_back(std::move(text));
     }
     return all;
@@ -132,21 +124,18 @@ void tell_contacts(Document& d, const CheckReport& r) {
         static constexpr std::array<std::string_view, 3> extents{"touch in a point", "touch along a segment",
                                                                  "touch in an area"};
         const auto cells = r.cell_number(c.cells);
-        std::vector<std::string> decimal, hex;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
-            decimal.push_back(base::shortest(c.common.point[k]));
-            hex.push_back(base::hexadecimal(c.common.point[k]));
-        }
         Item item{.title = {},
                   .text = fmt::format(
                       "cells {} and {} {}:", cells[0], cells[1],
                       c.overlap ? "overlap" : extents[static_cast<std::size_t>(std::clamp(c.dimension, 0, 2))])};
-        const std::string point = fmt::format("({}){}", fmt::join(decimal, ", "), c.common.exact ? "" : ", rounded");
+        const std::string point =
+            fmt::format("({}){}", coordinates(c.common.point, r.dimension), c.common.exact ? "" : ", rounded");
         if (item.text.size() + 1 + point.size() <= 100)
             item.text += " " + point;
         else
             item.lines.push_back({point});
-        if (c.common.exact) item.lines.push_back({fmt::format("({})", fmt::join(hex, ", "))});
+        if (c.common.exact)
+            item.lines.push_back({fmt::format("({})", coordinates(c.common.point, r.dimension, base::hexadecimal))});
         for (std::size_t k = 0; !c.common.exact && k < static_cast<std::size_t>(r.dimension); ++k)
             item.lines.push_back({fmt::format("{} = {}", "xyz"[k], shortened(c.common.fraction[k], cut))});
         d.add(std::move(item), i < max_contacts ? For::all : For::terminal);
@@ -263,22 +252,6 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
     return d;
 }
 
-/// "40 text: place; place; and 38 more. Remedy: remedy".
-std::string defect_message(const CheckReport& r, const Defect& d) {
-    constexpr std::size_t most_places = 10;
-    std::string places;
-    std::size_t shown = 0;
-    for (const DefectPlace& place : d.places) {
-        const std::string text = place_text(r, d.kind, place);
-        if (text.empty() || shown == most_places) continue;
-        places += (shown++ == 0 ? ": " : "; ") + text;
-    }
-    if (shown != 0 && d.count > shown) places += fmt::format("; and {} more", d.count - shown);
-    return fmt::format("{}{} {}{}{}{}", d.at_least ? "at least " : "", d.count, defect_text(d.kind).text, places,
-                       d.curved_cells == 0 ? "" : ". " + curved_text(d),
-                       d.remedy().empty() ? "" : fmt::format(". Remedy: {}", d.remedy()));
-}
-
 }  // namespace
 
 std::string check_text(const CheckReport& report, const Mesh& mesh, const std::string& name,
@@ -295,38 +268,6 @@ std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style) {
 std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& name, const FixedMesh* fixed) {
     const ExactEnvironment environment;
     return page_text(check_document(report, mesh, name, fixed));
-}
-
-CiReport check_outcomes(const CheckReport& r, const Mesh& mesh, const std::string& name, const std::string& artifact,
-                        const Environment& environment) {
-    const ExactEnvironment exact;
-    using State = CiOutcome::State;
-    CiReport ci{"barycert check", "resource", environment, r.seconds};
-    const auto add = [&](std::string_view what, std::string_view rule, std::string_view meaning, State state,
-                         std::string message) {
-        ci.outcomes.push_back(
-            {name, std::string(what), std::string(rule), std::string(meaning), state, std::move(message), artifact});
-    };
-    for (const ConditionRow& row : condition_rows(r, mesh)) {
-        if (row.count != 0 || row.instead != "ok") continue;  // its defects stand below; or it was not looked at
-        add(row.name.empty() ? std::string(row.text) : fmt::format("{}: {}", row.name, row.text),
-            row.name.empty() ? defect_text(DefectKind::overlapping_cells).name : row.name, row.text, State::passed, "");
-    }
-    for (const Defect& d : r.defects) {
-        const DefectText& t = defect_text(d.kind);
-        add(t.name, t.name, t.text, d.breaks() ? State::failed : State::noted, defect_message(r, d));
-    }
-    if (r.curved.cells != 0)
-        add("curved_cells", "curved_cells", "cells whose sides are not straight", State::noted, message(r.curved));
-    if (r.delaunay && r.delaunay->violations != 0)
-        add("not_delaunay", "not_delaunay", "interior facets that are not locally Delaunay", State::noted,
-            fmt::format("{}", fmt::join(delaunay_sentences(r), "; ")));
-    if (r.conformity && r.conformity->violated != 0)
-        add("violated_facet", "violated_facet", "facets of the PLC that are no union of faces of cells", State::noted,
-            fmt::format("{}", fmt::join(conformity_sentences(r, 80), "; ")));
-    if (!r.certified() && !ci.failed())
-        add("certified", "certified", "the mesh is certified to be a partition", State::failed, "it is not certified");
-    return ci;
 }
 
 }  // namespace barycert

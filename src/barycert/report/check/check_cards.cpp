@@ -1,15 +1,11 @@
 // Pictures of cells.
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "barycert/report/check/check_pictures.hpp"
-#include "barycert/report/common/html.hpp"
 #include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
@@ -31,24 +27,19 @@ struct Scene {
     bool has_common = false;
     Vector common = Vector::Zero();
 
-    std::vector<Vector> cell(std::size_t i) const {
-        const auto first = points.begin() + static_cast<std::ptrdiff_t>(i * corners);
-        return {first, first + static_cast<std::ptrdiff_t>(corners)};
-    }
+    Points cell(std::size_t i) const { return Points(points).subspan(i * corners, corners); }
     std::size_t cells() const { return points.size() / corners; }
 };
 
 Scene scene_of(const Mesh& mesh, const Exhibit& e) {
     Scene scene;
     scene.corners = mesh.corners();
-    const auto d = static_cast<std::size_t>(mesh.dimension);
     std::vector<const double*> at;
     for (const Mesh::Index cell : e.cells) {
         if (cell < 0) continue;
-        for (std::size_t i = 0; i < scene.corners; ++i) {
-            const Mesh::Index node = mesh.cells[static_cast<std::size_t>(cell) * scene.corners + i];
+        for (const Mesh::Index node : nodes_of(mesh, static_cast<std::size_t>(cell))) {
             scene.nodes.push_back(node);
-            at.push_back(&mesh.points[static_cast<std::size_t>(node) * d]);
+            at.push_back(node_at(mesh, node));
         }
     }
     const Normalised normalised(mesh.dimension, at);
@@ -81,13 +72,9 @@ std::vector<Shown> views_of(const Mesh& mesh, const Scene& scene) {
         return views;
     }
     if (scene.cells() == 1) {
-        const std::vector<Vector> t = scene.cell(0);
-        const auto edge = sharpest_edge(t);
-        const bool apart = scene.nodes[edge[0]] != scene.nodes[edge[1]];
-        if (apart) {
-            views.push_back(
-                {fmt::format("along edge {}–{}", scene.nodes[edge[0]], scene.nodes[edge[1]]), along_edge(t, edge)});
-        }
+        const auto edge = sharpest_edge(scene.points);
+        const Mesh::Index from = scene.nodes[edge[0]], to = scene.nodes[edge[1]];
+        if (from != to) views.push_back({fmt::format("along edge {}–{}", from, to), along_edge(scene.points, edge)});
     }
     if (views.empty()) views.push_back({"from the side", from_the_side(scene.points)});
     views.push_back({"from above", from_above(scene.points)});
@@ -108,7 +95,7 @@ struct Placing {
 };
 
 /// Faces towards the eye are filled; edges of none of them are dashed.
-void draw_tetrahedron(Picture& svg, const Placing& at, const std::vector<Vector>& t, std::string_view colour) {
+void draw_tetrahedron(Picture& svg, const Placing& at, Points t, std::string_view colour) {
     const auto facing = [&](std::size_t corner) {  // the face opposite to it
         const Vector &a = t[(corner + 1) % 4], &b = t[(corner + 2) % 4], &c = t[(corner + 3) % 4];
         const Vector n = (b - a).cross(c - a);
@@ -138,7 +125,7 @@ std::string draw(const Scene& scene, const Shown& shown, double scale, const std
     std::vector<Label> labels;
     for (std::size_t c = 0; c < scene.cells(); ++c) {
         const std::string_view colour = c == 0 ? "a" : "b";
-        const std::vector<Vector> t = scene.cell(c);
+        const Points t = scene.cell(c);
         if (t.size() == 3) {
             svg.polygon({at(t[0]), at(t[1]), at(t[2])}, fmt::format("face {}", colour));
             for (std::size_t i = 0; i < 3; ++i) svg.line(at(t[i]), at(t[(i + 1) % 3]), fmt::format("edge {}", colour));
@@ -177,10 +164,8 @@ std::string measure_text(double x) {
 std::string facts(const CheckReport& r, const Mesh& mesh, Mesh::Index cell, std::string_view swatch) {
     const CellMeasures& m = r.measures;
     const auto c = static_cast<std::size_t>(cell);
-    std::vector<Mesh::Index> nodes(mesh.cells.begin() + static_cast<std::ptrdiff_t>(c * mesh.corners()),
-                                   mesh.cells.begin() + static_cast<std::ptrdiff_t>((c + 1) * mesh.corners()));
-    std::string out =
-        fmt::format("<p>{}<b>cell {}</b>, nodes {}<br/>", swatch, r.cell_number(cell), fmt::join(nodes, " "));
+    std::string out = fmt::format("<p>{}<b>cell {}</b>, nodes {}<br/>", swatch, r.cell_number(cell),
+                                  fmt::join(nodes_of(mesh, c), " "));
     if (std::isnan(m.volume[c])) return out + "not measured: it has a node twice</p>\n";
     out += fmt::format("angles {}° to {}°, {} {}<br/>", measure_text(m.min_angle[c]), measure_text(m.max_angle[c]),
                        r.dimension == 2 ? "area" : "volume",

@@ -1,13 +1,16 @@
-// Which cells a page draws.
+// Which cells a page draws, and from where.
 
-#include <fmt/format.h>
-
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <set>
 #include <utility>
 
 #include "barycert/report/check/check_pictures.hpp"
+#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
 namespace {
@@ -17,15 +20,11 @@ using Cells = std::array<Mesh::Index, 2>;
 /// Of exhibits with one kind of problem.
 constexpr std::size_t longest_queue = 200;
 
-bool has_a_place(const Mesh& mesh, Mesh::Index cell) {
-    return cell >= 0 && static_cast<std::size_t>(cell) < mesh.cell_count() &&
-           drawable(mesh, static_cast<std::size_t>(cell));
-}
-
 /// Without cells that cannot be drawn; sorted, the second -1 if there is one.
 Cells drawn_of(const Mesh& mesh, Cells cells) {
     for (Mesh::Index& c : cells) {
-        if (!has_a_place(mesh, c)) c = -1;
+        const auto cell = static_cast<std::size_t>(c);  // of -1 beyond all cells
+        if (cell >= mesh.cell_count() || !drawable(mesh, cell)) c = -1;
     }
     if (cells[0] == cells[1]) cells[1] = -1;
     if (cells[0] < 0 || (cells[1] >= 0 && cells[1] < cells[0])) std::swap(cells[0], cells[1]);
@@ -49,6 +48,28 @@ Exhibit of_place(DefectKind problem, const DefectPlace& p, const Cells& cells) {
     return {.cells = cells, .what = std::move(what), .defect = true};
 }
 
+/// Directions of least, middle and largest extent of the points, orthonormal.
+Eigen::Matrix3d extents(const std::vector<Vector>& points) {
+    const Vector sum = std::accumulate(points.begin(), points.end(), Vector(Vector::Zero()));
+    const Vector mean = sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+    Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+    for (const Vector& p : points) m += (p - mean) * (p - mean).transpose();
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors();
+}
+
+/// The directions to the other two corners of a tetrahedron, seen along an edge.
+std::array<Vector, 2> sides_at(Points t, std::array<std::size_t, 2> edge) {
+    const Vector along = unit(t[edge[1]] - t[edge[0]]);
+    std::array<Vector, 2> sides;
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (k == edge[0] || k == edge[1]) continue;
+        const Vector w = t[k] - t[edge[0]];
+        sides[n++] = unit(w - w.dot(along) * along);
+    }
+    return sides;
+}
+
 }  // namespace
 
 std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t max) {
@@ -68,30 +89,27 @@ std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, st
     }
     std::sort_heap(worst.begin(), worst.end());
     std::vector<Exhibit> exhibits;
-    for (const auto& [angle, cell] : worst) {
-        const bool plane = mesh.dimension == 2;
-        exhibits.push_back(
-            {.cells = {cell, -1}, .what = fmt::format("smallest {}angle {:.4g}°", plane ? "" : "dihedral ", angle)});
-    }
+    const char* const kind = mesh.dimension == 2 ? "" : "dihedral ";
+    for (const auto& [angle, cell] : worst)
+        exhibits.push_back({.cells = {cell, -1}, .what = fmt::format("smallest {}angle {:.4g}°", kind, angle)});
     return exhibits;
 }
 
 std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t max) {
     // One queue a kind of problem; of pairs of cells, those with a witness first.
     std::vector<std::vector<Exhibit>> queues;
-    const auto open_queue = [&] { queues.emplace_back(); };
     const auto add = [&](Exhibit e) {
         if (e.cells[0] >= 0 && queues.back().size() < longest_queue) queues.back().push_back(std::move(e));
     };
     for (const bool overlap : {true, false}) {
-        open_queue();
+        queues.emplace_back();
         for (const CellContact& c : report.contacts) {
             if (c.overlap == overlap) add(of_contact(c, drawn_of(mesh, c.cells)));
         }
     }
     for (const Defect& f : report.defects) {
         if (!f.breaks()) continue;
-        open_queue();
+        queues.emplace_back();
         for (const DefectPlace& p : f.places) add(of_place(f.kind, p, drawn_of(mesh, p.cells)));
     }
     // First such as have only cells that were not shown yet; one cell may overlap many.
@@ -103,17 +121,99 @@ std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, s
             for (const std::vector<Exhibit>& queue : queues) {
                 if (round >= queue.size() || exhibits.size() == max) continue;
                 const Exhibit& e = queue[round];
-                if (pairs.contains(e.cells) || (others && (cells.contains(e.cells[0]) || cells.contains(e.cells[1]))))
+                if (pairs.contains(e.cells) ||
+                    (others && (cells.contains(e.cells[0]) || (e.cells[1] >= 0 && cells.contains(e.cells[1])))))
                     continue;
                 exhibits.push_back(e);
                 pairs.insert(e.cells);
-                for (const Mesh::Index c : e.cells) {
-                    if (c >= 0) cells.insert(c);
-                }
+                cells.insert(e.cells.begin(), e.cells.end());
             }
         }
     }
     return exhibits;
+}
+
+Vector unit(const Vector& a) {
+    const double max = a.cwiseAbs().maxCoeff();
+    return max > std::numeric_limits<double>::min() ? Vector((a / max).normalized()) : Vector(Vector::UnitX());
+}
+
+bool drawable(const Mesh& mesh, std::size_t cell) {
+    return std::ranges::all_of(nodes_of(mesh, cell), [&](Mesh::Index node) {
+        return node >= 0 && static_cast<std::size_t>(node) < mesh.point_count() &&
+               std::all_of(node_at(mesh, node), node_at(mesh, node) + mesh.dimension,
+                           [](double x) { return std::isfinite(x); });
+    });
+}
+
+Normalised::Normalised(int d, const std::vector<const double*>& points) : d_(d) {
+    Vector high = Vector::Zero();
+    for (int k = 0; k < d && !points.empty(); ++k) {
+        low_[k] = high[k] = points[0][k];
+        for (const double* p : points) {
+            low_[k] = std::min(low_[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
+        }
+        extent_ = std::max(extent_, high[k] / 2 - low_[k] / 2);  // halved, for a difference may overflow
+    }
+    exponent_ = extent_ > 0 ? std::ilogb(extent_) : 0;
+    extent_ = extent_ > 0 ? std::scalbn(extent_, -exponent_) : 1;
+    for (int k = 0; k < d; ++k) middle_[k] = std::scalbn(high[k] / 2 - low_[k] / 2, -exponent_) / 2;
+    for (const double* p : points) points_.push_back(place(p));
+}
+
+Vector Normalised::place(const double* point) const {
+    Vector v = Vector::Zero();
+    for (int k = 0; k < d_; ++k) {
+        const double offset = std::scalbn(point[k] / 2 - low_[k] / 2, -exponent_);
+        v[k] = std::clamp(2 * (offset - middle_[k]) / extent_, -8.0, 8.0);
+    }
+    return v;
+}
+
+View from_above(const std::vector<Vector>& points) {
+    const Eigen::Matrix3d axes = extents(points);
+    return {axes.col(2), axes.col(1), axes.col(2).cross(axes.col(1))};
+}
+
+View from_the_side(const std::vector<Vector>& points) {
+    const Eigen::Matrix3d axes = extents(points);
+    return {axes.col(2), axes.col(0), axes.col(2).cross(axes.col(0))};
+}
+
+std::array<std::size_t, 2> sharpest_edge(Points t) {
+    std::array<std::size_t, 2> sharpest{0, 1};
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = i + 1; j < 4; ++j) {
+            const auto [a, b] = sides_at(t, {i, j});
+            // Twice the sine of half the angle.
+            if (const double chord = (a - b).norm(); chord < least) least = chord, sharpest = {i, j};
+        }
+    }
+    return sharpest;
+}
+
+View along_edge(Points t, std::array<std::size_t, 2> edge) {
+    View v;
+    v.z = unit(t[edge[1]] - t[edge[0]]);
+    const auto [a, b] = sides_at(t, edge);
+    Vector open = a + b;
+    open -= open.dot(v.z) * v.z;
+    if (open.squaredNorm() < 1e-20) {  // opposite to each other: 180 degrees
+        Eigen::Index min = 0;
+        v.z.cwiseAbs().minCoeff(&min);
+        open = v.z.cross(Vector::Unit(min));
+    }
+    v.x = unit(open);
+    v.y = v.z.cross(v.x);
+    return v;
+}
+
+View oblique() {
+    constexpr double azimuth = -1.05, elevation = 0.42;  // about 60 and 24 degrees
+    const double ca = std::cos(azimuth), sa = std::sin(azimuth), ce = std::cos(elevation), se = std::sin(elevation);
+    return {{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
 }
 
 }  // namespace barycert::report

@@ -1,17 +1,13 @@
 // Measures of cells and their histograms.
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
-#include "barycert/report/common/html.hpp"
 #include "barycert/report/common/picture.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
 namespace {
@@ -58,62 +54,60 @@ std::string bound(const Histogram& h, std::size_t bin) {
 }
 
 /// Counts as parts of the largest; logarithmic where one cell could not be seen else.
-Axis count_axis(const Histogram& h, double from, double to, std::function<double(double)>& height_of) {
-    std::uint64_t max = 1, min = std::numeric_limits<std::uint64_t>::max();
-    for (const std::uint64_t c : h.counts) {
-        max = std::max(max, c);
-        if (c > 0) min = std::min(min, c);
+struct CountAxis : Axis {
+    double max = 1;
+    bool logarithmic = false;
+
+    explicit CountAxis(const std::vector<std::uint64_t>& counts) : Axis{.from = 214, .to = 40, .title = "cells"} {
+        double min = std::numeric_limits<double>::infinity();
+        for (const std::uint64_t c : counts) {
+            max = std::max(max, static_cast<double>(c));
+            if (c > 0) min = std::min(min, static_cast<double>(c));
+        }
+        logarithmic = min < std::floor(max / 100);
+        if (logarithmic) title += ", logarithmic";
+        std::vector<double> at = logarithmic ? std::vector<double>{} : round_ticks(0, max, 6);
+        for (double t = 1; logarithmic && t <= max; t *= 10) at.push_back(t);
+        for (const double t : at) {
+            if (t > 0 && t == std::floor(t)) ticks.push_back({height(t), brief_count(static_cast<std::uint64_t>(t))});
+        }
     }
-    const bool logarithmic = min < max / 100;
-    const auto top = static_cast<double>(max);
-    height_of = [=](double count) {
-        return count <= 0 ? 0 : logarithmic ? std::log(2 * count) / std::log(2 * top) : count / top;
-    };
-    Axis y{.from = from, .to = to, .title = logarithmic ? "cells, logarithmic" : "cells"};
-    std::vector<double> counts = logarithmic ? std::vector<double>{} : round_ticks(0, top, 6);
-    for (double t = 1; logarithmic && t <= top; t *= 10) counts.push_back(t);
-    for (const double t : counts) {
-        if (t > 0 && t == std::floor(t)) y.ticks.push_back({height_of(t), brief_count(static_cast<std::uint64_t>(t))});
+    double height(double count) const {
+        return count <= 0 ? 0 : logarithmic ? std::log(2 * count) / std::log(2 * max) : count / max;
     }
-    return y;
-}
+};
 
 std::string chart(const Histogram& h, const Measure& m) {
-    constexpr double left = 58, right = 498, base = 214, ceiling = 40;
     Picture svg(520, 262, m.axis + ": number of cells");
-    std::function<double(double)> height_of;
-    const Axis y = count_axis(h, base, ceiling, height_of);
-    draw_axes(svg,
-              {.low = h.low,
-               .high = h.high(),
-               .from = left,
-               .to = right,
-               .title = m.axis + (h.logarithmic ? ", logarithmic" : ""),
-               .ticks = ticks_of(h),
-               .grid = false},
-              y);
-    const double wide = (right - left) / static_cast<double>(h.counts.size());
+    const CountAxis y(h.counts);
+    const Axis x{.low = h.low,
+                 .high = h.high(),
+                 .from = 58,
+                 .to = 498,
+                 .title = m.axis + (h.logarithmic ? ", logarithmic" : ""),
+                 .ticks = ticks_of(h),
+                 .grid = false};
+    draw_axes(svg, x, y);
+    const double wide = (x.to - x.from) / static_cast<double>(h.counts.size());
     for (std::size_t i = 0; i < h.counts.size(); ++i) {
         if (h.counts[i] == 0) continue;
-        const double tall = std::max(base - y.at(height_of(static_cast<double>(h.counts[i]))), 1.0);
-        const double at = left + wide * static_cast<double>(i);
-        svg.bar({at + 0.5, base - tall}, wide - 1, tall, "bar",
+        const double tall = std::max(y.from - y.at(y.height(static_cast<double>(h.counts[i]))), 1.0);
+        const double at = x.from + wide * static_cast<double>(i);
+        svg.bar({at + 0.5, y.from - tall}, wide - 1, tall, "bar",
                 fmt::format("{} to {}: {} {}", bound(h, i), bound(h, i + 1), grouped(h.counts[i]),
                             h.counts[i] == 1 ? "cell" : "cells"));
-        svg.text({at + wide / 2 + 3, base - tall - 3}, brief_count(h.counts[i]), "count", true);
+        svg.text({at + wide / 2 + 3, y.from - tall - 3}, brief_count(h.counts[i]), "count", true);
     }
     return std::move(svg).finish();
 }
 
 std::string counted_apart(const Histogram& h, const Measure& m) {
-    std::string out;
-    const auto add = [&](std::uint64_t count, std::string_view what) {
-        if (count != 0) out += fmt::format("{}{}: {}", out.empty() ? "" : "; ", what, grouped(count));
-    };
-    add(h.infinite, m.infinite);
-    add(h.zero, "zero, or underflow");
-    add(h.unknown, "cells with no place in space");
-    return out.empty() ? "" : "Not in the bars: " + out + ".";
+    const std::array<std::pair<std::uint64_t, std::string_view>, 3> all{
+        {{h.infinite, m.infinite}, {h.zero, "zero, or underflow"}, {h.unknown, "cells with no place in space"}}};
+    const std::string some = joined(all, "; ", [](const auto& part) {
+        return part.first == 0 ? "" : fmt::format("{}: {}", part.second, grouped(part.first));
+    });
+    return some.empty() ? "" : "Not in the bars: " + some + ".";
 }
 
 }  // namespace

@@ -1,13 +1,10 @@
-// The report on a mesh as programs read it.
+// The report on a mesh as programs read it, and what systems that run checks are told.
 
 #include <algorithm>
 
 #include "barycert/base/json_text.hpp"
-#include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/report.hpp"
 #include "barycert/report/check/check_words.hpp"
-#include "barycert/report/common/json.hpp"
+#include "barycert/report/common/document.hpp"
 
 namespace barycert {
 
@@ -99,6 +96,22 @@ Json fix_json(const FixedMesh& fixed) {
         barycert::name(fixed.after.certificate.verdict()), "remaining", defects_json(fixed.after));
 }
 
+/// "40 text: place; place; and 38 more. Remedy: remedy".
+std::string defect_message(const CheckReport& r, const Defect& d) {
+    constexpr std::size_t most_places = 10;
+    std::vector<std::string> places;
+    for (const DefectPlace& place : d.places) {
+        std::string text = place_text(r, d.kind, place);
+        if (!text.empty() && places.size() < most_places) places.push_back(std::move(text));
+    }
+    if (!places.empty()) places.front().insert(0, ": ");
+    if (!places.empty() && d.count > places.size())
+        places.push_back(fmt::format("and {} more", d.count - places.size()));
+    return fmt::format("{}{} {}{}{}{}", d.at_least ? "at least " : "", d.count, defect_text(d.kind).text,
+                       fmt::join(places, "; "), d.curved_cells == 0 ? "" : ". " + curved_text(d),
+                       d.remedy().empty() ? "" : fmt::format(". Remedy: {}", d.remedy()));
+}
+
 }  // namespace
 
 std::string check_json(const CheckReport& r, const std::string& name, const Environment& environment,
@@ -134,6 +147,38 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
     put(j, "problem_bits", list(defect_texts, [](const DefectText& t) { return Json(t.name); }), "seconds", r.seconds,
         "threads", r.threads, "environment", environment_json(environment));
     return base::json_text(j, 1);
+}
+
+CiReport check_outcomes(const CheckReport& r, const Mesh& mesh, const std::string& name, const std::string& artifact,
+                        const Environment& environment) {
+    const ExactEnvironment exact;
+    using State = CiOutcome::State;
+    CiReport ci{"barycert check", "resource", environment, r.seconds};
+    const auto add = [&](std::string_view what, std::string_view rule, std::string_view meaning, State state,
+                         std::string message) {
+        ci.outcomes.push_back(
+            {name, std::string(what), std::string(rule), std::string(meaning), state, std::move(message), artifact});
+    };
+    for (const ConditionRow& row : condition_rows(r, mesh)) {
+        if (row.count != 0 || row.instead != "ok") continue;  // its defects stand below; or it was not looked at
+        add(row.name.empty() ? std::string(row.text) : fmt::format("{}: {}", row.name, row.text),
+            row.name.empty() ? defect_text(DefectKind::overlapping_cells).name : row.name, row.text, State::passed, "");
+    }
+    for (const Defect& d : r.defects) {
+        const DefectText& t = defect_text(d.kind);
+        add(t.name, t.name, t.text, d.breaks() ? State::failed : State::noted, defect_message(r, d));
+    }
+    if (r.curved.cells != 0)
+        add("curved_cells", "curved_cells", "cells whose sides are not straight", State::noted, message(r.curved));
+    if (r.delaunay && r.delaunay->violations != 0)
+        add("not_delaunay", "not_delaunay", "interior facets that are not locally Delaunay", State::noted,
+            fmt::format("{}", fmt::join(delaunay_sentences(r), "; ")));
+    if (r.conformity && r.conformity->violated != 0)
+        add("violated_facet", "violated_facet", "facets of the PLC that are no union of faces of cells", State::noted,
+            fmt::format("{}", fmt::join(conformity_sentences(r, 80), "; ")));
+    if (!r.certified() && !ci.failed())
+        add("certified", "certified", "the mesh is certified to be a partition", State::failed, "it is not certified");
+    return ci;
 }
 
 }  // namespace barycert

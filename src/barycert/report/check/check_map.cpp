@@ -1,6 +1,5 @@
 // Where in the mesh the exhibits are.
 
-#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
 #include <Eigen/Geometry>
@@ -8,9 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
-#include "barycert/base/text.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
@@ -27,13 +24,10 @@ Mesh proper_cells(const Mesh& mesh) {
     Mesh proper;
     proper.dimension = mesh.dimension;
     proper.points = mesh.points;
-    const std::size_t corners = mesh.corners();
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
-        const auto first = mesh.cells.begin() + static_cast<std::ptrdiff_t>(cell * corners);
-        std::vector<Mesh::Index> nodes(first, first + static_cast<std::ptrdiff_t>(corners));
-        std::sort(nodes.begin(), nodes.end());
-        if (!drawable(mesh, cell) || std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end()) continue;
-        proper.cells.insert(proper.cells.end(), first, first + static_cast<std::ptrdiff_t>(corners));
+        const auto all = nodes_of(mesh, cell);
+        const bool twice = std::ranges::any_of(all, [&](Mesh::Index i) { return std::ranges::count(all, i) != 1; });
+        if (drawable(mesh, cell) && !twice) proper.cells.insert(proper.cells.end(), all.begin(), all.end());
     }
     return proper;
 }
@@ -44,22 +38,12 @@ struct HullFacet {
     Vector normal = Vector::Zero();  ///< outward, of length 1
 };
 
-struct HullEdge {
-    std::array<Mesh::Index, 2> nodes{};
-    std::size_t facet = 0;
-    friend bool operator<(const HullEdge& a, const HullEdge& b) { return a.nodes < b.nodes; }
-};
-
 struct Outline {
     std::vector<std::array<Mesh::Index, 2>> edges;    ///< of the boundary, if they are few enough; else
     std::vector<std::array<Mesh::Index, 2>> creases;  ///< where it bends by more than 40 degrees, if these are; and
     std::vector<HullFacet> facets;                    ///< some of its facets
     std::size_t boundary = 0;                         ///< facets in all
 };
-
-const double* node_at(const Mesh& mesh, Mesh::Index node) {
-    return &mesh.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh.dimension)];
-}
 
 Vector point_at(const Mesh& mesh, Mesh::Index node) {
     const double* const p = node_at(mesh, node);
@@ -69,10 +53,9 @@ Vector point_at(const Mesh& mesh, Mesh::Index node) {
 /// The box of all cells that have a place.
 Eigen::AlignedBox3d box_of(const Mesh& mesh) {
     Eigen::AlignedBox3d box;
-    const std::size_t corners = mesh.corners();
     for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
         if (!drawable(mesh, cell)) continue;
-        for (std::size_t i = 0; i < corners; ++i) box.extend(point_at(mesh, mesh.cells[cell * corners + i]));
+        for (const Mesh::Index node : nodes_of(mesh, cell)) box.extend(point_at(mesh, node));
     }
     return box;
 }
@@ -82,19 +65,17 @@ std::vector<HullFacet> hull_of(const Mesh& mesh, const Normalised& normalised) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     std::vector<HullFacet> hull;
     for (const std::int64_t at : mesh::hull_facets(mesh, mesh::compute_neighbours(mesh))) {
-        const auto cell = static_cast<std::size_t>(at) / (d + 1), corner = static_cast<std::size_t>(at) % (d + 1);
+        const auto nodes = nodes_of(mesh, static_cast<std::size_t>(at) / (d + 1));
+        const Mesh::Index opposite = nodes[static_cast<std::size_t>(at) % (d + 1)];
         HullFacet f;
-        std::size_t n = 0;
-        for (std::size_t i = 0; i <= d; ++i) {
-            if (i != corner) f.nodes[n++] = mesh.cells[cell * (d + 1) + i];
-        }
+        std::ranges::remove_copy(nodes, f.nodes.begin(), opposite);
         if (d == 2) {
             f.nodes[2] = f.nodes[0];
         } else {
             const auto place = [&](Mesh::Index i) { return normalised.place(node_at(mesh, i)); };
             const Vector a = place(f.nodes[0]);
             f.normal = unit((place(f.nodes[1]) - a).cross(place(f.nodes[2]) - a));
-            if (f.normal.dot(place(mesh.cells[cell * (d + 1) + corner]) - a) > 0) f.normal = -f.normal;
+            if (f.normal.dot(place(opposite) - a) > 0) f.normal = -f.normal;
         }
         hull.push_back(f);
     }
@@ -105,7 +86,7 @@ Outline outline_of(const Mesh& mesh, const Normalised& normalised, const View& v
     const std::vector<HullFacet> hull = hull_of(mesh, normalised);
     Outline out;
     out.boundary = hull.size();
-    std::vector<HullEdge> edges;
+    std::vector<std::pair<std::array<Mesh::Index, 2>, std::size_t>> edges;  // of which facets
     for (std::size_t f = 0; f < hull.size(); ++f) {
         const auto& n = hull[f].nodes;
         for (std::size_t i = 0; i < (mesh.dimension == 2 ? 1U : 3U); ++i)
@@ -117,10 +98,10 @@ Outline outline_of(const Mesh& mesh, const Normalised& normalised, const View& v
     for (std::size_t i = 0; i < edges.size(); ++all) {
         const std::size_t first = i;
         bool crease = false;
-        for (; i < edges.size() && edges[i].nodes == edges[first].nodes; ++i)
-            crease |= hull[edges[i].facet].normal.dot(hull[edges[first].facet].normal) < bend;
-        if (all < max_marks) out.edges.push_back(edges[first].nodes);
-        if (crease && out.creases.size() <= max_marks) out.creases.push_back(edges[first].nodes);
+        for (; i < edges.size() && edges[i].first == edges[first].first; ++i)
+            crease |= hull[edges[i].second].normal.dot(hull[edges[first].second].normal) < bend;
+        if (all < max_marks) out.edges.push_back(edges[first].first);
+        if (crease && out.creases.size() <= max_marks) out.creases.push_back(edges[first].first);
     }
     if (all > max_marks) out.edges.clear();
     if (out.creases.size() > max_marks / 2 || !out.edges.empty()) out.creases.clear();
@@ -180,10 +161,7 @@ public:
         }
         return p;
     }
-    Pixel cell(Mesh::Index c) const {
-        const auto first = mesh_.cells.begin() + static_cast<std::ptrdiff_t>(c) * (mesh_.dimension + 1);
-        return middle(std::vector<Mesh::Index>(first, first + mesh_.dimension + 1));
-    }
+    Pixel cell(Mesh::Index c) const { return middle(nodes_of(mesh_, static_cast<std::size_t>(c))); }
 
 private:
     const Mesh& mesh_;
@@ -258,11 +236,10 @@ std::string legend(const CheckReport& r, const Mesh& mesh, const std::vector<Exh
         const Exhibit& e = exhibits[i];
         const auto cells = r.cell_number(e.cells);
         Vector middle = Vector::Zero();
-        for (std::size_t c = 0; c < mesh.corners(); ++c)
-            middle += point_at(mesh, mesh.cells[static_cast<std::size_t>(e.cells[0]) * mesh.corners() + c]) /
-                      static_cast<double>(mesh.corners());
-        std::string place;
-        for (int k = 0; k < mesh.dimension; ++k) place += fmt::format("{}{:.4g}", k == 0 ? "" : ", ", middle[k] + 0.0);
+        for (const Mesh::Index node : nodes_of(mesh, static_cast<std::size_t>(e.cells[0])))
+            middle += point_at(mesh, node) / static_cast<double>(mesh.corners());
+        const auto rounded = [](double x) { return fmt::format("{:.4g}", x + 0.0); };
+        const std::string place = coordinates(middle, mesh.dimension, rounded);
         out += fmt::format("<tr><td><span class=\"badge{}\">{}</span></td><td>{}{}</td><td>({})</td></tr>\n",
                            e.defect ? " problem" : "", i + 1, cells[0],
                            cells[1] < 0 ? "" : fmt::format(", {}", cells[1]), place);

@@ -3,11 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <span>
 
 #include "barycert/check.hpp"
 
@@ -41,6 +37,14 @@ std::string exhibit_map(const CheckReport& report, const Mesh& mesh, const std::
 // Cells as points that can be drawn, and the directions to draw them from.
 
 using Vector = Eigen::Vector3d;
+using Points = std::span<const Vector>;
+
+inline std::span<const Mesh::Index> nodes_of(const Mesh& mesh, std::size_t cell) {
+    return std::span(mesh.cells).subspan(cell * mesh.corners(), mesh.corners());
+}
+inline const double* node_at(const Mesh& mesh, Mesh::Index node) {
+    return &mesh.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh.dimension)];
+}
 
 /// True if all corners are nodes and have finite coordinates.
 bool drawable(const Mesh& mesh, std::size_t cell);
@@ -75,10 +79,10 @@ View from_above(const std::vector<Vector>& points);
 View from_the_side(const std::vector<Vector>& points);
 
 /// The edge of a tetrahedron with the smallest dihedral angle, as two corners.
-std::array<std::size_t, 2> sharpest_edge(const std::vector<Vector>& tetrahedron);
+std::array<std::size_t, 2> sharpest_edge(Points tetrahedron);
 
 /// Along an edge of a tetrahedron, which so is a point, and its angle opens to the right.
-View along_edge(const std::vector<Vector>& tetrahedron, std::array<std::size_t, 2> edge);
+View along_edge(Points tetrahedron, std::array<std::size_t, 2> edge);
 
 /// From somewhat above and aside, z upwards.
 View oblique();

@@ -1,11 +1,8 @@
 #include "barycert/report/check/check_words.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
-#include "barycert/base/text.hpp"
 #include "barycert/report/common/document.hpp"
 
 namespace barycert::report {
@@ -16,7 +13,7 @@ struct Clause {
     DefectKind kind;
     std::string_view one, more;
 };
-constexpr std::array<Clause, 16> clauses{{
+constexpr std::array<Clause, 16> defect_clauses{{
     {DefectKind::bad_structure, "array has a wrong size", "arrays have a wrong size"},
     {DefectKind::index_out_of_range, "cell has an invalid index", "cells have an invalid index"},
     {DefectKind::not_finite, "node is not finite", "nodes are not finite"},
@@ -35,8 +32,8 @@ constexpr std::array<Clause, 16> clauses{{
     {DefectKind::hanging_node, "node hangs on a cell", "nodes hang on cells"},
 }};
 
-template <std::size_t N>
-std::vector<Mesh::Index> used(const std::array<Mesh::Index, N>& indices) {
+/// Those that are given, once each.
+std::vector<Mesh::Index> used(const auto& indices) {
     std::vector<Mesh::Index> list;
     for (const Mesh::Index i : indices) {
         if (i >= 0 && (list.empty() || list.back() != i)) list.push_back(i);
@@ -83,7 +80,7 @@ std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& 
 }
 
 std::string reason(const Defect& defect) {
-    const auto c = std::find_if(clauses.begin(), clauses.end(), [&](const Clause& x) { return x.kind == defect.kind; });
+    const auto c = std::ranges::find(defect_clauses, defect.kind, &Clause::kind);
     return (defect.at_least ? "at least " : "") + counted(defect.count, c->one, c->more);
 }
 
@@ -149,14 +146,15 @@ std::vector<std::string> conformity_sentences(const CheckReport& r, std::size_t 
                               "vertices of these facets are not nodes"));
     std::string violated;
     std::size_t shown = 0;
-    for (const ViolatedFacet& f : c.examples) {
+    for (; shown < c.examples.size(); ++shown) {
+        const ViolatedFacet& f = c.examples[shown];
         const std::string one = fmt::format("{}{} ({:.3g} %)", violated.empty() ? "" : ", ", f.facet, 100 * f.covered);
         if (violated.size() + one.size() > room) break;
         violated += one;
-        ++shown;
     }
-    if (c.violated > shown && shown > 0) violated += fmt::format(", and {} more", c.violated - shown);
-    if (!violated.empty()) all.push_back("violated facets (area of faces centred on them): " + violated);
+    if (shown == 0) return all;
+    if (c.violated > shown) violated += fmt::format(", and {} more", c.violated - shown);
+    all.push_back("violated facets (area of faces centred on them): " + violated);
     return all;
 }
 
@@ -178,15 +176,13 @@ std::vector<std::string> fix_sentences(const FixedMesh& fixed) {
     add(done.differing_markers, "merged node has another marker", "merged nodes have other markers",
         " than the node that is kept: those are left out");
     if (!done.dropped.empty()) {
-        std::vector<std::string> kinds;
-        for (const DefectKind kind :
-             {DefectKind::repeated_node, DefectKind::degenerate_cell, DefectKind::duplicate_cell}) {
-            const auto count = std::count_if(done.dropped.begin(), done.dropped.end(),
-                                             [&](const DroppedCell& c) { return c.why == kind; });
-            if (count != 0) kinds.push_back(fmt::format("{} {}", count, defect_text(kind).name));
-        }
+        constexpr std::array kinds{DefectKind::repeated_node, DefectKind::degenerate_cell, DefectKind::duplicate_cell};
+        const std::string why = joined(kinds, ", ", [&](DefectKind kind) {
+            const auto count = std::ranges::count(done.dropped, kind, &DroppedCell::why);
+            return count == 0 ? "" : fmt::format("{} {}", count, defect_text(kind).name);
+        });
         all.push_back(
-            fmt::format("{} dropped: {}{}", counted(done.dropped.size(), "cell"), fmt::join(kinds, ", "),
+            fmt::format("{} dropped: {}{}", counted(done.dropped.size(), "cell"), why,
                         done.collapsed == 0 ? "" : fmt::format("; {} of them have merged nodes", done.collapsed)));
     }
     tell_differing(all, done.cell_fields, "duplicate has another value", "duplicates have other values", "cell");

@@ -1,12 +1,6 @@
 /// The words of reports on meshes.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "barycert/check.hpp"
 #include "barycert/report.hpp"
 
 namespace barycert::report {

@@ -1,6 +1,11 @@
+// Documents, and their writer for terminals.
+
 #include "barycert/report/common/document.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
 
 #include "barycert/base/json_text.hpp"
 #include "barycert/report.hpp"
@@ -14,6 +19,8 @@ std::string environment_line(const Environment& e) {
 }
 
 namespace report {
+
+using base::printable;
 
 void Document::curved(const CurvedCells& curved, const std::string& mesh) {
     const std::string text = message(curved), line = (mesh.empty() ? "" : mesh + ": ") + text;
@@ -47,15 +54,170 @@ std::string data_text(const Document& document) {
     return base::json_text(document.data, document.indent);
 }
 
+std::string time_text(double total, int threads, const std::vector<std::pair<std::string_view, double>>& parts) {
+    const auto part = [](const auto& p) { return fmt::format("{} {:.3g}", p.first, p.second); };
+    return fmt::format("{:.3g} s on {}: {}", total, counted(static_cast<std::uint64_t>(threads), "thread"),
+                       joined(parts, ", ", part));
+}
+
 std::string not_finite_text(const NotFinite& f) {
     return fmt::format("field {}{}: {} of {} values {} not finite", f.field, f.of_cells ? " of cells" : "", f.count,
                        f.values, f.count == 1 ? "is" : "are");
 }
 
-std::string counted(std::uint64_t n, std::string_view one, std::string_view more) {
-    return n == 1         ? fmt::format("1 {}", one)
-           : more.empty() ? fmt::format("{} {}s", n, one)
-                          : fmt::format("{} {}", n, more);
+namespace {
+
+constexpr std::size_t columns = 100;
+
+std::string wrapped(const std::string& text, Breaks wrap) {
+    if (wrap == Breaks::none) return text;
+    const std::string_view between = wrap == Breaks::words ? " " : ", ";
+    const std::size_t indent = std::min(text.find_first_not_of(' '), text.size());
+    std::string out(indent, ' ');
+    std::size_t column = 0;  // behind the indent
+    for (std::size_t at = indent; at < text.size();) {
+        const std::size_t found = text.find(between, at);
+        // Without the blank that `between` ends with.
+        const std::size_t end = found == std::string::npos ? text.size() : found + between.size() - 1;
+        if (column != 0) {
+            const bool fits = column + 1 + (end - at) <= columns - indent;
+            out += fits ? ' ' : '\n';
+            column = fits ? column + 1 : 0;
+        }
+        out.append(text, at, end - at);
+        column += end - at;
+        at = end + 1;
+    }
+    return out;
+}
+
+class Writer {
+public:
+    explicit Writer(bool colour) : colour_(colour) {}
+    std::string out;
+
+    void operator()(const Headline& h) {
+        std::string line = h.text;
+        for (std::size_t i = 0; i < h.reasons.size(); ++i) {
+            const std::size_t left = h.reasons.size() - i;
+            const std::size_t more = left == 1 ? 0 : fmt::format(", and 20 {}s", h.rest).size();
+            if (i > 0 && line.size() + 4 + h.reasons[i].size() + more > columns) {
+                line += ", and " + counted(left, h.rest);
+                break;
+            }
+            line += (i == 0 ? ": " : ", ") + h.reasons[i];
+        }
+        tell((h.subject.empty() ? "" : h.subject + ": ") + line, h.tone);
+        for (const std::string& s : h.sentences) tell(s, Tone::plain, Breaks::words);
+    }
+
+    void operator()(const Section& s) {
+        out += "\n";
+        if (s.on_terminal) tell(s.title, Tone::strong);
+    }
+
+    void operator()(const Paragraph& p) { tell(p.text, p.tone, p.wrap); }
+
+    void operator()(const Named& n) {
+        for (std::size_t i = 0; i < n.lines.size(); ++i) {
+            const std::string name = fmt::format("{:<10} ", i == 0 ? n.name : "");
+            out += name + toned(wrapped(name + printable(n.lines[i]), n.wrap).substr(name.size()), n.tone) + "\n";
+        }
+    }
+
+    void operator()(const Listing& t) {
+        struct Shown {
+            std::size_t cell, width;
+            const Column& column;
+            std::vector<std::string> head = {};
+
+            std::string padded(const std::string& text) const {
+                const std::string room(width > text.size() ? width - text.size() : 0, ' ');
+                return column.left ? text + room : room + text;
+            }
+        };
+        std::vector<Shown> shown;
+        std::size_t head_lines = 0;
+        for (std::size_t c = 0; c < t.columns.size(); ++c) {
+            if (t.columns[c].whom == For::page) continue;
+            Shown& s = shown.emplace_back(Shown{c, t.columns[c].width, t.columns[c]});
+            std::istringstream head(t.headless ? "" : s.column.head);
+            for (std::string text; std::getline(head, text); s.head.push_back(text))
+                s.width = std::max(s.width, text.size());
+            head_lines = std::max(head_lines, s.head.size());
+            for (const Row& row : t.rows) s.width = std::max(s.width, cell_of(row, c).size());
+        }
+        if (!shown.empty() && shown.back().column.left) shown.back().width = 0;
+        const auto line = [&](Tone tone, auto cell) {
+            std::string text;
+            for (const Shown& s : shown) text += std::string(&s == shown.data() ? 0 : s.column.gap, ' ') + cell(s);
+            out += toned(text.erase(text.find_last_not_of(' ') + 1), tone) + "\n";
+        };
+        for (std::size_t l = 0; l < head_lines; ++l)
+            line(Tone::strong, [&](const Shown& s) { return s.padded(l < s.head.size() ? s.head[l] : ""); });
+        for (const Row& row : t.rows) {
+            line(row.tone, [&](const Shown& s) {
+                const std::string text = s.padded(cell_of(row, s.cell));
+                return s.cell < row.cells.size() ? toned(text, row.cells[s.cell].tone) : text;
+            });
+            for (const std::string& below : row.below) tell("    " + below, Tone::bad);
+        }
+    }
+
+    void operator()(const Item& item) {
+        out += (item.title.empty() ? "" : toned(printable(item.title), Tone::strong)) + printable(item.text) + "\n";
+        for (const Item::Line& line : item.lines) {
+            if (!line.text.empty())
+                out += std::string(item.indent, ' ') +
+                       toned(printable(line.text), line.command ? Tone::soft : Tone::plain) + "\n";
+            std::vector<std::string> places = line.places.shown;
+            if (const std::string more = line.places.more(places.size()); !more.empty()) places.push_back(more);
+            std::string of_a_line;
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                std::string piece = printable(places[i]);
+                if (i + 1 < places.size()) piece += line.places.between;
+                if (!of_a_line.empty() && of_a_line.size() + 1 + piece.size() > columns) {
+                    out += of_a_line + "\n";
+                    of_a_line.clear();
+                }
+                of_a_line += (of_a_line.empty() ? "    " : " ") + piece;
+            }
+            if (!of_a_line.empty()) out += of_a_line + "\n";
+        }
+    }
+
+    void operator()(const Bars& b) {
+        for (const Bars::Bar& bar : b.bars)
+            out += fmt::format("{:>14} {:>12}  {}\n", bar.label, bar.count,
+                               std::string(static_cast<std::size_t>(std::ceil(50 * b.share(bar))), '#'));
+    }
+
+    void operator()(const Pictures& /*markup*/) {}
+
+private:
+    std::string toned(const std::string& text, Tone tone) const {
+        constexpr std::array<const char*, 5> codes{"", "32", "31", "1", "2"};  // by Tone
+        const char* const code = codes[static_cast<std::size_t>(tone)];
+        return colour_ && *code != '\0' ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+    }
+    void tell(const std::string& text, Tone tone, Breaks wrap = Breaks::none) {
+        out += toned(wrapped(printable(text), wrap), tone) + "\n";
+    }
+    static std::string cell_of(const Row& row, std::size_t i) {
+        return i < row.cells.size() ? printable(row.cells[i].text) : "";
+    }
+
+    bool colour_;
+};
+
+}  // namespace
+
+std::string terminal_text(const Document& document, bool colour) {
+    Writer writer(colour);
+    for (const Document::Block& block : document.blocks) {
+        if (block.whom != For::page) std::visit(writer, block.content);
+    }
+    return std::move(writer.out);
 }
 
 }  // namespace report

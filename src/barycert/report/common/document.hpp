@@ -5,18 +5,12 @@
 /// it. Pages ask for nothing from anywhere, and their head forbids it.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include "barycert/check.hpp"
 #include "barycert/report/common/json.hpp"
+#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
 
@@ -126,6 +120,13 @@ struct Bars {
         bool bad = false;
     };
     std::vector<Bar> bars;
+
+    /// Of the tallest.
+    double share(const Bar& bar) const {
+        std::uint64_t most = 1;
+        for (const Bar& b : bars) most = std::max(most, b.count);
+        return static_cast<double>(bar.count) / static_cast<double>(most);
+    }
 };
 
 /// Markup of a page, such as pictures: made when the page is written.
@@ -181,10 +182,10 @@ inline std::string_view for_straight_sides(const CurvedCells& curved) {
     return curved.cells == 0 ? "" : " for straight sides";
 }
 
+/// "2 s on 4 threads: mesh 0.5, sampling 1.5".
+std::string time_text(double total, int threads, const std::vector<std::pair<std::string_view, double>>& parts);
+
 /// "field T: 3 of 50 values are not finite".
 std::string not_finite_text(const NotFinite& field);
-
-/// "1 cell", "2 cells": the plural is the singular and an s, if none is given.
-std::string counted(std::uint64_t n, std::string_view one, std::string_view more = {});
 
 }  // namespace barycert::report

@@ -1,44 +1,31 @@
 // Documents as pages of HTML.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "barycert/base/text.hpp"
-#include "barycert/base/utf8.hpp"
 #include "barycert/report/common/document.hpp"
-#include "barycert/report/common/html.hpp"
-#include "barycert/report/common/page_script.hpp"
 #include "barycert/report/common/page_style.hpp"
+#include "barycert/report/common/picture.hpp"
 
 namespace barycert::report {
 
-std::string xml_escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-    }
-    return out;
-}
-
 std::string html_escaped(std::string_view text) {
-    std::string valid;
+    std::string out;
     while (!text.empty()) {
         const std::size_t size = base::first_character(text).size;
-        valid += size == 0 ? std::string_view("\xef\xbf\xbd") : text.substr(0, size);
+        const char c = text.front();
+        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+        out += size == 0  ? "\xef\xbf\xbd"
+               : c == '&' ? "&amp;"
+               : c == '<' ? "&lt;"
+               : c == '>' ? "&gt;"
+               : c == '"' ? "&quot;"
+               : control  ? " "
+                          : text.substr(0, size);
         text.remove_prefix(std::max<std::size_t>(size, 1));
     }
-    return xml_escaped(valid);
+    return out;
 }
 
 std::string html_name(std::string_view name) {
@@ -69,18 +56,18 @@ namespace {
 
 constexpr std::size_t max_places = 12;
 
+/// ` name="value"`, or nothing.
+std::string attribute(std::string_view name, std::string_view value) {
+    return value.empty() ? "" : fmt::format(" {}=\"{}\"", name, html_escaped(value));
+}
+
 std::string paragraph(const std::string& markup, std::string_view style = {}) {
-    return fmt::format("<p{}{}{}>{}</p>\n", style.empty() ? "" : " class=\"", style, style.empty() ? "" : "\"", markup);
+    return fmt::format("<p{}>{}</p>\n", attribute("class", style), markup);
 }
 
-std::string command(const std::string& text) {
-    return "<code class=\"copy\">" + html_escaped(text) + "</code>";
-}
-
-std::string listed(const std::vector<std::string>& texts) {
-    std::string out;
-    for (const std::string& text : texts) out += "<li>" + html_escaped(text) + "</li>";
-    return "<ul>" + out + "</ul>";
+/// Of a line: a command is to be copied.
+std::string words(const std::string& text, bool command) {
+    return command ? "<code class=\"copy\">" + html_escaped(text) + "</code>" : html_escaped(text);
 }
 
 class PageWriter {
@@ -96,7 +83,9 @@ public:
                                                  : "told",
                            html_escaped(text));
         if (h.reasons.size() == 1) out += paragraph(html_escaped(h.reasons[0]) + ".");
-        if (h.reasons.size() > 1) out += listed(h.reasons);
+        if (h.reasons.size() > 1)
+            out += "<ul>" + joined(h.reasons, "", [](const auto& r) { return "<li>" + html_escaped(r) + "</li>"; }) +
+                   "</ul>";
         for (const std::string& s : h.sentences) out += paragraph(html_escaped(s));
         out += "</section>\n";
     }
@@ -113,9 +102,8 @@ public:
     }
 
     void operator()(const Named& n) {
-        std::string lines;
-        for (const std::string& line : n.lines)
-            lines += (lines.empty() ? "" : "<br/>") + (n.command ? command(line) : html_escaped(line));
+        const std::string lines =
+            joined(n.lines, "<br/>", [&](const std::string& line) { return words(line, n.command); });
         out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_escaped(n.name),
                            n.tone == Tone::strong || n.tone == Tone::bad ? "<b>" + lines + "</b>" : lines);
     }
@@ -125,8 +113,7 @@ public:
         for (const Column& c : t.columns) {
             if (c.whom == For::terminal) continue;
             heads += fmt::format("<th scope=\"col\" class=\"{}\"{}>{}</th>", c.left ? "t" : "n",
-                                 c.tip.empty() ? "" : fmt::format(" title=\"{}\"", html_escaped(c.tip)),
-                                 unbroken_words(head_of(c)));
+                                 attribute("title", c.tip), unbroken_words(head_of(c)));
         }
         for (const Row& row : t.rows) {
             rows += "<tr>";
@@ -143,7 +130,7 @@ public:
     void operator()(const Item& item) {
         out += "<div class=\"card\">" + paragraph("<b>" + html_escaped(item.title) + "</b>" + html_escaped(item.text));
         for (const Item::Line& line : item.lines) {
-            if (!line.text.empty()) out += paragraph(line.command ? command(line.text) : html_escaped(line.text));
+            if (!line.text.empty()) out += paragraph(words(line.text, line.command));
             std::string places;
             const std::size_t shown = std::min(line.places.shown.size(), max_places);
             for (std::size_t i = 0; i < shown; ++i)
@@ -155,18 +142,13 @@ public:
     }
 
     void operator()(const Bars& b) {
-        std::uint64_t most = 1;
-        for (const Bars::Bar& bar : b.bars) most = std::max(most, bar.count);
         out += "<table class=\"bars\">\n";
-        for (const Bars::Bar& bar : b.bars) {
-            out += fmt::format("<tr><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"w\">",
-                               html_escaped(bar.label), bar.count);
-            const double width = 100 * static_cast<double>(bar.count) / static_cast<double>(most);
-            if (bar.count != 0)
-                out +=
-                    fmt::format("<span class=\"bar{}\" style=\"width:{:.2f}%\"></span>", bar.bad ? " bad" : "", width);
-            out += "</td></tr>\n";
-        }
+        for (const Bars::Bar& bar : b.bars)
+            out += fmt::format("<tr><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"w\">{}</td></tr>\n",
+                               html_escaped(bar.label), bar.count,
+                               bar.count == 0 ? ""
+                                              : fmt::format("<span class=\"bar{}\" style=\"width:{:.2f}%\"></span>",
+                                                            bar.bad ? " bad" : "", 100 * b.share(bar)));
         out += "</table>\n";
     }
 
@@ -195,19 +177,16 @@ private:
         const Column& column = t.columns[i];
         const Cell& c = row.cells[i];
         const std::string text = t.sorts && column.left ? html_name(c.text) : html_escaped(c.text);
-        if (t.sorts && i == 0)
-            return fmt::format("<th scope=\"row\"{}>{}</th>",
-                               row.tip.empty() ? "" : fmt::format(" title=\"{}\"", html_escaped(row.tip)), text);
+        if (t.sorts && i == 0) return fmt::format("<th scope=\"row\"{}>{}</th>", attribute("title", row.tip), text);
         const Tone tone = c.tone != Tone::plain ? c.tone : t.sorts || column.left ? Tone::plain : row.tone;
-        std::string attributes = fmt::format("{}{}", column.left ? "" : "n",
-                                             tone == Tone::bad    ? " bad"
-                                             : tone == Tone::good ? " ok"
-                                                                  : "");
-        if (!attributes.empty()) attributes = " class=\"" + attributes + "\"";
+        std::string attributes = attribute("class", fmt::format("{}{}", column.left ? "" : "n",
+                                                                tone == Tone::bad    ? " bad"
+                                                                : tone == Tone::good ? " ok"
+                                                                                     : ""));
         if (c.order)
-            attributes += fmt::format(" data-v=\"{}\"", std::isinf(*c.order) ? "Infinity" : base::shortest(*c.order));
+            attributes += attribute("data-v", std::isinf(*c.order) ? "Infinity" : base::shortest(*c.order));
         else if (!t.sorts && i != 0)
-            attributes += fmt::format(" data-l=\"{}\"", html_escaped(head_of(column)));
+            attributes += attribute("data-l", head_of(column));
         return fmt::format("<td{}>{}</td>", attributes, text);
     }
 };

@@ -1,15 +1,9 @@
 #include "barycert/report/common/picture.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
-
-#include "barycert/base/text.hpp"
-#include "barycert/report/common/html.hpp"
 
 namespace barycert::report {
 namespace {
@@ -57,12 +51,24 @@ Picture::Picture(double width, double height, std::string_view title, std::strin
                              width, height);
 }
 
+void Picture::draw(std::string_view style, const std::string& path) {
+    if (!path.empty()) body_ += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, path);
+}
+
 void Picture::path(const std::vector<Pixel>& corners, std::string_view style, bool closed) {
     if (corners.size() < 2) return;
-    body_ += fmt::format("<path class=\"{}\" d=\"", style);
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        body_ += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", corners[i].x, corners[i].y);
-    body_ += closed ? "Z\"/>\n" : "\"/>\n";
+    const auto more = [](const Pixel& p) { return fmt::format("{:.1f} {:.1f}", p.x, p.y); };
+    draw(style, "M" + joined(corners, "L", more) + (closed ? "Z" : ""));
+}
+
+void Picture::dots(const std::vector<Pixel>& at, std::string_view style) {
+    draw(style, joined(at, "", [](const Pixel& p) { return fmt::format("M{:.1f} {:.1f}h0", p.x, p.y); }));
+}
+
+void Picture::lines(const std::vector<std::pair<Pixel, Pixel>>& segments, std::string_view style) {
+    draw(style, joined(segments, "", [](const auto& s) {
+             return fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", s.first.x, s.first.y, s.second.x, s.second.y);
+         }));
 }
 
 void Picture::bar(Pixel corner, double width, double height, std::string_view style, std::string_view tip) {
@@ -86,20 +92,6 @@ void Picture::mark(Pixel at, Mark mark, double r, std::string_view style) {
     if (mark == Mark::diamond) polygon({{x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}}, filled);
     if (mark == Mark::up) polygon({{x - r, y + r}, {x, y - r}, {x + r, y + r}}, filled);
     if (mark == Mark::down) polygon({{x - r, y - r}, {x, y + r}, {x + r, y - r}}, filled);
-}
-
-void Picture::dots(const std::vector<Pixel>& at, std::string_view style) {
-    if (at.empty()) return;
-    body_ += fmt::format("<path class=\"{}\" d=\"", style);
-    for (const Pixel& p : at) body_ += fmt::format("M{:.1f} {:.1f}h0", p.x, p.y);
-    body_ += "\"/>\n";
-}
-
-void Picture::lines(const std::vector<std::pair<Pixel, Pixel>>& segments, std::string_view style) {
-    if (segments.empty()) return;
-    body_ += fmt::format("<path class=\"{}\" d=\"", style);
-    for (const auto& [a, b] : segments) body_ += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", a.x, a.y, b.x, b.y);
-    body_ += "\"/>\n";
 }
 
 void Picture::text(Pixel at, std::string_view text, std::string_view style, bool upwards) {
@@ -140,15 +132,12 @@ void place_labels(Picture& picture, std::vector<Label> labels, double top) {
                    std::none_of(taken.begin(), taken.end(), [&](const Rectangle& t) { return t.meets(r); });
         };
         bool placed = false;
-        for (const double distance : {5.0, 14.0, 26.0, 40.0, 60.0, 85.0}) {
-            for (int turn = 0; turn < 16 && !placed; ++turn) placed = fits(distance, turn);
-            if (placed) {
-                far = distance;
-                break;
-            }
-        }
-        if (!placed)
+        for (const double distance : {5.0, 14.0, 26.0, 40.0, 60.0, 85.0})
+            for (int turn = 0; turn < 16 && !placed; ++turn) placed = fits(far = distance, turn);
+        if (!placed) {
+            far = 0;
             best = {std::clamp(l.at.x, half, picture.width() - half), std::clamp(l.at.y, top, picture.height())};
+        }
         taken.push_back(room(best, l.text));
         if (far > 10) picture.line(l.at, best, "lead");
         if (far > 10) picture.text({best.x, best.y + 4}, l.text, "halo m");
@@ -164,12 +153,6 @@ std::vector<double> round_ticks(double low, double high, int max) {
     }
     std::vector<double> ticks;
     for (double k = std::ceil(low / step); k * step <= high; ++k) ticks.push_back(k * step + 0.0);  // no -0
-    return ticks;
-}
-
-std::vector<Tick> number_ticks(double low, double high, int max) {
-    std::vector<Tick> ticks;
-    for (const double t : round_ticks(low, high, max)) ticks.push_back({t, base::shortest(t)});
     return ticks;
 }
 
@@ -226,23 +209,6 @@ void draw_line_through(Picture& picture, const Axis& x, const Axis& y, Pixel a, 
     if (first >= last) return;
     picture.line({x.at(a.x + first * dx), y.at(a.y + first * dy)}, {x.at(a.x + last * dx), y.at(a.y + last * dy)},
                  style);
-}
-
-constexpr std::string_view plot_style = R"(
-svg{font-family:Helvetica,Arial,"DejaVu Sans",sans-serif}
-text{font-size:13px;fill:#222}.m{text-anchor:middle}.e{text-anchor:end}
-.head{font-size:18px;font-weight:bold}.title{font-size:14px}.small{font-size:12px;fill:#555}
-path{fill:none;stroke-width:1.2px;stroke-linejoin:round}path.mark{stroke:none}
-.grid{stroke:#e4e4e4}.axis{stroke:#444}.median{stroke-dasharray:3 3}.worst{stroke-opacity:.6}
-.prediction{stroke:#000;stroke-width:2px}.level{stroke:#888;stroke-dasharray:8 4}
-path.k0{stroke:#d55e00}path.k1{stroke:#0072b2}path.k2{stroke:#009e73}
-path.k3{stroke:#cc79a7}path.k4{stroke:#e69f00}path.k5{stroke:#56b4e9}
-.k0.mark{fill:#d55e00}.k1.mark{fill:#0072b2}.k2.mark{fill:#009e73}
-.k3.mark{fill:#cc79a7}.k4.mark{fill:#e69f00}.k5.mark{fill:#56b4e9}
-)";
-
-std::string curve_style(std::size_t i) {
-    return fmt::format("k{}", i);
 }
 
 }  // namespace barycert::report

@@ -5,12 +5,21 @@
 /// that comes in is escaped.
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
+#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
+
+// Text and bytes in HTML and XML.
+
+/// As an XML reader takes it back; control characters, which no XML may hold, become spaces, and bytes that are no
+/// UTF-8 (a file's name may be anything) U+FFFD.
+std::string html_escaped(std::string_view text);
+
+/// A name of words and dots: escaped, and where lines are short broken behind dots, not within words.
+std::string html_name(std::string_view name);
+
+/// Bytes as "data:TYPE;base64,...".
+std::string data_uri(std::string_view type, std::string_view bytes);
 
 struct Pixel {
     double x = 0, y = 0;
@@ -39,6 +48,8 @@ public:
     std::string finish() &&;
 
 private:
+    void draw(std::string_view style, const std::string& path);  ///< nothing if there is no path
+
     double width_, height_;
     std::string body_;
 };
@@ -61,8 +72,6 @@ struct Tick {
 
 /// Round numbers in [low, high]: multiples of 1, 2 or 5 times a power of ten, at most `most` of them (at least 2).
 std::vector<double> round_ticks(double low, double high, int max);
-/// These as ticks.
-std::vector<Tick> number_ticks(double low, double high, int max = 12);
 /// Of an axis of log10: 1, 2 and 5 times each power of ten in [low, high].
 std::vector<Tick> decade_ticks(double low, double high);
 
@@ -85,15 +94,5 @@ void draw_axes(Picture& picture, const Axis& x, const Axis& y);
 
 /// The part of the line through `a` and `b` (numbers, not pixels) that lies between the axes; nothing if none does.
 void draw_line_through(Picture& picture, const Axis& x, const Axis& y, Pixel a, Pixel b, std::string_view style);
-
-/// Curves with marks on a picture that is a file of its own: up to six, in colours that most eyes tell apart (Okabe's
-/// and Ito's), classes k0 to k5, and in marks that differ without colour.
-inline constexpr std::size_t max_curves = 6;
-extern const std::string_view plot_style;
-constexpr Mark curve_mark(std::size_t i) {
-    constexpr Mark marks[max_curves] = {Mark::up, Mark::circle, Mark::square, Mark::diamond, Mark::down, Mark::cross};
-    return marks[i];
-}
-std::string curve_style(std::size_t i);
 
 }  // namespace barycert::report

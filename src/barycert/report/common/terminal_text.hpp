@@ -1,14 +1,16 @@
-/// Small pieces of terminal text: numbers of few characters, colours, words for a shell.
+/// Small pieces of text: numbers of few characters, lists, words for a shell.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "barycert/base/shell_word.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::report {
@@ -51,20 +53,34 @@ inline std::string percent(std::uint64_t part, std::uint64_t whole) {
     return fmt::format("{:.{}f}", p, p < 0.1 ? 3 : p < 10 ? 2 : 1);
 }
 
-class Colours {
-public:
-    explicit Colours(bool on) : on_(on) {}
-    std::string bold(std::string_view s) const { return wrap("1", s); }
-    std::string bad(std::string_view s) const { return wrap("31", s); }
-    std::string good(std::string_view s) const { return wrap("32", s); }
-    std::string dim(std::string_view s) const { return wrap("2", s); }
-
-private:
-    std::string wrap(const char* code, std::string_view s) const {
-        return on_ ? fmt::format("\033[{}m{}\033[0m", code, s) : std::string(s);
+/// The texts of all items with `between` between them; empty ones are left out.
+std::string joined(const auto& items, std::string_view between, auto text) {
+    std::string out;
+    for (const auto& item : items) {
+        const std::string one(text(item));
+        if (!one.empty()) out.append(out.empty() ? "" : between).append(one);
     }
-    bool on_;
-};
+    return out;
+}
+
+/// "2 snapped; 3 extrapolated": how many of each; those of which there are none are left out.
+inline std::string clauses(const std::vector<std::pair<std::uint64_t, std::string>>& all,
+                           std::string_view between = "; ") {
+    return joined(all, between,
+                  [](const auto& c) { return c.first == 0 ? "" : fmt::format("{} {}", c.first, c.second); });
+}
+
+/// "0.5, 1, 2": the first so many numbers of an array, or from a pointer on.
+std::string coordinates(const auto& all, int count, std::string (*text)(double) = base::shortest,
+                        std::string_view between = ", ") {
+    return joined(std::span(&all[0], static_cast<std::size_t>(count)), between, text);
+}
+
+/// "1 cell", "2 cells": the plural is the singular and an s, if none is given.
+inline std::string counted(std::uint64_t n, std::string_view one, std::string_view more = {}) {
+    return n == 1 ? fmt::format("1 {}", one)
+                  : fmt::format("{} {}{}", n, more.empty() ? one : more, more.empty() ? "s" : "");
+}
 
 using base::shell_word;
 

@@ -25,7 +25,7 @@
 
 #include "barycert/core/gradient-inl.hpp"
 #include "barycert/core/lane_loop-inl.hpp"
-#include "barycert/sample/grid/raster_lanes.hpp"
+#include "barycert/sample/grid/fill_lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::sample::HWY_NAMESPACE {
@@ -127,7 +127,7 @@ HWY_INLINE void set_places(D tag, const Raster& raster, PlaceRange layers, const
 //
 // Notation as above; v = 2^-24. Let f be the first point of the box by the spacing h, place by place
 // fl(origin + first h), and w' = fl(f - o); point n = (n_0, ...) of the box, n_k < N_k, has the coordinates f_k + n_k
-// h_k + d_k. `slack` bounds |d_k| / h_k, the roundings of f and w' included, many times over (raster_lanes.hpp). With L
+// h_k + d_k. `slack` bounds |d_k| / h_k, the roundings of f and w' included, many times over (Raster). With L
 // the function constant + sum_k S_k (x_k - o_k), without roundings, weight l of the point is L up to E, and so
 //     l = A + sum_k B_k n_k    up to 2 E + 1.01 slack sum_k |B_k|,    A = L(w') as computed, B_k = fl(S_k h_k):
 // A is rounded six times at most, in sums of numbers below 9.1 K, which is less than E; B_k once, by u |B_k| n_k, of
@@ -244,10 +244,9 @@ HWY_INLINE void visit_box(const CellBlock<d>& cell, const BoxBlock<d>& box, std:
     for (std::int32_t from = 0; from < rows; from += pattern.rows) {
         const V row = hn::Load(tag, pattern.row) + hn::Set(tag, static_cast<float>(from));
         V weight[d + 1];
-        for (int j = 0; j <= d; ++j) {
+        for (int j = 0; j <= d; ++j)
             weight[j] = hn::MulAdd(hn::Set(tag, box.step[j][1][l]), row,
                                    hn::MulAdd(hn::Set(tag, box.step[j][0][l]), column, hn::Set(tag, box.first[j][l])));
-        }
         const auto used = hn::FirstN(tag, static_cast<std::size_t>(std::min(pattern.rows, rows - from) * columns));
         weight[0] = hn::IfThenElse(used, weight[0], nowhere);
         auto place = hn::Load(whole, pattern.place) + hn::Set(whole, from << box_bits);

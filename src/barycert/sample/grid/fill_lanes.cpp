@@ -24,7 +24,7 @@ void fill_all(const FillSource& source, std::span<const locate::Place> cells, co
     RowsBlock<d> rows;
     std::vector<typename Values<d>::Block> values(to.components() * blocks_at_once);
     std::vector<typename Values<d>::RowTerms> terms(to.components());
-    for (std::size_t i = 0; i < blocks_at_once; ++i) blocks[i].values = &values[i * to.components()];
+    for (std::size_t i = 0; i < blocks_at_once; ++i) blocks[i].values = values.data() + i * to.components();
     std::size_t count = 0;
     for (std::size_t at = 0; at < cells.size(); at += width) {
         FillBlock<Values, d>& b = blocks[count];

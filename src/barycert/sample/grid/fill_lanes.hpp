@@ -1,16 +1,41 @@
 /// Cells fill in the points of a grid that they hold, on SIMD lanes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "barycert/sample/grid/raster_lanes.hpp"
 #include "barycert/sample/points/value_lanes.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert::sample {
+
+/// The points of a grid as a raster: columns along x, rows along y (and z). 2D: z has one entry.
+struct Raster {
+    std::array<std::vector<double>, 3> at;  ///< coordinates of each axis, ascending
+    /// Place i of an axis is near origin + i / scale, and near origin + i * spacing.
+    std::array<double, 3> origin{}, scale{}, spacing{};
+    /// Places (x - origin) * scale computed in double, of anything in the grid or the mesh, are off by less than half
+    /// of `slack`, and so are ends of intervals along x. If that cannot be said, by whatever it takes: every
+    /// point in the box of a cell is then asked for exactly.
+    double slack = 0;
+    bool precise = false;
+};
+
+/// Places [first, last) of an axis.
+struct PlaceRange {
+    std::int32_t first, last;
+};
+
+/// Points first to last - 1 of a row may be in the cell; those from inner_first to inner_last - 1 are certainly in its
+/// interior. All others of the row are certainly outside.
+struct Span {
+    locate::Place cell;
+    std::int32_t row, layer;  ///< along y and z
+    std::int32_t first, inner_first, inner_last, last;
+};
 
 /// In FillTarget::feature, beside the feature: the value is still to be found.
 inline constexpr std::uint8_t value_missing = 0x80;
@@ -28,11 +53,19 @@ struct FillTarget {
     Feature* feature = nullptr;
     double* values = nullptr;
     std::size_t stride = 1;  ///< numbers a point in `values`, of which the first are the components of the nodes
-    std::size_t columns = 0, rows = 0;
+    std::size_t columns = 0, rows = 0;  ///< 2D: one row a layer
     std::int32_t first_layer = 0, last_layer = 0;
+
+    /// Which of the lines a row is (2D: layer 0 of all rows).
+    std::size_t line_of(std::int32_t row, std::int32_t layer) const {
+        return static_cast<std::size_t>(layer - first_layer) * rows + static_cast<std::size_t>(row);
+    }
+    /// Cells may overlap: the lowest keeps a point.
+    bool kept(std::size_t point, Mesh::Index cell) const { return owner[point] >= 0 && owner[point] < cell; }
 };
 
-/// What cells fill in: the points of a grid, by the components of the nodes (at least 1). Cells are linear.
+/// What cells fill in: the points of a grid, by the components of the nodes. Cells are linear. If there are no
+/// components, values are missing everywhere.
 struct FillSource {
     const locate::CellIndex& index;
     const NodeValues& nodes;

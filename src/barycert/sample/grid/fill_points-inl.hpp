@@ -1,5 +1,5 @@
-// Internal: cells fill in the points that they hold: those with few points in their boxes one by one, others rows of
-// them.
+// Internal: cells, a vector of them at a time, fill in the points that they hold: those with few points in their boxes
+// one by one, others rows of them.
 //
 // Included once per SIMD target.
 #if defined(BARYCERT_SAMPLE_FILL_POINTS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -12,10 +12,90 @@
 #include <algorithm>
 #include <array>
 
-#include "barycert/sample/grid/fill_setup-inl.hpp"
+#include "barycert/index/records-inl.hpp"
+#include "barycert/sample/grid/fill_values-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::sample::HWY_NAMESPACE {
+
+using namespace index::HWY_NAMESPACE;
+
+/// MaxLanes cells.
+template <template <int> class Values, int d>
+struct FillBlock {
+    locate::Place place[max_lanes];
+    Mesh::Index id[max_lanes];
+    CellBlock<d> cells;
+    BoxBlock<d> boxes;
+    std::uint32_t valid, box;           ///< bits; box: with few points in their boxes
+    typename Values<d>::Block* values;  ///< by component
+};
+
+/// What is filled in from where.
+template <int d>
+struct Filling {
+    const FillSource& source;
+    const FillTarget& target;
+    UndecidedFill& undecided;
+
+    /// The first point of the box of a cell.
+    std::size_t first_of_box(const CellBlock<d>& cells, std::size_t l) const {
+        return target.line_of(cells.first[1][l], d == 3 ? cells.first[d - 1][l] : 0) * target.columns +
+               static_cast<std::size_t>(cells.first[0][l]);
+    }
+    std::size_t components() const { return source.nodes.components; }
+    bool one_number() const { return target.stride == 1 && components() == 1; }
+    /// Unless kept.
+    void own(std::size_t point, Mesh::Index cell, bool certain) const {
+        if (target.owner[point] >= 0 || !certain)
+            target.feature[point] = certain ? Feature::interior : without_value(Feature::interior);
+        target.owner[point] = cell;
+    }
+};
+
+/// From b.place. `rows` is set only if some cells need it.
+template <template <int> class Values, int d, class D>
+HWY_INLINE void set_block(D tag, const Filling<d>& to, FillBlock<Values, d>& b, RowsBlock<d>& rows) {
+    using V = hn::Vec<D>;
+    constexpr int n = d + 1;
+    const FillSource& source = to.source;
+    const NodeValues& nodes = source.nodes;
+    for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l)
+        b.id[l] = source.index.original[static_cast<std::size_t>(b.place[l])];
+    const auto node = [&](std::size_t l, int i) HWY_ATTR {
+        return static_cast<std::size_t>(
+            source.index.cells[static_cast<std::size_t>(b.place[l])].node[static_cast<std::size_t>(i)]);
+    };
+    V v[n][d], f[n];
+    for (int i = 0; i < n; ++i) {
+        V row[4];
+        load_records(
+            tag, [&](std::size_t l) HWY_ATTR { return nodes.first[node(l, i)].at.data(); }, row);
+        for (int k = 0; k < d; ++k) v[i][k] = row[k];
+        f[i] = row[3];
+    }
+    set_places<d>(tag, source.raster, {to.target.first_layer, to.target.last_layer}, v, b.cells);
+    const CellMatrix<d, D> m = cell_matrix<d>(tag, v);
+    V extent[d];
+    extents(m.edge, extent);
+    CellWeights<d, D> weights;
+    set_weights<d>(tag, m, extent, weights);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, weights.valid, bits);
+    b.valid = bits[0];
+    b.box = set_boxes<d>(tag, source.raster, b.cells, weights, b.boxes) & b.valid;
+    if (b.box != (1U << hn::MaxLanes(D())) - 1) set_planes<d>(tag, source.raster, b.cells, weights, extent[0], rows);
+
+    for (std::size_t c = 0; c < nodes.components; ++c) {
+        for (int i = 0; c != 0 && i < n; ++i) {
+            HWY_ALIGN double lanes[max_lanes];
+            for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l)
+                lanes[l] = nodes.more[(c - 1) / 4 * nodes.node_count + node(l, i)].value[(c - 1) % 4];
+            f[i] = hn::Load(tag, lanes);
+        }
+        Values<d>::set(tag, m, v, extent, f, b.values[c]);
+    }
+}
 
 /// Blocks that are set up one after the other, as each hides the waits of the next.
 constexpr std::size_t blocks_at_once = 8;
@@ -102,7 +182,7 @@ HWY_INLINE void fill_box_component(D tag, const Filling<d>& to, const FillBlock<
             *certain = static_cast<std::uint8_t>(c == 0 ? bits : *certain & bits);
             ++certain;
             for (std::size_t i = 0; i < used; ++i) {
-                if (!to.kept(point(i), id)) target.values[target.stride * point(i) + c] = values[i];
+                if (!to.target.kept(point(i), id)) target.values[target.stride * point(i) + c] = values[i];
             }
         }
     }
@@ -117,7 +197,7 @@ HWY_INLINE void fill_box(D tag, const Filling<d>& to, const FillBlock<Values, d>
         return;
     }
     constexpr std::size_t width = hn::MaxLanes(D());
-    std::uint8_t certain[box_points / width];
+    std::uint8_t certain[box_points / width] = {};
     for (std::size_t c = 0; c < to.components(); ++c)
         fill_box_component<false>(tag, to, b, one, found, c, base, certain);
     const Mesh::Index id = b.id[one.lane];
@@ -125,7 +205,7 @@ HWY_INLINE void fill_box(D tag, const Filling<d>& to, const FillBlock<Values, d>
         const auto place = static_cast<std::size_t>(found[one.begin + i]);
         const std::size_t row = place >> box_bits & (box_side - 1), layer = place >> 2 * box_bits;
         const std::size_t point = base + (place & (box_side - 1)) + (layer * to.target.rows + row) * to.target.columns;
-        if (!to.kept(point, id)) to.own(point, id, (certain[i / width] >> i % width & 1) != 0);
+        if (!to.target.kept(point, id)) to.own(point, id, (certain[i / width] >> i % width & 1) != 0);
     }
 }
 
@@ -202,7 +282,7 @@ HWY_INLINE void fill_row(D tag, const Filling<d>& to, const FillBlock<Values, d>
         const std::int32_t used = std::min(width, columns.last - column);
         const auto x = load_some(tag, to.source.raster.at[0].data() + column, used);
         const std::size_t first = at + static_cast<std::size_t>(column);
-        std::uint32_t certain = ~0U;
+        std::uint32_t certain = to.components() == 0 ? 0 : ~0U;
         bool alone = to.one_number();
         for (std::size_t i = 0; i < static_cast<std::size_t>(used); ++i) alone &= target.owner[first + i] < 0;
         for (std::size_t c = 0; c < to.components(); ++c) {
@@ -216,11 +296,11 @@ HWY_INLINE void fill_row(D tag, const Filling<d>& to, const FillBlock<Values, d>
             HWY_ALIGN double values[max_lanes];
             hn::Store(value, tag, values);
             for (std::size_t i = 0; i < static_cast<std::size_t>(used); ++i) {
-                if (!to.kept(first + i, id)) target.values[target.stride * (first + i) + c] = values[i];
+                if (!to.target.kept(first + i, id)) target.values[target.stride * (first + i) + c] = values[i];
             }
         }
         for (std::size_t i = 0; i < static_cast<std::size_t>(used); ++i) {
-            if (!to.kept(first + i, id)) to.own(first + i, id, (certain >> i & 1) != 0);
+            if (!to.target.kept(first + i, id)) to.own(first + i, id, (certain >> i & 1) != 0);
         }
     }
 }
@@ -254,7 +334,7 @@ HWY_INLINE void fill_rows(D tag, const Filling<d>& to, const FillBlock<Values, d
             for (std::uint32_t bits = block.with_points; bits != 0; bits &= bits - 1) {
                 const auto r = static_cast<std::size_t>(__builtin_ctz(bits));
                 fill_row(tag, to, b, l, terms, r, {block.inner_first[r], block.inner_last[r]},
-                         to.line_of(rows.row[at + r], rows.layer[at + r]) * to.target.columns);
+                         to.target.line_of(rows.row[at + r], rows.layer[at + r]) * to.target.columns);
             }
         }
         rows.count = 0;

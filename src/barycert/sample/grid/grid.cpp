@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
@@ -15,23 +16,26 @@ namespace {
 
 constexpr const char* axis_names[] = {"x", "y", "z"};
 
-Status check_bounds(std::size_t axis, double low, double high) {
-    if (std::isfinite(low) && std::isfinite(high) && low <= high && std::isfinite(high - low)) return Done{};
-    return Error{.what = std::string("bounds of the grid along ") + axis_names[axis],
-                 .expected = "finite numbers, min before max, with a finite difference",
-                 .found = base::shortest(low) + ", " + base::shortest(high)};
+Error along_axis(const char* what, std::size_t axis, std::string expected, std::string found) {
+    return {.what = std::string(what) + " of the grid along " + axis_names[axis],
+            .expected = std::move(expected),
+            .found = std::move(found)};
 }
 
-Status check_dimension(int dimension) {
-    if (dimension == 2 || dimension == 3) return Done{};
-    return Error{.what = "dimension of the grid", .expected = "2 or 3", .found = std::to_string(dimension)};
+Status check_box(int dimension, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+    if (dimension != 2 && dimension != 3)
+        return Error{.what = "dimension of the grid", .expected = "2 or 3", .found = std::to_string(dimension)};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+        if (!(std::isfinite(low[k]) && std::isfinite(high[k]) && low[k] <= high[k] && std::isfinite(high[k] - low[k])))
+            return along_axis("bounds", k, "finite numbers, min before max, with a finite difference",
+                              base::shortest(low[k]) + ", " + base::shortest(high[k]));
+    }
+    return Done{};
 }
 
 Status check_count(std::size_t axis, double count) {
     if (count >= 1 && count <= static_cast<double>(Grid::max_on_axis)) return Done{};
-    return Error{.what = std::string("points of the grid along ") + axis_names[axis],
-                 .expected = "1 to " + std::to_string(Grid::max_on_axis),
-                 .found = base::shortest(count)};
+    return along_axis("points", axis, "1 to " + std::to_string(Grid::max_on_axis), base::shortest(count));
 }
 
 /// A spacing for points from low to high. Who reads a VTI file of the grid computes low + i * spacing, each operation
@@ -68,9 +72,7 @@ Result<Grid> checked(const Grid& grid) {
         const double far = std::max(std::fabs(grid.origin[k]), std::fabs(grid.last[k]));
         const double apart = far - std::nextafter(far, 0);
         if (grid.spacing[k] < apart || grid.coordinate(k, grid.counts[k] - 2) >= grid.last[k])
-            return Error{.what = std::string("points of the grid along ") + axis_names[k],
-                         .expected = "few enough that their coordinates differ",
-                         .found = std::to_string(grid.counts[k])};
+            return along_axis("points", k, "few enough that their coordinates differ", std::to_string(grid.counts[k]));
     }
     return grid;
 }
@@ -87,11 +89,10 @@ double Grid::coordinate(std::size_t axis, std::int64_t i) const {
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high) {
     const ExactEnvironment environment;
-    if (Status status = check_dimension(dimension); !status) return status.error();
     Grid grid;
     grid.dimension = dimension;
+    if (Status status = check_box(dimension, low, high); !status) return status.error();
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-        if (Status status = check_bounds(k, low[k], high[k]); !status) return status.error();
         if (Status status = check_count(k, static_cast<double>(counts[k])); !status) return status.error();
         grid.counts[k] = counts[k];
         if (counts[k] == 1) {
@@ -102,9 +103,8 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
         grid.last[k] = high[k];
         grid.spacing[k] = spacing_between(low[k], high[k], counts[k]);
         if (!(grid.spacing[k] > 0))
-            return Error{.what = std::string("bounds of the grid along ") + axis_names[k],
-                         .expected = "ends far enough apart for " + std::to_string(counts[k]) + " points",
-                         .found = base::shortest(low[k]) + ", " + base::shortest(high[k])};
+            return along_axis("bounds", k, "ends far enough apart for " + std::to_string(counts[k]) + " points",
+                              base::shortest(low[k]) + ", " + base::shortest(high[k]));
     }
     return checked(grid);
 }
@@ -112,15 +112,12 @@ Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts,
 Result<Grid> grid_spaced(int dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& low,
                          const std::array<double, 3>& high) {
     const ExactEnvironment environment;
-    if (Status status = check_dimension(dimension); !status) return status.error();
     Grid grid;
     grid.dimension = dimension;
+    if (Status status = check_box(dimension, low, high); !status) return status.error();
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-        if (Status status = check_bounds(k, low[k], high[k]); !status) return status.error();
         if (!(spacing[k] > 0) || !std::isfinite(spacing[k]))
-            return Error{.what = std::string("spacing of the grid along ") + axis_names[k],
-                         .expected = "a positive number",
-                         .found = base::shortest(spacing[k])};
+            return along_axis("spacing", k, "a positive number", base::shortest(spacing[k]));
         // A quotient rounded down by an ulp must not lose the last point.
         double steps = std::floor((high[k] - low[k]) / spacing[k]);
         if (Status status = check_count(k, steps + 1); !status) return status.error();

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
@@ -23,47 +24,27 @@ struct SlabRange {
 };
 constexpr SlabRange no_slab{~std::uint32_t{0}, 0};
 
-/// Slabs by coordinates.
-class Slabs {
-public:
-    Slabs(const locate::CellIndex& index, const Raster& raster, std::size_t depth)
-        : layers_(raster.at[index.dimension() - 1]),
-          origin_(raster.origin[index.dimension() - 1]),
-          scale_(raster.scale[index.dimension() - 1]),
-          slack_(raster.slack),
-          precise_(raster.precise) {
-        for (std::size_t i = 0; i < layers_.size(); ++i) slab_.push_back(static_cast<std::uint32_t>(i / depth));
+/// The slabs of so many layers each that a cell from low to high along the last axis may lie in.
+SlabRange slabs_between(const Raster& raster, std::size_t axis, std::uint32_t depth, double low, double high) {
+    const std::vector<double>& layers = raster.at[axis];
+    const double last_layer = static_cast<double>(layers.size() - 1);
+    const auto slab_of = [&](auto layer) { return static_cast<std::uint32_t>(layer) / depth; };
+    if (!raster.precise) {
+        const auto first = std::lower_bound(layers.begin(), layers.end(), low);
+        const auto end = std::upper_bound(first, layers.end(), high);
+        if (first == end) return no_slab;
+        return {slab_of(first - layers.begin()), slab_of(end - layers.begin() - 1)};
     }
-
-    std::size_t count() const { return slab_.back() + 1; }
-
-    SlabRange between(double low, double high) const {
-        const double last_layer = static_cast<double>(layers_.size() - 1);
-        if (!precise_) {
-            const auto first = std::lower_bound(layers_.begin(), layers_.end(), low);
-            const auto end = std::upper_bound(first, layers_.end(), high);
-            if (first == end) return no_slab;
-            return {slab_[static_cast<std::size_t>(first - layers_.begin())],
-                    slab_[static_cast<std::size_t>(end - layers_.begin()) - 1]};
-        }
-        // Rounded down both: a layer more than there are is no matter.
-        const double from = (low - origin_) * scale_ - slack_, to = (high - origin_) * scale_ + slack_;
-        if (!(from <= last_layer && to >= 0)) return no_slab;
-        return {slab_[static_cast<std::size_t>(std::max(from, 0.0))],
-                slab_[static_cast<std::size_t>(std::min(to, last_layer))]};
-    }
-
-private:
-    const std::vector<double>& layers_;
-    double origin_, scale_, slack_;
-    bool precise_;
-    std::vector<std::uint32_t> slab_;  ///< by layer
-};
+    // Rounded down both: a layer more than there are is no matter.
+    const double origin = raster.origin[axis], scale = raster.scale[axis], slack = raster.slack;
+    const double from = (low - origin) * scale - slack, to = (high - origin) * scale + slack;
+    if (!(from <= last_layer && to >= 0)) return no_slab;
+    return {slab_of(std::max(from, 0.0)), slab_of(std::min(to, last_layer))};
+}
 
 }  // namespace
 
 SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::size_t depth) {
-    const Slabs slabs(index, raster, depth);
     const std::size_t axis = index.dimension() - 1, cells = index.cell_count();
     constexpr std::size_t at_once = 32768;
     parts_.resize((cells + at_once - 1) / at_once);
@@ -78,7 +59,8 @@ SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::
             // In 2D the last corner repeats the first one.
             const double a = at(0), b = at(1), c = at(2), d = at(3);
             const SlabRange r =
-                slabs.between(std::min(std::min(a, b), std::min(c, d)), std::max(std::max(a, b), std::max(c, d)));
+                slabs_between(raster, axis, static_cast<std::uint32_t>(depth), std::min(std::min(a, b), std::min(c, d)),
+                              std::max(std::max(a, b), std::max(c, d)));
             ranges[i] = r;
             all = {std::min(all.first, r.first), std::max(all.last, r.last)};
         }
@@ -105,8 +87,9 @@ SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::
 namespace barycert {
 namespace {
 
-std::size_t layer_axis(const Grid& grid) {
-    return grid.dimension == 3 ? 2 : 1;
+/// How many parts of a size there are.
+std::size_t parts_of(std::size_t all, std::size_t size) {
+    return (all + size - 1) / size;
 }
 
 sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
@@ -140,18 +123,11 @@ sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
     return raster;
 }
 
-/// Layers a slab, and how many of them.
-struct Division {
-    std::size_t depth, slabs;
-};
-
-/// Few slabs, for a cell that lies in two of them is looked at twice; of `room` points or one layer each; as many for
-/// each thread.
-Division divide(std::size_t layers, std::size_t layer_size, std::size_t room, std::size_t threads) {
-    const auto parts = [](std::size_t all, std::size_t size) { return (all + size - 1) / size; };
-    const std::size_t fewest = parts(layers, std::max<std::size_t>(room / layer_size, 1));
-    const std::size_t depth = parts(layers, std::min(parts(fewest, threads) * threads, layers));
-    return {depth, parts(layers, depth)};
+/// Layers a slab. Few slabs, for a cell that lies in two of them is looked at twice; of `room` points or one layer
+/// each; as many for each thread.
+std::size_t slab_depth(std::size_t layers, std::size_t layer_size, std::size_t room, std::size_t threads) {
+    const std::size_t fewest = parts_of(layers, std::max<std::size_t>(room / layer_size, 1));
+    return parts_of(layers, std::min(parts_of(fewest, threads) * threads, layers));
 }
 
 Status check_grid(const sample::SamplerData& data, const Grid& grid) {
@@ -186,17 +162,17 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
     const sample::SamplerData& data = sample::SamplerData::of(sampler);
     if (Status status = check_grid(data, grid); !status) return status.error();
     const sample::Raster raster = raster_of(grid, data.index());
-    const std::vector<double>& layers = raster.at[layer_axis(grid)];
+    const std::vector<double>& layers = raster.at[data.index().dimension() - 1];
     const std::size_t layer = static_cast<std::size_t>(grid.point_count()) / layers.size();
-    // Many layers, for a cell that lies in two slabs is looked at twice; few enough for 64 MiB or so.
+    // Points of 64 MiB or so.
     const std::size_t room = (std::size_t{1} << 26) / (16 + 8 * data.width);
 
     Status status = Done{};
     SampleCounts all;
-    locate::in_arena(options.threads, [&] {
+    base::in_arena(options.threads, data.index().cell_count() + layer * layers.size(), [&] {
         const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-        const Division division = divide(layers.size(), layer, room, threads);
-        const std::size_t depth = division.depth, slabs = division.slabs;
+        const std::size_t depth = slab_depth(layers.size(), layer, room, threads);
+        const std::size_t slabs = parts_of(layers.size(), depth);
         const sample::SlabCells cells(data.index(), raster, depth);
         // A slab may wait for its turn while others are filled. As they are begun and end in order, those under way
         // are consecutive.
@@ -219,8 +195,7 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
             if (!status) return;
             const sample::SlabSampler& slab = samplers[s % at_once];
             if (const auto refused = slab.refused()) {
-                status = Error{.what = "point " + std::to_string(*refused) + " of the grid is outside the mesh",
-                               .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
+                status = sample::outside_error("point " + std::to_string(*refused) + " of the grid");
             } else {
                 status = sink(slab.block());
                 ExactEnvironment::renew();

@@ -4,26 +4,13 @@
 #include <limits>
 
 #include "barycert/locate/cell_signs.hpp"
-#include "barycert/sample/grid/fill_lanes.hpp"
 
 namespace barycert::sample {
-namespace {
-
-constexpr std::size_t cells_at_once = 256, cells_to_fill = 4096;
-
-/// Values that fill_cells finds. Of plain ones it does not see which have a node that is not finite.
-bool can_fill(const SamplerData& data, const Raster& raster, Rounding rounding) {
-    return raster.precise && !data.quadratic && data.point_components != 0 &&
-           (data.finite || rounding == Rounding::correct);
-}
-
-}  // namespace
 
 void SlabSampler::run(std::int32_t first, std::int32_t last, const SlabCells& cells, std::size_t slab) {
-    first_ = first;
-    last_ = last;
-    const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
-    points_ = layer * static_cast<std::size_t>(last - first);
+    const auto columns = static_cast<std::size_t>(grid_.counts[0]);
+    const auto rows = static_cast<std::size_t>(grid_.dimension == 3 ? grid_.counts[1] : 1);
+    points_ = columns * rows * static_cast<std::size_t>(last - first);
     constexpr std::size_t more = 8;  // FillTarget
     if (owners_.size() < points_ + more) {
         owners_ = locate::Buffer<Mesh::Index>(points_ + more);
@@ -32,66 +19,61 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, const SlabCells& ce
     }
     std::fill_n(owners_.data(), points_ + more, -1);
     std::fill_n(found_.data(), points_ + more, Feature::outside);
-    const bool distances = options_.outside.kind == Outside::nearest || options_.outside.kind == Outside::extrapolate;
+    target_ = {owners_.data(), found_.data(), values_.data(), data_.width, columns, rows, first, last};
+    const bool distances = gives_distances(options_.outside);
     distances_.assign(distances ? points_ : 0, 0);
     counts_ = {};
     sampler_.emplace(data_, options_,
                      BlockRows{owners_.data(), found_.data(), values_.data(), distances ? distances_.data() : nullptr});
-    filled_ = can_fill(data_, raster_, options_.rounding);
-    cells.for_parts(slab, [&](std::span<const locate::Place> some) { filled_ ? fill(some) : raster(some); });
+    // Of plain values, fill_cells does not see which have a node that is not finite.
+    filled_ =
+        !data_.quadratic && data_.point_components != 0 && (data_.finite || options_.rounding == Rounding::correct);
+    cells.for_parts(slab, [&](std::span<const locate::Place> some) {
+        if (raster_.precise) return fill(some);
+        for (const locate::Place cell : some) take(cell);
+    });
     finish();
     counts_.add(sampler_->counts());
 }
 
-FillTarget SlabSampler::target() {
-    return {owners_.data(),
-            found_.data(),
-            values_.data(),
-            data_.width,
-            static_cast<std::size_t>(grid_.counts[0]),
-            static_cast<std::size_t>(grid_.counts[1]),
-            first_,
-            last_};
-}
-
 void SlabSampler::fill(std::span<const locate::Place> cells) {
-    const NodeValues nodes = data_.node_values();
+    constexpr std::size_t at_once = 4096;
+    NodeValues nodes = data_.node_values();
+    if (!filled_) nodes.components = 0;
     const FillSource source{data_.index(), nodes, raster_, options_.rounding};
-    const FillTarget target = this->target();
-    for (std::size_t c = 0; c < cells.size(); c += cells_to_fill) {
+    for (std::size_t c = 0; c < cells.size(); c += at_once) {
         undecided_.clear();
-        fill_cells(source, cells.subspan(c, std::min(cells_to_fill, cells.size() - c)), target, undecided_);
+        fill_cells(source, cells.subspan(c, std::min(at_once, cells.size() - c)), target_, undecided_);
         for (const Span& span : undecided_.spans) take(span);
         for (const UndecidedPoint& point : undecided_.points) take(point);
-        raster(undecided_.cells);
+        for (const locate::Place cell : undecided_.cells) take(cell);
     }
 }
 
-void SlabSampler::raster(std::span<const locate::Place> cells) {
-    for (std::size_t c = 0; c < cells.size(); c += cells_at_once) {
-        spans_.clear();
-        find_spans(data_.index(), raster_, cells.data() + c, std::min(cells_at_once, cells.size() - c), first_, last_,
-                   spans_);
-        for (const Span& span : spans_) {
-            take(span);
-            const std::size_t line = line_of(span.row, span.layer);
-            const Mesh::Index cell = original(span.cell);
-            for (std::int32_t i = span.inner_first; i < span.inner_last; ++i)
-                own(line + static_cast<std::size_t>(i), cell, without_value(Feature::interior));
-        }
+/// All points in the box of a cell.
+void SlabSampler::take(locate::Place cell) {
+    const locate::CellIndex& index = data_.index();
+    std::array<PlaceRange, 3> box{{{0, 1}, {0, 1}, {0, 1}}};
+    for (std::size_t k = 0; k < index.dimension(); ++k) {
+        const auto at = [&](locate::Place node) { return index.nodes[static_cast<std::size_t>(node)].at[k]; };
+        const auto [low, high] = std::ranges::minmax(index.cells[static_cast<std::size_t>(cell)].node, {}, at);
+        const std::vector<double>& places = raster_.at[k];
+        const auto first = std::lower_bound(places.begin(), places.end(), at(low));
+        box[k] = {static_cast<std::int32_t>(first - places.begin()),
+                  static_cast<std::int32_t>(std::upper_bound(first, places.end(), at(high)) - places.begin())};
     }
-}
-
-/// Where the points of a row begin.
-std::size_t SlabSampler::line_of(std::int32_t row, std::int32_t layer) const {
-    const auto columns = static_cast<std::size_t>(grid_.counts[0]), rows = static_cast<std::size_t>(grid_.counts[1]);
-    if (grid_.dimension == 2) return static_cast<std::size_t>(row - first_) * columns;
-    return (static_cast<std::size_t>(layer - first_) * rows + static_cast<std::size_t>(row)) * columns;
+    PlaceRange& cut = box[index.dimension() - 1];
+    cut = {std::max(cut.first, target_.first_layer), std::min(cut.last, target_.last_layer)};
+    const std::int32_t first = box[0].first, last = box[0].last;
+    for (std::int32_t layer = box[2].first; layer < box[2].last; ++layer) {
+        for (std::int32_t row = box[1].first; row < box[1].last; ++row)
+            take(Span{cell, row, layer, first, first, first, last});
+    }
 }
 
 /// The points of a span of which it is not certain whether they are in the cell.
 void SlabSampler::take(const Span& span) {
-    const std::size_t line = line_of(span.row, span.layer);
+    const std::size_t line = target_.columns * target_.line_of(span.row, span.layer);
     const auto test = [&](std::int32_t column) {
         const std::size_t point = line + static_cast<std::size_t>(column);
         const auto feature = tested(span.cell, {column, span.row, span.layer}, point);
@@ -102,7 +84,8 @@ void SlabSampler::take(const Span& span) {
 }
 
 void SlabSampler::take(const UndecidedPoint& one) {
-    const std::size_t point = line_of(one.row, one.layer) + static_cast<std::size_t>(one.column);
+    const std::size_t point =
+        target_.columns * target_.line_of(one.row, one.layer) + static_cast<std::size_t>(one.column);
     const auto feature = tested(one.cell, {one.column, one.row, one.layer}, point);
     if (!feature) return;
     own(point, original(one.cell), one.certain ? *feature : without_value(*feature));
@@ -112,7 +95,7 @@ void SlabSampler::take(const UndecidedPoint& one) {
 /// Where the point lies in the cell, exactly; nothing outside of it, or if a lower cell has the point.
 std::optional<Feature> SlabSampler::tested(locate::Place cell, const std::array<std::int32_t, 3>& places,
                                            std::size_t point) {
-    if (owners_[point] >= 0 && owners_[point] < original(cell)) return std::nullopt;
+    if (target_.kept(point, original(cell))) return std::nullopt;
     std::array<double, 3> at{};
     for (std::size_t k = 0; k < 3; ++k) at[k] = raster_.at[k][static_cast<std::size_t>(places[k])];
     const WeightSigns signs = locate::cell_signs(data_.index(), cell, at.data(), counts_.locations.tests);
@@ -122,7 +105,7 @@ std::optional<Feature> SlabSampler::tested(locate::Place cell, const std::array<
 
 /// Unless a lower cell has the point.
 void SlabSampler::own(std::size_t point, Mesh::Index cell, Feature feature) {
-    if (owners_[point] >= 0 && owners_[point] < cell) return;
+    if (target_.kept(point, cell)) return;
     owners_[point] = cell;
     found_[point] = feature;
 }
@@ -130,7 +113,6 @@ void SlabSampler::own(std::size_t point, Mesh::Index cell, Feature feature) {
 /// Some points at a time, while they are in cache: features and numbers of those outside, then what takes longer.
 void SlabSampler::finish() {
     constexpr std::size_t step = 4096;
-    const FillTarget target = this->target();
     const double fill =
         options_.outside.kind == Outside::fill ? options_.outside.fill : std::numeric_limits<double>::quiet_NaN();
     const bool same = options_.outside.kind == Outside::nan || options_.outside.kind == Outside::fill;
@@ -138,7 +120,7 @@ void SlabSampler::finish() {
     for (std::size_t first = 0; first < points_; first += step) {
         const std::size_t last = std::min(first + step, points_);
         finished_.others.clear();
-        finish_points(target, first, last, same ? &fill : nullptr, finished_);
+        finish_points(target_, first, last, same ? &fill : nullptr, finished_);
         for (const std::uint32_t point : finished_.others) {
             counts_.locations.add(feature_of(point));
             push(point);
@@ -150,7 +132,7 @@ void SlabSampler::finish() {
                                 values_.data() + data_.width * point);
         }
     }
-    flush();
+    sampler_->flush();
     if (data_.hidden != 0) leave_out_hidden(data_, values_.data(), points_, values_.data());
     counts_.locations.add(finished_.locations);
     counts_.locations.add(Feature::outside, finished_.outside);
@@ -159,27 +141,20 @@ void SlabSampler::finish() {
 }
 
 void SlabSampler::push(std::size_t point) {
-    const auto nx = static_cast<std::size_t>(grid_.counts[0]), ny = static_cast<std::size_t>(grid_.counts[1]);
-    const std::size_t line = point / nx;
-    const std::size_t row = grid_.dimension == 3 ? line % ny : line + static_cast<std::size_t>(first_);
-    const std::size_t layer = grid_.dimension == 3 ? line / ny + static_cast<std::size_t>(first_) : 0;
-    records_[pending_].at = {raster_.at[0][point % nx], raster_.at[1][row], raster_.at[2][layer]};
-    records_[pending_].number = static_cast<std::uint32_t>(point);
+    const std::size_t line = point / target_.columns, row = line % target_.rows;
+    const std::size_t layer = line / target_.rows + static_cast<std::size_t>(target_.first_layer);
+    const bool space = grid_.dimension == 3;
     const Mesh::Index cell = owners_[point];
-    cells_[pending_] = cell < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(cell)];
-    features_[pending_] = feature_of(point);
-    if (++pending_ == locate::chunk_size) flush();
-}
-
-void SlabSampler::flush() {
-    (*sampler_)(records_.data(), pending_, cells_.data(), features_.data());
-    pending_ = 0;
+    sampler_->push(
+        {{raster_.at[0][point % target_.columns], raster_.at[1][space ? row : layer], raster_.at[2][space ? layer : 0]},
+         static_cast<std::uint32_t>(point),
+         0},
+        cell < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(cell)], feature_of(point));
 }
 
 TableView SlabSampler::block() const {
-    const std::size_t layer = grid_.dimension == 3 ? grid_.layer_size() : static_cast<std::size_t>(grid_.counts[0]);
     return {.dimension = grid_.dimension,
-            .first_row = layer * static_cast<std::size_t>(first_),
+            .first_row = target_.columns * target_.rows * static_cast<std::size_t>(target_.first_layer),
             .cells = {owners_.data(), points_},
             .features = {found_.data(), points_},
             .values = {values_.data(), points_ * data_.columns.size()},

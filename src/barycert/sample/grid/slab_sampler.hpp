@@ -9,7 +9,6 @@
 #include "barycert/grid.hpp"
 #include "barycert/index/buffer.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
-#include "barycert/sample/grid/raster_lanes.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 
 namespace barycert::sample {
@@ -56,17 +55,14 @@ public:
     std::optional<std::uint64_t> refused() const;
 
 private:
-    FillTarget target();
-    void raster(std::span<const locate::Place> cells);
     void fill(std::span<const locate::Place> cells);
+    void take(locate::Place cell);
     void take(const Span& span);
     void take(const UndecidedPoint& one);
     std::optional<Feature> tested(locate::Place cell, const std::array<std::int32_t, 3>& places, std::size_t point);
     void own(std::size_t point, Mesh::Index cell, Feature feature);
     void finish();
     void push(std::size_t point);
-    void flush();
-    std::size_t line_of(std::int32_t row, std::int32_t layer) const;
     Mesh::Index original(locate::Place cell) const { return data_.index().original[static_cast<std::size_t>(cell)]; }
     Feature feature_of(std::size_t point) const {
         return static_cast<Feature>(static_cast<std::uint8_t>(found_[point]) & ~value_missing);
@@ -76,7 +72,7 @@ private:
     const Grid& grid_;
     const Raster& raster_;
     const SampleOptions& options_;
-    std::int32_t first_ = 0, last_ = 0;
+    FillTarget target_;
     std::size_t points_ = 0;
     bool filled_ = false;  ///< cells fill in values
     locate::Buffer<Mesh::Index> owners_;
@@ -85,13 +81,8 @@ private:
     std::vector<double> distances_;
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
-    std::vector<Span> spans_;
     UndecidedFill undecided_;
     FinishedPoints finished_;
-    std::array<locate::PointRecord, locate::chunk_size> records_{};
-    std::array<locate::Place, locate::chunk_size> cells_{};
-    std::array<Feature, locate::chunk_size> features_{};
-    std::size_t pending_ = 0;
 };
 
 }  // namespace barycert::sample

@@ -9,6 +9,7 @@
 #include "barycert/base/random.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
+#include "barycert/table.hpp"
 
 namespace barycert::sample {
 
@@ -18,17 +19,18 @@ inline constexpr std::size_t map_header_size = 56;
 inline constexpr std::size_t map_checksum_size = 8;
 inline constexpr std::size_t map_block_rows = 8192;
 
+/// Returns where the next number goes.
 template <class T>
-void put_little(char* at, T value) {
-    for (std::size_t i = 0; i < sizeof(T); ++i) at[i] = static_cast<char>(static_cast<unsigned char>(value >> 8 * i));
+char* put_little(char* at, T value) {
+    for (std::size_t i = 0; i < sizeof(T); ++i) *at++ = static_cast<char>(static_cast<unsigned char>(value >> 8 * i));
+    return at;
 }
 
 template <class T>
 T get_little(const char* at) {
     T value = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
+    for (std::size_t i = 0; i < sizeof(T); ++i)
         value = static_cast<T>(value | static_cast<T>(static_cast<unsigned char>(at[i])) << 8 * i);
-    }
     return value;
 }
 
@@ -53,22 +55,36 @@ constexpr std::size_t map_block_size(int dimension, std::size_t rows) {
     return (rows * (8 * static_cast<std::size_t>(dimension) + 5) + 7) / 8 * 8;
 }
 
+inline void clear_map_rows(Table& rows) {
+    rows.points.clear();
+    rows.cells.clear();
+    rows.features.clear();
+}
+
+/// Appends rows [first, last) of `from`: what a map has of them.
+inline void append_map_rows(const TableView& from, int dimension, std::size_t first, std::size_t last, Table& to) {
+    const auto append = [&](auto numbers, std::size_t width, auto& out) {
+        const auto some = numbers.subspan(width * first, width * (last - first));
+        out.insert(out.end(), some.begin(), some.end());
+    };
+    append(from.points, static_cast<std::size_t>(dimension), to.points);
+    append(from.cells, 1, to.cells);
+    append(from.features, 1, to.features);
+}
+
 /// What a row that no map can hold should have had, or nullptr if it can: one text for writer and reader.
 inline const char* map_row_fault(const double* point, int dimension, Mesh::Index cell, unsigned feature,
                                  std::uint64_t cell_count) {
     for (int axis = 0; axis < dimension; ++axis) {
         if (cell != -1 && !std::isfinite(point[axis])) return "finite coordinates where there is a cell";
     }
-    if (cell < -1 || (cell >= 0 && static_cast<std::uint64_t>(cell) >= cell_count)) {
+    if (cell < -1 || (cell >= 0 && static_cast<std::uint64_t>(cell) >= cell_count))
         return "a cell of the mesh, or -1 for none";
-    }
     if (feature > static_cast<unsigned>(Feature::outside)) return "a feature: interior, face, edge, vertex or outside";
-    if ((cell == -1) != (feature == static_cast<unsigned>(Feature::outside))) {
+    if ((cell == -1) != (feature == static_cast<unsigned>(Feature::outside)))
         return "the feature outside with cell -1, and nowhere else";
-    }
-    if (dimension == 2 && feature == static_cast<unsigned>(Feature::face)) {
+    if (dimension == 2 && feature == static_cast<unsigned>(Feature::face))
         return "in two dimensions any feature but a face";
-    }
     return nullptr;
 }
 

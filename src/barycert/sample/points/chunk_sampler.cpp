@@ -6,9 +6,8 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/core/blocks.hpp"
-#include "barycert/core/exact_tier.hpp"
 #include "barycert/quadratic.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::sample {
 namespace {
@@ -68,14 +67,11 @@ void ChunkSampler::operator()(const locate::PointRecord* points, std::size_t cou
     const locate::CellIndex& index = data_.index();
     std::size_t inside = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        inside_[inside] = {static_cast<std::uint32_t>(i), owner[i]};
-        inside += owner[i] >= 0 ? 1 : 0;
         const std::uint32_t number = points[i].number;
         rows_.cells[number] = owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])];
         rows_.features[number] = feature[i];
-        if (owner[i] < 0)
-            outside(points[i].at.data(), number, row(points[i]),
-                    rows_.distances == nullptr ? nullptr : rows_.distances + number);
+        inside_[inside] = {static_cast<std::uint32_t>(i), owner[i] < 0 ? outside(points[i]) : owner[i]};
+        inside += inside_[inside].cell >= 0 ? 1 : 0;
     }
     if (data_.point_components != 0)
         data_.quadratic ? interpolate_second_order(points, inside) : interpolate_linear(points, inside);
@@ -105,25 +101,19 @@ void ChunkSampler::interpolate_linear(const locate::PointRecord* points, std::si
 
 void ChunkSampler::interpolate_exactly(const locate::PointRecord& point, locate::Place cell) {
     const locate::CellIndex& index = data_.index();
-    const std::size_t corners = index.corners();
     const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
     const std::array<double, 12> vertices = locate::vertices_of(index, cell);
-    const core::ExactWeights weights(index.simplex, vertices.data(), point.at.data());
-    counts_.values.add(Tier::exact);
-    if (weights.degenerate()) {  // an owner never is, but a caller of evaluate() may name any cell
-        ++counts_.values.degenerate;
-        std::fill_n(row(point), data_.point_components, std::numeric_limits<double>::quiet_NaN());
-        return;
-    }
-    bool finite = true;
+    bool degenerate = false, finite = true;
     for (std::size_t c = 0; c < data_.point_components; ++c) {
-        std::array<double, 4> numbers{};
-        const std::span f(numbers.data(), corners);
-        for (std::size_t i = 0; i < corners; ++i) f[i] = data_.value_at(static_cast<std::size_t>(node[i]), c);
-        const bool usable = weights.leave_out_not_finite(f);
-        finite &= usable;
-        row(point)[c] = usable ? weights.interpolate(f) : std::numeric_limits<double>::quiet_NaN();
+        std::array<double, 4> f{};
+        for (std::size_t i = 0; i < index.corners(); ++i) f[i] = data_.value_at(static_cast<std::size_t>(node[i]), c);
+        const Value v = *interpolate(index.simplex, vertices.data(), point.at.data(), f.data());
+        row(point)[c] = v.value;
+        degenerate |= v.degenerate;  // an owner never is, but a caller of evaluate() may name any cell
+        finite &= v.degenerate || !std::isnan(v.value);
     }
+    counts_.values.add(Tier::exact);
+    counts_.values.degenerate += degenerate ? 1 : 0;
     counts_.values.not_finite += finite ? 0 : 1;
 }
 
@@ -162,29 +152,40 @@ void ChunkSampler::interpolate_second_order(const locate::PointRecord* points, s
     static_cast<void>(
         interpolate_quadratic(queries, mesh.mid_nodes, values, values_, &counts_.values, options_.rounding)
             .has_value());
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i)
         std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(data_.point_components * i), data_.point_components,
                     row(points[inside_[i].point]));
-    }
 }
 
-void ChunkSampler::outside(const double* point, std::uint32_t number, double* values, double* distance) {
-    if (distance == nullptr) return outside(1, number, values);
-    const bool finite = base::all_finite({point, data_.index().dimension()});
-    if (const auto found = !finite ? std::nullopt : value_outside(data_, options_, point, values, counts_.values)) {
-        ++(options_.outside.kind == Outside::nearest ? counts_.snapped : counts_.extrapolated);
-        *distance = *found;
-        counts_.farthest = std::max(counts_.farthest, *found);
-        return;
+locate::Place ChunkSampler::outside(const locate::PointRecord& point) {
+    if (rows_.distances == nullptr) {
+        leave_out(1, point.number);
+        return -1;
     }
-    *distance = std::numeric_limits<double>::quiet_NaN();
-    outside(1, number, values);
+    const bool snap = options_.outside.kind == Outside::nearest;
+    const double limit = snap ? options_.outside.limit : std::numeric_limits<double>::infinity();
+    Nearest nearest;
+    if (base::all_finite({point.at.data(), data_.index().dimension()}))
+        nearest = *data_.locator->nearest(point.at.data(), limit);
+    double& distance = rows_.distances[point.number];
+    if (nearest.cell < 0) {
+        distance = std::numeric_limits<double>::quiet_NaN();
+        leave_out(1, point.number);
+        return -1;
+    }
+    distance = nearest.distance;
+    ++(snap ? counts_.snapped : counts_.extrapolated);
+    counts_.farthest = std::max(counts_.farthest, distance);
+    if (!snap) return data_.located().places()[static_cast<std::size_t>(nearest.cell)];
+    snapped_values(data_, options_.rounding, nearest, point.at, row(point), counts_.values);
+    return -1;
 }
 
-void ChunkSampler::outside(std::uint64_t count, std::uint32_t number, double* values) {
+void ChunkSampler::leave_out(std::uint64_t count, std::uint32_t number) {
     if (options_.outside.kind == Outside::error) refused_ = std::min(refused_.value_or(number), number);
     const bool fill = options_.outside.kind == Outside::fill;
-    std::fill_n(values, data_.width, fill ? options_.outside.fill : std::numeric_limits<double>::quiet_NaN());
+    std::fill_n(rows_.values + data_.width * number, data_.width,
+                fill ? options_.outside.fill : std::numeric_limits<double>::quiet_NaN());
     counts_.without_value += count;
 }
 

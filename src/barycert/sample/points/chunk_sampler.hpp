@@ -11,6 +11,16 @@
 
 namespace barycert::sample {
 
+inline bool gives_distances(const OutsidePolicy& policy) {
+    return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
+}
+
+/// That a point is outside, under the policy `error`.
+inline Error outside_error(const std::string& point) {
+    return {.what = point + " is outside the mesh",
+            .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
+}
+
 /// Where the rows of a block go; row r of the block is for the point of number r.
 struct BlockRows {
     Mesh::Index* cells;
@@ -19,13 +29,12 @@ struct BlockRows {
     double* distances;  ///< nullptr unless the policy gives some
 };
 
-/// Under the policies nearest and extrapolate: sets one value a column and returns the distance to the mesh; nothing if
-/// no point of the mesh is within the limit. Point fields get, correctly rounded or plain as asked for, the value at
-/// the orthogonal projection to the nearest vertex, edge or face, or that of the function of the nearest cell; cell
-/// fields that of the nearest cell. On cells of second order the weights of the projection are rounded first, so that
-/// they remain those of a point of the cell, then the quadratic is evaluated there.
-std::optional<double> value_outside(const SamplerData& data, const SampleOptions& options, const double* point,
-                                    double* values, TierCounts& tiers);
+/// Under the policy nearest: sets one value a column. Point fields get, correctly rounded or plain as asked for, the
+/// value at the orthogonal projection to the nearest vertex, edge or face; cell fields that of the nearest cell. On
+/// cells of second order the weights of the projection are rounded first, so that they remain those of a point of the
+/// cell, then the quadratic is evaluated there.
+void snapped_values(const SamplerData& data, Rounding rounding, const Nearest& nearest,
+                    const std::array<double, 3>& point, double* values, TierCounts& tiers);
 
 /// What a row has besides the values of point fields. Sets the values of the cell fields of the cell, and what is
 /// computed at the point, into their columns of a row whose values of point fields stand. `point`: where gradients on
@@ -42,16 +51,29 @@ public:
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                     const Feature* feature);
 
-    /// Sets the values of a point outside, and its distance if the policy gives some.
-    void outside(const double* point, std::uint32_t number, double* values, double* distance);
-    /// The same for `count` points of one number and the same values, under a policy that does not look at the point.
-    void outside(std::uint64_t count, std::uint32_t number, double* values);
+    /// The same for one point after the other, some of them at a time: the last ones at flush().
+    void push(const locate::PointRecord& point, locate::Place owner, Feature feature) {
+        pending_.points[pending_.count] = point;
+        pending_.owners[pending_.count] = owner;
+        pending_.features[pending_.count] = feature;
+        if (++pending_.count == locate::chunk_size) flush();
+    }
+    void flush() {
+        (*this)(pending_.points.data(), pending_.count, pending_.owners.data(), pending_.features.data());
+        pending_.count = 0;
+    }
+
+    /// Sets the values of `count` points outside of one number, under a policy that does not look at the point.
+    void leave_out(std::uint64_t count, std::uint32_t number);
 
     const SampleCounts& counts() const { return counts_; }
     /// The lowest number of a point outside, if the policy is `error` and there is one.
     std::optional<std::uint32_t> refused() const { return refused_; }
 
 private:
+    /// Sets the values of a point outside, and its distance if the policy gives some; or returns the nearest cell,
+    /// whose function is to be evaluated there.
+    locate::Place outside(const locate::PointRecord& point);
     void interpolate_linear(const locate::PointRecord* points, std::size_t count);
     void interpolate_exactly(const locate::PointRecord& point, locate::Place cell);
     void mend_plain(const locate::PointRecord& point, locate::Place cell);
@@ -63,6 +85,13 @@ private:
     BlockRows rows_;
     SampleCounts counts_;
     std::optional<std::uint32_t> refused_;
+    struct Pending {
+        std::array<locate::PointRecord, locate::chunk_size> points;
+        std::array<locate::Place, locate::chunk_size> owners;
+        std::array<Feature, locate::chunk_size> features;
+        std::size_t count = 0;
+    };
+    Pending pending_;
     std::array<locate::Walk, locate::chunk_size> inside_;
     std::array<std::uint32_t, locate::chunk_size> undecided_;
     std::vector<Mesh::Index> cells_;

@@ -1,4 +1,4 @@
-/// The part of a mesh that is nearest to a point: what its values and weights are computed in.
+/// The part of a mesh that is nearest to a point outside: what its values and weights are computed in.
 #pragma once
 
 #include <algorithm>
@@ -15,49 +15,15 @@
 
 namespace barycert::sample {
 
-/// Some nodes of the mesh, in the space of their simplex: a segment lies in 3-space, also that of a triangle in the
-/// plane.
-struct Piece {
-    Simplex simplex;
-    std::vector<Mesh::Index> corners;
-    std::array<double, 12> vertices{};
-
-    Piece(const Mesh& mesh, Simplex s, std::vector<Mesh::Index> nodes) : simplex(s), corners(std::move(nodes)) {
-        const auto d = static_cast<std::size_t>(mesh.dimension), space = static_cast<std::size_t>(space_dimension(s));
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            for (std::size_t k = 0; k < d; ++k)
-                vertices[space * i + k] = mesh.points[d * static_cast<std::size_t>(corners[i]) + k];
-        }
-    }
-};
-
-inline Piece cell_piece(const Mesh& mesh, std::size_t cell) {
-    const auto begin = mesh.cells.begin() + static_cast<std::ptrdiff_t>(mesh.corners() * cell);
-    return {mesh,
-            mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron,
-            {begin, begin + static_cast<std::ptrdiff_t>(mesh.corners())}};
-}
-
-/// The edge or face of two or three nodes.
-inline Piece feature_piece(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
-    return {mesh, nodes.size() == 3 ? Simplex::triangle3d : Simplex::segment, nodes};
-}
-
-/// The nodes of the feature that is nearest.
-inline std::vector<Mesh::Index> nodes_of(const Nearest& nearest) {
-    std::vector<Mesh::Index> nodes;
-    for (const Mesh::Index node : nearest.nodes) {
-        if (node >= 0) nodes.push_back(node);
-    }
-    return nodes;
-}
-
-inline locate::NearFeature feature_of(const Mesh& mesh, const std::vector<Mesh::Index>& nodes) {
-    locate::NearFeature f{.count = static_cast<int>(nodes.size())};
+/// The vertex, edge or face on which the nearest point lies.
+inline locate::NearFeature feature_of(const Mesh& mesh, const Nearest& nearest) {
+    locate::NearFeature f;
     const auto d = static_cast<std::size_t>(mesh.dimension);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        f.nodes[i] = nodes[i];
-        std::copy_n(&mesh.points[d * static_cast<std::size_t>(nodes[i])], d, f.at[i].begin());
+    for (const Mesh::Index node : nearest.nodes) {
+        if (node < 0) continue;
+        const auto i = static_cast<std::size_t>(f.count++);
+        f.nodes[i] = node;
+        std::copy_n(&mesh.points[d * static_cast<std::size_t>(node)], d, f.at[i].begin());
     }
     return f;
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "barycert/base/strict_math.hpp"
@@ -26,26 +25,8 @@ double nodal_value(const SamplerData& data, Mesh::Index node, std::size_t c) {
     return 0;  // not reached
 }
 
-double linear(const SamplerData& data, Rounding rounding, const Piece& piece, const double* point, std::size_t c,
-              TierCounts& tiers) {
-    const auto space = static_cast<std::size_t>(space_dimension(piece.simplex));
-    CaseArrays one{.simplex = piece.simplex, .count = 1};
-    ValueArrays<double> values;
-    std::array<double, 4> f{};
-    for (std::size_t i = 0; i < piece.corners.size(); ++i) {
-        for (std::size_t k = 0; k < space; ++k) one.vertices[space * i + k] = &piece.vertices[space * i + k];
-        f[i] = nodal_value(data, piece.corners[i], c);
-        values.at[i] = &f[i];
-    }
-    for (std::size_t k = 0; k < space; ++k) one.point[k] = point + k;
-    double value = 0;
-    // One finite case, in an environment that has been looked at: there is no Error.
-    static_cast<void>(interpolate(one, values, std::span(&value, 1), &tiers, rounding).has_value());
-    return value;
-}
-
-/// All components in plain double, of a point projected: with weights that are not negative, and rounded once each,
-/// what is beyond the nodal values is rounding alone.
+/// All components in plain double, or of a vertex alone, exactly: with weights that are not negative, and rounded once
+/// each, what is beyond the nodal values is rounding alone.
 void plain_projected(const SamplerData& data, const locate::NearFeature& feature, const std::array<double, 3>& weights,
                      double* out) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -63,20 +44,7 @@ void plain_projected(const SamplerData& data, const locate::NearFeature& feature
     }
 }
 
-/// All components at once, in the cell.
-void quadratic(const SamplerData& data, Rounding rounding, std::size_t cell, const double* point, double* out,
-               TierCounts& tiers) {
-    const Mesh& mesh = *data.located().mesh;
-    const auto index = static_cast<std::int32_t>(cell);
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    const MeshQueries query{data.index().simplex, mesh.points, mesh.cells, std::span(&index, 1), std::span(point, d)};
-    const NodalValues<double> values{data.values, static_cast<int>(data.point_components)};
-    static_cast<void>(
-        interpolate_quadratic(query, mesh.mid_nodes, values, std::span(out, data.point_components), &tiers, rounding)
-            .has_value());
-}
-
-/// The same at the point of the cell that has the rounded weights of the projection.
+/// All components at once, at the point of the cell that has the rounded weights of the projection.
 void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t cell,
                          const locate::NearFeature& feature, const std::array<double, 3>& weights, double* out,
                          TierCounts& tiers) {
@@ -100,67 +68,48 @@ void quadratic_projected(const SamplerData& data, Rounding rounding, std::size_t
                           .has_value());
 }
 
-/// The orthogonal projection of a point to what these nodes span, each coordinate correctly rounded.
-std::array<double, 3> rounded_projection(const Mesh& mesh, const std::array<double, 3>& point,
-                                         const std::vector<Mesh::Index>& nodes) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    std::array<double, 3> at{};
-    const auto coordinate = [&](std::size_t i, std::size_t k) {
-        return mesh.points[d * static_cast<std::size_t>(nodes[i]) + k];
-    };
-    const Piece piece = feature_piece(mesh, nodes);
-    for (std::size_t k = 0; k < d; ++k) {
-        std::array<double, 3> values{};
-        for (std::size_t i = 0; i < nodes.size(); ++i) values[i] = coordinate(i, k);
-        at[k] = nodes.size() == 1
-                    ? values[0]
-                    : interpolate(piece.simplex, piece.vertices.data(), point.data(), values.data())->value;
-    }
-    return at;
+/// Of a point whose projection is no vertex; values(i) is that at node i of the feature.
+template <class Values>
+Value projected(const locate::NearFeature& feature, const std::array<double, 3>& point, Values values) {
+    std::array<double, 3> f{};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(feature.count); ++i) f[i] = values(i);
+    // Coordinates are finite: there is no Error.
+    return *interpolate(feature.simplex(), feature.vertices().data(), point.data(), f.data());
 }
 
 }  // namespace
 
-std::optional<double> value_outside(const SamplerData& data, const SampleOptions& options, const double* point,
-                                    double* values, TierCounts& tiers) {
+void snapped_values(const SamplerData& data, Rounding rounding, const Nearest& nearest,
+                    const std::array<double, 3>& point, double* values, TierCounts& tiers) {
     const Mesh& mesh = *data.located().mesh;
-    const bool snap = options.outside.kind == Outside::nearest;
-    // The points are finite.
-    const double limit = snap ? options.outside.limit : std::numeric_limits<double>::infinity();
-    const Nearest nearest = *data.locator->nearest(point, limit);
-    if (nearest.cell < 0) return std::nullopt;
     const auto cell = static_cast<std::size_t>(nearest.cell);
-
-    std::array<double, 3> at{};
-    std::copy_n(point, mesh.dimension, at.begin());
-    const std::vector<Mesh::Index> nodes = nodes_of(nearest);
+    const locate::NearFeature feature = feature_of(mesh, nearest);
+    const bool correct = rounding == Rounding::correct, vertex = feature.count == 1;
     TierCounts used;
-    if (snap && nodes.size() == 1 && data.point_components != 0) {
+    if (vertex || (!data.quadratic && !correct)) {
+        plain_projected(data, feature, locate::weights_of(point, feature), values);
+    } else if (data.quadratic && data.point_components != 0) {
+        quadratic_projected(data, rounding, cell, feature, locate::weights_of(point, feature), values, used);
+    } else {
         for (std::size_t c = 0; c < data.point_components; ++c) {
-            const double f = nodal_value(data, nodes[0], c);
-            values[c] = std::isfinite(f) ? f + 0.0 : std::numeric_limits<double>::quiet_NaN();
-            if (!std::isfinite(f)) used.not_finite = 1;
+            const auto nodal = [&](std::size_t i) { return nodal_value(data, feature.nodes[i], c); };
+            const Value v = projected(feature, point, nodal);
+            values[c] = v.value;
+            used.add(v.tier);
         }
-        if (options.rounding == Rounding::correct) tiers.add(Tier::filter);
-    } else if (data.point_components != 0) {
-        const Piece piece = snap ? feature_piece(mesh, nodes) : cell_piece(mesh, cell);
-        const locate::NearFeature feature = snap ? feature_of(mesh, nodes) : locate::NearFeature{};
-        if (data.quadratic && snap) {
-            quadratic_projected(data, options.rounding, cell, feature, locate::weights_of(at, feature), values, used);
-        } else if (data.quadratic) {
-            quadratic(data, options.rounding, cell, at.data(), values, used);
-        } else if (snap && options.rounding == Rounding::plain) {
-            plain_projected(data, feature, locate::weights_of(at, feature), values);
-        } else {
-            for (std::size_t c = 0; c < data.point_components; ++c)
-                values[c] = linear(data, options.rounding, piece, at.data(), c, used);
-        }
-        if (options.rounding == Rounding::correct) tiers.add(used.exact != 0 ? Tier::exact : Tier::double_double);
     }
-    if (options.rounding == Rounding::correct) tiers.not_finite += used.not_finite != 0 ? 1 : 0;
-    if (data.quadratic && snap && !data.at_points.empty()) at = rounded_projection(mesh, at, nodes);
-    set_rest_of_row(data, options.rounding, nearest.cell, at.data(), values);
-    return nearest.distance;
+    if (correct && data.point_components != 0) {
+        tiers.add(vertex ? Tier::filter : used.exact != 0 ? Tier::exact : Tier::double_double);
+        tiers.not_finite +=
+            std::any_of(values, values + data.point_components, [](double x) { return std::isnan(x); }) ? 1 : 0;
+    }
+    // The projection, each coordinate correctly rounded.
+    std::array<double, 3> at = point;
+    const bool asked = data.quadratic && !data.at_points.empty();
+    for (std::size_t k = 0; asked && k < static_cast<std::size_t>(mesh.dimension); ++k)
+        at[k] = vertex ? feature.at[0][k]
+                       : projected(feature, point, [&](std::size_t i) { return feature.at[i][k]; }).value;
+    set_rest_of_row(data, rounding, nearest.cell, at.data(), values);
 }
 
 }  // namespace barycert::sample

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
@@ -12,8 +13,7 @@
 #include "barycert/sample/points/chunk_sampler.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 #include "barycert/sample/points/sorted_rows.hpp"
-#include "barycert/sample/quantity/expression.hpp"
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert {
@@ -139,11 +139,6 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     if (sample::gives_distances(options.outside)) out.distances.assign(rows, 0);
 }
 
-sample::BlockRows rows_from(const SamplerData& data, std::size_t first, Table& out) {
-    return {out.cells.data() + first, out.features.data() + first, out.values.data() + first * data.columns.size(),
-            out.distances.empty() ? nullptr : out.distances.data() + first};
-}
-
 /// What the policies say of the rows: an Error, or NaN where a point is not finite. `finite`: all points are.
 Status apply_policies(std::span<const double> points, bool finite, const SampleOptions& options,
                       std::size_t first_point, Table& out) {
@@ -159,8 +154,7 @@ Status apply_policies(std::span<const double> points, bool finite, const SampleO
     if (options.outside.kind != Outside::error) return Done{};
     const std::optional<std::size_t> refused = locate::first_outside(out.cells, points, d);
     if (!refused) return Done{};
-    return Error{.what = "point " + std::to_string(first_point + *refused) + " is outside the mesh",
-                 .remedy = "choose what points outside get: nan, fill, nearest or extrapolate"};
+    return sample::outside_error("point " + std::to_string(first_point + *refused));
 }
 
 }  // namespace
@@ -221,7 +215,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
     bool finite = true;
-    locate::in_arena(options.threads, [&] {
+    base::in_arena(options.threads, data_->index().cell_count() + out.cells.size(), [&] {
         const std::size_t count = out.cells.size(), block = locate::block_of(count, data_->index().cell_count());
         std::vector<SampleCounts> counts((count + block - 1) / block);
         const auto make = [&](std::size_t, std::size_t size) { return sample::SortedRows(*data_, options, size); };
@@ -229,9 +223,8 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
             rows.write(sorted, first, out);
             counts[first / block] = rows.sampler().counts();
         };
-        const locate::NodeRecord* const nodes =
-            data_->nodes.size() != 0 ? data_->nodes.data() : data_->index().nodes.data();
-        finite = locate::for_chunks(data_->located(), nodes, points, out.counts.locations, make, keep);
+        finite =
+            locate::for_chunks(data_->located(), data_->node_values().first, points, out.counts.locations, make, keep);
         for (const SampleCounts& part : counts) out.counts.add(part);
     });
     Status status = apply_policies(points, finite, options, first_point, out);
@@ -253,12 +246,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
         return Error{.what = "size of the locations",
                      .expected = "one cell and one feature for each of " + std::to_string(count) + " points",
                      .found = std::to_string(cells.size()) + " and " + std::to_string(features.size())};
-    for (const Mesh::Index cell : cells) {
-        if (cell < -1 || (cell >= 0 && static_cast<std::size_t>(cell) >= data_->index().cell_count()))
-            return Error{.what = "index of a cell",
-                         .expected = "-1 or below " + std::to_string(data_->index().cell_count()),
-                         .found = std::to_string(cell)};
-    }
+    if (Status good = locate::check_cells(cells, data_->index().cell_count()); !good) return good;
     for (std::size_t row = 0; !finite && row < count; ++row) {
         if (cells[row] >= 0 && !base::all_finite({&points[d * row], d}))
             return Error{
@@ -268,36 +256,29 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     const std::vector<locate::Place>& places = data_->located().places();
     const locate::CellIndex& index = data_->index();
     std::vector<double> whole;  // rows with what is hidden
-    sample::BlockRows rows = rows_from(*data_, 0, out);
-    if (data_->hidden != 0) {
-        whole.resize(data_->width * count);
-        rows.values = whole.data();
-    }
+    if (data_->hidden != 0) whole.resize(data_->width * count);
+    const sample::BlockRows rows{out.cells.data(), out.features.data(),
+                                 data_->hidden != 0 ? whole.data() : out.values.data(),
+                                 out.distances.empty() ? nullptr : out.distances.data()};
     constexpr std::size_t block = std::size_t{1} << 13;
     std::vector<SampleCounts> counts((count + block - 1) / block);
-    locate::in_arena(options.threads, [&] {
+    base::in_arena(options.threads, count, [&] {
         tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
             const std::size_t first = b * block, last = std::min(count, first + block);
             sample::ChunkSampler sampler(*data_, options, rows);
-            std::array<locate::PointRecord, locate::chunk_size> records{};
-            std::array<locate::Place, locate::chunk_size> owner;
-            std::array<Feature, locate::chunk_size> feature;
-            for (std::size_t at = first; at < last; at += locate::chunk_size) {
-                const std::size_t n = std::min(locate::chunk_size, last - at);
-                for (std::size_t i = 0; i < n; ++i) {
-                    const std::size_t row = at + i;
-                    for (std::size_t k = 0; k < d; ++k) records[i].at[k] = points[d * row + k];
-                    records[i].number = static_cast<std::uint32_t>(row);
-                    // Cells come in any order: where they are is asked for ahead, and so are they.
-                    constexpr std::size_t ahead = 64;
-                    if (row + ahead < last && cells[row + ahead] >= 0)
-                        __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
-                    owner[i] = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
-                    if (owner[i] >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner[i])]);
-                    feature[i] = features[row];
-                }
-                sampler(records.data(), n, owner.data(), feature.data());
+            for (std::size_t row = first; row < last; ++row) {
+                locate::PointRecord record{};
+                std::copy_n(&points[d * row], d, record.at.begin());
+                record.number = static_cast<std::uint32_t>(row);
+                // Cells come in any order: where they are is asked for ahead, and so are they.
+                constexpr std::size_t ahead = 64;
+                if (row + ahead < last && cells[row + ahead] >= 0)
+                    __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
+                const Place owner = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
+                if (owner >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner)]);
+                sampler.push(record, owner, features[row]);
             }
+            sampler.flush();
             counts[b] = sampler.counts();
         });
     });

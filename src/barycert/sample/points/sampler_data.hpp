@@ -56,8 +56,10 @@ struct SamplerData {
 
     const locate::LocatorData& located() const { return locate::LocatorData::of(*locator); }
     const locate::CellIndex& index() const { return located().index; }
+    /// Nodes without values where there are none, or cells are quadratic.
     NodeValues node_values() const {
-        return {nodes.data(), more.data(), index().original_node.size(), point_components};
+        return {nodes.size() != 0 ? nodes.data() : index().nodes.data(), more.data(), index().original_node.size(),
+                point_components};
     }
     /// Whether rows have more than the values of point fields.
     bool has_rest() const { return !cell_fields.empty() || !at_points.empty(); }

@@ -12,10 +12,6 @@
 
 namespace barycert::sample {
 
-inline bool gives_distances(const OutsidePolicy& policy) {
-    return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
-}
-
 /// The rows of a block in the order in which they are found.
 class SortedRows {
 public:
@@ -61,12 +57,16 @@ public:
         sorted.for_each_in_callers_order(
             [](std::size_t) {},
             [&](std::size_t i, std::size_t place) {
-                double* const to = &out.distances[first + i];
-                *to = rows_->distances[place];
-                if (place != last) return;
-                // The row of all points left out serves for one after the other.
-                sampler_->outside(sorted.point(i), static_cast<std::uint32_t>(last), values(last), to);
-                std::copy_n(values(last) + data_.hidden, columns_, out.values.data() + columns_ * (first + i));
+                if (place == last) {  // the row of all points left out serves for one after the other
+                    locate::PointRecord point{};
+                    point.number = static_cast<std::uint32_t>(last);
+                    std::copy_n(sorted.point(i), data_.index().dimension(), point.at.begin());
+                    constexpr locate::Place no_owner = -1;
+                    constexpr Feature outside = Feature::outside;
+                    (*sampler_)(&point, 1, &no_owner, &outside);
+                    std::copy_n(values(last) + data_.hidden, columns_, out.values.data() + columns_ * (first + i));
+                }
+                out.distances[first + i] = rows_->distances[place];
             });
     }
 
@@ -77,7 +77,7 @@ private:
         rows_->cells[row] = -1;
         rows_->features[row] = Feature::outside;
         std::fill_n(values(row), data_.width, 0);
-        if (out.distances.empty()) sampler_->outside(count, static_cast<std::uint32_t>(row), values(row));
+        if (out.distances.empty()) sampler_->leave_out(count, static_cast<std::uint32_t>(row));
     }
 
     const SamplerData& data_;

@@ -14,36 +14,6 @@ namespace barycert::sample::HWY_NAMESPACE {
 using namespace core::HWY_NAMESPACE;
 using namespace index::HWY_NAMESPACE;
 
-/// Values of refined weights, or plain ones: value(f) for the nodal values f of a component, clearing `certain` where
-/// it is not.
-template <Simplex s, class D, class V = hn::Vec<D>>
-struct RefinedValues {
-    Refined<s, D> r;
-    HWY_INLINE RefinedValues(D tag, const Absolute<s, V>& c) : r(refine<s>(tag, c)) {}
-    HWY_INLINE hn::Mask<D> certain() const { return r.valid; }
-    HWY_INLINE V at(D tag, const V (&f)[vertex_count(s)], hn::Mask<D>& certain) const {
-        return value<s>(tag, r, f, certain);
-    }
-};
-
-/// Those of core::plain_value_lanes: a map applied later gives the same bits.
-template <Simplex s, class D, class V = hn::Vec<D>>
-struct PlainValues {
-    PlainWeights<s, D> weights;
-    HWY_INLINE PlainValues(D tag, const Absolute<s, V>& c) : weights(tag, relative(c)) {}
-    static HWY_INLINE Relative<s, V> relative(const Absolute<s, V>& c) {
-        Relative<s, V> out;
-        for (int i = 0; i < vertex_count(s); ++i) {
-            for (int k = 0; k < space_dimension(s); ++k) out.r[i][k] = c.v[i][k] - c.p[k];
-        }
-        return out;
-    }
-    HWY_INLINE hn::Mask<D> certain() const { return hn::Eq(hn::Zero(D()), hn::Zero(D())); }  // all, whatever they are
-    HWY_INLINE V at(D tag, const V (&values)[vertex_count(s)], hn::Mask<D>&) const {
-        return weights.value(tag, [&](int i) HWY_ATTR { return values[i]; });
-    }
-};
-
 template <class D>
 HWY_INLINE void scatter(D tag, hn::Vec<D> v, double* const* to, std::size_t offset) {
     constexpr std::size_t width = hn::MaxLanes(D());

@@ -1,4 +1,4 @@
-#include "barycert/sample/quantity/expression.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,12 +13,17 @@ namespace {
 
 using Kind = QuantityStep::Kind;
 
-constexpr std::string_view of_cells = "cell:", of_points = "point:";
+/// Of the columns.
+const std::string& name_of(const FieldChoice& choice) {
+    return choice.name.empty() ? choice.field->name : choice.name;
+}
 
-std::string names_of(const std::vector<Field>& fields) {
-    std::string list;
-    for (const Field& f : fields) list += (list.empty() ? "" : ", ") + f.name;
-    return list;
+/// Of nodes, or of cells; and what may stand before their names.
+const std::vector<Field>& fields_of(const Mesh& mesh, bool cells) {
+    return cells ? mesh.cell_fields : mesh.point_fields;
+}
+std::string_view prefix_of(bool cells) {
+    return cells ? "cell:" : "point:";
 }
 
 /// Deeper ones are no names that anybody means.
@@ -80,8 +85,7 @@ std::optional<std::string> common_column(const Mesh& mesh, const std::vector<Fie
     std::vector<TableField> fields;
     fields.reserve(chosen.size());
     for (const FieldChoice& choice : chosen)
-        fields.push_back({choice.name.empty() ? choice.field->name : choice.name,
-                          static_cast<int>(shape_of(mesh, choice)->components)});
+        fields.push_back({name_of(choice), static_cast<int>(shape_of(mesh, choice)->components)});
     std::vector<std::string> names = column_names(fields);
     std::sort(names.begin(), names.end());
     const auto twice = std::adjacent_find(names.begin(), names.end());
@@ -89,9 +93,7 @@ std::optional<std::string> common_column(const Mesh& mesh, const std::vector<Fie
 }
 
 Error wrong_step(std::string what, const FieldChoice& choice, std::string remedy) {
-    return {.what = std::move(what),
-            .found = '"' + (choice.name.empty() ? choice.field->name : choice.name) + '"',
-            .remedy = std::move(remedy)};
+    return {.what = std::move(what), .found = '"' + name_of(choice) + '"', .remedy = std::move(remedy)};
 }
 
 }  // namespace
@@ -102,36 +104,36 @@ const Field* field_named(const std::vector<Field>& fields, std::string_view name
 }
 
 bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen) {
-    for (const std::string& full : {std::string(name), std::string(of_points) + std::string(name)}) {
-        if (const Field* const field = field_named(mesh.point_fields, full)) {
-            chosen = {field, false};
-            return true;
-        }
+    const auto choose = [&](bool cells, std::string_view full) {
+        const Field* const field = field_named(fields_of(mesh, cells), full);
+        if (field != nullptr) chosen = {field, cells};
+        return field != nullptr;
+    };
+    for (const bool cells : {false, true}) {
+        if (choose(cells, name) || choose(cells, std::string(prefix_of(cells)) + std::string(name))) return true;
     }
-    for (const std::string& full : {std::string(name), std::string(of_cells) + std::string(name)}) {
-        if (const Field* const field = field_named(mesh.cell_fields, full)) {
-            chosen = {field, true};
-            return true;
-        }
+    for (const bool cells : {false, true}) {
+        const std::string_view prefix = prefix_of(cells);
+        if (name.starts_with(prefix) && choose(cells, name.substr(prefix.size()))) return true;
     }
-    const bool cells = name.starts_with(of_cells);
-    if (!cells && !name.starts_with(of_points)) return false;
-    name.remove_prefix((cells ? of_cells : of_points).size());
-    const Field* const field = field_named(cells ? mesh.cell_fields : mesh.point_fields, name);
-    if (field != nullptr) chosen = {field, cells};
-    return field != nullptr;
+    return false;
 }
 
 std::vector<std::string> all_field_names(const Mesh& mesh) {
     std::vector<std::string> names;
-    for (const auto* fields : {&mesh.point_fields, &mesh.cell_fields}) {
-        for (const Field& field : *fields) names.push_back(field.name);
+    for (const bool cells : {false, true}) {
+        for (const Field& field : fields_of(mesh, cells)) names.push_back(field.name);
     }
     return names;
 }
 
 Error no_such_field(const Mesh& mesh, const std::string& name) {
-    const std::string points = names_of(mesh.point_fields), cells = names_of(mesh.cell_fields);
+    std::string lists[2];
+    for (const bool cells : {false, true}) {
+        std::string& list = lists[cells ? 1 : 0];
+        for (const Field& f : fields_of(mesh, cells)) list += (list.empty() ? "" : ", ") + f.name;
+    }
+    const auto& [points, cells] = lists;
     std::string remedy = "there are " + points;
     if (points.empty())
         remedy = cells.empty() ? "the mesh has none; a field may come from a file of its own" : "there are";
@@ -153,8 +155,7 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
         switch (step.kind) {
             case Kind::component:
                 if (step.component < 0 || static_cast<std::size_t>(step.component) >= shape.components)
-                    return Error{.what = "no such component in \"" +
-                                         (choice.name.empty() ? choice.field->name : choice.name) + '"',
+                    return Error{.what = "no such component in \"" + name_of(choice) + '"',
                                  .expected = "0 to " + std::to_string(shape.components - 1),
                                  .found = std::to_string(step.component),
                                  .remedy = "components count from 0; x, y, z are 0, 1, 2"};
@@ -186,8 +187,9 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
 Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::vector<std::string>& names) {
     std::vector<FieldChoice> chosen;
     if (names.empty()) {
-        for (const Field& f : mesh.point_fields) chosen.push_back({&f, false});
-        for (const Field& f : mesh.cell_fields) chosen.push_back({&f, true});
+        for (const bool cells : {false, true}) {
+            for (const Field& f : fields_of(mesh, cells)) chosen.push_back({&f, cells});
+        }
         return chosen;
     }
     std::string missing;
@@ -211,14 +213,13 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
         for (std::size_t k = 0; k < i; ++k) {
             if (chosen[i].field == chosen[k].field && chosen[i].steps == chosen[k].steps)
                 return Error{.what = chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
-                             .found = '"' + (chosen[i].name.empty() ? chosen[i].field->name : chosen[i].name) + '"',
+                             .found = '"' + name_of(chosen[i]) + '"',
                              .remedy = "name it once"};
         }
     }
-    if (const auto name = common_column(mesh, chosen)) {
+    if (const auto name = common_column(mesh, chosen))
         return Error{
             .what = "two columns have the same name", .found = '"' + *name + '"', .remedy = "choose one of them"};
-    }
     std::stable_sort(chosen.begin(), chosen.end(),
                      [&](const FieldChoice& a, const FieldChoice& b) { return rank(a) < rank(b); });
     return chosen;

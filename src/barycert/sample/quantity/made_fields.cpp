@@ -1,4 +1,4 @@
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -17,7 +17,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/gradient.hpp"
 #include "barycert/mesh/consistency.hpp"
-#include "barycert/sample/quantity/expression.hpp"
 
 namespace barycert::sample {
 namespace {
@@ -27,18 +26,12 @@ using Kind = QuantityStep::Kind;
 /// Of cells or nodes to one task.
 constexpr std::size_t entities_of_task = std::size_t{1} << 13;
 
-Field component_field(const Field& whole, int component) {
-    const auto n = static_cast<std::size_t>(whole.components), c = static_cast<std::size_t>(component);
-    Field field{{}, 1, std::vector<double>(whole.data.size() / n)};
-    for (std::size_t i = 0; i < field.data.size(); ++i) field.data[i] = whole.data[n * i + c];
-    return field;
-}
-
-Field length_field(const Field& whole) {
+/// number(values of a row): of one component.
+template <class Number>
+Field field_of_rows(const Field& whole, Number number) {
     const auto n = static_cast<std::size_t>(whole.components);
     Field field{{}, 1, std::vector<double>(whole.data.size() / n)};
-    for (std::size_t i = 0; i < field.data.size(); ++i)
-        field.data[i] = euclidean_length(std::span(whole.data).subspan(n * i, n));
+    for (std::size_t i = 0; i < field.data.size(); ++i) field.data[i] = number(std::span(whole.data).subspan(n * i, n));
     return field;
 }
 
@@ -81,8 +74,10 @@ Status make_fields(const Mesh& mesh, FieldChoice& choice, std::size_t count, std
         } else if (step.kind == Kind::mean) {
             made.push_back(nodal_mean(mesh, *choice.field));
         } else {
-            made.push_back(step.kind == Kind::length ? length_field(*choice.field)
-                                                     : component_field(*choice.field, step.component));
+            const auto component = static_cast<std::size_t>(step.component);
+            made.push_back(step.kind == Kind::length
+                               ? field_of_rows(*choice.field, euclidean_length)
+                               : field_of_rows(*choice.field, [&](const auto& row) { return row[component]; }));
         }
         choice.field = &made.back();
         choice.of_cells = gradient || (choice.of_cells && step.kind != Kind::mean);

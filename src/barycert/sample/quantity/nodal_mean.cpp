@@ -1,4 +1,4 @@
-#include "barycert/sample/quantity/made_fields.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -10,6 +10,7 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/locate/batch.hpp"
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/near_piece.hpp"
 #include "barycert/weights.hpp"
@@ -19,20 +20,13 @@ namespace {
 
 constexpr std::size_t max_nodes_of_cell = 10;
 
-Error wrong_rows(std::string what, std::string expected, std::string found) {
-    return {.what = std::move(what), .expected = std::move(expected), .found = std::move(found)};
-}
-
 Status check_located(const Mesh& mesh, const TableView& rows) {
-    const std::size_t d = static_cast<std::size_t>(mesh.dimension), cells = mesh.cell_count();
+    const auto d = static_cast<std::size_t>(mesh.dimension);
     if (rows.points.size() != d * rows.cells.size())
-        return wrong_rows("size of the points", std::to_string(d) + " coordinates a row",
-                          std::to_string(rows.points.size()) + " numbers for " + std::to_string(rows.cells.size()));
-    for (const Mesh::Index cell : rows.cells) {
-        if (cell < -1 || (cell >= 0 && static_cast<std::size_t>(cell) >= cells))
-            return wrong_rows("index of a cell", "-1 or below " + std::to_string(cells), std::to_string(cell));
-    }
-    return Done{};
+        return Error{.what = "size of the points",
+                     .expected = std::to_string(d) + " coordinates a row",
+                     .found = std::to_string(rows.points.size()) + " numbers for " + std::to_string(rows.cells.size())};
+    return locate::check_cells(rows.cells, mesh.cell_count());
 }
 
 class WeightRows {
@@ -66,22 +60,30 @@ private:
     Status add(std::size_t first, std::size_t last) {
         cells_.clear();
         points_.clear();
+        owners_.clear();
         for (std::size_t i = first; i < last; ++i) {
-            if (rows_.cells[i] < 0) continue;
-            cells_.push_back(rows_.cells[i]);
-            points_.insert(points_.end(), rows_.points.data() + d_ * i, rows_.points.data() + d_ * (i + 1));
+            const double* const point = rows_.points.data() + d_ * i;
+            Mesh::Index cell = rows_.cells[i];
+            // What is extrapolated is the function of the nearest cell.
+            if (cell < 0 && outside_.kind == Outside::extrapolate && base::all_finite({point, d_}))
+                cell = locator_.nearest(point, std::numeric_limits<double>::infinity())->cell;
+            owners_.push_back(cell);
+            if (cell < 0) continue;
+            cells_.push_back(cell);
+            points_.insert(points_.end(), point, point + d_);
         }
         weights_.resize(nodes_ * cells_.size());
         TierCounts tiers;
         if (Status done = quadratic() ? second_order(tiers) : linear(tiers); !done) return done;
         if (tiers.degenerate != 0) return Error{.what = "a row names a degenerate cell, which has no weights"};
         for (std::size_t i = first, inside = 0; i < last; ++i) {
-            if (rows_.cells[i] < 0) {
-                if (Status done = add_outside(rows_.points.data() + d_ * i); !done) return done;
+            const Mesh::Index owner = owners_[i - first];
+            if (owner < 0) {
+                add_outside(rows_.points.data() + d_ * i);
                 continue;
             }
             std::array<Mesh::Index, max_nodes_of_cell> nodes{};
-            nodes_in(static_cast<std::size_t>(rows_.cells[i]), nodes.data());
+            nodes_in(static_cast<std::size_t>(owner), nodes.data());
             add_row(nodes.data(), &weights_[nodes_ * inside++], nodes_);
         }
         return Done{};
@@ -119,43 +121,26 @@ private:
                                      values, weights_, &tiers);
     }
 
-    Status add_outside(const double* point) {
-        const bool snap = outside_.kind == Outside::nearest;
-        if ((!snap && outside_.kind != Outside::extrapolate) || !base::all_finite({point, d_})) {
-            out_.begin.push_back(out_.nodes.size());
-            return Done{};
-        }
-        const auto nearest = locator_.nearest(point, snap ? outside_.limit : std::numeric_limits<double>::infinity());
-        if (!nearest) return nearest.error();
-        if (nearest->cell < 0) {
-            out_.begin.push_back(out_.nodes.size());
-            return Done{};
-        }
-        const auto cell = static_cast<std::size_t>(nearest->cell);
-        const std::vector<Mesh::Index> nodes = sample::nodes_of(*nearest);
+    void add_outside(const double* point) {
+        Nearest nearest;
+        if (outside_.kind == Outside::nearest && base::all_finite({point, d_}))
+            nearest = *locator_.nearest(point, outside_.limit);
+        const locate::NearFeature feature = sample::feature_of(mesh_, nearest);
         std::array<double, 3> at{};
         std::copy_n(point, d_, at.begin());
-        if (snap && nodes.size() == 1) {
-            constexpr double one = 1;
-            add_row(nodes.data(), &one, 1);
-        } else if (quadratic()) {
-            add_second_order(cell, nodes, at, snap);
+        if (nearest.cell < 0) {
+            add_row(nullptr, nullptr, 0);
+        } else if (feature.count != 1 && quadratic()) {
+            add_second_order(static_cast<std::size_t>(nearest.cell), feature, at);
         } else {
-            const sample::Piece piece = snap ? sample::feature_piece(mesh_, nodes) : sample::cell_piece(mesh_, cell);
-            // Coordinates are finite: there is no Error.
-            const Weights w = *barycentric_weights(piece.simplex, piece.vertices.data(), at.data());
-            add_row(piece.corners.data(), w.weights.data(), piece.corners.size());
+            const std::array<double, 3> weights = locate::weights_of(at, feature);
+            add_row(feature.nodes.data(), weights.data(), static_cast<std::size_t>(feature.count));
         }
-        return Done{};
     }
 
-    void add_second_order(std::size_t cell, const std::vector<Mesh::Index>& near, const std::array<double, 3>& point,
-                          bool snap) {
-        sample::ReferencePoint at{sample::cell_piece(mesh_, cell).vertices, point};
-        if (snap) {
-            const locate::NearFeature feature = sample::feature_of(mesh_, near);
-            at = sample::reference_point(mesh_, cell, feature, locate::weights_of(point, feature));
-        }
+    void add_second_order(std::size_t cell, const locate::NearFeature& feature, const std::array<double, 3>& point) {
+        const sample::ReferencePoint at =
+            sample::reference_point(mesh_, cell, feature, locate::weights_of(point, feature));
         std::array<Mesh::Index, max_nodes_of_cell> nodes{};
         std::array<double, max_nodes_of_cell> weights{};
         nodes_in(cell, nodes.data());
@@ -190,7 +175,7 @@ private:
     Simplex simplex_;
     std::size_t nodes_;  // of a cell
     NodeWeights out_;
-    std::vector<Mesh::Index> cells_, corner_numbers_, mid_numbers_, own_;
+    std::vector<Mesh::Index> owners_, cells_, corner_numbers_, mid_numbers_, own_;
     std::vector<double> points_, weights_, places_, units_;
 };
 

@@ -1,0 +1,56 @@
+/// White panels beside and under a picture, row by row from the top, 4 bytes a pixel.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace barycert::io {
+
+/// Largest of 1, 2 and 5 times a power of ten that is at most `limit`. Precondition: limit > 0, finite.
+double round_length(double limit);
+
+/// Under a picture: a title and the scale of lengths.
+class Caption {
+public:
+    /// For a picture `width` pixels wide, of which the first `drawn` have the length `pixel_length` each (0: no scale);
+    /// `dot` pixels for each dot of the text. A title that is too long for the place is cut.
+    Caption(const std::string& title, double pixel_length, std::size_t drawn, std::size_t width, std::size_t dot);
+
+    std::size_t height() const { return height_; }  ///< 0 if there is nothing to say
+    void row(std::size_t r, std::uint8_t* pixels) const;
+
+private:
+    std::string title_, length_text_;
+    std::size_t width_, scale_, height_ = 0;
+    std::size_t bar_ = 0;  ///< pixels of the bar; 0: none
+};
+
+/// Least height of a colour bar: two lines of text and what is around them.
+inline constexpr std::size_t min_bar_height = 25;
+
+/// The colours from bottom to top, the numbers at the ends and, where there is room, round numbers between them.
+class ColourBar {
+public:
+    /// For numbers low <= high, as high as asked for (at least min_bar_height). Text grows with the height.
+    ColourBar(double low, double high, std::size_t height);
+
+    std::size_t width() const { return width_; }
+    std::size_t scale() const { return scale_; }  ///< pixels for each dot of the text
+    void row(std::size_t r, std::uint8_t* pixels) const;
+
+private:
+    struct Tick {
+        std::size_t row;
+        std::string text;
+    };
+    void add_ticks(double low, double high);
+
+    std::string low_, high_;
+    bool one_number_;
+    std::size_t height_, scale_, width_ = 0;
+    std::vector<Tick> ticks_;
+};
+
+}  // namespace barycert::io
