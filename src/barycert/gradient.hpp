@@ -10,7 +10,8 @@
 ///       order of a cell's vertices.
 ///
 /// The gradient in a degenerate cell is NaN, and TierCounts::degenerate counts the cell. A nodal value that is NaN or
-/// infinite makes the gradient of its component NaN, for every node has a part; TierCounts::not_finite counts the cell.
+/// infinite makes g_k of its component NaN, unless d(lambda_i)/dx_k is exactly zero; TierCounts::not_finite counts the
+/// cell.
 #pragma once
 
 #include <array>
@@ -23,7 +24,7 @@
 namespace barycert {
 
 struct Gradient {
-    std::array<double, 3> gradient{};  ///< space_dimension(simplex) of them; NaN if degenerate or a value is not finite
+    std::array<double, 3> gradient{};  ///< space_dimension(simplex) of them
     bool degenerate = false;
     Tier tier = Tier::double_double;
 };

@@ -1,6 +1,6 @@
 #include "barycert/gradient.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
@@ -10,20 +10,41 @@
 namespace barycert::core {
 namespace {
 
+/// Whether the derivative by coordinate k of the weight of vertex i is not exactly zero: it is the size of the opposite
+/// edge or face, seen along axis k, over that of the cell.
+bool has_part(Simplex s, const double* vertices, int i, int k) {
+    const int n = vertex_count(s), d = n - 1;
+    double seen[3][2];
+    for (int j = 0; j < d; ++j) {
+        const double* const v = vertices + d * ((i + 1 + j) % n);
+        seen[j][0] = v[k == 0 ? 1 : 0];
+        seen[j][1] = v[k == 2 ? 1 : 2 % d];
+    }
+    if (s == Simplex::triangle) return seen[0][0] != seen[1][0];
+    return exact_orient2d(seen[0], seen[1], seen[2]) != Sign::zero;
+}
+
 /// Gradients of the last tier in the cell at `vertices`: component k of that of field component c, whose value at
 /// vertex i is values[n * c + i][j], is out[d * c + k]. Precondition: coordinates finite.
 ExactCase exact_gradients(Simplex s, const double* vertices, const double* const* values, std::size_t j, int components,
                           double* out) {
     const int n = vertex_count(s), d = space_dimension(s);
     ExactCase found;
-    for (int c = 0; c < components; ++c) {
+    for (int c = 0; c < components; ++c, out += d) {
         double f[4] = {};
         for (int i = 0; i < n; ++i) f[i] = values[n * c + i][j];
-        const bool usable = all_finite(f, n);
-        if (!usable) std::fill_n(f, n, 0.0);  // whether the cell is degenerate is still to be told
-        found.degenerate = !exact_gradient(s, vertices, f, out + d * c);
-        found.finite_values = found.finite_values && usable;
-        if (!usable) std::fill_n(out + d * c, d, nan);
+        bool lost[3] = {};
+        for (int i = 0; i < n; ++i) {
+            if (std::isfinite(f[i])) continue;
+            f[i] = 0;
+            for (int k = 0; k < d; ++k) lost[k] = lost[k] || has_part(s, vertices, i, k);
+        }
+        found.degenerate = !exact_gradient(s, vertices, f, out);
+        for (int k = 0; k < d; ++k) {
+            if (!lost[k]) continue;
+            out[k] = nan;
+            found.finite_values = false;
+        }
     }
     return found;
 }

@@ -81,10 +81,13 @@ QuadraticGradient<s, T> quadratic_gradient_in(const T (&v)[vertex_count(s) + 1][
 }
 
 template <Simplex s>
-bool exact_quadratic_gradient(const double* vertices, const double* point, const double* values, double* out) {
+using Units = Unit[space_dimension(s) + 1];  // of each axis, and of the values
+
+template <Simplex s>
+QuadraticGradient<s, Integer> gradient_in_integers(const double* vertices, const double* point, const double* values,
+                                                   Units<s>& units) {
     constexpr int n = vertex_count(s), d = space_dimension(s), nodes = n + mid_node_count(s);
     const auto coordinate = [&](int i, int k) { return scaled(i < n ? vertices[d * i + k] : point[k]); };
-    Unit units[d + 1];
     Integer v[n + 1][d], f[nodes];
     for (int k = 0; k < d; ++k) {
         for (int i = 0; i <= n; ++i) units[k].add(coordinate(i, k));
@@ -92,7 +95,14 @@ bool exact_quadratic_gradient(const double* vertices, const double* point, const
     }
     for (int i = 0; i < nodes; ++i) units[d].add(scaled(values[i]));
     for (int i = 0; i < nodes; ++i) f[i] = units[d].template multiple<Integer>(scaled(values[i]));
-    const auto g = quadratic_gradient_in<s, Integer>(v, f, Integer());
+    return quadratic_gradient_in<s, Integer>(v, f, Integer());
+}
+
+template <Simplex s>
+bool exact_quadratic_gradient(const double* vertices, const double* point, const double* values, double* out) {
+    constexpr int d = space_dimension(s);
+    Units<s> units;
+    const auto g = gradient_in_integers<s>(vertices, point, values, units);
     const Integer denominator = g.denominators[0] * g.denominators[1];
     if (denominator.sign() == 0) return false;
     for (int k = 0; k < d; ++k) {
@@ -113,38 +123,41 @@ void plain_quadratic_gradient(const double* vertices, const double* point, const
     for (int k = 0; k < d; ++k) out[k] = g.numerator[k] / g.denominators[0] / g.denominators[1];
 }
 
-/// Whether the gradient of the node's shape function is not exactly zero. At a corner it is (4 l - 1) grad l, between
-/// two 4 (l grad l' + l' grad l), with gradients that are no multiples of each other.
+/// Sets values that are not finite to zero, and `lost` in the components of the gradient in which one has a part: its
+/// shape function does not have the derivative zero there. In a degenerate cell all are lost. Not inlined, for the sake
+/// of the stack.
 template <Simplex s>
-bool turns(const ExactWeights& w, int node) {
-    constexpr int n = vertex_count(s);
-    if (node >= n) return w.sign(quadratic_edges[node - n][0]) != 0 || w.sign(quadratic_edges[node - n][1]) != 0;
-    double unit[n] = {};
-    unit[node] = 1;
-    return w.compare(unit, 0.25) != 0;
-}
-
-/// Leaves out what has no part in the gradient. Not inlined, for the sake of the stack.
-template <Simplex s>
-[[gnu::noinline]] bool leave_out_not_finite(const double* vertices, const double* point, std::span<double> values) {
-    const ExactWeights w(s, vertices, point);
-    return core::leave_out_not_finite(values, [&](int node) { return w.degenerate() || turns<s>(w, node); });
+[[gnu::noinline]] void leave_out_not_finite(const double* vertices, const double* point, std::span<double> values,
+                                            bool (&lost)[3]) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::isfinite(values[i])) continue;
+        values[i] = 0;
+        double unit[vertex_count(s) + mid_node_count(s)] = {};
+        unit[i] = 1;
+        Units<s> units;
+        const auto g = gradient_in_integers<s>(vertices, point, unit, units);
+        const bool degenerate = g.denominators[1].sign() == 0;
+        for (int k = 0; k < space_dimension(s); ++k) lost[k] = lost[k] || degenerate || g.numerator[k].sign() != 0;
+    }
 }
 
 template <Simplex s>
 Gradient quadratic_gradient_of(const double* vertices, const double* point, const double* values, Rounding rounding) {
-    constexpr int d = space_dimension(s), nodes = vertex_count(s) + mid_node_count(s);
+    constexpr std::size_t d = space_dimension(s), nodes = vertex_count(s) + mid_node_count(s);
     Gradient g;
     g.tier = Tier::exact;
     std::array<double, nodes> f;
     std::copy_n(values, nodes, f.begin());
-    const bool usable = all_finite(values, nodes) || leave_out_not_finite<s>(vertices, point, f);
+    bool lost[3] = {};
+    leave_out_not_finite<s>(vertices, point, f, lost);
     if (rounding == Rounding::plain) {
         plain_quadratic_gradient<s>(vertices, point, f.data(), g.gradient.data());
     } else {
         g.degenerate = !exact_quadratic_gradient<s>(vertices, point, f.data(), g.gradient.data());
     }
-    if (!usable || g.degenerate) std::fill_n(g.gradient.begin(), d, nan);
+    for (std::size_t k = 0; k < d; ++k) {
+        if (lost[k] || g.degenerate) g.gradient[k] = nan;
+    }
     return g;
 }
 
