@@ -1,4 +1,8 @@
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -11,6 +15,7 @@
 #include "barycert/audit.hpp"
 #include "barycert/audit_pictures.hpp"
 #include "barycert/audit_report.hpp"
+#include "barycert/base/descriptor.hpp"
 #include "barycert/kernels.hpp"
 #include "mesh_object.hpp"
 
@@ -36,7 +41,40 @@ struct Callable {
 };
 Callable* callable_kernel = nullptr;
 std::mutex callable_kernel_in_use;
-thread_local bool in_callable = false;
+
+/// A call of the callable, on this thread. What it forks has an end of a pipe, until it ends or runs another program.
+/// A process that comes back from the callable without having called it would go on with the audit and the script.
+struct Call {
+    Call() {
+        static const int told_of_forks = ::pthread_atfork(
+            [] {
+                int ends[2];
+                if (now == nullptr || now->there || ::pipe2(ends, O_CLOEXEC) != 0) return;
+                now->here.number = ends[0];
+                now->there.number = ends[1];
+            },
+            nullptr, nullptr);
+        static_cast<void>(told_of_forks);
+        now = this;
+    }
+    ~Call() { now = nullptr; }
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+
+    /// True if a process is left that it has forked. Ends this one if that is it.
+    bool left_a_process() {
+        if (::getpid() != caller) ::_exit(1);
+        if (!there) return false;
+        there = base::Descriptor();
+        pollfd waited{.fd = here.number, .events = POLLIN, .revents = 0};
+        return ::poll(&waited, 1, 0) != 1;  // else the last of them has ended
+    }
+
+    static thread_local Call* now;
+    pid_t caller = ::getpid();
+    base::Descriptor here, there;
+};
+thread_local Call* Call::now = nullptr;
 
 /// "LinAlgError: Singular matrix".
 std::string in_words(const py::error_already_set& e) {
@@ -52,24 +90,24 @@ std::string in_words(const py::error_already_set& e) {
 }
 
 /// The weights that the callable returns, or None: declared degenerate. An exception that it raises is no answer; what
-/// is no Exception, such as KeyboardInterrupt, ends the audit, and so does an answer of another shape.
+/// is no Exception, such as KeyboardInterrupt, ends the audit, and so do an answer of another shape and a process that
+/// it leaves behind.
 int call_kernel(const double* vertices, const double* point, double* weights) {
     const py::gil_scoped_acquire lock;
     const Simplex simplex = callable_kernel->simplex;
     const int n = vertex_count(simplex), d = space_dimension(simplex);
-    struct Within {
-        Within() { in_callable = true; }
-        ~Within() { in_callable = false; }
-    };
     py::object answer = py::none();
     callable_kernel->raised.clear();
+    Call call;
     try {
-        const Within within;
         answer = callable_kernel->function(py::array_t<double>({n, d}, vertices), py::array_t<double>(d, point));
     } catch (const py::error_already_set& e) {
-        if (!e.matches(PyExc_Exception)) throw;
+        if (::getpid() == call.caller && !e.matches(PyExc_Exception)) throw;
         callable_kernel->raised = in_words(e);
     }
+    if (call.left_a_process())
+        throw Exception({.what = "the kernel left a process behind that it had forked",
+                         .remedy = "let it end its processes, and wait for them, before it returns"});
     if (answer.is_none()) return 1;
     const py::array_t<double, py::array::c_style | py::array::forcecast> numbers(answer);
     if (numbers.ndim() != 1 || numbers.size() != n)
@@ -160,7 +198,7 @@ std::shared_ptr<AuditReport> audit(const py::object& function, Simplex simplex, 
     for (const auto& [label, mesh] : meshes) source.add(label, mesh->mesh());
     std::unique_lock<std::mutex> turn;
     if (callable.function) {
-        if (in_callable)
+        if (Call::now != nullptr)
             throw Exception(
                 {.what = "an audit of a callable within an audit", .remedy = "begin it when the other has ended"});
         turn = std::unique_lock(callable_kernel_in_use);

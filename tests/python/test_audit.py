@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -111,6 +112,39 @@ def test_an_exception_of_a_callable_is_a_finding():
     nested = barycert.audit(lambda v, p: barycert.audit(solve, count=10), count=10, families="random")
     assert nested.kernels[0].findings == {"raised": nested.kernels[0].cases}
     assert "raised Error: an audit of a callable within an audit" in nested.kernels[0].witnesses[0]["detail"]
+
+
+FORKS = """
+import os, sys
+import barycert
+
+def kernel(vertices, point):
+    child = os.fork()
+    if sys.argv[1] == "waits":
+        if child == 0:
+            os._exit(0)
+        os.waitpid(child, 0)
+    elif sys.argv[1] == "raises" and child == 0:
+        sys.exit(3)
+    return [1, 0, 0, 0]
+
+try:
+    barycert.audit(kernel, count=5, families="random")
+    print("ended")
+except barycert.Error as e:
+    print(e)
+"""
+
+
+@pytest.mark.parametrize("what", ["goes on", "raises", "waits"])
+def test_a_callable_that_forks_does_not_double_the_script(what):
+    done = subprocess.run([sys.executable, "-c", FORKS, what], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and done.stderr == ""
+    (line,) = done.stdout.splitlines()
+    if what == "waits":
+        assert line == "ended"
+    else:
+        assert line.startswith("the kernel left a process behind that it had forked; let it end its processes")
 
 
 def test_what_is_no_answer_and_no_exception_ends_the_audit():

@@ -105,8 +105,8 @@ def audit(
         oracle: "automatic", "integers", "cgal" or "both".
 
     Raises:
-        Error: no such kernel, library or family; an answer of another shape. An exception of the callable is a finding,
-            `raised`; KeyboardInterrupt ends the audit.
+        Error: no such kernel, library or family; an answer of another shape; a process that the callable forked and
+            left behind. An exception of the callable is a finding, `raised`; KeyboardInterrupt ends the audit.
     """
     _need_audit()
     callable_kernel = None
