@@ -21,7 +21,7 @@ inline bool all_finite(std::span<const double> numbers) {
     for (; i + 8 <= numbers.size(); i += 8) {
         for (std::size_t k = 0; k < 8; ++k) sums[k] += numbers[i + k] - numbers[i + k];
     }
-    for (; i < numbers.size(); ++i) sums[0] += numbers[i] - numbers[i];
+    for (const double x : numbers.subspan(i)) sums[0] += x - x;
     bool finite = true;
     for (const double sum : sums) finite = finite && sum == 0;
     return finite;

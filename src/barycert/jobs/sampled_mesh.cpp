@@ -146,14 +146,31 @@ Status SampledMesh::go(const Step& step) {
     return built;
 }
 
+bool SampledMesh::is_another(const Mesh& mesh) const {
+    return mesh.points != mesh_.points || mesh.cells != mesh_.cells || mesh.mid_nodes != mesh_.mid_nodes ||
+           mesh.cell_numbers != mesh_.cell_numbers;
+}
+
+Status SampledMesh::check_one_mesh(const std::string& path, const char* member) {
+    for (const Step& step : steps) {
+        if (!step.of_mesh || &step == &steps.front()) continue;
+        const Result<Mesh> mesh = read(&step);
+        if (!mesh) return mesh.error();
+        if (is_another(*mesh))
+            return refusal(path,
+                           "the mesh changes from step to step, and " + std::string(member) + " is of one mesh", "",
+                           "another mesh in step " + step.label, "choose one step: job.step N");
+    }
+    return Done{};
+}
+
 Status SampledMesh::go_to_mesh(const Step& step) {
     Result<Mesh> mesh = read(&step);
     if (!mesh) return mesh.error();
     if (mesh->dimension != mesh_.dimension)
         return refusal(job.mesh, "step " + step.label + " has cells of another dimension",
                        std::to_string(mesh_.dimension) + ", as the first one has", std::to_string(mesh->dimension));
-    another_mesh_ = mesh->points != mesh_.points || mesh->cells != mesh_.cells || mesh->mid_nodes != mesh_.mid_nodes ||
-                    mesh->cell_numbers != mesh_.cell_numbers;
+    another_mesh_ = is_another(*mesh);
     if (another_mesh_) {
         sampler_.reset();
         locator_.reset();

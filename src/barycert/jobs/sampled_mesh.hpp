@@ -76,6 +76,9 @@ public:
     /// cannot be read, or has other numbers of rows or components than that of the first step. Precondition: prepared.
     Status go_to(const Step& step);
 
+    /// Reads the meshes of all steps. Error: one is another than the first, and `member`, the output `path`, is of one.
+    Status check_one_mesh(const std::string& path, const char* member);
+
     /// Whether the step that was gone to has another mesh than the one before it: then this is to be prepared.
     bool is_another_mesh() const { return another_mesh_; }
 
@@ -101,6 +104,7 @@ public:
 
 private:
     Result<Mesh> read(const Step* step);
+    bool is_another(const Mesh& mesh) const;
     Status go(const Step& step);
     std::string names_of_chosen() const;
     Status add_fields_of_job();

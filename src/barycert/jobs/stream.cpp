@@ -232,17 +232,15 @@ Status sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& o
     std::vector<Table> known;
     Targets targets{by_step ? output_of_step(job.output, mesh.steps.front()) : job.output, map, job.weights,
                     further ? &known : nullptr};
+    for (const auto& [member, path] : {std::pair("job.weights", job.weights), {"job.save_map", map}}) {
+        if (!further || path.empty()) continue;
+        if (Status same = mesh.check_one_mesh(path, member); !same) return same;
+    }
     if (Status done = RowStream(mesh, source, open, targets).go(); !done) return done;
     for (std::size_t i = 1; further && i < mesh.steps.size(); ++i) {
         mesh.tell("steps", i);
         if (Status ready = mesh.go_to(mesh.steps[i]); !ready) return ready;
         const bool anew = mesh.is_another_mesh();
-        for (const auto& [member, path] : {std::pair("job.weights", job.weights), {"job.save_map", map}}) {
-            if (anew && !path.empty())
-                return refusal(path,
-                               "the mesh changes from step to step, and " + std::string(member) + " is of one mesh", "",
-                               "", "choose one step: job.step N");
-        }
         if (anew) known.clear();
         if (Status ready = anew ? source.begin_again(mesh) : Status(Done{}); !ready) return ready;
         targets = {output_of_step(job.output, mesh.steps[i]), "", "", anew ? &known : nullptr};
