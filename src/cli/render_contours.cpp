@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "barycert/base/text.hpp"
@@ -130,7 +132,11 @@ void add_iso(const Options& render) {
     o.run([a, o] { return run_iso(*a, o.app()); });
 }
 
-std::optional<Plane> plane_of(const std::string& text) {
+std::optional<Plane> plane_of(const std::string& given) {
+    std::string text = given;
+    std::erase(text, ' ');
+    if (text.size() > 2 && text[1] == '=')
+        text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
     if (text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=') {
         const std::optional<double> offset = finite(std::string_view(text).substr(2));
         if (!offset) return std::nullopt;

@@ -163,7 +163,7 @@ protected:
         scratch.put("all.pvd",
                     "<VTKFile type='Collection'><Collection><DataSet timestep='0' file='0.vtu'/>"
                     "<DataSet timestep='0' part='1' file='1.vtu'/></Collection></VTKFile>");
-        scratch.put("all.vtu.series", R"({"files": [{"name": "0.vtu", "time": 0}, {"name": "1.vtu", "time": 0}]})");
+        scratch.put("all.vtu.series", R"({"files": [{"name": "0.vtu", "time": 0}, {"name": "1.vtu", "time": 1}]})");
         scratch.put("outer.pvtu",
                     "<VTKFile type='PUnstructuredGrid'><PUnstructuredGrid><Piece Source='all.pvtu'/>"
                     "</PUnstructuredGrid></VTKFile>");

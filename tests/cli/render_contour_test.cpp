@@ -244,11 +244,11 @@ TEST(render_slice, as_a_picture) {
     expect_error(
         {"render", "slice", mesh("cube-hole"), "--plane", "0,0,1,2", "--output", png, "--field", "attribute0"},
         "the section has no area: expected a plane that goes through the mesh, found D = 2, where the cells are "
-        "from 0 to 1; choose D between them: --plane 0,0,1,0.5");
+        "from 0 to 1; choose D between them: --plane z=0.5");
     expect_error(
         {"render", "slice", mesh("cube-hole"), "--plane", "0,0,1,1", "--output", png, "--field", "attribute0"},
         "found D = 1, a plane that only touches the boundary: the cells are from 0 to 1; move it inwards: --plane "
-        "0,0,1,0.999");
+        "z=0.999");
     for (const std::string plane : {"0,0,-1,-1", "0,0,1,0.999"}) {
         const Ended touching =
             run({"render", "slice", mesh("cube-hole"), "--plane", plane, "--output", png, "--field", "attribute0"});
@@ -278,6 +278,7 @@ TEST(render_slice, by_one_axis) {
     };
     EXPECT_EQ(drawn("z=0.5"), drawn("0,0,1,0.5"));
     EXPECT_EQ(drawn("x=0.25"), drawn("1,0,0,0.25"));
+    EXPECT_EQ(drawn("X = .25"), drawn("1, 0, 0, 0.25"));
     for (const std::string wrong : {"w=1", "z=", "z=nan", "z", "0,0,1"})
         expect_error({"render", "slice", mesh("cube-hole"), "--plane", wrong, "--output", scratch.path("s.off")},
                      "--plane: expected an axis and where, such as z=0.5, or NX,NY,NZ,D");

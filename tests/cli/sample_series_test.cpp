@@ -393,6 +393,9 @@ TEST_F(SeriesOfMeshes, what_cannot_be_meant_is_refused) {
     }
     expect_error(plus(sample, {"--output", "r{step}.csv", "--json", "j{step}.json"}), "no steps to fill it", here);
     expect_error(plus(sample, {"--step", "all", "--output", "r.csv"}), "expected {step} or {time} in --output", here);
+    expect_error(plus(sample, {"--output", "r_{setp}.csv"}), "found {setp}; did you mean {step}?", here);
+    scratch.put("twice.vtu.series", R"({"files": [{"name": "s0.vtu", "time": 1}, {"name": "s1.vtu", "time": 1}]})");
+    expect_error({"check", "twice.vtu.series"}, "entry 2 of \"files\": expected a time of its own", here);
     expect_error(plus(sample, {"--step", "3", "--output", "r.csv"}), "expected a number from 0 to 2", here);
     expect_error(plus(sample, {"--time", "1", "--output", "r.csv"}), "one of the times 0, 0.5, 2", here);
     expect_error(plus(sample, {"--step", "first", "--output", "r.csv"}), "all or last", here);
@@ -406,7 +409,8 @@ TEST_F(SeriesOfMeshes, what_cannot_be_meant_is_refused) {
     EXPECT_TRUE(contains(pipe.err, "points of a pipe can be read once")) << pipe.err;
     expect_error(plus(sample, {"--output", "r{step}.csv", "--weights", "w.npz"}), "--weights is of one mesh", here);
     expect_error(plus(sample, {"--output", "r{step}.csv", "--save-map", "m.npz"}), "another mesh in step 2", here);
-    for (const char* const none : {"r0.csv", "w.npz", "m.npz"}) EXPECT_FALSE(std::filesystem::exists(scratch.path(none))) << none;
+    for (const char* const none : {"r0.csv", "w.npz", "m.npz"})
+        EXPECT_FALSE(std::filesystem::exists(scratch.path(none))) << none;
     expect_error(plus(sample, {"--output", "s{step}.vtu"}), "would overwrite", here);
 }
 

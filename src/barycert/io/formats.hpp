@@ -166,8 +166,9 @@ std::string text_ply_remedy(const std::string& path);
 std::string gmsh_command(const std::string& path, const std::string& more = {});
 
 inline constexpr const char* formats_read =
-    "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series), TetGen or Triangle "
-    "(.node .ele), or one that meshio reads";
+    "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series .vtp.series), TetGen "
+    "or "
+    "Triangle (.node .ele), or one that meshio reads";
 
 /// Reads a mesh by way of meshio, whose name of the format is `format`: nodes and cells in its order, which is told
 /// with its version and what it printed. Error: run_meshio(); meshio cannot read the file; read_vtk(); what comes back

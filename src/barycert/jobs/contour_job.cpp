@@ -190,7 +190,10 @@ private:
                                   touches ? "a plane that only touches the boundary:" : "where", shortest(low),
                                   shortest(high));
             const double inwards = at == low ? low + (high - low) / 1000 : high - (high - low) / 1000;
-            e.remedy = fmt::format("{}: job.plane {},{}", touches ? "move it inwards" : "choose D between them", normal,
+            const auto axis = static_cast<std::size_t>(std::find(n.begin(), n.end(), 1.0) - n.begin());
+            const bool along_axis = axis < 3 && std::count(n.begin(), n.end(), 0.0) == 2;
+            e.remedy = fmt::format("{}: job.plane {}{}", touches ? "move it inwards" : "choose D between them",
+                                   along_axis ? std::string{"xyz"[axis], '='} : normal + ',',
                                    shortest(touches ? inwards : low / 2 + high / 2));
             return e;
         }

@@ -141,6 +141,18 @@ std::optional<FieldFile> file_of_steps(const FieldFile& series) {
     return split && names_steps(split->path) ? split : std::nullopt;
 }
 
+/// Error: a word in braces that is nearly one of the places of steps.
+Status check_places(const std::string& output) {
+    for (std::size_t open = output.find('{'); open != std::string::npos; open = output.find('{', open + 1)) {
+        const std::string word = output.substr(open + 1, output.find('}', open) - open - 1);
+        const std::string meant = base::nearest_name(word, {"step", "time"});
+        if (!meant.empty())
+            return refusal(output, "a place that is not known in job.output", "{step} or {time}", '{' + word + '}',
+                           "did you mean {" + meant + "}?");
+    }
+    return Done{};
+}
+
 }  // namespace
 
 Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
@@ -174,6 +186,9 @@ Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
 
 Result<std::vector<Step>> find_steps(const SamplingJob& job) {
     const bool place = has_step_place(job.output), series = names_steps(job.mesh);
+    if ((series || !job.series.empty()) && !place) {
+        if (const Status spelt = check_places(job.output); !spelt) return spelt.error();
+    }
     // The steps of which of them? And which mesh would be that of a step of the fields?
     const bool both = !job.series.empty() && (job.all_steps || (place && series && !job.step.made()));
     if (!job.series.empty() && !both) return find_steps(job.series);

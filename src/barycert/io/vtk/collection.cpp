@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
@@ -85,6 +86,7 @@ Result<Collection> read_series_file(std::string_view bytes, const std::string& p
     if (!series.is_object() || !series.contains("files") || !series["files"].is_array())
         return wrong("the files of the series", "a member \"files\", an array", kind_of(series, "files"));
     Collection collection{.is_series = true, .files = {}};
+    std::set<double> times;
     for (const Json& entry : series["files"]) {
         const std::string where = "entry " + std::to_string(collection.files.size() + 1) + " of \"files\"";
         if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string() ||
@@ -92,6 +94,11 @@ Result<Collection> read_series_file(std::string_view bytes, const std::string& p
             return wrong(where, "a member \"name\", the path of a file", kind_of(entry, "name"));
         if (!entry.contains("time") || !entry["time"].is_number() || !std::isfinite(entry["time"].get<double>()))
             return wrong(where, "a member \"time\", a finite number", kind_of(entry, "time"));
+        if (!times.insert(entry["time"].get<double>()).second) {
+            Error twice = wrong(where, "a time of its own", "that of another entry");
+            twice.remedy = "gather the parts of a step in a .pvtu file";
+            return twice;
+        }
         collection.files.push_back(
             {path_beside(path, entry["name"].get_ref<const std::string&>()), {}, entry["time"].get<double>(), 0});
     }

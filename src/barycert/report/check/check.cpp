@@ -201,7 +201,8 @@ Document fix_document(const FixedMesh& fixed) {
     d.section("Repaired copy: " + fixed.file);
     for (const std::string& line : fix_sentences(fixed)) d.say(line);
     tell_verdict(d, fixed.after, fixed.file);
-    if (!fixed.after.certified()) tell_defects(d, fixed.after, true, "What remains in the copy");
+    tell_defects(d, fixed.after, true, "What remains in the copy");
+    tell_defects(d, fixed.after, false, "Notes on the copy");
     return d;
 }
 
