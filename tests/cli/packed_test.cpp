@@ -94,6 +94,19 @@ TEST_F(Packed, bombs) {
     EXPECT_TRUE(contains(check.err, "takes too much memory once it is unpacked")) << check.err;
 }
 
+// In less memory than they take.
+TEST_F(Packed, gigabytes_of_zeros_are_told_by_their_beginning) {
+    shell("truncate -s 2G z; gzip -1 < z > z.gz; rm z");
+    for (const char* line : {"check z.vtu.gz", "check z.msh.gz", "check z.ele.gz", "check z.mesh.gz", "mesh z.off.gz",
+                             "sample m --points p.csv --output - --field T=z.txt.gz"}) {
+        const std::string words(line), name = words.substr(words.find("z."), words.find(".gz") - words.find("z.") + 3);
+        const Ended check = shell("cp z.gz " + name + "; ulimit -v 1500000; barycert " + line);
+        EXPECT_EQ(check.code, 2) << line;
+        EXPECT_TRUE(contains(check.err, name + ": ")) << check.err;
+        EXPECT_FALSE(contains(check.err, "memory")) << check.err;
+    }
+}
+
 TEST_F(Packed, nothing_is_written_so) {
     for (const char* line : {"sample m --points p.csv --output o.csv.gz", "resample m --onto m --output o.vtu.gz",
                              "check m --json o.json.gz"}) {

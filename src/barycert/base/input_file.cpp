@@ -60,7 +60,7 @@ Error too_little_memory(std::string path) {
             .remedy = "free some memory, or check whether the file is damaged"};
 }
 
-Result<InputFile> InputFile::open(const std::string& path, const char* remedy) {
+Result<InputFile> InputFile::open(const std::string& path, const char* remedy, Text text) {
     struct stat status {};
     Result<Descriptor> opened = open_without_waiting(path, status);
     if (!opened) return opened.error();
@@ -68,10 +68,24 @@ Result<InputFile> InputFile::open(const std::string& path, const char* remedy) {
     file.file_ = std::move(*opened);
     if (S_ISDIR(status.st_mode)) return unfit(path, "a regular file", "a folder", "name a file inside the folder");
     if (!S_ISREG(status.st_mode)) return unfit(path, "a regular file", "a pipe or device", remedy);
-    if (Status plain = unpack(file.file_.number, path); !plain) return plain.error();
+    if (Status plain = unpack(file.file_.number, path, text); !plain) return plain.error();
     if (::fstat(file.file_.number, &status) != 0) return read_failure(path, errno);
     file.then_ = {static_cast<std::uint64_t>(status.st_size), status.st_mtim};
     return file;
+}
+
+Result<std::string> InputFile::head(const std::string& path, std::size_t size) {
+    struct stat status {};
+    if (const Result<Descriptor> opened = open_without_waiting(path, status); opened && S_ISREG(status.st_mode)) {
+        if (std::optional<std::string> head = unpacked_head(opened->number, size)) return *std::move(head);
+    }
+    const Result<InputFile> file = open(path);
+    if (!file) return file.error();
+    std::string head(size, '\0');
+    const Result<std::size_t> got = file->read_at(0, head, path);
+    if (!got) return got.error();
+    head.resize(*got);
+    return head;
 }
 
 Status unchanged(int descriptor, const FileState& then, const std::string& path) {
@@ -160,7 +174,7 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
     // From now on a pipe waits for those who have it open, and has ended if nobody has.
     if (pipe && ::fcntl(file.file_.number, F_SETFL, 0) != 0) return read_failure(path, errno);
 
-    if (Status plain = unpack(file.file_.number, path); !plain) return plain.error();
+    if (Status plain = unpack(file.file_.number, path, text); !plain) return plain.error();
     if (::fstat(file.file_.number, &status) != 0) return read_failure(path, errno);
 
     if (!pipe) {

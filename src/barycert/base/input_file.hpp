@@ -13,6 +13,7 @@
 #include <ctime>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,9 +58,13 @@ Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char
 /// A regular file open for reading; closed at the end.
 class InputFile {
 public:
-    /// Errors: missing, unreadable, a folder, a pipe or device (for which `remedy` says what to do).
-    static Result<InputFile> open(const std::string& path,
-                                  const char* remedy = "save the data to a regular file first");
+    /// Errors: missing, unreadable, a folder, a pipe or device (for which `remedy` says what to do), packed and not
+    /// beginning as `text` says.
+    static Result<InputFile> open(const std::string& path, const char* remedy = "save the data to a regular file first",
+                                  Text text = Text::none);
+
+    /// Its first bytes, as many as that or fewer where it ends: of a packed file these alone are unpacked.
+    static Result<std::string> head(const std::string& path, std::size_t size);
 
     int descriptor() const { return file_.number; }
 
@@ -145,7 +150,12 @@ const std::string* input_of_run(const std::string& path);
 
 /// Where `descriptor` is a regular file packed by gzip, of one member or several, it becomes one of the unpacked bytes,
 /// which are in memory and have no name. Error: it is damaged or cut off; unpacked it would take more than half of the
-/// machine's memory, or more than 200 times its size and 256 MiB, as no table of numbers does.
-Status unpack(int& descriptor, const std::string& path);
+/// machine's memory, or more than 200 times its size and 256 MiB, as no table of numbers does; it does not begin as
+/// `text` says, which is asked before.
+Status unpack(int& descriptor, const std::string& path, Text text);
+
+/// Where `descriptor` is such a file, its first bytes, unpacked, as many as that or fewer where its first member ends.
+/// None: it is no such file, or is damaged.
+std::optional<std::string> unpacked_head(int descriptor, std::size_t size);
 
 }  // namespace barycert::base

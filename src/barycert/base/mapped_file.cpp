@@ -17,7 +17,7 @@ constexpr std::size_t block_size = 4 * large_page;
 }  // namespace
 
 Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text text, const Header& header) {
-    const Result<InputFile> file = InputFile::open(path);
+    const Result<InputFile> file = InputFile::open(path, "save the data to a regular file first", text);
     if (!file) return file.error();
     if (Status begins = file->check(text, path, header); !begins) return begins.error();
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));

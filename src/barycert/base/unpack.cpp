@@ -4,12 +4,14 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -43,14 +45,40 @@ libdeflate_result unpack_members(std::string_view packed, int plain, std::size_t
     return result;
 }
 
+bool is_packed(int descriptor, struct stat& status) {
+    std::array<char, 2> magic{};
+    return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+           ::pread(descriptor, magic.data(), magic.size(), 0) == 2 && magic == std::array<char, 2>{'\x1f', '\x8b'};
+}
+
 }  // namespace
 
-Status unpack(int& descriptor, const std::string& path) {
+std::optional<std::string> unpacked_head(int descriptor, std::size_t size) {
     struct stat status {};
-    std::array<char, 2> magic{};
-    if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode) ||
-        ::pread(descriptor, magic.data(), magic.size(), 0) != 2 || magic != std::array<char, 2>{'\x1f', '\x8b'})
-        return Done{};
+    z_stream stream{};
+    // Deflated bytes are never much longer than what they stand for.
+    std::string packed(size + size / 4 + 4096, '\0'), head(size, '\0');
+    const Result<std::size_t> there =
+        is_packed(descriptor, status) ? read_at(descriptor, 0, packed, "") : Result<std::size_t>(Error{});
+    constexpr int gzip = 16, largest_window = 15;
+    if (!there || ::inflateInit2(&stream, largest_window + gzip) != Z_OK) return std::nullopt;
+    stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_in = static_cast<uInt>(*there);
+    stream.next_out = reinterpret_cast<Bytef*>(head.data());
+    stream.avail_out = static_cast<uInt>(size);
+    const int state = ::inflate(&stream, Z_SYNC_FLUSH);
+    head.resize(size - stream.avail_out);
+    ::inflateEnd(&stream);
+    return state == Z_OK || state == Z_STREAM_END ? std::optional(std::move(head)) : std::nullopt;
+}
+
+Status unpack(int& descriptor, const std::string& path, Text text) {
+    struct stat status {};
+    if (!is_packed(descriptor, status)) return Done{};
+    if (text != Text::none) {
+        const std::string head = unpacked_head(descriptor, first_block).value_or("");
+        if (Status begins = check_beginning(head, text, path); !begins) return begins;
+    }
     std::string packed(static_cast<std::size_t>(status.st_size), '\0');
     const Result<std::size_t> there = read_at(descriptor, 0, packed, path);
     if (!there) return there.error();

@@ -44,16 +44,6 @@ std::string_view without_gz(std::string_view path) {
     return path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
 }
 
-Result<std::string> head_of(const std::string& path, std::size_t size) {
-    const Result<base::InputFile> file = base::InputFile::open(path);
-    if (!file) return file.error();
-    std::string head(size, '\0');
-    const Result<std::size_t> got = file->read_at(0, head, path);
-    if (!got) return got.error();
-    head.resize(*got);
-    return head;
-}
-
 std::string plain_or_packed(const std::string& path) {
     std::error_code ignored;
     const std::string packed = path + ".gz";
@@ -109,7 +99,7 @@ Result<FileFormat> format_of_points(const std::string& path) {
     const std::size_t name = path.find_last_of('/') + 1;
     const bool stem = std::filesystem::exists(path + ".node", ignored);
     if (type != file_type::regular || stem || path.find('.', name) != std::string::npos) return by_suffix;
-    const Result<std::string> head = head_of(path, 1024);
+    const Result<std::string> head = base::InputFile::head(path, 1024);
     if (!head) return head.error();
     if (head->starts_with("\x93NUMPY")) return FileFormat::npy;
     const bool text = head->find('\0') == std::string::npos && !head->starts_with('<') && !head->starts_with('$') &&

@@ -71,9 +71,6 @@ std::string suffix_of(const std::string& path);
 /// That the suffix of the path is another one.
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
-/// The first `size` bytes of the file, or all.
-Result<std::string> head_of(const std::string& path, std::size_t size);
-
 /// True if the path ends as those of VTK's files with meshes do: .vtu .vtk .vtp, .pvtu .pvtp .vtm .vtpd .vtpc .pvd.
 bool is_vtk_file(std::string_view path);
 

@@ -87,7 +87,7 @@ struct Found {
 };
 
 Result<Found> look_at(const std::string& path) {
-    const Result<std::string> head = head_of(path, 4096);
+    const Result<std::string> head = base::InputFile::head(path, 4096);
     if (!head) return head.error();
     const std::optional<MeshFormat> by_content = format_by_content(*head), by_suffix = format_by_suffix(path);
     if (by_content) return Found{by_content};

@@ -90,7 +90,7 @@ Result<MeditFile> MeditFile::open(const std::string& path) {
     MeditFile file;
     file.path_ = path;
     // A large file that is none is not read for that.
-    const Result<std::string> head = head_of(path, 4096);
+    const Result<std::string> head = base::InputFile::head(path, 4096);
     if (!head) return head.error();
     const std::string_view begin = std::string_view(*head).substr(head->starts_with("\xEF\xBB\xBF") ? 3 : 0);
     const std::string_view word = first_word(begin, '#');
