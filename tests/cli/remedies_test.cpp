@@ -28,6 +28,29 @@ constexpr const char* cube_vtk =
     "printf '# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n0 0 0 1 0 0 1 1 0 0 1 0 "
     "0 0 1 1 0 1 1 1 1 0 1 1\n' > c.vtk; ";
 
+constexpr const char* hexahedron = "printf 'CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n' >> c.vtk";
+constexpr const char* vtkhdf =
+    "pvpython -c 'import h5py, numpy as np; g = h5py.File(\"c.vtkhdf\", \"w\").create_group(\"VTKHDF\"); "
+    "g.attrs[\"Version\"] = (1, 0); t = b\"UnstructuredGrid\"; "
+    "g.attrs.create(\"Type\", t, dtype=h5py.string_dtype(\"ascii\", len(t))); "
+    "g[\"Points\"] = np.array([[i & 1, i >> 1 & 1, i >> 2] for i in (0, 1, 3, 2, 4, 5, 7, 6)], float); "
+    "g[\"NumberOfPoints\"] = g[\"NumberOfConnectivityIds\"] = [8]; g[\"NumberOfCells\"] = [1]; "
+    "g[\"Connectivity\"] = np.arange(8); g[\"Offsets\"] = np.array([0, 8]); g[\"Types\"] = np.array([12], np.uint8)'";
+constexpr const char* fluent_cas =
+    "printf '(2 3)\n(10 (0 1 8 0 3))\n(10 (1 1 8 1 3)\n(\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 "
+    "1\n))\n(12 (0 1 "
+    "1 0 0))\n(12 (2 1 1 1 4))\n(13 (0 1 6 0 0))\n(13 (3 1 6 3 4)\n(\n1 2 3 4 1 0\n5 8 7 6 1 0\n1 5 6 2 1 0\n2 6 7 3 1 "
+    "0\n3 7 8 4 1 0\n4 8 5 1 1 0\n))\n' > c.cas";
+constexpr const char* openfoam =
+    "mkdir -p constant/polyMesh system; cd constant/polyMesh; "
+    "put() { printf 'FoamFile { version 2.0; format ascii; class %s; object %s; }\n%b' \"$1\" \"$2\" \"$3\"; }; "
+    "put vectorField points '8\n(\n(0 0 0)\n(1 0 0)\n(1 1 0)\n(0 1 0)\n(0 0 1)\n(1 0 1)\n(1 1 1)\n(0 1 1)\n)\n' > "
+    "points; "
+    "put faceList faces '6\n(\n4(0 3 2 1)\n4(4 5 6 7)\n4(0 1 5 4)\n4(1 2 6 5)\n4(2 3 7 6)\n4(3 0 4 7)\n)\n' > faces; "
+    "put labelList owner '6\n(\n0\n0\n0\n0\n0\n0\n)\n' > owner; put labelList neighbour '0\n(\n)\n' > neighbour; "
+    "put polyBoundaryMesh boundary '1\n(\nwalls\n{ type wall; nFaces 6; startFace 0; }\n)\n' > boundary; "
+    "put dictionary controlDict 'startTime 0; endTime 1; deltaT 1; writeInterval 1;\n' > ../../system/controlDict";
+
 const Remedy remedies[] = {
     {"msh_of_version_1", "gmsh", "gmsh -3 cube.geo -format msh1 -o a.msh", "check a.msh", "check a-new.msh"},
     {"msh_of_another_2", "gmsh", "gmsh -3 cube.geo -format msh2 -o b.msh; sed 's/^2.2 0 8/2.5 0 8/' b.msh > a.msh",
@@ -51,13 +74,36 @@ const Remedy remedies[] = {
      "printf 'CELLS 1 4\n3 4 5 6\nCELL_TYPES 1\n5\n' >> c.vtk; sed -i 's/0 0 0 1 0 0 1 1 0 "
      "0 1 0 /0 0 1 1 0 1 1 1 1 0 1 1 /' c.vtk",
      "check c.vtk", ""},
-    {"vtk_of_quads_in_the_plane", "python:pyvista",
+    {"vtk_of_quads_in_the_plane", "pvpython",
      "printf 'CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n' >> c.vtk; sed -i 's/0 0 1 1 0 1 1 1 1 0 1 1/0 0 0 1 0 0 1 1 0 0 "
      "1 "
      "0/' c.vtk",
      "check c.vtk", "check c-simplices.vtu"},
-    {"vtk_of_hexahedra", "python:pyvista", "printf 'CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n' >> c.vtk",
-     "check c.vtk", "check c-simplices.vtu"},
+    {"vtk_of_hexahedra", "pvpython", hexahedron, "check c.vtk", "check c-simplices.vtu"},
+    {"medit_of_hexahedra", "pvpython meshio",
+     "printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n8\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 "
+     "0\n1 1 1 0\n0 1 1 0\nHexahedra\n1\n1 2 3 4 5 6 7 8 0\nEnd\n' > c.mesh",
+     "check c.mesh", "check c-simplices.vtu"},
+    {"abaqus_of_hexahedra", "pvpython meshio",
+     "printf '*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, 1\n"
+     "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3, 4, 5, 6, 7, 8\n' > c.inp",
+     "check c.inp", "check c-simplices.vtu"},
+    {"abaqus_of_a_closed_surface", "meshio",
+     "printf '*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*ELEMENT, TYPE=STRI3\n1, 1, 3, 2\n2, 1, 2, 4\n3, "
+     "2, 3, 4\n4, 3, 1, 4\n' > s.inp",
+     "check s.inp", "check s.1"},
+    {"medit_of_a_closed_surface", "meshio",
+     "printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTriangles\n4\n1 3 "
+     "2 "
+     "0\n1 2 4 0\n2 3 4 0\n3 1 4 0\nEnd\n' > c.mesh",
+     "check c.mesh", "check c.1"},
+    {"cgns", "pvpython",
+     "printf 'CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n' >> c.vtk; pvpython -c 'from paraview.simple import *; "
+     "SaveData(\"c.cgns\", OpenDataFile(\"c.vtk\"))'",
+     "check c.cgns", "check c-simplices.vtu"},
+    {"vtkhdf", "pvpython", vtkhdf, "check c.vtkhdf", "check c-simplices.vtu"},
+    {"fluent", "pvpython", fluent_cas, "check c.cas", "check c-simplices.vtu"},
+    {"openfoam", "pvpython", openfoam, "check .", "check ./case-simplices.vtu"},
     {"off", "", "", "check s.off", "check s.1"},
     {"binary_ply", "meshio", "meshio convert t.off s.ply", "mesh s.ply", "mesh s-text.ply"},
     {"stl", "meshio", "meshio convert t.off a.stl", "check a.stl", "check a.1"},

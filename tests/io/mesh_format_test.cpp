@@ -59,12 +59,12 @@ struct Other {
 TEST(MeshFormat, files_that_are_not_read) {
     const std::string hdf5 = "\x89HDF\r\n\x1a\n and more";
     const std::vector<Other> others{
-        {"a.cgns", hdf5, "a CGNS file", "pyvista"},
+        {"a.cgns", hdf5, "a CGNS file", "pvpython"},
         {"a.h5", hdf5, "an HDF5 file", ".xdmf"},
         {"a.msh", hdf5, "an HDF5 file", ".xdmf"},
         {"a.unv", "    -1\n  2411\n", "a universal file of I-deas", "gmsh "},
         {"a.foam", "", "a case of OpenFOAM", "ParaView"},
-        {"points", "FoamFile\n{\n", "a case of OpenFOAM", "Tetrahedralize"},
+        {"points", "FoamFile\n{\n", "a case of OpenFOAM", "name the folder of the case"},
         {"a.stl", "", "a PLC (a surface), not a mesh", "`barycert mesh "},
         {"a.off", "OFF\n", "a PLC (a surface), not a mesh", "`barycert mesh "},
         {"a.ply", "ply\n", "a PLC (a surface), not a mesh", "`barycert mesh "},

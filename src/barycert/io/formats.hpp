@@ -117,13 +117,14 @@ void note_lost_names(const std::vector<std::string>& columns, const char* file, 
 
 /// How to get at the mesh.
 enum class Way {
-    meshio,   ///< it is read by way of meshio: io/converted
-    gmsh,     ///< `gmsh IN -save -format msh41 -o OUT.msh`
-    mesher,   ///< a geometry: `gmsh -3 IN -format msh41 -o OUT.msh`
-    surface,  ///< `barycert mesh IN`
-    pyvista,  ///< several blocks: by pyvista
-    unpack,   ///< compressed
-    other,    ///< as its remedy tells
+    meshio,      ///< it is read by way of meshio: io/converted
+    gmsh,        ///< `gmsh IN -save -format msh41 -o OUT.msh`
+    mesher,      ///< a geometry: `gmsh -3 IN -format msh41 -o OUT.msh`
+    surface,     ///< `barycert mesh IN`
+    binary_ply,  ///< made text by meshio, then meshed
+    paraview,    ///< by its Python
+    unpack,      ///< compressed
+    other,       ///< as its remedy tells
 };
 
 struct OtherFormat {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <string>
 
 #include "barycert/base/text.hpp"
@@ -10,22 +11,18 @@
 namespace barycert::io {
 namespace {
 
-constexpr const char* foam_remedy =
-    "open it in ParaView (touch case.foam in the folder of the case), apply Merge Blocks and Tetrahedralize, and save "
-    "it as .vtu";
-
 // In the order in which they are looked for. Suffixes of several formats (.dat, .e) stand with the likelier one.
 constexpr std::array formats{
     OtherFormat{" .inp ", "a mesh of Abaqus", Way::meshio, "abaqus"},
     OtherFormat{" .xdmf .xmf ", "an XDMF file", Way::meshio, "xdmf"},
     OtherFormat{" .med .rmed .mmed ", "a MED file of Salome or Code_Aster", Way::meshio, "med"},
-    OtherFormat{" .cgns ", "a CGNS file", Way::pyvista, ""},
+    OtherFormat{" .cgns ", "a CGNS file", Way::paraview, ""},
     OtherFormat{" .exo .e .ex2 .exii .g ", "an Exodus file", Way::meshio, "exodus"},
     OtherFormat{" .vol ", "a mesh of Netgen", Way::meshio, "netgen"},
     OtherFormat{" .su2 ", "a mesh of SU2", Way::meshio, "su2"},
     OtherFormat{" .unv .universal ", "a universal file of I-deas", Way::gmsh, ""},
     OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::meshio, "nastran"},
-    OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", Way::other, foam_remedy},
+    OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", Way::paraview, ""},
     OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", Way::meshio, "dolfin-xml"},
     OtherFormat{" .avs ", "a mesh of AVS", Way::meshio, "avsucd"},
     OtherFormat{" .ugrid ", "a mesh of UGRID", Way::meshio, "ugrid"},
@@ -35,12 +32,12 @@ constexpr std::array formats{
     OtherFormat{" .hmf ", "an HMF file", Way::meshio, "hmf"},
     OtherFormat{" .post .dato ", "a mesh of PERMAS", Way::meshio, "permas"},
     OtherFormat{" .tec .dat ", "a file of Tecplot", Way::meshio, "tecplot"},
-    OtherFormat{" .cas ", "a case of Fluent", Way::pyvista, ""},
+    OtherFormat{" .cas ", "a case of Fluent", Way::paraview, ""},
     OtherFormat{" .off .stl .ply .poly .smesh ", "a PLC (a surface), not a mesh", Way::surface, ""},
     OtherFormat{" .obj ", "a surface, not a mesh", Way::other,
                 "save it as .stl, .off or .ply (text) in the program that it is of, and mesh that"},
     OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh", Way::mesher, ""},
-    OtherFormat{" .vtkhdf ", "a VTKHDF file", Way::pyvista, ""},
+    OtherFormat{" .vtkhdf ", "a VTKHDF file", Way::paraview, ""},
     OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", Way::other, "if it belongs to an .xdmf file, name that"},
     OtherFormat{" .nc ", "a NetCDF file", Way::meshio, "exodus"},
     OtherFormat{" .tgz ", "a TAR archive", Way::unpack, "tar -xzf"},
@@ -65,6 +62,7 @@ constexpr OtherFormat fluent{"", "a mesh of Fluent", Way::meshio, "ansys"};
 constexpr OtherFormat freefem{"", "a mesh of FreeFem", Way::other,
                               "in FreeFem, write it with load \"iovtk\" and savevtk(\"OUT.vtu\", Th)"};
 
+constexpr OtherFormat binary_ply{"", "a surface in binary form, not a mesh", Way::binary_ply, ""};
 constexpr OtherFormat flat_poly{"", "a PLC in the plane, not a mesh", Way::other,
                                 "mesh it with Triangle, whose .node and .ele are read"};
 
@@ -122,12 +120,27 @@ std::string unpacked_name(const std::string& path) {
     return path.substr(0, path.rfind('/') + 1) + "plain-" + path.substr(path.rfind('/') + 1);
 }
 
-/// Of any data set, in blocks or not.
-std::string pyvista_command(const std::string& path) {
-    return "`python3 -c 'import pyvista, sys; m = pyvista.read(sys.argv[1]); m = m.combine() if hasattr(m, "
-           "\"combine\") "
-           "else m.cast_to_unstructured_grid(); m.triangulate().save(sys.argv[2])' " +
-           shell_word(path) + " " + shell_word(stem_of(path) + "-simplices.vtu") + "`";
+/// ParaView's Python, which cuts any data set, in blocks or not, into simplices.
+std::string paraview_command(const std::string& in, const std::string& stem) {
+    return "`pvpython -c 'import sys; from paraview.simple import *; SaveData(sys.argv[2], "
+           "Tetrahedralize(MergeBlocks(OpenDataFile(sys.argv[1]))))' " +
+           shell_word(in) + " " + shell_word(stem + "-simplices.vtu") + "`";
+}
+
+/// ParaView tells formats by their suffixes; a case of OpenFOAM has an empty file to name it.
+std::string by_paraview(const std::string& path) {
+    const std::string stem = stem_of(path);
+    if (std::error_code ignored; std::filesystem::is_directory(path, ignored)) {
+        const std::string foam = path + "/case.foam";
+        return "convert it with `touch " + shell_word(foam) + "` and " + paraview_command(foam, path + "/case");
+    }
+    if (has_suffix(path, ".vtkhdf"))
+        return "convert it with `cp " + shell_word(path) + " " + shell_word(stem + ".hdf") + "` and " +
+               paraview_command(stem + ".hdf", stem);
+    for (const char* const known : {".cgns", ".cas", ".foam", ".openfoam"}) {
+        if (has_suffix(path, known)) return "convert it with " + paraview_command(path, stem);
+    }
+    return "name the folder of the case";
 }
 
 }  // namespace
@@ -183,6 +196,8 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
     const bool msh = has_suffix(path, ".msh");
     if (msh && text.starts_with('(')) return &fluent;
     if (msh && is_freefem(text)) return &freefem;
+    if (text.starts_with("ply"))
+        return text.find("\nformat ascii") == std::string_view::npos ? &binary_ply : by_suffix(".ply");
     if (strict) return nullptr;
     const std::string_view word = first_word(text, '%');
     if (word.starts_with("NDIME=")) return by_suffix(".su2");
@@ -190,7 +205,6 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
     if (lower(word).starts_with("*heading") || lower(word).starts_with("*node")) return by_suffix(".inp");
     if (word == "-1") return by_suffix(".unv");
     if (text.starts_with("OFF") || text.starts_with("solid ")) return by_suffix(".stl");
-    if (text.starts_with("ply")) return by_suffix(".ply");
     if (word == "SOL" || word == "CEND" || word == "BEGIN") return by_suffix(".bdf");
     return nullptr;
 }
@@ -201,7 +215,10 @@ std::string gmsh_command(const std::string& path, const std::string& more) {
 }
 
 std::string to_simplices(const std::string& path) {
-    return "cut it into simplices, in ParaView with the filter Tetrahedralize, or by " + pyvista_command(path);
+    const std::string stem = stem_of(path);
+    if (is_vtk_file(path)) return "cut them into simplices with " + paraview_command(path, stem);
+    return "cut them into simplices with `meshio convert " + shell_word(path) + " " + shell_word(stem + "-all.vtu") +
+           "` and " + paraview_command(stem + "-all.vtu", stem);
 }
 
 bool in_plane(std::span<const double> points) {
@@ -210,7 +227,8 @@ bool in_plane(std::span<const double> points) {
 
 std::string text_ply_remedy(const std::string& path) {
     const std::string text = shell_word(stem_of(path) + "-text.ply");
-    return "make it text with `meshio convert --ascii " + shell_word(path) + " " + text + "`, and name that";
+    return "make it text with `meshio convert --ascii " + shell_word(path) + " " + text +
+           "`, and mesh that with `barycert mesh " + text + "`";
 }
 
 std::string plane_remedy(std::span<const double> points, const std::string& path) {
@@ -237,8 +255,11 @@ Error other_format_error(const OtherFormat& format, const std::string& path) {
         case Way::surface:
             remedy = "mesh it first with `barycert mesh " + in + "`";
             break;
-        case Way::pyvista:
-            remedy = "convert it with " + pyvista_command(path) + ", or in ParaView";
+        case Way::binary_ply:
+            remedy = text_ply_remedy(path);
+            break;
+        case Way::paraview:
+            remedy = by_paraview(path);
             break;
         case Way::unpack:
             remedy = std::string("unpack it with `") + format.remedy + " " + in +

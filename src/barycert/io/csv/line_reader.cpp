@@ -21,7 +21,7 @@ Result<LineReader> LineReader::open(const std::string& path) {
     // A named pipe waits for its writer, as every reader of streams does: `gen > p.csv & barycert ... p.csv`.
     reader.descriptor_ = own ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
     if (reader.descriptor_ < 0) return base::read_failure(reader.name_, errno);
-    Status plain = base::unpack(reader.descriptor_, reader.name_);
+    Status plain = base::unpack(reader.descriptor_, reader.name_, base::Text::words);
     if (own) reader.owned_.reset(new int(reader.descriptor_));
     if (own && !plain) return plain.error();
     struct stat status {};
