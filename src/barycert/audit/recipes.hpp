@@ -49,8 +49,7 @@ Draw draw_of_cell(const PreparedMesh& from, Mesh::Index cell, base::Random& rand
 inline std::array<double, 4> random_weights(base::Random& random, int n) {
     std::array<double, 5> cuts{0, 1, 1, 1, 1};
     for (int i = 1; i < n; ++i) cuts[static_cast<std::size_t>(i)] = random.unit();
-    std::sort(cuts.begin() + 1, cuts.begin() + n);
-    cuts[static_cast<std::size_t>(n)] = 1;
+    std::sort(cuts.begin() + 1, cuts.end() - 1);  // the others are 1, and random ones less
     std::array<double, 4> w{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) w[i] = cuts[i + 1] - cuts[i];
     return w;
