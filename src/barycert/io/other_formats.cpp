@@ -227,8 +227,8 @@ bool in_plane(std::span<const double> points) {
 
 std::string text_ply_remedy(const std::string& path) {
     const std::string text = shell_word(stem_of(path) + "-text.ply");
-    return "make it text with `meshio convert --ascii " + shell_word(path) + " " + text +
-           "`, and mesh that with `barycert mesh " + text + "`";
+    const std::string convert = "`meshio convert --ascii " + shell_word(path) + " " + text + "`";
+    return "make it text with " + convert + ", and mesh that with `barycert mesh " + text + "`";
 }
 
 std::string plane_remedy(std::span<const double> points, const std::string& path) {

@@ -68,8 +68,8 @@ Status check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
                        "bounds are for job.counts and job.spacing: leave them out");
     if (!job.weights.empty() && job.onto.empty())
         return refusal(job.weights, "job.weights needs job.onto here", "", "",
-                       "for the points of a grid, write them to a file first (job.output grid.csv), and use `barycert "
-                       "sample --points grid.csv --weights`");
+                       "for the points of a grid, write them to a file first (job.output grid.csv), and use "
+                       "`barycert sample --points grid.csv --weights`");
     if (job.onto.empty()) {
         if (Status known = jobs::check_grid_output(job); !known) return known;
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
