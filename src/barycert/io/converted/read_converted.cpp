@@ -317,8 +317,11 @@ Result<Mesh> checked(const Json& answer, const MeshioFile& file, const std::stri
     Result<Mesh> mesh = read_vtk(file.vtu);
     if (!mesh) {
         Error error = mesh.error();
-        for (std::string* part : {&error.what, &error.file, &error.found, &error.remedy})
+        const std::string stem = path.substr(0, path.size() - suffix_of(path).size());
+        for (std::string* part : {&error.what, &error.file, &error.found, &error.remedy}) {
+            for (const char* more : {"-", "."}) rename_in(*part, file.vtu + more, stem + more);
             rename_in(*part, file.vtu, path);
+        }
         return error;
     }
     for (Note& note : mesh->notes) rename_in(note.file, file.vtu, path);
