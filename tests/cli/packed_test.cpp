@@ -88,7 +88,7 @@ TEST_F(Packed, damaged_and_cut_files) {
 
 /// 1 MiB for each KiB.
 TEST_F(Packed, bombs) {
-    shell("truncate -s 1G z; gzip < z > z.csv.gz; rm z");
+    shell("{ echo x,y,z; yes 0,0,0 | head -c 600M; } | gzip > z.csv.gz");
     const Ended check = shell("ulimit -v 4000000; barycert sample m --points z.csv.gz --output -");
     EXPECT_EQ(check.code, 2);
     EXPECT_TRUE(contains(check.err, "takes too much memory once it is unpacked")) << check.err;
