@@ -1,11 +1,9 @@
 // Text in pictures, and what stands under them.
-#include "barycert/io/png/text.hpp"
+#include "barycert/io/png/panels.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
-
-#include "barycert/io/png/panels.hpp"
 
 namespace barycert::io {
 namespace {

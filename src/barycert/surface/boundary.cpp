@@ -62,12 +62,10 @@ void write_facets(const Mesh& mesh, const std::vector<std::size_t>& facets, Surf
 void number_nodes(const Mesh& mesh, Surface& surface) {
     std::vector<Index> point_of(mesh.point_count(), -1);
     for (const Index node : surface.cells) point_of[static_cast<std::size_t>(node)] = 0;
-    Index count = 0;
     for (std::size_t node = 0; node < point_of.size(); ++node) {
         if (point_of[node] < 0) continue;
-        point_of[node] = count++;
-        surface.mesh_edges.push_back(static_cast<Index>(node));
-        surface.mesh_edges.push_back(static_cast<Index>(node));
+        point_of[node] = static_cast<Index>(surface.mesh_edges.size() / 2);
+        surface.mesh_edges.insert(surface.mesh_edges.end(), 2, static_cast<Index>(node));
     }
     for (Index& node : surface.cells) node = point_of[static_cast<std::size_t>(node)];
 }

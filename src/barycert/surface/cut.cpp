@@ -3,20 +3,148 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
+#include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/core/blocks.hpp"
+#include "barycert/core/exact_tier.hpp"
+#include "barycert/core/quotient.hpp"
+#include "barycert/core/scaled_double.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/surface/levels.hpp"
+#include "barycert/surface/cell_cases.hpp"
+#include "barycert/surface/crossing_lanes.hpp"
 #include "barycert/surface/parts.hpp"
 
 namespace barycert::surface {
 namespace {
+
+using core::Integer;
+using core::scaled;
+using core::Unit;
+
+/// An edge with an end `in` of the set and an end `out` outside.
+struct Edge {
+    Mesh::Index in = 0, out = 0;
+};
+
+/// Of which all of these are multiples.
+Unit unit_of(std::initializer_list<double> numbers) {
+    Unit unit;
+    for (const double x : numbers) unit.add(scaled(x));
+    return unit;
+}
+
+/// g(in) >= 0 and -g(out) > 0 as integers in one unit.
+struct ExactCrossing {
+    Integer of_in, of_out;
+
+    /// The number that is `in` and `out` at the ends, where g is zero, correctly rounded. Precondition: finite numbers.
+    double value(double in, double out) const {
+        // The weights of the ends are of_out / (of_in + of_out) and of_in / (of_in + of_out).
+        const Unit unit = unit_of({in, out});
+        const Integer sum = of_out * unit.multiple<Integer>(scaled(in)) + of_in * unit.multiple<Integer>(scaled(out));
+        return core::round_quotient(sum.sign() < 0, sum.magnitude(), (of_in + of_out).magnitude(),
+                                    unit.exponent - 1074);
+    }
+};
+
+// The functions g whose sign says which nodes are in the set: a field less a value, a plane's offset less n.x. Both
+// give the state of a node, the crossings of edges on lanes, and the exact crossing of one edge.
+
+class FieldLevel {
+public:
+    FieldLevel(const Field& field, int component, double value)
+        : data_(field.data.data() + component), stride_(static_cast<std::size_t>(field.components)), value_(value) {}
+
+    State state(std::size_t node) const {
+        const double f = data_[stride_ * node];
+        return f < value_         ? (std::isinf(f) ? unknown : outside)
+               : f == value_      ? on
+               : std::isfinite(f) ? inside
+                                  : unknown;
+    }
+
+    /// Arrays that lanes need besides the numbers to interpolate.
+    static constexpr std::size_t arrays = 2;
+    void gather(const Edge& edge, std::size_t j, double* const* to) const {
+        to[0][j] = at(edge.in);
+        to[1][j] = at(edge.out);
+    }
+    std::size_t lanes(const double* const* own, const EdgeBlock& edges, double* out, std::uint32_t* undecided) const {
+        return level_lanes(value_, own, edges, out, undecided);
+    }
+    ExactCrossing exact(const Edge& edge) const {
+        const Unit unit = unit_of({at(edge.in), at(edge.out), value_});
+        const Integer level = unit.multiple<Integer>(scaled(value_));
+        return {unit.multiple<Integer>(scaled(at(edge.in))) - level,
+                level - unit.multiple<Integer>(scaled(at(edge.out)))};
+    }
+
+private:
+    double at(Mesh::Index node) const { return data_[stride_ * static_cast<std::size_t>(node)]; }
+
+    const double* data_;
+    std::size_t stride_;
+    double value_;
+};
+
+class PlaneLevel {
+public:
+    PlaneLevel(const Mesh& mesh, const Plane& plane) : points_(mesh.points.data()), plane_(plane) {}
+
+    State state(std::size_t node) const {
+        // Three products and three sums, each rounded by u of at most M (1 + 4 u), M the sum of the magnitudes of the
+        // terms: an error of 4 u M and a little. Underflow loses 2^-1075 a product, and as much in the bound. Of what
+        // is infinite or NaN the comparisons are false.
+        const double* const x = points_ + 3 * node;
+        double height = plane_.offset, magnitude = std::fabs(plane_.offset);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double product = plane_.normal[k] * x[k];
+            height -= product;
+            magnitude += std::fabs(product);
+        }
+        const double bound = 4.5 * 0x1p-53 * magnitude + 0x1p-1070;
+        if (height > bound) return inside;
+        if (height < -bound) return outside;
+        const int sign = exact_height(x, unit_of({1, x[0], x[1], x[2]})).sign();
+        return sign > 0 ? inside : sign < 0 ? outside : on;
+    }
+
+    static constexpr std::size_t arrays = 0;
+    void gather(const Edge&, std::size_t, double* const*) const {}
+    std::size_t lanes(const double* const*, const EdgeBlock& edges, double* out, std::uint32_t* undecided) const {
+        return plane_lanes(plane_, edges, out, undecided);
+    }
+    ExactCrossing exact(const Edge& edge) const {
+        const double *const in = points_ + 3 * static_cast<std::size_t>(edge.in), *const out =
+                                                                                      points_ +
+                                                                                      3 * static_cast<std::size_t>(
+                                                                                              edge.out);
+        const Unit of_points = unit_of({1, in[0], in[1], in[2], out[0], out[1], out[2]});
+        return {exact_height(in, of_points), Integer() - exact_height(out, of_points)};
+    }
+
+private:
+    /// offset - normal.x in units that depend on the plane and on `of_points` alone.
+    Integer exact_height(const double* x, const Unit& of_points) const {
+        const auto& [normal, offset] = plane_;
+        const Unit of_plane = unit_of({offset, normal[0], normal[1], normal[2]});
+        Integer sum = of_plane.multiple<Integer>(scaled(offset)) * of_points.multiple<Integer>(scaled(1));
+        for (std::size_t k = 0; k < 3; ++k)
+            sum = sum - of_plane.multiple<Integer>(scaled(normal[k])) * of_points.multiple<Integer>(scaled(x[k]));
+        return sum;
+    }
+
+    const double* points_;
+    Plane plane_;
+};
 
 /// A number that nodes have and points are to get: a coordinate, or a component of a field.
 struct Carried {
@@ -122,10 +250,7 @@ TierCounts place_points(const Mesh& mesh, const Level& level, const CutOptions& 
                 block.place(first, std::min(first + core::block_size, range.end()), tiers);
             return tiers;
         },
-        [](TierCounts a, const TierCounts& b) {
-            a.add(b);
-            return a;
-        });
+        [](TierCounts a, const TierCounts& b) { return a.add(b), a; });
 }
 
 template <class Level>
@@ -160,6 +285,10 @@ Result<Cut> cut_field(int dimension, const Mesh& mesh, const Field& field, doubl
 
 namespace barycert {
 
+Plane plane_through(const std::array<double, 3>& point, const std::array<double, 3>& normal) {
+    return {normal, core::exact_dot(normal.data(), point.data(), 3)};
+}
+
 Result<Cut> isosurface(const Mesh& mesh, const Field& field, double value, const CutOptions& options, int component) {
     return surface::cut_field(3, mesh, field, value, options, component);
 }
@@ -171,9 +300,7 @@ Result<Cut> isoline(const Mesh& mesh, const Field& field, double value, const Cu
 Result<Cut> slice(const Mesh& mesh, const Plane& plane, const CutOptions& options) {
     const ExactEnvironment environment;
     const auto& n = plane.normal;
-    const bool finite =
-        std::isfinite(plane.offset) && std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2]);
-    if (!finite || (n[0] == 0 && n[1] == 0 && n[2] == 0))
+    if (!std::isfinite(plane.offset) || !base::all_finite(n) || (n[0] == 0 && n[1] == 0 && n[2] == 0))
         return Error{.what = "the plane",
                      .expected = "four finite numbers, the normal not zero",
                      .found = base::shortest(n[0]) + ", " + base::shortest(n[1]) + ", " + base::shortest(n[2]) + ", " +

@@ -1,26 +1,14 @@
 #include "barycert/surface/parts.hpp"
 
-#include <tbb/parallel_reduce.h>
-
-#include <functional>
+#include <atomic>
 #include <string>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
-#include "barycert/base/strict_math.hpp"
 #include "barycert/mesh/consistency.hpp"
 
 namespace barycert::surface {
 namespace {
-
-bool all_finite(const std::vector<double>& numbers) {
-    const auto part_is = [&](const tbb::blocked_range<std::size_t>& range, bool so_far) {
-        double sum = 0;  // a finite number less itself is zero, any other NaN
-        for (std::size_t i = range.begin(); i < range.end(); ++i) sum += numbers[i] - numbers[i];
-        return so_far && sum == 0;
-    };
-    return tbb::parallel_reduce(tbb::blocked_range<std::size_t>(0, numbers.size(), std::size_t{1} << 15), true, part_is,
-                                std::logical_and<>());
-}
 
 Error bad_mesh(std::string found) {
     return {.what = "the mesh is inconsistent", .found = std::move(found), .remedy = "correct the mesh in memory"};
@@ -42,14 +30,17 @@ Status check_input(const Mesh& mesh, int dimension, const CutOptions& options) {
         return bad_mesh("nodes or cells that are not whole");
     if (mesh.point_count() > INT32_MAX || mesh.cell_count() > INT32_MAX)
         return bad_mesh("more than 2147483647 nodes or cells");
-    if (!all_finite(mesh.points)) return bad_mesh("a coordinate that is not finite");
-    for (const Field* const field : options.point_fields) {
-        if (Status fits = mesh::check_field(field, mesh.point_count(), "node"); !fits) return fits;
-    }
-    for (const Field* const field : options.cell_fields) {
-        if (Status fits = mesh::check_field(field, mesh.cell_count(), "cell"); !fits) return fits;
-    }
-    return Done{};
+    std::atomic<bool> finite{true};
+    for_ranges(mesh.points.size(), [&](std::size_t begin, std::size_t end) {
+        if (!base::all_finite({mesh.points.data() + begin, end - begin})) finite = false;
+    });
+    if (!finite) return bad_mesh("a coordinate that is not finite");
+    Status fit = Done{};
+    for (const Field* const field : options.point_fields)
+        if (fit) fit = mesh::check_field(field, mesh.point_count(), "node");
+    for (const Field* const field : options.cell_fields)
+        if (fit) fit = mesh::check_field(field, mesh.cell_count(), "cell");
+    return fit;
 }
 
 std::vector<double> take_rows(const std::vector<double>& from, std::size_t columns,

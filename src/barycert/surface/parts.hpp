@@ -69,13 +69,6 @@ inline Sign orientation(const Mesh& mesh, const Mesh::Index* corners) {
     return mesh.dimension == 2 ? orient2d(at(0), at(1), at(2)) : orient3d(at(0), at(1), at(2), at(3));
 }
 
-/// Orientations that cells of zero volume take from their neighbours, of each of `flat`: cells on both sides of a facet
-/// see its corners turn in opposite ways. 1 or -1; 0 if a corner is there twice: then its facets come in equal pairs,
-/// turned in opposite ways, and the surface is whole without it. Cells of zero volume that are connected take the
-/// orientation of the first cell with volume that is met from the first of them in `flat`; if there is none, that one
-/// is taken for positive. Needs the neighbours of all cells.
-std::vector<int> flat_signs(const Mesh& mesh, const std::vector<Mesh::Index>& flat);
-
 /// Sets cells, mesh_cells and mesh_edges of the surface, and the counts of cells and points, from the State of each
 /// node. On all threads of the calling arena. Error: a corner of a cell that is no node; more points or triangles than
 /// indices can number.

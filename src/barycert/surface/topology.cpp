@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <span>
 #include <string>
 
 #include "barycert/base/large_pages.hpp"
+#include "barycert/mesh/adjacency.hpp"
 #include "barycert/surface/cell_cases.hpp"
 
 namespace barycert::surface {
@@ -28,6 +30,72 @@ struct Block {
 };
 constexpr std::size_t block_size = std::size_t{1} << 13;
 
+constexpr std::int8_t not_asked = 2;
+
+/// 1 or -1 as an even or an odd permutation brings the corners to: corner i, then the others in ascending order.
+/// Precondition: all different.
+int parity(const Index* corners, std::size_t n, std::size_t i) {
+    int sign = i % 2 == 0 ? 1 : -1;
+    for (std::size_t j = 0; j < n; ++j) {
+        for (std::size_t k = 0; k < j; ++k) {
+            if (j != i && k != i && corners[j] < corners[k]) sign = -sign;
+        }
+    }
+    return sign;
+}
+
+bool repeats(const Index* corners, std::size_t n) {
+    for (std::size_t j = 0; j < n; ++j) {
+        if (std::find(corners, corners + j, corners[j]) != corners + j) return true;
+    }
+    return false;
+}
+
+/// Orientations that `flat`, cells of zero volume, take from their neighbours, by cell: cells on both sides of a facet
+/// see its corners turn in opposite ways. 1 or -1; 0 if a corner is there twice: then its facets come in equal pairs,
+/// turned in opposite ways, and the surface is whole without it. Cells of zero volume that are connected take the
+/// orientation of the first cell with volume that is met from the first of them in `flat`; if there is none, that one
+/// is taken for positive. Needs the neighbours of all cells.
+std::vector<std::int8_t> flat_signs(const Mesh& mesh, const std::vector<Index>& flat) {
+    const std::size_t n = mesh.corners();
+    const std::vector<Index> neighbours = mesh::compute_neighbours(mesh);
+    std::vector<std::int8_t> signs(mesh.cell_count(), not_asked);
+    const auto corners = [&](Index cell) { return mesh.cells.data() + n * static_cast<std::size_t>(cell); };
+    const auto sign_at = [&](Index cell) -> std::int8_t& { return signs[static_cast<std::size_t>(cell)]; };
+    for (const Index start : flat) {
+        if (sign_at(start) != not_asked) continue;
+        // With respect to the start, of which it is not known.
+        sign_at(start) = repeats(corners(start), n) ? 0 : 1;
+        std::vector<Index> met;
+        if (sign_at(start) != 0) met.push_back(start);
+        int of_start = 0;
+        for (std::size_t next = 0; next < met.size(); ++next) {
+            const Index cell = met[next];
+            for (std::size_t i = 0; i < n; ++i) {
+                const Index other = neighbours[n * static_cast<std::size_t>(cell) + i];
+                if (other < 0 || sign_at(other) != not_asked || repeats(corners(other), n)) continue;
+                // The corner opposite to the common facet: the node that `cell` has not.
+                const Index* const opposite = std::find_if(corners(other), corners(other) + n, [&](Index node) {
+                    return std::find(corners(cell), corners(cell) + n, node) == corners(cell) + n;
+                });
+                const auto j = static_cast<std::size_t>(opposite - corners(other));
+                if (j == n) continue;  // both have the same nodes
+                const int fitting = -sign_at(cell) * parity(corners(cell), n, i) * parity(corners(other), n, j);
+                const int own = static_cast<int>(orientation(mesh, corners(other)));
+                if (own != 0) {
+                    if (of_start == 0) of_start = own * fitting;
+                    continue;
+                }
+                sign_at(other) = static_cast<std::int8_t>(fitting);
+                met.push_back(other);
+            }
+        }
+        if (of_start < 0)
+            for (const Index cell : met) sign_at(cell) = static_cast<std::int8_t>(-sign_at(cell));
+    }
+    return signs;
+}
+
 template <std::size_t n>
 class Cutter {
 public:
@@ -38,7 +106,7 @@ public:
         orient_flat_cells();
         count_parts();
         gather_ends();
-        const std::size_t points = number_points();
+        const std::size_t points = first_.back();
         if (std::max(points, part_count_) > INT32_MAX)
             return Error{.what = "the surface is too large",
                          .expected = "at most 2147483647 points and cells",
@@ -102,11 +170,10 @@ private:
                 if (c.sign == 0) flat.push_back(c.cell);
         }
         if (flat.empty()) return;
-        const std::vector<int> signs = flat_signs(mesh_, flat);
-        auto next = signs.begin();
+        const std::vector<std::int8_t> signs = flat_signs(mesh_, flat);
         for (Block& block : blocks_) {
             for (CutCell& c : block.cells)
-                if (c.sign == 0) c.sign = static_cast<std::int8_t>(*next++);
+                if (c.sign == 0) c.sign = signs[static_cast<std::size_t>(c.cell)];
             std::erase_if(block.cells, [](const CutCell& c) { return c.sign == 0; });
         }
     }
@@ -148,13 +215,13 @@ private:
     }
 
     /// At each node, the higher ends of the crossed edges of which it is the lower one: by a counting sort, as threads
-    /// come; then sorted, each once.
+    /// come; then sorted, each once. first_[i]: the number of the first point of node i; those of the others follow.
     void gather_ends() {
         const std::size_t nodes = mesh_.point_count();
         begin_.assign(nodes + 1, 0);
         for_crossings(
             begin_, [&](const Ends& e) { std::atomic_ref(begin_[e.low + 1]).fetch_add(1, std::memory_order_relaxed); });
-        for (std::size_t i = 0; i < nodes; ++i) begin_[i + 1] += begin_[i];
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
         base::resize_large(high_, begin_.back());
         std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
         for_crossings(next, [&](const Ends& e) {
@@ -169,12 +236,7 @@ private:
                 first_[i + 1] = static_cast<std::size_t>(std::unique(list, end) - list);
             }
         });
-    }
-
-    /// first_[i]: the number of the first point of node i; those of the others follow.
-    std::size_t number_points() {
-        for (std::size_t i = 0; i + 1 < first_.size(); ++i) first_[i + 1] += first_[i];
-        return first_.back();
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
     }
 
     /// And sets end_: lists without gaps, as they will be looked up at random.

@@ -1,12 +1,11 @@
 #include "barycert/io/png/panels.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/png/colour_map.hpp"
-#include "barycert/io/png/text.hpp"
 
 namespace barycert::io {
 namespace {
@@ -25,11 +24,57 @@ double times_power_of_ten(double digits, int exponent) {
     return base::parse_double(base::shortest(digits) + "e" + std::to_string(exponent)).value_or(0);
 }
 
+/// From blank to tilde: seven rows of five dots, from the top left one in the highest of 35 bits.
+constexpr std::array<std::uint64_t, 95> glyphs{
+    0x000000000, 0x108421004, 0x294000000, 0x2bea52bea, 0x11f4717c4, 0x464222131, 0x324c6ca4d, 0x108000000, 0x088421082,
+    0x208421088, 0x02aefbaa0, 0x0004f9000, 0x000001088, 0x000070000, 0x00000018c, 0x042222210, 0x3a318c62e, 0x11942109f,
+    0x3a213221f, 0x3a213062e, 0x4a52f8842, 0x7e1e0862e, 0x3a10f462e, 0x7c2211084, 0x3a317462e, 0x3a317842e, 0x018c03180,
+    0x008401088, 0x006c83060, 0x001f07c00, 0x030609b00, 0x3a2131004, 0x3a37ade0f, 0x114a8fe31, 0x7a31f463e, 0x3a308422e,
+    0x72518c65c, 0x7e10f421f, 0x7e10f4210, 0x3a309c62e, 0x4631fc631, 0x38842108e, 0x1c4210a4c, 0x4654c5251, 0x42108421f,
+    0x4775ac631, 0x4739ace71, 0x11518c544, 0x7a31f4210, 0x3a318d64d, 0x7a31f5251, 0x3e107043e, 0x7c8421084, 0x46318c62e,
+    0x463152944, 0x4631ad771, 0x462a22a31, 0x462a51084, 0x7c222221f, 0x188421086, 0x420820821, 0x30842108c, 0x115100000,
+    0x00000001f, 0x208000000, 0x000e0be2f, 0x421e8c63e, 0x000f8420f, 0x042f8c62f, 0x000e8fe0e, 0x191e42108, 0x000f8bc2e,
+    0x421e8c631, 0x100c2108e, 0x08061084c, 0x4212a6292, 0x30842108e, 0x001ead6b5, 0x001e8c631, 0x000e8c62e, 0x001e8fa10,
+    0x000f8bc21, 0x0016c4210, 0x000f8383e, 0x211e42106, 0x00118c62f, 0x00118a944, 0x0015ad6aa, 0x001151151, 0x00118bc2e,
+    0x001f1111f, 0x0c8441083, 0x108421084, 0x608411098, 0x0008a8800,
+};
+
+/// A byte of UTF-8 that goes on with a character.
+bool goes_on(char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+/// True if the character has ink there. What is not printable ASCII is drawn as a box.
+bool glyph_dot(char c, std::size_t line, std::size_t column) {
+    if (c < ' ' || c > '~') return line % (glyph_height - 1) == 0 || column % (glyph_width - 1) == 0;
+    const std::size_t behind = glyph_height * glyph_width - 1 - (line * glyph_width + column);
+    return (glyphs[static_cast<std::size_t>(c - ' ')] >> behind & 1U) != 0;
+}
+
 void put_run(const Colour& colour, std::size_t first, std::size_t last, std::uint8_t* pixels) {
     for (std::size_t x = first; x < last; ++x) put_pixel(colour, pixels + 4 * x);
 }
 
 }  // namespace
+
+std::size_t character_count(std::string_view text) {
+    std::size_t count = 0;
+    for (const char c : text) count += goes_on(c) ? 0 : 1;
+    return count;
+}
+
+void draw_text(std::string_view text, std::size_t scale, std::size_t line, std::size_t left, std::uint8_t* pixels) {
+    if (line >= scale * glyph_height) return;
+    std::uint8_t* at = pixels + 4 * left;
+    for (const char c : text) {
+        if (goes_on(c)) continue;
+        for (std::size_t x = 0; x < scale * glyph_width; ++x) {
+            if (!glyph_dot(c, line / scale, x / scale)) continue;
+            put_pixel(text_colour, at + 4 * x);
+        }
+        at += 4 * scale * glyph_advance;
+    }
+}
 
 double round_length(double limit) {
     for (int exponent = static_cast<int>(std::floor(std::log10(limit))) + 1;; --exponent) {

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/io/vtk/out_file.hpp"
@@ -28,13 +30,31 @@ const char* fault_of(const Surface& s) {
     if (s.dimension != 2 && s.dimension != 3) return "a dimension that is neither 2 nor 3";
     if (s.points.size() % s.corners() != 0 || s.cells.size() % s.corners() != 0) return "points or cells not whole";
     if (std::max(s.point_count(), s.cell_count()) > INT32_MAX) return "more than 2147483647 points or cells";
-    if (!std::all_of(s.points.begin(), s.points.end(), [](double x) { return std::isfinite(x); }))
-        return "a coordinate that is not finite";
+    if (!base::all_finite(s.points)) return "a coordinate that is not finite";
     const auto is_point = [&](Mesh::Index i) { return i >= 0 && static_cast<std::size_t>(i) < s.point_count(); };
     if (!std::all_of(s.cells.begin(), s.cells.end(), is_point)) return "a corner of a cell that is no point";
     if (!s.mesh_cells.empty() && s.mesh_cells.size() != s.cell_count()) return "cells of the mesh that do not fit";
     if (const char* const fault = fault_of(s.point_fields, s.point_count()); fault != nullptr) return fault;
     return fault_of(s.cell_fields, s.cell_count());
+}
+
+/// Points and cells: in text without fields; in binary, with them, segments at z = 0.
+Status write_rows(const Surface& s, RowOutput& file) {
+    const bool lines = s.dimension == 2;
+    const std::size_t corners = s.corners();
+    for (std::size_t v = 0; v < s.point_count(); ++v) {
+        file.numbers(std::span(s.points).subspan(corners * v, corners));
+        if (lines) file.number(0.0);
+        if (file.binary()) file.row_of(s.point_fields, v);
+        file.end_row();
+    }
+    for (std::size_t c = 0; c < s.cell_count(); ++c) {
+        if (!lines) file.number(std::uint8_t{3});
+        file.numbers(std::span(s.cells).subspan(corners * c, corners));
+        if (file.binary()) file.row_of(s.cell_fields, c);
+        file.end_row();
+    }
+    return file.commit();
 }
 
 /// Text; triangles without fields. Error: segments.
@@ -47,16 +67,7 @@ Result<SurfaceFile> write_off(const Surface& s, const std::string& path) {
     }
     RowOutput file(path);
     file.text("OFF\n" + std::to_string(s.point_count()) + ' ' + std::to_string(s.cell_count()) + " 0\n");
-    for (std::size_t v = 0; v < s.point_count(); ++v) {
-        file.numbers(std::span(s.points).subspan(3 * v, 3));
-        file.end_row();
-    }
-    for (std::size_t c = 0; c < s.cell_count(); ++c) {
-        file.number(3);
-        file.numbers(std::span(s.cells).subspan(3 * c, 3));
-        file.end_row();
-    }
-    if (Status written = file.commit(); !written) return written.error();
+    if (Status written = write_rows(s, file); !written) return written.error();
     return result;
 }
 
@@ -64,34 +75,20 @@ Result<SurfaceFile> write_off(const Surface& s, const std::string& path) {
 
 static_assert(std::endian::native == std::endian::little, "PLY files are written as numbers stand in memory");
 
-/// Names of properties: a program may take any other character for an end.
-class PropertyNames {
-public:
-    explicit PropertyNames(std::vector<std::string> taken) : taken_(std::move(taken)) {}
-
-    std::string safe(std::string_view wanted) {
-        std::string name(wanted);
-        for (char& c : name) {
-            const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-            if (!letter && !(c >= '0' && c <= '9')) c = '_';
-        }
-        if (name.empty()) name = "_";
-        while (std::find(taken_.begin(), taken_.end(), name) != taken_.end()) name += '_';
-        taken_.push_back(name);
-        return name;
-    }
-
-private:
-    std::vector<std::string> taken_;
-};
-
-/// The properties of all fields, one a component.
-std::string properties_of(const std::vector<Field>& fields, PropertyNames names, std::vector<std::string>& renamed) {
+/// The properties of all fields, one a component. Their names have no character that a program may take for an end, and
+/// are none that is `taken`.
+std::string properties_of(const std::vector<Field>& fields, std::set<std::string> taken,
+                          std::vector<std::string>& renamed) {
+    const auto is_plain = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    };
     std::string text;
     for (const Field& f : fields) {
         for (int c = 0; c < f.components; ++c) {
             const std::string wanted = f.components == 1 ? f.name : f.name + '_' + std::to_string(c);
-            const std::string name = names.safe(wanted);
+            std::string name = wanted.empty() ? "_" : wanted;
+            std::ranges::replace_if(name, std::not_fn(is_plain), '_');
+            while (!taken.insert(name).second) name += '_';
             text.append("property double ").append(name).append("\n");
             if (name != wanted) renamed.emplace_back(wanted).append(" as ").append(name);
         }
@@ -104,26 +101,15 @@ std::string properties_of(const std::vector<Field>& fields, PropertyNames names,
 Result<SurfaceFile> write_ply(const Surface& s, const std::string& path) {
     SurfaceFile result;
     const bool lines = s.dimension == 2;
-    const std::size_t corners = s.corners();
     std::string head = "ply\nformat binary_little_endian 1.0\ncomment written by barycert\nelement vertex " +
                        std::to_string(s.point_count()) + "\nproperty double x\nproperty double y\nproperty double z\n";
-    head += properties_of(s.point_fields, PropertyNames({"x", "y", "z"}), result.renamed);
+    head += properties_of(s.point_fields, {"x", "y", "z"}, result.renamed);
     head += std::string("element ") + (lines ? "edge " : "face ") + std::to_string(s.cell_count()) + '\n';
     head += lines ? "property int vertex1\nproperty int vertex2\n" : "property list uchar int vertex_indices\n";
-    head += properties_of(s.cell_fields, PropertyNames({"vertex1", "vertex2", "vertex_indices"}), result.renamed);
+    head += properties_of(s.cell_fields, {"vertex1", "vertex2", "vertex_indices"}, result.renamed);
     RowOutput file(path, true);
     file.text(head + "end_header\n");
-    for (std::size_t v = 0; v < s.point_count(); ++v) {
-        file.numbers(std::span(s.points).subspan(corners * v, corners));
-        if (lines) file.number(0.0);
-        file.row_of(s.point_fields, v);
-    }
-    for (std::size_t c = 0; c < s.cell_count(); ++c) {
-        if (!lines) file.number(std::uint8_t{3});
-        file.numbers(std::span(s.cells).subspan(corners * c, corners));
-        file.row_of(s.cell_fields, c);
-    }
-    if (Status written = file.commit(); !written) return written.error();
+    if (Status written = write_rows(s, file); !written) return written.error();
     return result;
 }
 
@@ -133,13 +119,10 @@ Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData
     std::vector<OutArray> of_points, of_cells;
     for (const Field& f : s.point_fields) of_points.push_back(array_of_field(f));
     for (const Field& f : s.cell_fields) of_cells.push_back(array_of_field(f));
-    const bool named =
-        std::any_of(s.cell_fields.begin(), s.cell_fields.end(), [](const Field& f) { return f.name == "cell"; });
-    if (!s.mesh_cells.empty() && !named) of_cells.push_back(array_in_memory<Mesh::Index>("cell", s.mesh_cells));
+    if (!s.mesh_cells.empty() && std::ranges::count(s.cell_fields, "cell", &Field::name) == 0)
+        of_cells.push_back(array_in_memory<Mesh::Index>("cell", s.mesh_cells));
     for (const auto* const arrays : {&of_points, &of_cells}) {
-        std::vector<ArrayFormat> formats;
-        for (const OutArray& a : *arrays) formats.push_back(a.format);
-        if (Status good = check_arrays(path, formats); !good) return good.error();
+        if (Status good = check_arrays(path, *arrays); !good) return good.error();
     }
     const std::string cells = std::to_string(s.cell_count());
     const bool lines = s.dimension == 2;

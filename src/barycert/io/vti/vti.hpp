@@ -53,18 +53,16 @@ public:
 private:
     struct ArrayPlace {
         std::uint64_t begin = 0;  // of its header in the file
-        std::uint64_t size = 0;   // bytes of its numbers
-        std::uint64_t done = 0;   // of them, handed over
+        std::uint64_t done = 0;   // bytes handed over
     };
-    VtiWriter(const std::string& path, const VtiGrid& grid, std::vector<ArrayFormat> arrays, VtkData data)
-        : path_(path), grid_(grid), data_(data), arrays_(std::move(arrays)), file_(path) {}
-    OutFile layout() const;
+    VtiWriter(const std::string& path, OutFile layout, VtkData data)
+        : path_(path), data_(data), layout_(std::move(layout)), file_(path) {}
+    std::vector<OutArray>& arrays() { return layout_.sections.front().arrays; }
     bool put(std::uint64_t at, std::string_view bytes);
 
     std::string path_;
-    VtiGrid grid_;
     VtkData data_;
-    std::vector<ArrayFormat> arrays_;
+    OutFile layout_;                   // without numbers
     std::vector<base::Spool> spools_;  // of the arrays, where data are not raw
     std::vector<ArrayPlace> places_;
     std::uint64_t tail_ = 0;  // where the end of the XML goes

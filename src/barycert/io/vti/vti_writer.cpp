@@ -27,14 +27,30 @@ Status check_grid(const std::string& path, const VtiGrid& grid) {
     return Done{};
 }
 
-/// Bytes of the array's numbers; nothing if they are 2^63 or more.
-std::optional<std::uint64_t> size_of(const VtiGrid& grid, const ArrayFormat& array) {
+/// The file without arrays.
+OutFile layout_of(const VtiGrid& grid) {
+    std::string extent = "Extent=\"", origin, spacing;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const char* const between = axis == 0 ? "" : " ";
+        extent += between + ("0 " + std::to_string(grid.counts[axis] - 1));
+        origin += between + base::shortest(grid.origin[axis]);
+        spacing += between + base::shortest(grid.spacing[axis] == 0 ? 1 : grid.spacing[axis]);
+    }
+    extent += '"';
+    return {.data_set = "ImageData",
+            .attributes = " Whole" + extent + " Origin=\"" + origin + "\" Spacing=\"" + spacing + '"',
+            .piece = " " + extent,
+            .sections = {{"PointData", {}}, {"CellData", {}}}};
+}
+
+/// Numbers of such an array; nothing if their bytes are 2^63 or more.
+std::optional<std::uint64_t> count_of(const VtiGrid& grid, const ArrayFormat& array) {
     std::uint64_t size = number_bytes(array.type) * static_cast<std::uint64_t>(array.components);
     for (const std::int64_t count : grid.counts) {
         if (__builtin_mul_overflow(size, static_cast<std::uint64_t>(count), &size)) return std::nullopt;
     }
     if (size > INT64_MAX) return std::nullopt;
-    return size;
+    return size / number_bytes(array.type);
 }
 
 }  // namespace
@@ -43,44 +59,27 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
                                                    const std::vector<ArrayFormat>& arrays, VtkData data) {
     const ExactEnvironment environment;
     if (Status s = check_grid(path, grid); !s) return s.error();
-    if (Status s = check_arrays(path, arrays); !s) return s.error();
-    std::unique_ptr<VtiWriter> writer(new VtiWriter(path, grid, arrays, data));
+    std::unique_ptr<VtiWriter> writer(new VtiWriter(path, layout_of(grid), data));
+    for (const ArrayFormat& array : arrays) writer->arrays().push_back({array});
+    if (Status s = check_arrays(path, writer->arrays()); !s) return s.error();
     std::uint64_t end = 0;
-    for (const ArrayFormat& array : arrays) {
-        const std::optional<std::uint64_t> size = size_of(grid, array);
-        writer->places_.push_back({end, size.value_or(0), 0});
+    for (OutArray& array : writer->arrays()) {
+        const std::optional<std::uint64_t> count = count_of(grid, array.format);
+        array.count = count.value_or(0);
+        writer->places_.push_back({end, 0});
         // Room is left for the head and the tail.
-        if (!size.has_value() || __builtin_add_overflow(end, *size + appended_header, &end) || end > INT64_MAX / 2)
+        if (!count || __builtin_add_overflow(end, array.size() + appended_header, &end) || end > INT64_MAX / 2)
             return wrong_in_memory(path, "the size of the arrays", "less than 2^62 bytes", "more");
         if (data != VtkData::raw) writer->spools_.emplace_back(path);
     }
     if (data == VtkData::raw) {
-        const std::string head = raw_head(writer->layout());
+        const std::string head = raw_head(writer->layout_);
         for (ArrayPlace& place : writer->places_) place.begin += head.size();
         writer->tail_ = head.size() + end;
         writer->put(0, head);
     }
     if (Status s = writer->file_.status(); !s) return s.error();
     return writer;
-}
-
-/// The file without its numbers.
-OutFile VtiWriter::layout() const {
-    std::string extent = "Extent=\"", origin, spacing;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const char* const between = axis == 0 ? "" : " ";
-        extent += between + ("0 " + std::to_string(grid_.counts[axis] - 1));
-        origin += between + base::shortest(grid_.origin[axis]);
-        spacing += between + base::shortest(grid_.spacing[axis] == 0 ? 1 : grid_.spacing[axis]);
-    }
-    extent += '"';
-    OutFile file{.data_set = "ImageData",
-                 .attributes = " Whole" + extent + " Origin=\"" + origin + "\" Spacing=\"" + spacing + '"',
-                 .piece = " " + extent,
-                 .sections = {{"PointData", {}}, {"CellData", {}}}};
-    for (std::size_t i = 0; i < arrays_.size(); ++i)
-        file.sections.front().arrays.push_back({arrays_[i], places_[i].size / number_bytes(arrays_[i].type)});
-    return file;
 }
 
 /// In its place, or in order where that is its turn and the bytes are few, which are gathered, or the file has no
@@ -104,14 +103,15 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
         return file_error(path_, "the number of an array", "less than " + std::to_string(places_.size()),
                           std::to_string(array));
     ArrayPlace& place = places_[array];
-    const std::string name = "array \"" + arrays_[array].name + '"';
-    if (bytes.size() > place.size - place.done)
-        return file_error(path_, "the bytes of " + name, std::to_string(place.size) + " in all", "more");
+    const std::string name = "array \"" + arrays()[array].format.name + '"';
+    const std::uint64_t size = arrays()[array].size();
+    if (bytes.size() > size - place.done)
+        return file_error(path_, "the bytes of " + name, std::to_string(size) + " in all", "more");
     if (data_ != VtkData::raw) {
         place.done += bytes.size();
         return spools_[array].append(bytes);
     }
-    const std::string_view header(reinterpret_cast<const char*>(&place.size), appended_header),
+    const std::string_view header(reinterpret_cast<const char*>(&size), appended_header),
         numbers(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if ((place.done == 0 && !put(place.begin, header)) || !put(place.begin + appended_header + place.done, numbers))
         return file_error(path_, name + " is not next",
@@ -123,20 +123,17 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
 
 Status VtiWriter::commit() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        if (places_[i].done != places_[i].size)
-            return file_error(path_, "the bytes of array \"" + arrays_[i].name + '"', std::to_string(places_[i].size),
+        OutArray& array = arrays()[i];
+        if (places_[i].done != array.size())
+            return file_error(path_, "the bytes of array \"" + array.format.name + '"', std::to_string(array.size()),
                               std::to_string(places_[i].done));
-    }
-    if (data_ == VtkData::raw) {
-        put(tail_, appended_tail);
-        return file_.commit();
-    }
-    OutFile file = layout();
-    for (std::size_t i = 0; i < arrays_.size(); ++i) {
+        if (data_ == VtkData::raw) continue;
         if (Status done = spools_[i].finish(); !done) return done;
-        file.sections.front().arrays[i].bytes = spools_[i].values<char>().data();
+        array.bytes = spools_[i].values<char>().data();
     }
-    return write_xml(file, path_, data_);
+    if (data_ != VtkData::raw) return write_xml(layout_, path_, data_);
+    put(tail_, appended_tail);
+    return file_.commit();
 }
 
 }  // namespace barycert::io

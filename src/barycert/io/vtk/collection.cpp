@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -34,19 +36,21 @@ constexpr std::array<CollectionKind, 6> collection_kinds{{{"PUnstructuredGrid", 
                                                           {"vtkPartitionedDataSetCollection", "DataSet", "file"},
                                                           {"Collection", "DataSet", "file"}}};
 
-const char* kind_of(const Json& object, const char* member) {
-    return object.is_object() && object.contains(member) ? object[member].type_name() : "none";
+/// Discarded where there is none.
+const Json& member_of(const Json& object, const char* name) {
+    static const Json none(Json::value_t::discarded);
+    return object.is_object() && object.contains(name) ? object[name] : none;
 }
 
-}  // namespace
-
-Result<std::optional<Collection>> collection_of(const XmlTree& tree) {
+/// What the root of a .pvtu, .pvtp, .vtm, .vtpd, .vtpc or .pvd names; nothing if it is another. Error: an entry without
+/// a file, or a time that is none.
+Status name_files(const XmlTree& tree, std::optional<Collection>& named) {
     const std::string_view type = tree.root().attribute("type").value_or("");
     const auto* const kind = std::find_if(collection_kinds.begin(), collection_kinds.end(),
                                           [&](const CollectionKind& known) { return type == known.type; });
-    if (tree.root().name != "VTKFile" || kind == collection_kinds.end() || tree.child(tree.root(), type) == nullptr)
-        return std::optional<Collection>();
-    Collection collection{.is_series = type == "Collection", .files = {}};
+    if (tree.root().name != "VTKFile" || kind == collection_kinds.end() || tree.child(&tree.root(), type) == nullptr)
+        return Done{};
+    Collection& collection = named.emplace(Collection{.is_series = type == "Collection", .files = {}});
     // All elements of the data set stand behind its own, blocks within blocks in their order.
     for (const XmlElement& element : tree.elements) {
         if (element.name != kind->entry) continue;
@@ -63,13 +67,17 @@ Result<std::optional<Collection>> collection_of(const XmlTree& tree) {
         collection.files.push_back({path_beside(tree.path, name), std::string(element.attribute("name").value_or("")),
                                     *value, line_of(tree.bytes, element.begin)});
     }
-    return std::optional(std::move(collection));
+    return Done{};
 }
 
+/// What ParaView's series file (NAME.vtu.series) names: {"files": [{"name": "a.vtu", "time": 0.5}, ...]}. Error: no
+/// JSON, a member that is missing or of another kind, a time that is not finite, a file of more than 64 MiB.
 Result<Collection> read_series_file(std::string_view bytes, const std::string& path) {
-    const auto wrong = [&](const std::string& what, const std::string& expected, const std::string& found) {
-        return file_error(path, what, expected, found, "correct the file");
+    const auto wrong = [&](const std::string& what, const std::string& expected, const std::string& found,
+                           const char* remedy = "correct the file") {
+        return file_error(path, what, expected, found, remedy);
     };
+    const auto kind = [](const Json& json) { return json.is_discarded() ? "none" : json.type_name(); };
     if (bytes.size() > longest_series)
         return wrong("the series file is too large", "at most " + std::to_string(longest_series) + " bytes",
                      std::to_string(bytes.size()));
@@ -83,26 +91,69 @@ Result<Collection> read_series_file(std::string_view bytes, const std::string& p
     } catch (const Json::exception&) {  // a number that no double holds
         return wrong("the series", "numbers in the range of double", "a larger one");
     }
-    if (!series.is_object() || !series.contains("files") || !series["files"].is_array())
-        return wrong("the files of the series", "a member \"files\", an array", kind_of(series, "files"));
+    const Json& files = member_of(series, "files");
+    if (!files.is_array()) return wrong("the files of the series", "a member \"files\", an array", kind(files));
     Collection collection{.is_series = true, .files = {}};
     std::set<double> times;
-    for (const Json& entry : series["files"]) {
+    for (const Json& entry : files) {
         const std::string where = "entry " + std::to_string(collection.files.size() + 1) + " of \"files\"";
-        if (!entry.is_object() || !entry.contains("name") || !entry["name"].is_string() ||
-            entry["name"].get_ref<const std::string&>().empty())
-            return wrong(where, "a member \"name\", the path of a file", kind_of(entry, "name"));
-        if (!entry.contains("time") || !entry["time"].is_number() || !std::isfinite(entry["time"].get<double>()))
-            return wrong(where, "a member \"time\", a finite number", kind_of(entry, "time"));
-        if (!times.insert(entry["time"].get<double>()).second) {
-            Error twice = wrong(where, "a time of its own", "that of another entry");
-            twice.remedy = "gather the parts of a step in a .pvtu file";
-            return twice;
-        }
-        collection.files.push_back(
-            {path_beside(path, entry["name"].get_ref<const std::string&>()), {}, entry["time"].get<double>(), 0});
+        const Json &name = member_of(entry, "name"), &time = member_of(entry, "time");
+        if (!name.is_string() || name.get_ref<const std::string&>().empty())
+            return wrong(where, "a member \"name\", the path of a file", kind(name));
+        const double value = time.is_number() ? time.get<double>() : HUGE_VAL;
+        if (!std::isfinite(value)) return wrong(where, "a member \"time\", a finite number", kind(time));
+        if (!times.insert(value).second)
+            return wrong(where, "a time of its own", "that of another entry",
+                         "gather the parts of a step in a .pvtu file");
+        collection.files.push_back({path_beside(path, name.get_ref<const std::string&>()), {}, value, 0});
     }
     return collection;
+}
+
+enum class Kind : std::uint8_t { legacy, xml, series, other };
+
+/// By the first word. A byte order mark is taken off.
+Kind kind_of(std::string_view& bytes) {
+    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+    if (bytes.starts_with("# vtk")) return Kind::legacy;
+    std::string_view start = bytes.substr(0, base::first_block);
+    const std::string_view word = next_word(start);
+    return word.starts_with('<') ? Kind::xml : word.starts_with('{') ? Kind::series : Kind::other;
+}
+
+Error not_of_vtk(const std::string& path, const char* what = "not a file of VTK") {
+    return file_error(path, what, "XML (.vtu, .vtp) or a first line '# vtk DataFile Version ...' (.vtk)", {},
+                      "check the path; unpack a compressed file first");
+}
+
+}  // namespace
+
+/// The first block has to show that the file is of VTK.
+Result<VtkFile> open_vtk(const std::string& path) {
+    const auto check = [&](std::string_view block, std::uint64_t) -> Status {
+        const Kind kind = kind_of(block);
+        if (kind == Kind::legacy) return check_legacy_head(block, path);
+        const bool other = kind == Kind::xml ? block.find("<VTKFile") == std::string_view::npos : kind == Kind::other;
+        return other ? Status(not_of_vtk(path)) : Done{};
+    };
+    Result<base::MappedFile> mapped = base::MappedFile::open(path, 1, base::Text::head, check);
+    if (!mapped) return mapped.error();
+    VtkFile file{std::move(*mapped)};
+    std::string_view bytes = file.file.bytes();
+    const Kind kind = kind_of(bytes);
+    if (kind == Kind::other) return bytes.empty() ? not_of_vtk(path, "the file is empty") : not_of_vtk(path);
+    if (kind == Kind::legacy) file.legacy = bytes;
+    if (kind == Kind::series) {
+        Result<Collection> series = read_series_file(bytes, path);
+        if (!series) return series.error();
+        file.collection = std::move(*series);
+    } else if (kind == Kind::xml) {
+        Result<XmlTree> tree = parse_xml(bytes, path);
+        if (!tree) return tree.error();
+        file.tree = std::move(*tree);
+        if (Status named = name_files(*file.tree, file.collection); !named) return named.error();
+    }
+    return file;
 }
 
 std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files) {
@@ -140,3 +191,36 @@ Error no_series(const std::string& path) {
 }
 
 }  // namespace barycert::io
+
+namespace barycert {
+
+Result<std::vector<SeriesStep>> read_series(const std::string& path) {
+    return io::read_guarded(path, [&]() -> Result<std::vector<SeriesStep>> {
+        const Result<io::VtkFile> file = io::open_vtk(path);
+        if (!file) return file.error();
+        if (file->collection && file->collection->is_series) return io::steps_of(file->collection->files);
+        const std::string found =
+            file->tree ? io::in_quotes(file->tree->root().attribute("type").value_or(file->tree->root().name))
+                       : "neither XML nor JSON";
+        return Error{"the kind of the file", path, 1,
+                     "a VTKFile of type Collection (.pvd), or ParaView's JSON (.vtu.series)", found};
+    });
+}
+
+std::vector<std::string> vtk_mesh_files(const std::string& path) {
+    std::vector<std::string> all{path};
+    const std::string suffix = std::filesystem::path(path).extension().string();
+    if (suffix == ".vtu" || suffix == ".vtk" || suffix == ".vtp") return all;
+    // Names within names; what cannot be read is told by the reader.
+    std::set<std::string> known{path};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Result<io::VtkFile> file = io::open_vtk(all[i]);
+        if (!file || !file->collection) continue;
+        for (const io::CollectionFile& named : file->collection->files) {
+            if (known.insert(named.path).second) all.push_back(named.path);
+        }
+    }
+    return all;
+}
+
+}  // namespace barycert

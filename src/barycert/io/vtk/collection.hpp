@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "barycert/base/input_file.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/xml.hpp"
@@ -26,13 +27,15 @@ struct Collection {
     std::vector<CollectionFile> files;  ///< in their order
 };
 
-/// What the root of a .pvtu, .pvtp, .vtm, .vtpd, .vtpc or .pvd names; nothing if it is another. Error: an entry without
-/// a file, or a time that is none.
-Result<std::optional<Collection>> collection_of(const XmlTree& tree);
+struct VtkFile {
+    base::MappedFile file;
+    std::string_view legacy = {};               ///< all of it, if that is its format
+    std::optional<XmlTree> tree = {};           ///< of XML
+    std::optional<Collection> collection = {};  ///< the files that it names
+};
 
-/// What ParaView's series file (NAME.vtu.series) names: {"files": [{"name": "a.vtu", "time": 0.5}, ...]}. Error: no
-/// JSON, a member that is missing or of another kind, a time that is not finite, a file of more than 64 MiB.
-Result<Collection> read_series_file(std::string_view bytes, const std::string& path);
+/// By the first word. Error: a file that is not of VTK, as the first block shows; one that names none where it should.
+Result<VtkFile> open_vtk(const std::string& path);
 
 /// The steps of a series: consecutive files of one time are one step.
 std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files);

@@ -117,26 +117,23 @@ Status check_cells(const RawGrid& grid, const std::string& path) {
 constexpr const char* ghost_name = "vtkGhostType";
 constexpr unsigned duplicate_cell = 1, refined_cell = 8, hidden_cell = 32;
 
-/// The numbers of the cells that make the mesh; empty if that is all of them. Others are counted.
-std::vector<Mesh::Index> kept_cells(const RawGrid& grid, CellKind kind, TypeCounts& left_out, std::size_t& ghosts) {
-    const RawArray* ghost = nullptr;
-    for (const RawArray& array : grid.cell_arrays) {
-        if (array.name == ghost_name && array.fault.empty() && !array.has_labels() && array.components == 1)
-            ghost = &array;
-    }
+/// The numbers of the cells that make the mesh; empty if that is all of them. Ghosts are counted.
+std::vector<Mesh::Index> kept_cells(const RawGrid& grid, CellKind kind, std::size_t& ghosts) {
+    const auto ghost = std::ranges::find_if(grid.cell_arrays, [](const RawArray& array) {
+        return array.name == ghost_name && array.fault.empty() && !array.has_labels() && array.components == 1;
+    });
     const auto is_ghost = [&](std::size_t cell) {
-        if (ghost == nullptr) return false;
+        if (ghost == grid.cell_arrays.end()) return false;
         const double flags = ghost->numbers()[cell];
         return flags >= 0 && flags < 256 &&
                (static_cast<unsigned>(flags) & (duplicate_cell | refined_cell | hidden_cell)) != 0;
     };
     const std::array<CellType, 256>& types = cell_types();
     std::vector<Mesh::Index> kept;
-    if (ghost == nullptr && is_uniform(grid.types)) return kept;
+    if (ghost == grid.cell_arrays.end() && is_uniform(grid.types)) return kept;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
-        if (types[grid.types[cell]].kind != kind) {
-            ++left_out[grid.types[cell]];
-        } else if (is_ghost(cell)) {
+        if (types[grid.types[cell]].kind != kind) continue;
+        if (is_ghost(cell)) {
             ++ghosts;
         } else {
             kept.push_back(static_cast<Mesh::Index>(cell));
@@ -166,57 +163,23 @@ void copy_cells(RawGrid& grid, std::size_t nodes, std::size_t count, Mesh& mesh)
     });
 }
 
-void note_left_out(const TypeCounts& left_out, std::size_t ghosts, CellKind kind, const std::string& path,
-                   Notes& notes) {
-    std::size_t cells = 0;
-    for (const std::size_t count : left_out) cells += count;
-    if (cells != 0) {
-        notes.push_back({Note::Kind::left_out,
-                         std::to_string(cells) + " cells that are no " +
-                             (kind == CellKind::tetrahedron ? "tetrahedra: " : "triangles: ") +
-                             counts_by_name(left_out, false, [](std::uint8_t) { return true; }),
-                         path, true});
-    }
-    if (ghosts != 0)
-        notes.push_back({Note::Kind::left_out,
-                         std::to_string(ghosts) + " ghost cells, which stand for cells of other pieces or are hidden "
-                                                  "(vtkGhostType)",
-                         path, true});
-}
-
-/// Notes on what concerns no array of points or cells.
-void note_the_rest(const RawGrid& grid, const std::string& path, Notes& notes) {
-    note_narrow_points(grid, path, notes);
-    if (!grid.loose_arrays.empty())
-        notes.push_back({Note::Kind::left_out,
-                         "arrays of neither points nor cells (field data): " + list_of(grid.loose_arrays), path});
-    if (grid.has_steps)
-        notes.push_back(
-            {Note::Kind::left_out, "all steps but the first of arrays with several time steps", path, true});
-}
-
 }  // namespace
 
 Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path,
                                       const std::string& triangles) {
-    const auto of_point = [](const char* what, std::size_t point) {
-        return std::string(what) + " of point " + std::to_string(point) + " (from 0)";
-    };
-    if (!base::all_finite(points)) {
+    const auto wrong = [&](std::size_t number, const char* expected, const std::string& remedy) {
         constexpr std::array<const char*, 3> names{"x", "y", "z"};
-        std::size_t faulty = 0;
-        while (std::isfinite(points[faulty])) ++faulty;
-        return file_error(path, of_point(names[faulty % 3], faulty / 3), "a finite number",
-                          base::shortest(points[faulty]), "correct the point");
-    }
+        return file_error(path,
+                          std::string(names[number % 3]) + " of point " + std::to_string(number / 3) + " (from 0)",
+                          expected, base::shortest(points[number]), remedy);
+    };
+    if (!base::all_finite(points)) return wrong(base::first_not_finite(points), "a finite number", "correct the point");
     if (dimension == 3) return points;
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
-        if (points[i + 2] != 0) {
-            // Those before have lost their z.
-            return file_error(path, of_point("z", i / 3), "0, as the mesh is 2D", base::shortest(points[i + 2]),
-                              plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
-        }
+        if (points[i + 2] != 0)  // those before have lost their z
+            return wrong(i + 2, "0, as the mesh is 2D",
+                         plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
         points[to++] = points[i];
         points[to++] = points[i + 1];
     }
@@ -265,15 +228,22 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
     mesh.dimension = type->kind == CellKind::tetrahedron ? 3 : 2;
     if (Status s = check_cells(grid, path); !s) return s.error();
     mesh.notes = std::move(grid.notes);
-    TypeCounts left_out{};
     std::size_t ghosts = 0;
-    mesh.cell_numbers = kept_cells(grid, type->kind, left_out, ghosts);
+    mesh.cell_numbers = kept_cells(grid, type->kind, ghosts);
     const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
     if (cells == 0)
         return file_error(path, "the file contains no mesh", "cells of its own",
                           std::to_string(ghosts) + " ghost cells (vtkGhostType)",
                           "name the file of all pieces (.pvtu)");
-    note_left_out(left_out, ghosts, type->kind, path, mesh.notes);
+    const auto leave_out = [&](bool there_are, std::string what, bool important = true) {
+        if (there_are) mesh.notes.push_back({Note::Kind::left_out, std::move(what), path, important});
+    };
+    const auto is_other = [&](std::uint8_t one) { return cell_types()[one].kind != type->kind; };
+    leave_out(cells + ghosts != grid.types.size(),
+              std::to_string(grid.types.size() - cells - ghosts) + " cells that are no " +
+                  (mesh.dimension == 3 ? "tetrahedra: " : "triangles: ") + counts_by_name(counts, false, is_other));
+    leave_out(ghosts != 0, std::to_string(ghosts) +
+                               " ghost cells, which stand for cells of other pieces or are hidden (vtkGhostType)");
     copy_cells(grid, type->nodes, cells, mesh);
     if (type->nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
     grid.connectivity = {};
@@ -283,7 +253,7 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
     mesh.points = std::move(*points);
     if (!mesh.cell_numbers.empty()) {
         keep_rows(grid.cell_arrays, mesh.cell_numbers);
-        for (RawArray& array : grid.cell_arrays) make_field_of_doubles(array);
+        for (RawArray& array : grid.cell_arrays) array.make_field();
     }
     // Point markers are an array like any other but for its name and type.
     const auto markers = std::ranges::find_if(grid.point_arrays, [](RawArray& array) {
@@ -295,7 +265,10 @@ Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
     }
     take_fields(grid.point_arrays, "point array", path, mesh.point_fields, nullptr, mesh.notes);
     take_fields(grid.cell_arrays, "cell array", path, mesh.cell_fields, &mesh.cell_labels, mesh.notes);
-    note_the_rest(grid, path, mesh.notes);
+    note_narrow_points(grid, path, mesh.notes);
+    leave_out(!grid.loose_arrays.empty(),
+              "arrays of neither points nor cells (field data): " + list_of(grid.loose_arrays), false);
+    leave_out(grid.has_steps, "all steps but the first of arrays with several time steps");
     return mesh;
 }
 

@@ -101,46 +101,34 @@ private:
         cells.ends.erase(cells.ends.begin());
     }
 
-    /// Rows that all have as many nodes as the first one; false if they do not.
-    static bool take_equal_rows(const std::vector<std::int32_t>& rows, std::size_t count, Cells& cells) {
-        if (count == 0 || rows.empty() || rows.front() < 1) return false;
-        const auto nodes = static_cast<std::size_t>(rows.front());
-        if (rows.size() / count != nodes + 1 || rows.size() % count != 0) return false;
-        for (std::size_t at = 0; at < rows.size(); at += nodes + 1) {
-            if (rows[at] != rows.front()) return false;
-        }
-        base::resize_large(cells.connectivity, count * nodes);
-        base::resize_large(cells.ends, count);
-        in_parts(count, std::size_t{1} << 15, [&](std::size_t first, std::size_t last) {
-            for (std::size_t cell = first; cell < last; ++cell) {
-                std::copy_n(rows.data() + cell * (nodes + 1) + 1, nodes, cells.connectivity.data() + cell * nodes);
-                cells.ends[cell] = static_cast<std::int64_t>((cell + 1) * nodes);
-            }
-        });
-        return true;
-    }
-
     /// Before version 5: the number of its nodes, then the nodes, cell after cell.
     void read_rows(Cells& cells, std::size_t count, std::size_t size) {
         std::vector<std::int32_t> rows;
         text_.numbers("the cells", NumberType::int32, size, rows);
-        if (!text_.status() || take_equal_rows(rows, count, cells)) return;
+        if (!text_.status()) return;
+        // No more cells than numbers, or it ends with an error.
+        base::resize_large(cells.ends, std::min(count, rows.size()));
         std::size_t at = 0;
-        cells.connectivity.reserve(rows.size());
         for (std::size_t cell = 0; cell < count; ++cell) {
             const std::int32_t nodes = at < rows.size() ? rows[at] : -1;
             if (nodes < 0 || static_cast<std::size_t>(nodes) > rows.size() - at - 1)
                 return text_.fail("the nodes of cell " + std::to_string(cell) + " (from 0)",
                                   "as many as fit in the " + std::to_string(size) + " numbers of the section",
                                   at < rows.size() ? std::to_string(nodes) : "none");
-            const auto first = rows.begin() + static_cast<std::ptrdiff_t>(at + 1);
-            cells.connectivity.insert(cells.connectivity.end(), first, first + nodes);
             at += 1 + static_cast<std::size_t>(nodes);
-            cells.ends.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
+            cells.ends[cell] = static_cast<std::int64_t>(at - cell - 1);
         }
         if (at != rows.size())
-            text_.fail("the size of the cells", std::to_string(at) + " numbers, as the cells have",
-                       std::to_string(rows.size()));
+            return text_.fail("the size of the cells", std::to_string(at) + " numbers, as the cells have",
+                              std::to_string(rows.size()));
+        base::resize_large(cells.connectivity, rows.size() - count);
+        in_parts(count, std::size_t{1} << 15, [&](std::size_t first, std::size_t last) {
+            for (std::size_t cell = first; cell < last; ++cell) {
+                const std::int64_t begin = cell == 0 ? 0 : cells.ends[cell - 1];
+                const std::int32_t* const row = rows.data() + cell + 1;
+                std::copy(row + begin, row + cells.ends[cell], cells.connectivity.data() + begin);
+            }
+        });
     }
 
     void read_types() {

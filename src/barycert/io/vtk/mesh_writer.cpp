@@ -15,15 +15,10 @@
 namespace barycert::io {
 namespace {
 
-/// What is wrong with the mesh or the names of its fields, in one clause; empty if nothing is.
-std::string fault_of_mesh(const Mesh& mesh, Names names) {
+/// What is wrong with the mesh but for the names of its fields, in one clause; empty if nothing is.
+std::string fault_of_mesh(const Mesh& mesh) {
     if (const char* const found = mesh::inconsistency(mesh, mesh::FieldValues::any); found != nullptr) return found;
-    std::vector<std::string> of_points, of_cells;
-    for (const Field& field : mesh.point_fields) of_points.push_back(field.name);
-    if (!mesh.point_markers.empty()) of_points.emplace_back(marker_name);
-    for (const Field& field : mesh.cell_fields) of_cells.push_back(field.name);
     for (const Column& labels : mesh.cell_labels) {
-        of_cells.push_back(labels.name);
         if (labels.size() != mesh.cell_count()) return "the labels of cells do not match the cells";
         if (labels.type() != Column::Type::text) continue;
         for (const std::string& text : std::get<std::vector<std::string>>(labels.values)) {
@@ -31,8 +26,7 @@ std::string fault_of_mesh(const Mesh& mesh, Names names) {
                 return "the labels \"" + labels.name + "\" hold a zero byte, which ends a text there";
         }
     }
-    std::string fault = fault_of_names(std::move(of_points), names);
-    return !fault.empty() ? fault : fault_of_names(std::move(of_cells), names);
+    return {};
 }
 
 /// The nodes of all cells: corners, then mid-edge nodes, whose order in the mesh is VTK's.
@@ -84,22 +78,6 @@ std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>&
     return arrays;
 }
 
-Status write_unstructured(const Mesh& mesh, const std::string& path, VtkData data) {
-    std::vector<std::string> room;
-    const CellNodes node(mesh);
-    const std::size_t cells = mesh.cell_count();
-    return write_grid(
-        {.point_arrays = point_arrays_of(mesh),
-         .cell_arrays = cell_arrays_of(mesh, room),
-         .points = array_of_points(mesh.points, mesh.dimension),
-         .connectivity = mesh.mid_nodes.empty() ? array_in_memory<Mesh::Index>("connectivity", mesh.cells)
-                                                : array_made<Mesh::Index>("connectivity", node.nodes * cells, node),
-         .cells = cells,
-         .nodes = node.nodes,
-         .type = node.type()},
-        path, data);
-}
-
 /// All but printable ASCII as %20 and the like. `but`: a character that stands for itself.
 std::string legacy_name(std::string_view name, char but = '!') {
     constexpr std::string_view digits = "0123456789ABCDEF";
@@ -140,7 +118,7 @@ public:
         }
     }
     /// FIELD FieldData: any number of arrays of any type; texts last.
-    void write_arrays(const char* section, std::size_t rows, std::vector<OutArray> arrays) {
+    void write_arrays(const char* section, std::size_t rows, std::vector<OutArray>& arrays) {
         if (arrays.empty()) return;
         const auto is_text = [](const OutArray& a) { return a.format.type == NumberType::text; };
         std::stable_partition(arrays.begin(), arrays.end(), std::not_fn(is_text));
@@ -207,32 +185,45 @@ void write_wide_cells(const CellNodes& node, std::size_t cells, LegacyFile& file
 }
 
 /// A legacy file: numbers in big-endian order, or as text.
-Status write_legacy(const Mesh& mesh, const std::string& path, VtkData data) {
-    const std::size_t points = mesh.point_count(), cells = mesh.cell_count();
-    const CellNodes node(mesh);
+Status write_legacy(OutGrid grid, const CellNodes& node, const std::string& path, VtkData data) {
+    const std::size_t points = grid.points.count / 3, cells = grid.cells;
     // Version 4.2 counts all numbers of the cells, the lengths among them, with 32 bits.
     const bool wide = cells * (node.nodes + 1) > max_entities;
     LegacyFile file(path, data == VtkData::ascii);
     file.write(std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") + "\nmesh\n" +
                (data == VtkData::ascii ? "ASCII" : "BINARY") + "\nDATASET UNSTRUCTURED_GRID\nPOINTS " +
                std::to_string(points) + " double\n");
-    file.write(array_of_points(mesh.points, mesh.dimension), 3);
+    file.write(grid.points, 3);
     wide ? write_wide_cells(node, cells, file) : write_cells(node, cells, file);
     file.write("CELL_TYPES " + std::to_string(cells) + "\n");
-    file.write(array_made<std::int32_t>("types", cells, [type = node.type()](std::size_t) { return type; }), 12);
-    std::vector<std::string> room;
-    file.write_arrays("CELL_DATA", cells, cell_arrays_of(mesh, room));
-    file.write_arrays("POINT_DATA", points, point_arrays_of(mesh));
+    file.write(array_made<std::int32_t>("types", cells, [type = grid.type](std::size_t) { return type; }), 12);
+    file.write_arrays("CELL_DATA", cells, grid.cell_arrays);
+    file.write_arrays("POINT_DATA", points, grid.point_arrays);
     return file.commit();
 }
 
-Status write_checked(const Mesh& mesh, const std::string& path, VtkData data, Names names,
-                     Status (*write)(const Mesh& mesh, const std::string& path, VtkData data)) {
+Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names names) {
     const ExactEnvironment environment;
-    if (const std::string fault = fault_of_mesh(mesh, names); !fault.empty())
-        return cannot_write("the mesh", fault, path);
     try {
-        return write(mesh, path, data);
+        std::string fault = fault_of_mesh(mesh);
+        if (!fault.empty()) return cannot_write("the mesh", fault, path);
+        std::vector<std::string> room;
+        const CellNodes node(mesh);
+        const std::size_t cells = mesh.cell_count();
+        OutGrid grid{.point_arrays = point_arrays_of(mesh),
+                     .cell_arrays = cell_arrays_of(mesh, room),
+                     .points = array_of_points(mesh.points, mesh.dimension),
+                     .connectivity = mesh.mid_nodes.empty()
+                                         ? array_in_memory<Mesh::Index>("connectivity", mesh.cells)
+                                         : array_made<Mesh::Index>("connectivity", node.nodes * cells, node),
+                     .cells = cells,
+                     .nodes = node.nodes,
+                     .type = node.type()};
+        fault = fault_of_names(grid.point_arrays, names);
+        if (fault.empty()) fault = fault_of_names(grid.cell_arrays, names);
+        if (!fault.empty()) return cannot_write("the mesh", fault, path);
+        return names == Names::xml ? write_grid(std::move(grid), path, data)
+                                   : write_legacy(std::move(grid), node, path, data);
     } catch (const std::bad_alloc&) {
         return file_error(path, "too little memory to write the mesh", {}, {}, "free some memory");
     }
@@ -244,7 +235,7 @@ Status write_checked(const Mesh& mesh, const std::string& path, VtkData data, Na
 namespace barycert {
 
 Status write_vtu(const Mesh& mesh, const std::string& path, VtkData data) {
-    return io::write_checked(mesh, path, data, io::Names::xml, &io::write_unstructured);
+    return io::write_mesh(mesh, path, data, io::Names::xml);
 }
 
 Status write_vtk(const Mesh& mesh, const std::string& path, VtkData data) {
@@ -254,7 +245,7 @@ Status write_vtk(const Mesh& mesh, const std::string& path, VtkData data) {
     if (data != VtkData::raw && data != VtkData::ascii)
         return file_error(path, "legacy files of VTK (.vtk) know no compression", "raw or ascii",
                           std::string(name(data)), "write a .vtu file");
-    return io::write_checked(mesh, path, data, io::Names::legacy, &io::write_legacy);
+    return io::write_mesh(mesh, path, data, io::Names::legacy);
 }
 
 }  // namespace barycert

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <charconv>
 
 #include "barycert/base/text.hpp"
@@ -38,29 +37,17 @@ std::size_t convert_run(const char* bytes, std::size_t count, To* to) {
     }
 }
 
-/// On all threads; the first that is not exact, or `count`.
-template <class From, class To>
-std::size_t convert_all(const char* bytes, bool swap_bytes, std::size_t count, To* to) {
-    constexpr std::size_t part = std::size_t{1} << 17;
-    std::atomic<std::size_t> first_fault{count};
-    in_parts(count, part, [&](std::size_t first, std::size_t last) {
-        const char* const from = bytes + first * sizeof(From);
-        const std::size_t good = first + (swap_bytes ? convert_run<From, true>(from, last - first, to + first)
-                                                     : convert_run<From, false>(from, last - first, to + first));
-        if (good == last) return;
-        std::size_t known = first_fault.load();
-        while (good < known && !first_fault.compare_exchange_weak(known, good)) {
-        }
-    });
-    return first_fault;
-}
-
 template <class From, class To>
 NumberFault append_numbers(std::string_view bytes, bool swap_bytes, std::size_t count, std::vector<To>& values) {
     const std::size_t there = std::min(count, bytes.size() / sizeof(From)), before = values.size();
     make_room(values, there);
     values.resize(before + there);
-    const std::size_t exact = convert_all<From>(bytes.data(), swap_bytes, there, values.data() + before);
+    const std::size_t exact = first_bad(there, std::size_t{1} << 17, [&](std::size_t first, std::size_t last) {
+        const char* const from = bytes.data() + first * sizeof(From);
+        To* const to = values.data() + before + first;
+        return first + (swap_bytes ? convert_run<From, true>(from, last - first, to)
+                                   : convert_run<From, false>(from, last - first, to));
+    });
     if (there < count) return {NumberFault::Kind::too_few, there};
     if (exact == there) return {};
     const char* const at = bytes.data() + exact * sizeof(From);

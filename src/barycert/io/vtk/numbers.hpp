@@ -74,8 +74,8 @@ using NumbersTo =
 /// Whether numbers of that type and order have the bytes of those there.
 bool are_as_they_stand(NumberType type, bool swap_bytes, const NumbersTo& values);
 
-/// Appends `count` numbers to `values`, of bytes that may be too few. Goes on after a number that is not exact (another
-/// number then stands there), so that what follows can be read. float32 becomes double exactly.
+/// Appends `count` numbers to `values`, of bytes that may be too few. From a number that is not exact on, others may
+/// stand there. float32 becomes double exactly.
 NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, NumbersTo values);
 
 /// The same from text, separated by white space; what has been read is taken off `text`. Decimal numbers are rounded to

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
@@ -41,6 +42,14 @@ void put_numbers(std::size_t first, std::size_t last, std::size_t per_line, std:
 bool is_xml(char32_t code) {
     if (code < 0x20) return code == '\t' || code == '\n' || code == '\r';
     return code < 0xD800 || (code >= 0xE000 && code < 0xFFFE) || (code >= 0x10000 && code < 0x110000);
+}
+
+/// A name that two of the arrays have; nullptr if there is none.
+const std::string* name_twice(const std::vector<OutArray>& arrays) {
+    std::set<std::string_view> names;
+    for (const OutArray& array : arrays)
+        if (!names.insert(array.format.name).second) return &array.format.name;
+    return nullptr;
 }
 
 }  // namespace
@@ -105,46 +114,42 @@ std::optional<std::string> xml_attribute(std::string_view name) {
     return text;
 }
 
-std::string fault_of_names(std::vector<std::string> all, Names names) {
+std::string fault_of_names(const std::vector<OutArray>& arrays, Names names) {
     const auto is_plain = [](char c) {
         return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
     };
-    for (const std::string& name : all) {
-        const std::string named = "the name of field \"" + name + '"';
+    for (const OutArray& array : arrays) {
+        const std::string &name = array.format.name, named = "the name of field \"" + name + '"';
         if (name.empty()) return "a field has no name";
         if (names == Names::xml) {
             if (!xml_attribute(name)) return named + " has bytes that XML cannot hold";
             continue;
         }
         // VTK's readers take words of up to 255 bytes, and others than these may be written as three.
-        const auto plain = static_cast<std::size_t>(std::count_if(name.begin(), name.end(), is_plain));
+        const auto plain = static_cast<std::size_t>(std::ranges::count_if(name, is_plain));
         if (3 * name.size() - 2 * plain > 200) return named + " is too long for the format";
         if (name == "METADATA" || name == "NULL_ARRAY") return named + " means something else in the format";
     }
-    std::sort(all.begin(), all.end());
-    const auto twice = std::adjacent_find(all.begin(), all.end());
-    return twice == all.end() ? "" : "two fields are named \"" + *twice + '"';
+    const std::string* const twice = name_twice(arrays);
+    return twice == nullptr ? "" : "two fields are named \"" + *twice + '"';
 }
 
 Error cannot_write(const std::string& what, const std::string& fault, const std::string& path) {
     return file_error(path, "cannot write " + what + ": " + fault, {}, {}, "correct it in memory");
 }
 
-Status check_arrays(const std::string& path, const std::vector<ArrayFormat>& arrays) {
-    std::vector<std::string> names;
-    for (const ArrayFormat& array : arrays) {
-        if (array.name.empty()) return wrong_in_memory(path, "the name of an array", "one", "none");
-        if (!xml_attribute(array.name))
+Status check_arrays(const std::string& path, const std::vector<OutArray>& arrays) {
+    for (const OutArray& array : arrays) {
+        const auto& [name, components, type] = array.format;
+        if (name.empty()) return wrong_in_memory(path, "the name of an array", "one", "none");
+        if (!xml_attribute(name))
             return wrong_in_memory(path, "the name of an array", "text in UTF-8 without control characters",
-                                   '"' + array.name + '"');
-        if (array.components < 1)
-            return wrong_in_memory(path, "the components of array \"" + array.name + '"', "1 or more",
-                                   std::to_string(array.components));
-        names.push_back(array.name);
+                                   '"' + name + '"');
+        if (components < 1)
+            return wrong_in_memory(path, "the components of array \"" + name + '"', "1 or more",
+                                   std::to_string(components));
     }
-    std::sort(names.begin(), names.end());
-    const auto twice = std::adjacent_find(names.begin(), names.end());
-    if (twice != names.end())
+    if (const std::string* const twice = name_twice(arrays); twice != nullptr)
         return wrong_in_memory(path, "the names of arrays", "different ones", '"' + *twice + "\" twice");
     return Done{};
 }

@@ -91,13 +91,13 @@ enum class Names : bool { legacy, xml };
 
 /// What is wrong with the names of fields, in one clause; empty if every name can be written and is the only one: VTK
 /// keeps but one array of a name.
-std::string fault_of_names(std::vector<std::string> all, Names names);
+std::string fault_of_names(const std::vector<OutArray>& arrays, Names names);
 
 /// That `what` ("the mesh") cannot be written because of that fault.
 Error cannot_write(const std::string& what, const std::string& fault, const std::string& path);
 
 /// Error: a name that is empty, there twice, or that XML cannot hold; fewer than one component.
-Status check_arrays(const std::string& path, const std::vector<ArrayFormat>& arrays);
+Status check_arrays(const std::string& path, const std::vector<OutArray>& arrays);
 
 /// An error of what is to be written.
 Error wrong_in_memory(const std::string& path, std::string what, std::string expected, std::string found);

@@ -5,7 +5,6 @@
 #include <lzma.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <memory>
 #include <new>
@@ -20,19 +19,18 @@ constexpr int base64_space = -1, base64_padding = -2, base64_other = -3;
 /// What each character stands for.
 constexpr std::array<std::int8_t, 256> make_base64_table() {
     std::array<std::int8_t, 256> table{};
-    for (std::int8_t& entry : table) entry = base64_other;
+    table.fill(base64_other);
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (std::size_t i = 0; i < digits.size(); ++i) {
+    for (std::size_t i = 0; i < digits.size(); ++i)
         table[static_cast<unsigned char>(digits[i])] = static_cast<std::int8_t>(i);
-    }
     for (const char c : {' ', '\t', '\n', '\r'}) table[static_cast<unsigned char>(c)] = base64_space;
     table['='] = base64_padding;
     return table;
 }
-constexpr std::array<std::int8_t, 256> base64_table = make_base64_table();
 
 int base64_value(char c) {
-    return base64_table[static_cast<unsigned char>(c)];
+    static constexpr std::array<std::int8_t, 256> table = make_base64_table();
+    return table[static_cast<unsigned char>(c)];
 }
 
 /// Whether all `quadruples` are digits, which give three bytes each.
@@ -88,13 +86,8 @@ bool Encoded::next_quadruple() {
 std::size_t Encoded::take_quadruples(char* to, std::size_t count) {
     constexpr std::size_t part = std::size_t{1} << 16;
     const std::size_t wanted = std::min(count / 3, left_.size() / 4);
-    std::atomic<std::size_t> good{wanted};
-    in_parts(wanted, part, [&](std::size_t first, std::size_t last) {
-        if (good.load(std::memory_order_relaxed) <= first) return;
-        if (decode_digits(left_.data() + 4 * first, last - first, to + 3 * first)) return;
-        std::size_t known = good.load();
-        while (first < known && !good.compare_exchange_weak(known, first)) {
-        }
+    const std::size_t good = first_bad(wanted, part, [&](std::size_t first, std::size_t last) {
+        return decode_digits(left_.data() + 4 * first, last - first, to + 3 * first) ? last : first;
     });
     left_.remove_prefix(4 * good);
     return 3 * good;
@@ -130,68 +123,51 @@ std::optional<std::string_view> Encoded::take(std::uint64_t count, std::vector<c
 }
 
 bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_t size) {
-    switch (compressor) {
-        case Compressor::zlib: {
-            const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> own(
-                libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
-            if (own == nullptr) throw std::bad_alloc();
-            return libdeflate_zlib_decompress(own.get(), packed.data(), packed.size(), to, size, nullptr) ==
-                   LIBDEFLATE_SUCCESS;
-        }
-        case Compressor::lz4:
-            return fits_int(packed.size()) && fits_int(size) &&
-                   static_cast<std::size_t>(LZ4_decompress_safe(packed.data(), to, static_cast<int>(packed.size()),
-                                                                static_cast<int>(size))) == size;
-        case Compressor::lzma: {
-            // Level 9 takes 65 MiB; a damaged header may ask for gigabytes.
-            std::uint64_t memory = std::uint64_t{128} << 20U;
-            std::size_t read = 0, filled = 0;
-            const lzma_ret result =
-                lzma_stream_buffer_decode(&memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(packed.data()),
-                                          &read, packed.size(), reinterpret_cast<std::uint8_t*>(to), &filled, size);
-            return result == LZMA_OK && filled == size;
-        }
-        default:
-            return false;
+    if (compressor == Compressor::zlib) {
+        const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> own(
+            libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+        if (own == nullptr) throw std::bad_alloc();
+        return libdeflate_zlib_decompress(own.get(), packed.data(), packed.size(), to, size, nullptr) ==
+               LIBDEFLATE_SUCCESS;
     }
+    if (compressor == Compressor::lz4)
+        return fits_int(packed.size()) && fits_int(size) &&
+               static_cast<std::size_t>(LZ4_decompress_safe(packed.data(), to, static_cast<int>(packed.size()),
+                                                            static_cast<int>(size))) == size;
+    if (compressor != Compressor::lzma) return false;
+    // Level 9 takes 65 MiB; a damaged header may ask for gigabytes.
+    std::uint64_t memory = std::uint64_t{128} << 20U;
+    std::size_t read = 0, filled = 0;
+    const lzma_ret result =
+        lzma_stream_buffer_decode(&memory, 0, nullptr, reinterpret_cast<const std::uint8_t*>(packed.data()), &read,
+                                  packed.size(), reinterpret_cast<std::uint8_t*>(to), &filled, size);
+    return result == LZMA_OK && filled == size;
 }
 
 std::string pack(Compressor compressor, std::string_view plain) {
     std::string packed;
     std::size_t size = 0;
-    bool good = false;
-    switch (compressor) {
-        case Compressor::zlib: {
-            constexpr int level = 2;
-            const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> own(
-                libdeflate_alloc_compressor(level), libdeflate_free_compressor);
-            if (own == nullptr) return {};
-            packed.resize(libdeflate_zlib_compress_bound(own.get(), plain.size()));
-            size = libdeflate_zlib_compress(own.get(), plain.data(), plain.size(), packed.data(), packed.size());
-            good = size != 0;
-            break;
-        }
-        case Compressor::lz4: {
-            if (!fits_int(plain.size())) return {};
-            packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
-            constexpr int acceleration = 5;  // speed before size
-            const int filled = LZ4_compress_fast(plain.data(), packed.data(), static_cast<int>(plain.size()),
-                                                 static_cast<int>(packed.size()), acceleration);
-            good = filled > 0;
-            size = static_cast<std::size_t>(filled);
-            break;
-        }
-        case Compressor::lzma: {
-            packed.resize(lzma_stream_buffer_bound(plain.size()));
-            good = lzma_easy_buffer_encode(
-                       1, LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const std::uint8_t*>(plain.data()), plain.size(),
-                       reinterpret_cast<std::uint8_t*>(packed.data()), &size, packed.size()) == LZMA_OK;
-            break;
-        }
-        default:
-            break;
+    if (compressor == Compressor::zlib) {
+        constexpr int level = 2;
+        const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> own(
+            libdeflate_alloc_compressor(level), libdeflate_free_compressor);
+        if (own == nullptr) return {};
+        packed.resize(libdeflate_zlib_compress_bound(own.get(), plain.size()));
+        size = libdeflate_zlib_compress(own.get(), plain.data(), plain.size(), packed.data(), packed.size());
+    } else if (compressor == Compressor::lz4 && fits_int(plain.size())) {
+        packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
+        constexpr int acceleration = 5;  // speed before size
+        size = static_cast<std::size_t>(
+            std::max(0, LZ4_compress_fast(plain.data(), packed.data(), static_cast<int>(plain.size()),
+                                          static_cast<int>(packed.size()), acceleration)));
+    } else if (compressor == Compressor::lzma) {
+        packed.resize(lzma_stream_buffer_bound(plain.size()));
+        if (lzma_easy_buffer_encode(1, LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const std::uint8_t*>(plain.data()),
+                                    plain.size(), reinterpret_cast<std::uint8_t*>(packed.data()), &size,
+                                    packed.size()) != LZMA_OK)
+            size = 0;
     }
-    packed.resize(good ? size : 0);
+    packed.resize(size);
     return packed;
 }
 
@@ -201,12 +177,10 @@ std::uint64_t max_unpacked(Compressor compressor, std::uint64_t packed) {
     // 2017 of 2048, so a decision leaves at most 2017/2048 + 2^-19 of the range: 0.0220 bits. 273 bytes for 0.308 bits
     // are 7,091 for a byte. Headers of chunks (2 MiB at most) pay for the bytes that the coder has ahead. 6,856 have
     // been reached.
-    const std::uint64_t ratio = compressor == Compressor::zlib   ? 1040
-                                : compressor == Compressor::lz4  ? 256
-                                : compressor == Compressor::lzma ? 7200
-                                                                 : std::numeric_limits<std::uint64_t>::max();
+    constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
+    constexpr std::array<std::uint64_t, 4> ratios{all, 1040, 256, 7200};
     std::uint64_t most = 0;
-    return __builtin_mul_overflow(packed, ratio, &most) ? std::numeric_limits<std::uint64_t>::max() : most;
+    return __builtin_mul_overflow(packed, ratios[static_cast<std::size_t>(compressor)], &most) ? all : most;
 }
 
 }  // namespace barycert::io

@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -33,6 +34,21 @@ void in_parallel(std::size_t count, Work work) {
 template <class Work>
 void in_parts(std::size_t count, std::size_t part, Work work) {
     in_parallel((count + part - 1) / part, [&](std::size_t i) { work(i * part, std::min(count, (i + 1) * part)); });
+}
+
+/// good(first, last) of such parts tells where the first fault in it may be, or `last`; that of the first part with
+/// one, or `count`. Parts behind a fault may be left out.
+template <class Good>
+std::size_t first_bad(std::size_t count, std::size_t part, Good good) {
+    std::atomic<std::size_t> least{count};
+    in_parts(count, part, [&](std::size_t first, std::size_t last) {
+        if (least.load(std::memory_order_relaxed) <= first) return;
+        const std::size_t found = good(first, last);
+        std::size_t known = least.load();
+        while (found != last && found < known && !least.compare_exchange_weak(known, found)) {
+        }
+    });
+    return least;
 }
 
 /// Room for `count` more values, and at least twice what there was where it has to move.

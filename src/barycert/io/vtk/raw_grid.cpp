@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 namespace barycert::io {
 
@@ -92,18 +91,16 @@ bool takes_texts(RawArray& array, bool may_label) {
 }
 
 std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t from, std::size_t count) {
-    std::atomic<bool> wrong{false};
-    in_parts(nodes.size() - from, std::size_t{1} << 18, [&](std::size_t first, std::size_t last) {
+    const auto good = [&](std::size_t first, std::size_t last) {
         // The sign of any of these numbers: below 0, or at `count` or above.
         std::uint32_t signs = 0;
         for (std::size_t i = from + first; i < from + last; ++i) {
             const auto node = static_cast<std::uint32_t>(nodes[i]);
             signs |= node | (static_cast<std::uint32_t>(count) - 1 - node);
         }
-        if (signs >> 31U != 0) wrong = true;
-    });
-    if (!wrong) return nodes.size();
-    std::size_t i = from;
+        return signs >> 31U != 0 ? first : last;
+    };
+    std::size_t i = from + first_bad(nodes.size() - from, std::size_t{1} << 18, good);
     while (i < nodes.size() && static_cast<std::uint32_t>(nodes[i]) < count) ++i;
     return i;
 }
@@ -112,10 +109,9 @@ namespace {
 
 constexpr const char* missing = "it is missing in a piece of the file";
 
-void add_new(std::vector<std::string>& names, std::vector<std::string>& more) {
-    for (std::string& name : more) {
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
-    }
+void add_new(std::vector<std::string>& names, const std::vector<std::string>& more) {
+    std::ranges::copy_if(more, std::back_inserter(names),
+                         [&](const std::string& name) { return std::ranges::count(names, name) == 0; });
 }
 
 /// What holds of numbers of either type.
@@ -131,16 +127,10 @@ NumberType common_type(NumberType a, NumberType b) {
 bool agree(RawArray& a, RawArray& b) {
     if (a.components != b.components) return false;
     if (a.has_labels() != b.has_labels()) {
-        RawArray& plain = a.has_labels() ? b : a;
         // Those of uint64 that are no int64 were refused as labels, and may be among the plain ones.
-        const auto fits = [](double x) { return x >= -0x1p63 && x < 0x1p63; };
-        if (!plain.is_wide_integer() || (a.has_labels() ? a : b).integers() == nullptr ||
-            !std::all_of(plain.numbers().begin(), plain.numbers().end(), fits))
-            return false;
-        std::vector<std::int64_t> labels;
-        labels.reserve(plain.numbers().size());
-        for (const double x : plain.numbers()) labels.push_back(static_cast<std::int64_t>(x));
-        plain.values = std::move(labels);
+        RawArray& plain = a.has_labels() ? b : a;
+        if (!plain.is_wide_integer()) return false;
+        plain.make_labels();
     }
     return a.values.index() == b.values.index();
 }
@@ -182,14 +172,21 @@ void keep_rows(std::vector<RawArray>& arrays, const std::vector<std::int32_t>& r
     }
 }
 
-void make_field_of_doubles(RawArray& array) {
-    const std::vector<std::int64_t>* const integers = array.integers();
+void RawArray::make_labels() {
+    const auto fits = [](double x) { return x >= -0x1p63 && x < 0x1p63; };
+    if (has_labels() || !fault.empty() || !std::ranges::all_of(numbers(), fits)) return;
+    std::vector<std::int64_t> labels(numbers().size());
+    std::ranges::transform(numbers(), labels.begin(), [](double x) { return static_cast<std::int64_t>(x); });
+    values = std::move(labels);
+}
+
+void RawArray::make_field() {
     const auto is_double = [](std::int64_t n) {
         double x = 0;
         return convert_number(n, x);
     };
-    if (integers == nullptr || !std::all_of(integers->begin(), integers->end(), is_double)) return;
-    array.values = std::vector<double>(integers->begin(), integers->end());
+    if (integers() == nullptr || !std::ranges::all_of(*integers(), is_double)) return;
+    values = std::vector<double>(integers()->begin(), integers()->end());
 }
 
 Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {

@@ -65,6 +65,10 @@ struct RawArray {
     std::vector<double>& numbers() { return std::get<std::vector<double>>(values); }
     const std::vector<double>& numbers() const { return std::get<std::vector<double>>(values); }
     std::vector<std::int64_t>* integers() { return std::get_if<std::vector<std::int64_t>>(&values); }
+    /// Makes integers of doubles, which are whole, if int64 holds all of them and there is no fault.
+    void make_labels();
+    /// Makes doubles of integers, if these are exact: the field that they would be in a file of these cells alone.
+    void make_field();
 };
 
 struct RawGrid {
@@ -152,10 +156,6 @@ void keep_rows(std::vector<T>& values, std::size_t components, const std::vector
 }
 /// The same of all arrays without a fault.
 void keep_rows(std::vector<RawArray>& arrays, const std::vector<std::int32_t>& rows);
-
-/// Labels that are integers which doubles represent, all of them, become the field that they would be in a file of
-/// these cells alone.
-void make_field_of_doubles(RawArray& array);
 
 /// The piece behind what is there: points and cells count on. Arrays of the same name make one; one that a piece lacks
 /// has a fault. Error: more points or cells than a mesh can have.

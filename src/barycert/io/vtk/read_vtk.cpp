@@ -2,77 +2,20 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <new>
 #include <optional>
 #include <set>
 #include <span>
 #include <system_error>
 #include <utility>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"
 #include "barycert/io/vtk/collection.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
-#include "barycert/io/vtk/xml.hpp"
 
 namespace barycert {
 namespace {
-
-enum class Kind : std::uint8_t { legacy, xml, series, other };
-
-/// By the first word. A byte order mark is taken off.
-Kind kind_of(std::string_view& bytes) {
-    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-    if (bytes.starts_with("# vtk")) return Kind::legacy;
-    std::string_view start = bytes.substr(0, base::first_block);
-    const std::string_view word = io::next_word(start);
-    return word.starts_with('<') ? Kind::xml : word.starts_with('{') ? Kind::series : Kind::other;
-}
-
-Error not_of_vtk(const std::string& path, const char* what = "not a file of VTK") {
-    return file_error(path, what, "XML (.vtu, .vtp) or a first line '# vtk DataFile Version ...' (.vtk)", {},
-                      "check the path; unpack a compressed file first");
-}
-
-struct VtkFile {
-    base::MappedFile file;
-    std::string_view legacy = {};                   ///< all of it, if that is its format
-    std::optional<io::XmlTree> tree = {};           ///< of XML
-    std::optional<io::Collection> collection = {};  ///< the files that it names
-};
-
-/// The first block has to show that the file is of VTK.
-Result<VtkFile> open_file(const std::string& path) {
-    const auto check = [&](std::string_view block, std::uint64_t) -> Status {
-        const Kind kind = kind_of(block);
-        if (kind == Kind::legacy) return io::check_legacy_head(block, path);
-        const bool other = kind == Kind::xml ? block.find("<VTKFile") == std::string_view::npos : kind == Kind::other;
-        return other ? Status(not_of_vtk(path)) : Done{};
-    };
-    Result<base::MappedFile> mapped = base::MappedFile::open(path, 1, base::Text::head, check);
-    if (!mapped) return mapped.error();
-    VtkFile file{std::move(*mapped)};
-    std::string_view bytes = file.file.bytes();
-    const Kind kind = kind_of(bytes);
-    if (kind == Kind::other) return bytes.empty() ? not_of_vtk(path, "the file is empty") : not_of_vtk(path);
-    if (kind == Kind::legacy) file.legacy = bytes;
-    if (kind == Kind::series) {
-        Result<io::Collection> series = io::read_series_file(bytes, path);
-        if (!series) return series.error();
-        file.collection = std::move(*series);
-    } else if (kind == Kind::xml) {
-        Result<io::XmlTree> tree = io::parse_xml(bytes, path);
-        if (!tree) return tree.error();
-        Result<std::optional<io::Collection>> named = io::collection_of(*tree);
-        if (!named) return named.error();
-        file.tree = std::move(*tree);
-        file.collection = std::move(*named);
-    }
-    return file;
-}
 
 /// Of files that name files, each is read once.
 class GridReader {
@@ -89,7 +32,7 @@ public:
         if (!seen_.insert(std::filesystem::weakly_canonical(path, ignored).string()).second)
             return file_error(path, "a file that is named twice in a collection of files", "every piece once", {},
                               "correct the file that names it");
-        const Result<VtkFile> file = open_file(path);
+        const Result<io::VtkFile> file = io::open_vtk(path);
         if (!file) return file.error();
         if (const auto& named = file->collection; named)
             return named->is_series ? read_step(named->files, path, depth) : read_all(named->files, path, depth);
@@ -174,59 +117,30 @@ private:
     std::set<std::string> seen_;
 };
 
-template <class Read>
-auto without_throwing(const std::string& path, const Read& read) -> decltype(read()) {
-    const ExactEnvironment environment;
-    try {
-        return read();
-    } catch (const std::bad_alloc&) {
-        return base::too_little_memory(path);
-    }
-}
-
-/// Integers as such, where int64 holds them.
-void make_integers(io::RawArray& array) {
-    if (!array.is_whole() || !array.fault.empty() || array.has_labels() || array.components != 1) return;
-    const std::vector<double>& numbers = array.numbers();
-    if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return x >= -0x1p63 && x < 0x1p63; })) return;
-    std::vector<std::int64_t> integers(numbers.size());
-    std::transform(numbers.begin(), numbers.end(), integers.begin(),
-                   [](double x) { return static_cast<std::int64_t>(x); });
-    array.values = std::move(integers);
-}
-
-/// What is wanted of points.
-struct PointWishes {
-    int dimension = 3;
-    io::Part part = io::Part::point_arrays;
-    const std::vector<std::string>* names = nullptr;  ///< of the arrays; nullptr: all
-    bool integers = false;                            ///< as labels, if an array has one component
-    bool finite = true;
-    std::string or_else = {};  ///< a remedy more, where a point is not
-};
-
-Result<io::PointTable> read_table(const std::string& path, const PointWishes& wishes) {
-    return without_throwing(path, [&]() -> Result<io::PointTable> {
-        Result<io::RawGrid> grid = GridReader(wishes.part).read(path);
+/// `arrays`: those too, of these names or all. `labels`: integers of one component that int64 holds are labels, and
+/// there is a remedy for points that are not finite.
+Result<io::PointTable> read_table(const std::string& path, int dimension, bool arrays,
+                                  const std::vector<std::string>* names, bool labels, bool finite) {
+    return io::read_guarded(path, [&]() -> Result<io::PointTable> {
+        Result<io::RawGrid> grid = GridReader(arrays ? io::Part::point_arrays : io::Part::points).read(path);
         if (!grid) return grid.error();
-        std::vector<io::RawArray>& arrays = grid->point_arrays;
         io::PointTable table;
-        table.dimension = wishes.dimension;
+        table.dimension = dimension;
         table.notes = std::move(grid->notes);
         table.unread = std::move(grid->unread_arrays);
         Result<std::vector<double>> points =
-            wishes.finite ? io::to_points(std::move(grid->points), wishes.dimension, path) : std::move(grid->points);
+            finite ? io::to_points(std::move(grid->points), dimension, path) : std::move(grid->points);
         if (!points) {
             Error error = points.error();
-            error.remedy += wishes.or_else;
+            if (labels) error.remedy += io::or_nan_for_it;
             return error;
         }
         table.points = std::move(*points);
-        if (const auto* const names = wishes.names; names != nullptr)
-            std::erase_if(arrays,
-                          [&](const io::RawArray& array) { return std::ranges::count(*names, array.name) == 0; });
-        if (wishes.integers) std::for_each(arrays.begin(), arrays.end(), make_integers);
-        io::take_fields(arrays, "point array", path, table.fields, &table.labels, table.notes);
+        if (names != nullptr)
+            std::erase_if(grid->point_arrays, [&](auto& array) { return std::ranges::count(*names, array.name) == 0; });
+        for (io::RawArray& array : grid->point_arrays)
+            if (labels && array.is_whole() && array.components == 1) array.make_labels();
+        io::take_fields(grid->point_arrays, "point array", path, table.fields, &table.labels, table.notes);
         io::note_narrow_points(*grid, path, table.notes);
         return table;
     });
@@ -236,15 +150,11 @@ Result<io::PointTable> read_table(const std::string& path, const PointWishes& wi
 
 Result<io::PointTable> io::read_vtk_table(const std::string& path, bool arrays, NonfinitePoints nonfinite) {
     // A legacy file has no list of its arrays.
-    const bool listed_only = !arrays && !has_suffix(path, ".vtk");
-    return read_table(path, {.part = listed_only ? Part::points : Part::point_arrays,
-                             .integers = true,
-                             .finite = nonfinite == NonfinitePoints::error,
-                             .or_else = or_nan_for_it});
+    return read_table(path, 3, arrays || has_suffix(path, ".vtk"), nullptr, true, nonfinite == NonfinitePoints::error);
 }
 
 Result<Mesh> read_vtk(const std::string& path, const StepChoice& step) {
-    return without_throwing(path, [&]() -> Result<Mesh> {
+    return io::read_guarded(path, [&]() -> Result<Mesh> {
         GridReader reader(io::Part::all, step);
         Result<io::RawGrid> grid = reader.read(path);
         if (!grid) return grid.error();
@@ -263,41 +173,10 @@ Result<PointData> read_vtk_point_data(const std::string& path, int dimension,
                                       const std::optional<std::vector<std::string>>& names) {
     if (dimension != 2 && dimension != 3)
         return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
-    const bool arrays = !names.has_value() || !names->empty();
-    Result<io::PointTable> table = read_table(path, {.dimension = dimension,
-                                                     .part = arrays ? io::Part::point_arrays : io::Part::points,
-                                                     .names = names ? &*names : nullptr});
+    Result<io::PointTable> table =
+        read_table(path, dimension, !names || !names->empty(), names ? &*names : nullptr, false, true);
     if (!table) return table.error();
     return static_cast<PointData&&>(*table);
-}
-
-Result<std::vector<SeriesStep>> read_series(const std::string& path) {
-    return without_throwing(path, [&]() -> Result<std::vector<SeriesStep>> {
-        const Result<VtkFile> file = open_file(path);
-        if (!file) return file.error();
-        if (file->collection && file->collection->is_series) return io::steps_of(file->collection->files);
-        const std::string found =
-            file->tree ? io::in_quotes(file->tree->root().attribute("type").value_or(file->tree->root().name))
-                       : "neither XML nor JSON";
-        return Error{"the kind of the file", path, 1,
-                     "a VTKFile of type Collection (.pvd), or ParaView's JSON (.vtu.series)", found};
-    });
-}
-
-std::vector<std::string> vtk_mesh_files(const std::string& path) {
-    std::vector<std::string> all{path};
-    const std::string suffix = std::filesystem::path(path).extension().string();
-    if (suffix == ".vtu" || suffix == ".vtk" || suffix == ".vtp") return all;
-    // Names within names; what cannot be read is told by the reader.
-    std::set<std::string> known{path};
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const Result<VtkFile> file = open_file(all[i]);
-        if (!file || !file->collection) continue;
-        for (const io::CollectionFile& named : file->collection->files) {
-            if (known.insert(named.path).second) all.push_back(named.path);
-        }
-    }
-    return all;
 }
 
 }  // namespace barycert

@@ -68,21 +68,18 @@ public:
     }
 
     Status commit() override {
-        std::vector<std::string> names;
-        std::string fault = count_ > max_entities ? "there are more than 2147483647 points" : "";
-        for (const auto& [format, spool] : arrays_) {
-            names.push_back(format.name);
-            if (fault.empty() && format.components < 1) fault = "a field has no components";
-        }
-        if (fault.empty()) fault = fault_of_names(std::move(names), Names::xml);
-        if (!fault.empty()) return cannot_write("the points", fault, path_);
-        if (Status done = points_.finish(); !done) return done;
         std::vector<OutArray> found;
+        std::string fault = count_ > max_entities ? "there are more than 2147483647 points" : "";
         for (auto& [format, spool] : arrays_) {
             if (Status done = spool.finish(); !done) return done;
             const std::span<const char> bytes = spool.values<char>();
-            if (count_ != 0) found.push_back({format, bytes.size() / number_bytes(format.type), bytes.data()});
+            found.push_back({format, bytes.size() / number_bytes(format.type), bytes.data()});
+            if (fault.empty() && format.components < 1) fault = "a field has no components";
         }
+        if (fault.empty()) fault = fault_of_names(found, Names::xml);
+        if (!fault.empty()) return cannot_write("the points", fault, path_);
+        if (Status done = points_.finish(); !done) return done;
+        if (count_ == 0) found.clear();
         // Each point a cell. Node numbers go up to 2^31 - 1.
         return write_grid({.point_arrays = std::move(found),
                            .cell_arrays = {},

@@ -34,8 +34,8 @@ struct XmlTree {
     bool appended_raw = false;  ///< as they are; else in base64
 
     const XmlElement& root() const { return elements.front(); }
-    /// The first child of that name; nullptr if there is none.
-    const XmlElement* child(const XmlElement& of, std::string_view name) const;
+    /// The first child of that name, or whose attribute `key` is that; nullptr if there is none, or no parent.
+    const XmlElement* child(const XmlElement* of, std::string_view name, std::string_view key = {}) const;
     /// The text of an element: what stands before its first child or, if that is blank, behind its last one.
     std::string_view text_of(const XmlElement& element) const;
 
@@ -76,9 +76,8 @@ public:
 
 private:
     explicit XmlArrays(const XmlTree& tree) : tree_(tree) {}
-    Result<Encoded> encoded(const XmlElement& array, const std::string& what) const;
-    Status read_encoded(const XmlElement& array, const std::string& what, NumberType type,
-                        std::optional<std::uint64_t> count, NumbersTo values, NumberFault& fault) const;
+    Status read_any(const XmlElement& array, const std::string& what, NumberType type,
+                    std::optional<std::uint64_t> count, NumbersTo values, NumberFault& fault) const;
     Error error(const XmlElement& array, const std::string& what, std::uint64_t count, const NumberFault& fault) const;
 
     const XmlTree& tree_;
@@ -88,17 +87,5 @@ private:
 /// The data set of one file: UnstructuredGrid or PolyData; where only points are wanted, ImageData, RectilinearGrid or
 /// StructuredGrid as well.
 Result<RawGrid> read_xml(const XmlTree& tree, Part part);
-
-/// Whether a data set of that type is one of these grids.
-bool is_structured(std::string_view type);
-
-/// The points of the only piece of such a grid, x running fastest. Those of image data are origin + spacing * index,
-/// rounded twice, as VTK has them. Error: an extent that is none, or not that of the whole; more points than a mesh can
-/// have, or than the file has numbers for; image data that are turned (a Direction).
-Status read_grid_points(const XmlArrays& arrays, const XmlElement& data, const XmlElement& piece,
-                        const std::string& type, RawGrid& grid);
-
-/// Those of the array in the section Points.
-Status read_points(const XmlArrays& arrays, const XmlElement& piece, std::size_t count, RawGrid& grid);
 
 }  // namespace barycert::io

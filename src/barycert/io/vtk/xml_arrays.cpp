@@ -141,26 +141,24 @@ private:
 }  // namespace
 
 Result<XmlArrays> XmlArrays::of(const XmlTree& tree) {
-    XmlArrays arrays(tree);
-    Status good = Done{};
-    /// The place of the attribute among the known ones; the first is that of files without it.
-    const auto choose = [&](const char* key, std::span<const std::string_view> known) {
-        const std::string_view value = tree.root().attribute(key).value_or(known.front());
-        const auto found = std::find(known.begin(), known.end(), value);
-        if (found == known.end()) {
-            std::string names;
-            for (const std::string_view& name : known) names += (names.empty() ? "" : ", ") + std::string(name);
-            good =
-                tree.error(tree.root(), "the attribute " + std::string(key) + " of the file", names, in_quotes(value));
-        }
-        return static_cast<std::size_t>(found - known.begin());
-    };
+    // What each attribute may be; the first is that of files without it.
     constexpr std::array<std::string_view, 2> orders{"LittleEndian", "BigEndian"}, headers{"UInt32", "UInt64"};
-    const bool little = choose("byte_order", orders) == 0;
-    arrays.layout_.swap_bytes = little != (std::endian::native == std::endian::little);
-    arrays.layout_.header_bytes = choose("header_type", headers) == 0 ? 4 : 8;
-    arrays.layout_.compressor = static_cast<Compressor>(choose("compressor", compressor_names));
-    if (!good) return good.error();
+    const std::array<std::pair<const char*, std::span<const std::string_view>>, 3> known{
+        {{"byte_order", orders}, {"header_type", headers}, {"compressor", compressor_names}}};
+    std::array<std::size_t, 3> chosen{};
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        const auto& [key, values] = known[i];
+        const std::string_view value = tree.root().attribute(key).value_or(values.front());
+        chosen[i] = static_cast<std::size_t>(std::ranges::find(values, value) - values.begin());
+        if (chosen[i] < values.size()) continue;
+        std::string names;
+        for (const std::string_view name : values) names.append(names.empty() ? "" : ", ").append(name);
+        return tree.error(tree.root(), std::string("the attribute ") + key + " of the file", names, in_quotes(value));
+    }
+    XmlArrays arrays(tree);
+    arrays.layout_ = {.swap_bytes = (chosen[0] == 0) != (std::endian::native == std::endian::little),
+                      .header_bytes = chosen[1] == 0 ? 4U : 8U,
+                      .compressor = static_cast<Compressor>(chosen[2])};
     return arrays;
 }
 
@@ -179,29 +177,40 @@ Error XmlArrays::error(const XmlElement& array, const std::string& what, std::ui
     return number_error(tree_.path, line_of(tree_.bytes, at), what, count, fault);
 }
 
-/// The bytes of the array as they stand in the file, from its header on.
-Result<Encoded> XmlArrays::encoded(const XmlElement& array, const std::string& what) const {
-    if (array.attribute("format") != "appended") return Encoded(tree_.text_of(array), true);
-    const std::optional<std::uint64_t> offset = parse_count(array.attribute("offset").value_or(""));
-    if (!offset.has_value() || *offset >= tree_.appended.size())
-        return tree_.error(
-            array, "the offset of " + what + " into the appended data",
-            "less than " + std::to_string(tree_.appended.size()) + ", the bytes from there to the end of the file",
-            in_quotes(array.attribute("offset").value_or("")), cut_off);
-    return Encoded(tree_.appended.substr(static_cast<std::size_t>(*offset)), !tree_.appended_raw);
-}
-
-/// Numbers that are no text: `count` of them, or all where it is not known.
-Status XmlArrays::read_encoded(const XmlElement& array, const std::string& what, NumberType type,
-                               std::optional<std::uint64_t> count, NumbersTo values, NumberFault& fault) const {
+/// `count` numbers, or all where it is not known.
+Status XmlArrays::read_any(const XmlElement& array, const std::string& what, NumberType type,
+                           std::optional<std::uint64_t> count, NumbersTo values, NumberFault& fault) const {
+    constexpr std::uint64_t all = std::numeric_limits<std::size_t>::max();
+    const std::string_view format = array.attribute("format").value_or("ascii");
+    if (format != "ascii" && format != "binary" && format != "appended")
+        return tree_.error(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
+    std::string_view text = format == "appended" ? tree_.appended : tree_.text_of(array);
+    if (format == "ascii") {
+        fault = read_text(text, type, static_cast<std::size_t>(count.value_or(all)), values);
+        if (!count && fault.kind == NumberFault::Kind::too_few) fault = {};
+        const bool ended = fault.kind == NumberFault::Kind::too_few || fault.kind == NumberFault::Kind::no_number;
+        if (!ended && !next_word(text).empty())
+            return tree_.error(array, what, std::to_string(*count) + " numbers", "more",
+                               "they do not match the counts of points, cells and components");
+        return Done{};
+    }
+    if (count == 0U) return Done{};  // without a number there may be no header either
     const std::optional<std::uint64_t> size = byte_count(type, count.value_or(0));
-    if (!size.has_value()) return tree_.error(array, "the size of " + what, "less than 2^64 bytes", "more");
-    Result<Encoded> from = encoded(array, what);
-    if (!from) return from.error();
-    ArrayData data(*from, layout_);
+    if (!size) return tree_.error(array, "the size of " + what, "less than 2^64 bytes", "more");
+    if (format == "appended") {
+        const std::string_view offset = array.attribute("offset").value_or("");
+        const std::uint64_t begin = parse_count(offset).value_or(all);
+        if (begin >= text.size())
+            return tree_.error(
+                array, "the offset of " + what + " into the appended data",
+                "less than " + std::to_string(text.size()) + ", the bytes from there to the end of the file",
+                in_quotes(offset), cut_off);
+        text.remove_prefix(static_cast<std::size_t>(begin));
+    }
+    ArrayData data(Encoded(text, format == "binary" || !tree_.appended_raw), layout_);
     if (const std::string found = data.open(); !found.empty())
         return tree_.error(array, "the data of " + what, {}, found, "write the file again");
-    if (count.has_value() && data.size() != *size)
+    if (count && data.size() != *size)
         return tree_.error(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(data.size()),
                            "its numbers do not match the counts of points, cells and components");
     const auto numbers = static_cast<std::size_t>(count.value_or(data.size() / number_bytes(type)));
@@ -212,24 +221,11 @@ Status XmlArrays::read_encoded(const XmlElement& array, const std::string& what,
 Status XmlArrays::read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
                        NumberFault* fault) const {
     const std::optional<NumberType> type = type_of(array);
-    const std::string_view format = array.attribute("format").value_or("ascii");
-    if (!type.has_value())
+    if (!type)
         return tree_.error(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
                            in_quotes(array.attribute("type").value_or("")));
-    if (format != "ascii" && format != "binary" && format != "appended")
-        return tree_.error(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
     NumberFault found;
-    if (format == "ascii") {
-        std::string_view text = tree_.text_of(array);
-        found = read_text(text, *type, static_cast<std::size_t>(count), values);
-        if (found.kind != NumberFault::Kind::too_few && found.kind != NumberFault::Kind::no_number &&
-            !next_word(text).empty()) {
-            return tree_.error(array, what, std::to_string(count) + " numbers", "more",
-                               "they do not match the counts of points, cells and components");
-        }
-    } else if (count != 0) {  // without a number there may be no header either
-        if (Status s = read_encoded(array, what, *type, count, values, found); !s) return s;
-    }
+    if (Status s = read_any(array, what, *type, count, values, found); !s) return s;
     if (fault != nullptr && found.kind == NumberFault::Kind::not_exact) {
         *fault = std::move(found);
     } else if (found) {
@@ -241,28 +237,17 @@ Status XmlArrays::read(const XmlElement& array, const std::string& what, std::ui
 /// Each text ends with a zero byte; in ascii format bytes are written as numbers.
 Status XmlArrays::read_texts(const XmlElement& array, const std::string& what, std::uint64_t count,
                              std::vector<std::string>& texts) const {
-    const std::string_view format = array.attribute("format").value_or("ascii");
     std::vector<std::uint8_t> bytes;
     NumberFault fault;
     if (count == 0) return Done{};
-    if (format == "ascii") {
-        std::string_view text = tree_.text_of(array);
-        fault = read_text(text, NumberType::uint8, std::numeric_limits<std::size_t>::max(), bytes);
-        if (fault.kind == NumberFault::Kind::too_few) fault = {};
-    } else if (Status s = read_encoded(array, what, NumberType::uint8, std::nullopt, bytes, fault); !s) {
-        return s;
-    }
+    if (Status s = read_any(array, what, NumberType::uint8, std::nullopt, bytes, fault); !s) return s;
     if (fault) return error(array, what, count, fault);
-    const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const auto found = static_cast<std::uint64_t>(std::count(all.begin(), all.end(), '\0'));
+    std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto found = static_cast<std::uint64_t>(std::ranges::count(all, '\0'));
     if (found != count || !all.ends_with('\0'))
         return tree_.error(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
                            std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
-    for (std::size_t begin = 0; begin < all.size();) {
-        const std::size_t end = all.find('\0', begin);
-        texts.emplace_back(all.substr(begin, end - begin));
-        begin = end + 1;
-    }
+    for (; !all.empty(); all.remove_prefix(texts.back().size() + 1)) texts.emplace_back(all.data());
     return Done{};
 }
 

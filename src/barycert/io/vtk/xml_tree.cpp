@@ -3,7 +3,6 @@
 #include <expat.h>
 
 #include <algorithm>
-#include <cstring>
 #include <new>
 
 namespace barycert::io {
@@ -25,6 +24,7 @@ public:
     ElementParser& operator=(const ElementParser&) = delete;
 
     std::vector<XmlElement> elements;
+    bool at_appended_data = false, has_doctype = false, out_of_memory = false;
 
     /// Bytes `first` to `last` - 1 of the file, which may leave out text between tags. False where it ends: at an
     /// error, or at appended data.
@@ -40,11 +40,8 @@ public:
     }
     bool finish() { return XML_Parse(parser_, nullptr, 0, XML_TRUE) == XML_STATUS_OK; }
 
-    bool at_appended_data() const { return at_appended_data_; }
-    bool has_doctype() const { return has_doctype_; }
-    bool out_of_memory() const { return out_of_memory_ || XML_GetErrorCode(parser_) == XML_ERROR_NO_MEMORY; }
-    /// What is wrong, and where in the file.
-    std::string fault() const { return XML_ErrorString(XML_GetErrorCode(parser_)); }
+    XML_Error fault() const { return XML_GetErrorCode(parser_); }
+    /// Where that is in the file.
     std::size_t place() const {
         const auto index = static_cast<std::size_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(parser_), 0));
         const auto behind = std::upper_bound(jumps_.begin(), jumps_.end(), index,
@@ -66,31 +63,29 @@ private:
             for (; attributes[0] != nullptr; attributes += 2)
                 element.attributes.emplace_back(attributes[0], attributes[1]);
             if (!self.open_.empty()) self.elements[self.open_.back()].children.push_back(self.elements.size());
-            self.at_appended_data_ = element.name == "AppendedData" && self.open_.size() == 1;
+            self.at_appended_data = element.name == "AppendedData" && self.open_.size() == 1;
             self.open_.push_back(self.elements.size());
             self.elements.push_back(std::move(element));
         } catch (const std::bad_alloc&) {  // no exception may pass through expat
-            self.out_of_memory_ = true;
+            self.out_of_memory = true;
         }
-        if (self.at_appended_data_ || self.out_of_memory_) XML_StopParser(self.parser_, XML_FALSE);
+        if (self.at_appended_data || self.out_of_memory) XML_StopParser(self.parser_, XML_FALSE);
     }
     static void XMLCALL end(void* data, const XML_Char*) {
         auto& self = *static_cast<ElementParser*>(data);
-        if (self.at_appended_data_ || self.out_of_memory_) return;
+        if (self.at_appended_data || self.out_of_memory) return;
         self.elements[self.open_.back()].end = self.place();
         self.open_.pop_back();
     }
     static void XMLCALL doctype(void* data, const XML_Char*, const XML_Char*, const XML_Char*, int) {
-        auto& self = *static_cast<ElementParser*>(data);
-        self.has_doctype_ = true;
-        XML_StopParser(self.parser_, XML_FALSE);
+        static_cast<ElementParser*>(data)->has_doctype = true;
+        XML_StopParser(static_cast<ElementParser*>(data)->parser_, XML_FALSE);
     }
 
     XML_Parser parser_;
     std::vector<std::size_t> open_;
     std::vector<Jump> jumps_;
     std::size_t fed_ = 0;
-    bool at_appended_data_ = false, has_doctype_ = false, out_of_memory_ = false;
 };
 
 /// Behind the tag that begins at `at`. Values in quotes may hold a closing bracket.
@@ -109,14 +104,8 @@ std::size_t behind_tag(std::string_view bytes, std::size_t at) {
     return bytes.size();
 }
 
-std::string_view up_to_tag(std::string_view text) {
-    return text.substr(0, text.find('<'));
-}
-
 std::size_t find_tag(std::string_view bytes, std::size_t from) {
-    if (from >= bytes.size()) return bytes.size();
-    const void* const found = std::memchr(bytes.data() + from, '<', bytes.size() - from);
-    return found == nullptr ? bytes.size() : static_cast<std::size_t>(static_cast<const char*>(found) - bytes.data());
+    return std::min(bytes.find('<', from), bytes.size());
 }
 
 /// Hands the file to the parser up to appended data, without the long texts between tags: numbers, which XML does not
@@ -150,36 +139,25 @@ bool parse_tags(std::string_view bytes, ElementParser& parser) {
     return parser.parse(bytes, first, bytes.size()) && parser.finish();
 }
 
-Error not_well_formed(std::string_view bytes, const std::string& path, const ElementParser& parser) {
-    const std::size_t line = line_of(bytes, parser.place());
-    if (parser.has_doctype())
-        return {"a document type in an XML file of VTK",
-                path,
-                line,
-                "none: entities that it defines could grow without bound",
-                "<!DOCTYPE",
-                "remove it"};
-    return {"not a well-formed XML file", path, line, {}, parser.fault(), "write it again: it may be cut off"};
-}
-
 }  // namespace
 
 std::optional<std::string_view> XmlElement::attribute(std::string_view key) const {
-    for (const auto& [name_of, value] : attributes) {
-        if (name_of == key) return value;
-    }
-    return std::nullopt;
+    const auto found = std::ranges::find(attributes, key, &std::pair<std::string, std::string>::first);
+    if (found == attributes.end()) return std::nullopt;
+    return found->second;
 }
 
-const XmlElement* XmlTree::child(const XmlElement& of, std::string_view name) const {
-    for (const std::size_t i : of.children) {
-        if (elements[i].name == name) return &elements[i];
-    }
-    return nullptr;
+const XmlElement* XmlTree::child(const XmlElement* of, std::string_view name, std::string_view key) const {
+    if (of == nullptr) return nullptr;
+    const auto found = std::ranges::find_if(of->children, [&](std::size_t i) {
+        return key.empty() ? elements[i].name == name : elements[i].attribute(key) == name;
+    });
+    return found == of->children.end() ? nullptr : &elements[*found];
 }
 
 std::string_view XmlTree::text_of(const XmlElement& element) const {
     if (element.end <= element.begin) return {};
+    const auto up_to_tag = [](std::string_view text) { return text.substr(0, text.find('<')); };
     const std::string_view head = up_to_tag(bytes.substr(behind_tag(bytes, element.begin)));
     if (element.children.empty() || head.find_first_not_of(" \t\r\n") != std::string_view::npos) return head;
     const std::size_t behind = behind_tag(bytes, elements[element.children.back()].end);
@@ -195,10 +173,20 @@ Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path) {
     XmlTree tree{.bytes = bytes, .path = path, .elements = {}, .appended = {}};
     ElementParser parser;
     const bool whole = parse_tags(bytes, parser);
-    if (parser.out_of_memory()) throw std::bad_alloc();
-    if (!whole && !parser.at_appended_data()) return not_well_formed(bytes, path, parser);
+    if (parser.out_of_memory || parser.fault() == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
+    if (!whole && !parser.at_appended_data) {
+        const std::size_t line = line_of(bytes, parser.place());
+        if (!parser.has_doctype)
+            return Error{"not a well-formed XML file", path, line, {}, XML_ErrorString(parser.fault()), cut_off};
+        return Error{"a document type in an XML file of VTK",
+                     path,
+                     line,
+                     "none: entities that it defines could grow without bound",
+                     "<!DOCTYPE",
+                     "remove it"};
+    }
     tree.elements = std::move(parser.elements);
-    if (!parser.at_appended_data()) return tree;
+    if (!parser.at_appended_data) return tree;
     const XmlElement& element = tree.elements.back();
     tree.appended = bytes.substr(behind_tag(bytes, element.begin));
     const std::size_t mark = tree.appended.find_first_not_of(" \t\r\n");

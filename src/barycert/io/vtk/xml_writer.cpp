@@ -1,6 +1,6 @@
 #include "barycert/io/vtk/out_file.hpp"
 
-#include <array>
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <utility>
@@ -14,26 +14,13 @@ namespace {
 
 /// Bytes of a block before it is compressed: a multiple of every number's size.
 constexpr std::size_t block_size = std::size_t{1} << 17;
-constexpr std::size_t offset_width = 20;
-
-/// Before the arrays: their offsets count from behind the underscore.
-constexpr std::string_view appended_begin = "  <AppendedData encoding=\"raw\">\n    _";
-constexpr std::string_view begin_of_offset = " format=\"appended\" offset=\"";
 
 const char* element_of(NumberType type) {
     return type == NumberType::text ? "Array" : "DataArray";
 }
 
-Compressor compressor_of(VtkData data) {
-    return data == VtkData::zlib   ? Compressor::zlib
-           : data == VtkData::lz4  ? Compressor::lz4
-           : data == VtkData::lzma ? Compressor::lzma
-                                   : Compressor::none;
-}
-
-template <class T>
-std::string_view bytes_of_words(const std::vector<T>& words) {
-    return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(T)};
+std::string_view bytes_of_words(const std::vector<std::uint64_t>& words) {
+    return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(std::uint64_t)};
 }
 
 /// A file whose bytes can be replaced; on a pipe it is kept in memory up to the end.
@@ -91,6 +78,21 @@ void for_each_array(const OutFile& f, const Write& write) {
     }
 }
 
+/// All before the arrays, which begin at these offsets from behind the underscore. `width`: of each, with its quote.
+std::string head_of(const OutFile& f, std::string_view compressor, const std::vector<std::uint64_t>& offsets,
+                    std::size_t width) {
+    std::string head;
+    auto offset = offsets.begin();
+    write_elements(
+        f, compressor, [&](std::string_view text) { head += text; },
+        [&](const OutArray&) {
+            std::string place = std::to_string(*offset++) + '"';
+            place.resize(std::max(place.size(), width), ' ');
+            head += " format=\"appended\" offset=\"" + place + "/>\n";
+        });
+    return head + "  <AppendedData encoding=\"raw\">\n    _";
+}
+
 void write_raw(const OutFile& f, base::OutputFile& file) {
     file.write(raw_head(f));
     for_each_array(f, [&](const OutArray& a) {
@@ -131,24 +133,23 @@ bool write_blocks(const OutArray& a, Compressor compressor, PatchedFile& file) {
 /// Offsets are known last: there is room for them, and for the quote behind. (Blanks before the quote, as VTK has them,
 /// keep meshio 5 from reading the file.)
 bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile& target) {
+    constexpr std::size_t offset_width = 21;
     PatchedFile file(target);
-    std::vector<std::uint64_t> places;
-    write_elements(
-        f, compressor_names[static_cast<std::size_t>(compressor)], [&](std::string_view text) { file.write(text); },
-        [&](const OutArray&) {
-            file.write(begin_of_offset);
-            places.push_back(file.size());
-            file.write(std::string(offset_width + 1, ' ') + "/>\n");
-        });
-    file.write(appended_begin);
+    std::vector<std::uint64_t> offsets;
+    for_each_array(f, [&](const OutArray&) { offsets.push_back(0); });
+    const auto head = [&] {
+        return head_of(f, compressor_names[static_cast<std::size_t>(compressor)], offsets, offset_width);
+    };
+    file.write(head());
     const std::uint64_t data = file.size();
-    std::size_t array = 0;
+    auto offset = offsets.begin();
     bool good = true;
     for_each_array(f, [&](const OutArray& a) {
-        file.replace(places[array++], std::to_string(file.size() - data) + '"');
+        *offset++ = file.size() - data;
         good = write_blocks(a, compressor, file) && good;
     });
     file.write(appended_tail);
+    file.replace(0, head());
     file.finish();
     return good;
 }
@@ -168,25 +169,22 @@ void write_text(const OutFile& f, base::OutputFile& file) {
 }  // namespace
 
 std::string raw_head(const OutFile& f) {
-    std::string head;
-    std::uint64_t offset = 0;
-    write_elements(
-        f, {}, [&](std::string_view text) { head += text; },
-        [&](const OutArray& a) {
-            head += std::string(begin_of_offset) + std::to_string(offset) + "\"/>\n";
-            offset += appended_header + a.size();
-        });
-    return head + std::string(appended_begin);
+    std::vector<std::uint64_t> offsets{0};
+    for_each_array(f, [&](const OutArray& a) { offsets.push_back(offsets.back() + appended_header + a.size()); });
+    return head_of(f, {}, offsets, 0);
 }
 
 Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
     base::OutputFile file(path);
     if (Status good = file.status(); !good) return good;
+    const Compressor compressor = data == VtkData::zlib  ? Compressor::zlib
+                                  : data == VtkData::lz4 ? Compressor::lz4
+                                                         : Compressor::lzma;
     if (data == VtkData::raw) {
         write_raw(f, file);
     } else if (data == VtkData::ascii) {
         write_text(f, file);
-    } else if (!write_compressed(f, compressor_of(data), file)) {
+    } else if (!write_compressed(f, compressor, file)) {
         return file_error(path, "too little memory to compress the data", {}, {}, "free some memory");
     }
     return file.commit();
