@@ -35,15 +35,28 @@ inline Error line_error(std::string file, std::size_t line, std::string what, st
     return {std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)};
 }
 
-/// read() in the environment of exact results. Error: memory is short.
+/// read() in the environment of exact results. Error: what it throws as an Exception; memory is short.
 template <class Read>
 auto read_guarded(const std::string& path, const Read& read) -> decltype(read()) {
     const ExactEnvironment environment;
     try {
         return read();
+    } catch (const Exception& problem) {
+        return problem.error();
     } catch (const std::bad_alloc&) {
         return base::too_little_memory(path);
     }
+}
+
+/// What f() throws as an Exception, as a Status.
+template <class F>
+Status status_of(const F& f) {
+    try {
+        f();
+    } catch (const Exception& problem) {
+        return problem.error();
+    }
+    return Done{};
 }
 
 /// The fields of a line, parted by blanks or by a separator with blanks around it; an empty field where a separator has
