@@ -91,13 +91,14 @@ bool is_vtk_file(std::string_view path);
 bool is_vtk_points_file(std::string_view path);
 
 // `path`, `options` and `format` are as for open_points and open_table.
-using Source = Result<std::unique_ptr<PointSource>>;
+// Errors are thrown as Exceptions.
+using Source = std::unique_ptr<PointSource>;
 Source open_csv_source(const std::string& path, int dimension, const PointOptions& options);
 Source open_npy_source(const std::string& path, int dimension, const PointOptions& options);
 Source open_node_source(const std::string& path, int dimension, const PointOptions& options);
 
-Result<std::unique_ptr<TableSink>> open_csv_sink(const std::string& path, const TableFormat& format);
-Result<std::unique_ptr<TableSink>> open_npy_sink(const std::string& path, const TableFormat& format);
+std::unique_ptr<TableSink> open_csv_sink(const std::string& path, const TableFormat& format);
+std::unique_ptr<TableSink> open_npy_sink(const std::string& path, const TableFormat& format);
 
 /// Refuses rows whose spans and columns do not fit together and the format, and the feature degenerate.
 Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path);

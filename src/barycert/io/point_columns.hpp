@@ -1,4 +1,5 @@
-/// Which columns of a table are the coordinates of points, and which are carried through.
+/// Which columns of a table are the coordinates of points, and which are carried through. Errors are thrown as
+/// Exceptions.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +44,7 @@ struct PointColumns {
 
 /// The places of x, y[, z], or of one of the other names that are known; nothing if none of them is there as a whole.
 /// In the plane also of the z that belongs to them. Error: two columns of one of these names.
-Result<std::optional<PointColumns>> find_coordinates(const TableColumns& all, int dimension);
+std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimension);
 
 /// The texts, each cut at its commas unless there are `count` of them.
 std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::size_t count);
@@ -52,7 +53,7 @@ std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::si
 bool are_places(const std::vector<std::string>& columns);
 
 /// By PointOptions. Errors: columns that are not there, or not clear; a coordinate that is to be carried through.
-Result<PointColumns> choose_columns(const TableColumns& all, int dimension, const PointOptions& options);
+PointColumns choose_columns(const TableColumns& all, int dimension, const PointOptions& options);
 
 /// The end of what to do with a point that is not finite.
 inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";

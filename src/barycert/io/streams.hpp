@@ -27,14 +27,16 @@ public:
         const ExactEnvironment environment;
         if (!error_.what.empty()) return error_;
         mesh::begin_columns(formats_, carried_);
-        Result<std::size_t> taken = next(max_points, out);
-        if (!taken) error_ = taken.error();
-        return taken;
+        try {
+            return next(max_points, out);
+        } catch (const Exception& problem) {
+            return error_ = problem.error();
+        }
     }
 
 protected:
-    /// As read(); `carried_` has empty columns for what goes with the points. Not called after an Error.
-    virtual Result<std::size_t> next(std::size_t max_points, std::vector<double>& out) = 0;
+    /// As read(); `carried_` has empty columns for what goes with the points. An Error is thrown; not called after one.
+    virtual std::size_t next(std::size_t max_points, std::vector<double>& out) = 0;
 
     std::size_t dimension_;
     std::vector<ColumnFormat> formats_;  ///< of the carried columns
@@ -44,13 +46,6 @@ protected:
 private:
     Error error_;
 };
-
-/// The source or sink, unless its begin(arguments...) fails.
-template <class Base, class Made, class... Arguments>
-Result<std::unique_ptr<Base>> begun(std::unique_ptr<Made> made, const Arguments&... arguments) {
-    if (Status status = made->begin(arguments...); !status) return status.error();
-    return std::unique_ptr<Base>(std::move(made));
-}
 
 class RowSink : public TableSink {
 public:

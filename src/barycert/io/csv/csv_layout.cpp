@@ -28,12 +28,10 @@ char separator_of(std::string_view line) {
 }
 
 /// Whether the first line is a header.
-Result<bool> is_header(const TableColumns& all, int dimension, const PointOptions& options) {
+bool is_header(const TableColumns& all, int dimension, const PointOptions& options) {
     const std::vector<std::string> asked = parts_of(options.columns, static_cast<std::size_t>(dimension));
     if (asked.empty()) {
-        const auto found = find_coordinates(all, dimension);
-        if (!found) return found.error();
-        return *found || std::none_of(all.names.begin(), all.names.end(), looks_numeric);
+        return find_coordinates(all, dimension) || std::none_of(all.names.begin(), all.names.end(), looks_numeric);
     }
     if (!are_places(asked)) return true;
     return std::none_of(asked.begin(), asked.end(), [&](const std::string& text) {
@@ -81,53 +79,48 @@ bool holds_fields(std::string_view line, char separator) {
     return line[at] != '#';
 }
 
-Result<CsvLine> cut_first_line(std::string_view line, const LinePlace& place) {
+CsvLine cut_first_line(std::string_view line, const LinePlace& place) {
     if (line.find('\r') != std::string_view::npos)
-        return line_error(place.file, place.line, "lines end with CR alone", "LF or CR LF", "CR alone",
-                          "save the file with LF or CR LF as line ends");
+        throw Exception(line_error(place.file, place.line, "lines end with CR alone", "LF or CR LF", "CR alone",
+                                   "save the file with LF or CR LF as line ends"));
     CsvLine out{.separator = separator_of(line)};
     FieldCutter cutter(line, out.separator);
     for (std::string_view field; cutter.next(field);) out.fields.push_back(cutter.name(field));
     if (!cutter.malformed()) return out;
     CsvLayout layout;
     layout.separator = out.separator;
-    return csv_row_error(line, layout, place);
+    throw Exception(csv_row_error(line, layout, place));
 }
 
-Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const PointOptions& options,
-                                    const LinePlace& place) {
-    const Result<CsvLine> cut = cut_first_line(line, place);
-    if (!cut) return cut.error();
-    TableColumns all{.names = cut->fields, .named = true, .file = place.file, .line = place.line};
-    const Result<bool> header = is_header(all, dimension, options);
-    if (!header) return header.error();
+CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOptions& options, const LinePlace& place) {
+    const CsvLine cut = cut_first_line(line, place);
+    TableColumns all{.names = cut.fields, .named = true, .file = place.file, .line = place.line};
     CsvLayout layout;
-    layout.separator = cut->separator;
-    layout.header = all.named = *header;
+    layout.separator = cut.separator;
+    layout.header = all.named = is_header(all, dimension, options);
     layout.any_point = options.nonfinite_points == NonfinitePoints::nan;
     layout.role_of.assign(all.names.size(), CsvLayout::passed_over);
-    if (!*header && options.columns.empty()) {
+    if (!layout.header && options.columns.empty()) {
         const std::size_t empty = empty_at_the_end(all, dimension);
         all.names.resize(all.names.size() - empty);
         std::fill_n(layout.role_of.rbegin(), empty, CsvLayout::must_be_empty);
         layout.plain = empty == 0;
     }
     for (std::size_t i = 0; i < all.names.size(); ++i) {
-        if (!*header || all.names[i].empty()) all.names[i] = column_number(i);
+        if (!layout.header || all.names[i].empty()) all.names[i] = column_number(i);
     }
-    Result<PointColumns> columns = choose_columns(all, dimension, options);
-    if (!columns) return columns.error();
-    for (std::size_t axis = 0; axis < columns->axes.size(); ++axis)
-        layout.role_of[columns->axes[axis]] = static_cast<int>(axis);
-    if (columns->zero) layout.role_of[*columns->zero] = 2;
-    layout.flat = columns->zero.has_value();
-    for (PointColumns::Kept& kept : columns->kept) {
+    PointColumns columns = choose_columns(all, dimension, options);
+    for (std::size_t axis = 0; axis < columns.axes.size(); ++axis)
+        layout.role_of[columns.axes[axis]] = static_cast<int>(axis);
+    if (columns.zero) layout.role_of[*columns.zero] = 2;
+    layout.flat = columns.zero.has_value();
+    for (PointColumns::Kept& kept : columns.kept) {
         layout.role_of[kept.column] = CsvLayout::first_kept + static_cast<int>(layout.kept.size());
         layout.kept.push_back({std::move(kept.name), Column::Type::text});
         layout.plain = false;
     }
     note_the_guesses(all, layout);
-    layout.notes.insert(layout.notes.end(), columns->notes.begin(), columns->notes.end());
+    layout.notes.insert(layout.notes.end(), columns.notes.begin(), columns.notes.end());
     return layout;
 }
 

@@ -1,4 +1,5 @@
-/// What the first line of a CSV file tells about the others, and rows that are read so.
+/// What the first line of a CSV file tells about the others, and rows that are read so. Errors are thrown as
+/// Exceptions.
 #pragma once
 
 #include <cstddef>
@@ -46,14 +47,13 @@ struct CsvLine {
     char separator = ',';
     std::vector<std::string> fields{};
 };
-Result<CsvLine> cut_first_line(std::string_view line, const LinePlace& place);
+CsvLine cut_first_line(std::string_view line, const LinePlace& place);
 
 /// Begins as numbers do, or is a word for one. What is meant as a number must not make its line a header.
 bool looks_numeric(std::string_view field);
 
 /// From the first line that holds fields. Carried columns are texts.
-Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const PointOptions& options,
-                                    const LinePlace& place);
+CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOptions& options, const LinePlace& place);
 
 std::string separator_name(char separator);
 

@@ -79,15 +79,13 @@ std::size_t longest_carried(const TableView& rows) {
 
 class CsvSink final : public RowSink {
 public:
-    using RowSink::RowSink;
-
-    Status begin() {
+    CsvSink(const std::string& path, const TableFormat& format) : RowSink(path, format) {
         std::string header = format_.dimension == 2 ? "x,y,cell,feature" : "x,y,z,cell,feature";
         for (const std::string& column : format_.columns()) header += ',' + as_field(column);
         if (format_.distances) header += ",distance";
         for (const ColumnFormat& column : format_.carried) header += ',' + as_field(column.name);
         file_.write(header + '\n');
-        return file_.status();
+        file_.status().value();
     }
 
 private:
@@ -128,8 +126,8 @@ char* CsvSink::put_rows(const TableView& rows, std::size_t first, std::size_t la
 
 }  // namespace
 
-Result<std::unique_ptr<TableSink>> open_csv_sink(const std::string& path, const TableFormat& format) {
-    return begun<TableSink>(std::make_unique<CsvSink>(path, format));
+std::unique_ptr<TableSink> open_csv_sink(const std::string& path, const TableFormat& format) {
+    return std::make_unique<CsvSink>(path, format);
 }
 
 }  // namespace barycert::io

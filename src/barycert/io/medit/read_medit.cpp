@@ -111,8 +111,8 @@ private:
         }
         if (nodes_ == nullptr || found.empty() || found.front()->keyword.dimension < 2)
             refuse("the file contains no mesh", "Vertices, and Tetrahedra or Triangles",
-                         file_.sections().empty() ? "nothing" : file_.sections().front().name,
-                         "name a file with a mesh; the fields of a .sol file go with --field NAME=FILE");
+                   file_.sections().empty() ? "nothing" : file_.sections().front().name,
+                   "name a file with a mesh; the fields of a .sol file go with --field NAME=FILE");
         cells_ = found.front();
         mesh_.dimension = cells_->keyword.dimension;
         const bool solid = mesh_.dimension == 3;
@@ -120,11 +120,11 @@ private:
         for (const MeditSection* section : found) {
             if (is_simplex(section->keyword, 1) || is_simplex(section->keyword, 2)) continue;
             refuse(solid ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
-                         counted_sections(found), to_simplices(file_.path()));
+                   counted_sections(found), to_simplices(file_.path()));
         }
         if (found.size() > 1)
             refuse("cells of both orders in one mesh", expected, counted_sections(found),
-                         "write the mesh with cells of one order");
+                   "write the mesh with cells of one order");
         if (mesh_.dimension > file_.dimension())
             refuse("cells in space, and nodes in the plane", "Dimension 3", "Dimension 2", "mend the dimension");
     }
@@ -170,8 +170,8 @@ private:
                 const std::int64_t node = row[k] - 1;
                 if (row[k] < 1 || static_cast<std::uint64_t>(node) >= points)
                     file_.refuse_in(section, rows, i, k, "a node from 1 to " + std::to_string(points),
-                                          std::to_string(row[k]),
-                                          row[k] == 0 ? "nodes count from 1: add 1 to all" : "check the numbers");
+                                    std::to_string(row[k]),
+                                    row[k] == 0 ? "nodes count from 1: add 1 to all" : "check the numbers");
                 Mesh::Index& to =
                     k < corners ? cells.corners[i * corners + k] : cells.mids[i * (nodes - corners) + k - corners];
                 to = static_cast<Mesh::Index>(node);
@@ -201,8 +201,8 @@ private:
         const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
         if (!vote)
             refuse("the order of the mid-edge nodes is unknown",
-                         "each near the middle of its edge, in the order 12 23 13 14 24 34, or that of TetGen or Gmsh",
-                         "another order in most cells", "write the mesh again with cells of order 1");
+                   "each near the middle of its edge, in the order 12 23 13 14 24 34, or that of TetGen or Gmsh",
+                   "another order in most cells", "write the mesh again with cells of order 1");
         // Where no cell tells it, as libMeshb documents it.
         mesh_.mid_edge_order = vote->guessed ? MidEdgeOrder::vtk : vote->order;
         if (vote->guessed)
@@ -261,7 +261,7 @@ private:
                 const std::size_t found = field.data.size() / static_cast<std::size_t>(field.components);
                 if (found != rows)
                     refuse("the rows of " + field.name, std::to_string(rows), std::to_string(found),
-                                 "one for each node or cell");
+                           "one for each node or cell");
             }
         }
     }

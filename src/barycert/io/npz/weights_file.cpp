@@ -14,7 +14,7 @@
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/npy/npy_header.hpp"
+#include "barycert/io/npy/npy.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {

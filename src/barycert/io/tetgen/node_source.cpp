@@ -20,7 +20,7 @@ Source open_node_source(const std::string& path, int dimension, const PointOptio
     if ((found < dimension && options.columns.empty()) || found < 2 || found > 3) {
         const std::string d = std::to_string(dimension);
         refuse_header(table, "bad dimension in the header", d + ", for the mesh is " + d + "-dimensional",
-                            std::to_string(found), "give points of the dimension of the mesh");
+                      std::to_string(found), "give points of the dimension of the mesh");
     }
     table.any_real = options.nonfinite_points == NonfinitePoints::nan;
     table.surplus_remedy = "mend the header: nodes, dimension, attributes, markers";

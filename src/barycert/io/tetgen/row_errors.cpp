@@ -91,10 +91,10 @@ Complaint about_real(std::string_view field, const std::string& finite_remedy) {
         refuse_at(table, field.data(), "a row out of sequence", "row " + expected, base::quoted(field), remedy);
     if (table.base_is_given && (field == "0" || field == "1"))
         refuse_at(table, field.data(), "the files of this mesh count from different bases",
-                        "row " + expected + " first, as in the .node file", base::quoted(field),
-                        "number all files from 0 or all from 1");
+                  "row " + expected + " first, as in the .node file", base::quoted(field),
+                  "number all files from 0 or all from 1");
     refuse_at(table, field.data(), "a bad first row number", table.base_is_given ? expected : "0 or 1",
-                    base::quoted(field), remedy);
+              base::quoted(field), remedy);
 }
 
 [[noreturn]] void refuse_index(const TextTable& table, const Columns& columns, std::string_view field) {
@@ -104,7 +104,7 @@ Complaint about_real(std::string_view field, const std::string& finite_remedy) {
                                : std::to_string(table.base) + " to " + last + " (" + columns.refers_to + ")";
     if (columns.kind == ColumnKind::neighbour) expected += ", or -1 for none";
     refuse_at(table, field.data(), columns.name + " out of range", expected, base::quoted(field),
-                    "check that the files belong together and count from the same base");
+              "check that the files belong together and count from the same base");
 }
 
 /// Refuses a field that is no number of its kind, in range.
@@ -131,7 +131,7 @@ void check_field(const TextTable& table, const Columns& columns, std::string_vie
     const char* const at = fields.front().data();
     if (fields.size() < expected)
         refuse_at(table, at, "too few columns in a row", described_columns(table), std::to_string(fields.size()),
-                        "complete the row, or mend the header: it tells how many columns there are");
+                  "complete the row, or mend the header: it tells how many columns there are");
     const std::string found =
         std::to_string(fields.size()) + ", the first too many being " +
         (fields[expected].empty() ? "an empty one after a comma" : base::quoted(fields[expected]));
@@ -164,7 +164,7 @@ void refuse_header(const TextTable& table, std::string what, std::string expecte
 void refuse_count(const TextTable& table, std::string_view field, const char* name) {
     if (field == "BIN")
         refuse_header(table, "a binary file", "text", "\"BIN\" in the header",
-                            "save the mesh as text: in Chaste, leave out SetWriteFilesAsBinary()");
+                      "save the mesh as text: in Chaste, leave out SetWriteFilesAsBinary()");
     std::int64_t value = 0;
     const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
     const Complaint complaint = integer ? Complaint{} : about_integer(field);
@@ -176,7 +176,7 @@ void refuse_count(const TextTable& table, std::string_view field, const char* na
                                      ? complaint.expected
                                      : "an integer from 0 to " + std::to_string(max_count);
     refuse_header(table, std::string("bad number of ") + name + " in the header", expected,
-                        field.empty() ? "nothing" : base::quoted(field), remedy);
+                  field.empty() ? "nothing" : base::quoted(field), remedy);
 }
 
 void refuse_row(const TextTable& table, const char* at, std::size_t row) {
@@ -189,12 +189,12 @@ void refuse_row(const TextTable& table, const char* at, std::size_t row) {
     }
     if (!fields.empty() && fields.size() != table.column_count()) refuse_column_count(table, fields);
     refuse_at(table, at, "the last row has no line end, so the file may be cut short", "a line end",
-                    "the end of the file", "if nothing is missing, end the last line, as echo >> FILE does");
+              "the end of the file", "if nothing is missing, end the last line, as echo >> FILE does");
 }
 
 void refuse_end(const TextTable& table, std::size_t found) {
     refuse_at(table, table.end(), "the file ends too early", plural(table.rows, "row") + " as the header tells",
-                    std::to_string(found), "the file may be cut short: write it again, or mend the header");
+              std::to_string(found), "the file may be cut short: write it again, or mend the header");
 }
 
 void refuse_surplus(const TextTable& table, const char* at) {
@@ -205,9 +205,9 @@ void refuse_surplus(const TextTable& table, const char* at) {
                              value == table.base + static_cast<std::int64_t>(table.rows);
     if (another_row)
         refuse_at(table, at, "more rows than the header tells", plural(table.rows, "row"),
-                        "a row " + base::quoted(field), "mend the header or remove the row");
+                  "a row " + base::quoted(field), "mend the header or remove the row");
     refuse_at(table, at, "text after the last row", "the end of the file or a comment", base::quoted(field),
-                    "remove the text, put # before it, or mend the number of rows in the header");
+              "remove the text, put # before it, or mend the number of rows in the header");
 }
 
 }  // namespace barycert::io

@@ -96,7 +96,7 @@ void TetgenReader::prepare_nodes() {
     const std::int64_t dimension = table.header_field(1, 3);
     if (dimension != 2 && dimension != 3)
         refuse_meaning(table, "bad dimension", "2 or 3", dimension,
-                           "the header is: nodes, dimension, attributes, markers");
+                       "the header is: nodes, dimension, attributes, markers");
     const std::int64_t count = table.header[0], attributes = table.header_field(2, 0),
                        markers = table.header_field(3, 0);
     const std::string more = header_text({count, dimension, attributes + 1, markers});
@@ -112,9 +112,8 @@ void TetgenReader::prepare_nodes() {
 void TetgenReader::prepare_cells() {
     constexpr std::array names{"cells", "corners", "attributes"};
     if (!exists(".ele"))
-        throw Exception(file_error(stem_ + ".ele", "there are nodes but no cells",
-                                   "an .ele file beside " + nodes_.file, "no such file",
-                                   "mesh the nodes first, or put the .ele file there"));
+        throw Exception(file_error(stem_ + ".ele", "there are nodes but no cells", "an .ele file beside " + nodes_.file,
+                                   "no such file", "mesh the nodes first, or put the .ele file there"));
     TextTable& table = cells_ = open(".ele", names);
 
     const bool flat = mesh_.dimension == 2;
@@ -145,7 +144,7 @@ void TetgenReader::prepare_faces() {
     TextTable& table = faces_.emplace(open(".face", names));
     if (mesh_.dimension == 2)
         refuse_header(table, "a mesh of triangles has no faces", {}, {},
-                            "remove the .face file or do not ask for faces");
+                      "remove the .face file or do not ask for faces");
     const std::int64_t markers = table.header_field(1, 0);
     if (markers > 1) refuse_meaning(table, "bad number of markers", "0 or 1", markers, {});
     const auto marker_columns = static_cast<std::size_t>(markers);
@@ -176,8 +175,8 @@ void TetgenReader::prepare_neighbours() {
     const std::size_t sides = mesh_.corners();
     const char* const remedy = "check that the files belong together, or remove the .neigh file";
     if (table.rows != cells_.rows)
-        refuse_header(table, "the number of cells differs from that of the .ele file",
-                            std::to_string(cells_.rows), std::to_string(table.rows), remedy);
+        refuse_header(table, "the number of cells differs from that of the .ele file", std::to_string(cells_.rows),
+                      std::to_string(table.rows), remedy);
     const std::int64_t declared = table.header_field(1, static_cast<std::int64_t>(sides));
     if (declared != static_cast<std::int64_t>(sides))
         refuse_meaning(table, "bad number of neighbours", std::to_string(sides), declared, remedy);
@@ -192,10 +191,10 @@ void TetgenReader::settle_mid_edge_order() {
     const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
     if (!vote)
         refuse_header(cells_, "the order of the mid-edge nodes is unknown",
-                            "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
-                            "another order in most cells",
-                            "check that the files belong together, or write the mesh again as " +
-                                std::to_string(mesh_.corners()) + "-node cells");
+                      "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
+                      "another order in most cells",
+                      "check that the files belong together, or write the mesh again as " +
+                          std::to_string(mesh_.corners()) + "-node cells");
     mesh_.mid_edge_order = vote->order;
     if (vote->guessed)
         mesh_.notes.push_back({Note::Kind::guessed,
@@ -231,8 +230,8 @@ std::vector<std::string> tetgen_files(const std::string& path) {
 }
 
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options) {
-    return io::read_guarded(
-        path, [&]() -> Result<Mesh> { return io::TetgenReader(tetgen_stem(path), options).read(); });
+    return io::read_guarded(path,
+                            [&]() -> Result<Mesh> { return io::TetgenReader(tetgen_stem(path), options).read(); });
 }
 
 }  // namespace barycert

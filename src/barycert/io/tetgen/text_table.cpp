@@ -178,7 +178,7 @@ void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<d
     const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
     if (markers > 1)
         refuse_header(table, "bad number of markers in the header", "0 or 1", std::to_string(markers),
-                            "declare further columns as attributes");
+                      "declare further columns as attributes");
     table.columns = {{ColumnKind::id, 1, "id"},
                      {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate"},
                      {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
