@@ -35,6 +35,12 @@ inline Error line_error(std::string file, std::size_t line, std::string what, st
     return {std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)};
 }
 
+/// These, thrown as Exceptions.
+[[noreturn]] void refuse_file(std::string file, std::string what, std::string expected = {}, std::string found = {},
+                              std::string remedy = {});
+[[noreturn]] void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
+                              std::string found = {}, std::string remedy = {});
+
 /// read() in the environment of exact results. Error: what it throws as an Exception; memory is short.
 template <class Read>
 auto read_guarded(const std::string& path, const Read& read) -> decltype(read()) {
@@ -203,5 +209,19 @@ Source points_of_table(PointTable table, const std::string& file, int dimension,
 /// of XML files are not read, and their names are in PointTable::unread.
 Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
                                   NonfinitePoints nonfinite = NonfinitePoints::error);
+
+// Fields from files of their own: a row of numbers for each node or cell.
+
+/// One field of any number of rows, all of as many components.
+///
+/// Text: a row a line, numbers between blanks, tabs, commas or semicolons, rounded to nearest; nan and inf are taken as
+/// they are. Blank lines, and what follows a #, are passed over. With `column`, CSV, whose first line settles the
+/// separator as in files of points: the column of that name or number (from 1), or NAME.0, NAME.1, ... NPY (by the
+/// suffix): an array of shape (rows,) or (rows, components) of floats or integers, of either byte order and either
+/// order of axes; with `column` a field of a structured array, or the number of a column from 1. Errors: it cannot be
+/// read; a word that is no number; rows of different lengths; an integer that is no double; no such column; another
+/// array.
+Result<Field> read_field_file(const std::string& name, const std::string& path, const std::string& column,
+                              Notes& notes);
 
 }  // namespace barycert::io

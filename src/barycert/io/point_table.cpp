@@ -111,18 +111,16 @@ private:
         return {std::move(name), std::move(values)};
     }
     [[noreturn]] void refuse_label(std::size_t column) const {
-        throw Exception(file_error(all_.file,
-                                   table_.of_nodes ? "a marker cannot be a coordinate"
-                                                   : "a column of texts or large integers cannot be a coordinate",
-                                   {}, base::quoted(all_.names[column]),
-                                   "name a column of numbers in options.columns"));
+        refuse_file(all_.file,
+                    table_.of_nodes ? "a marker cannot be a coordinate"
+                                    : "a column of texts or large integers cannot be a coordinate",
+                    {}, base::quoted(all_.names[column]), "name a column of numbers in options.columns");
     }
     [[noreturn]] void refuse_point(std::size_t column, std::size_t point) const {
-        throw Exception(file_error(all_.file, "a point that is not finite", "finite coordinates",
-                                   base::shortest(number(places_[column], point)) + " in " +
-                                       base::quoted(all_.names[column]) + " of point " + std::to_string(point) +
-                                       ", counted from 0",
-                                   std::string("remove the point, give it coordinates") + or_nan_for_it));
+        refuse_file(all_.file, "a point that is not finite", "finite coordinates",
+                    base::shortest(number(places_[column], point)) + " in " + base::quoted(all_.names[column]) +
+                        " of point " + std::to_string(point) + ", counted from 0",
+                    std::string("remove the point, give it coordinates") + or_nan_for_it);
     }
 
     PointTable& table_;

@@ -95,9 +95,11 @@ Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const Tab
         return file_error(path, "cannot write rows in the format of that suffix",
                           ".csv, .npy or .vtu, or - for CSV on the standard output",
                           kind ? "a format for points alone" : kind.error().found, "name a .csv, .npy or .vtu file");
-    return io::read_guarded(path, [&]() -> Result<std::unique_ptr<TableSink>> {
+    try {
         return *kind == io::FileFormat::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);
-    });
+    } catch (const Exception& problem) {
+        return problem.error();
+    }
 }
 
 }  // namespace barycert

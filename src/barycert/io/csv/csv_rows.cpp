@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/point_columns.hpp"

@@ -45,7 +45,7 @@ private:
 
 CsvSource::CsvSource(const std::string& path, int dimension, const PointOptions& options,
                      const std::vector<ColumnFormat>* kept)
-    : ColumnSource(dimension), lines_(LineReader::open(path).value()) {
+    : ColumnSource(dimension), lines_(path) {
     for (std::string_view line; lines_.next(line);) {
         if (!holds_fields(line, ' ')) continue;
         layout_ = settle_csv_layout(line, dimension, options, place());
@@ -61,10 +61,9 @@ CsvSource::CsvSource(const std::string& path, int dimension, const PointOptions&
         piece_count_ = 1;
         return;
     }
-    if (lines_.failed()) throw Exception(lines_.error());
-    throw Exception(file_error(lines_.name(), "the file is empty", "a header line or a point",
-                               lines_.number() == 0 ? "nothing" : "blank lines and comments",
-                               "write the file again; a file with a header only is a file without points"));
+    refuse_file(lines_.name(), "the file is empty", "a header line or a point",
+                lines_.number() == 0 ? "nothing" : "blank lines and comments",
+                "write the file again; a file with a header only is a file without points");
 }
 
 /// The bad line has been counted.
@@ -74,15 +73,12 @@ Error CsvSource::row_error(const CsvPiece& piece) const {
                      : csv_row_error(piece.bad, layout_, place());
 }
 
-/// Parses the next pieces; false at the end of the file, or at an error, which is kept. Precondition: all pieces have
+/// Parses the next pieces; false at the end of the file. The error of a line is kept. Precondition: all pieces have
 /// been given.
 bool CsvSource::parse_more() {
     piece_ = piece_count_ = given_ = 0;
     std::string_view text;
-    if (!lines_.next_lines(text)) {
-        if (lines_.failed()) pending_ = lines_.error();
-        return false;
-    }
+    if (!lines_.next_lines(text)) return false;
     texts_.clear();
     while (!text.empty()) {
         std::size_t size = text.size();
@@ -107,9 +103,9 @@ std::size_t CsvSource::next(std::size_t max, std::vector<double>& out) {
     std::size_t taken = 0;
     while (taken != max) {
         if (piece_ == piece_count_) {
-            if (pending_.what.empty() && parse_more()) continue;
             if (!pending_.what.empty()) throw Exception(pending_);
-            break;
+            if (!parse_more()) break;
+            continue;
         }
         const std::vector<double>& points = pieces_[piece_].points;
         const std::size_t count = std::min(max - taken, points.size() / size - given_);
@@ -165,10 +161,9 @@ Source open_csv_source(const std::string& path, int dimension, const PointOption
     if (!options.typed || options.keep.empty()) return std::make_unique<CsvSource>(path, dimension, options);
     std::error_code ignored;
     if (path == "-" || (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)))
-        throw Exception(file_error(path == "-" ? "standard input" : path,
-                                   "the types of columns cannot be found in a stream",
-                                   "a regular file, which can be read twice", "a pipe or device",
-                                   "write CSV, which carries columns as they are, or save the points to a file first"));
+        refuse_file(path == "-" ? "standard input" : path, "the types of columns cannot be found in a stream",
+                    "a regular file, which can be read twice", "a pipe or device",
+                    "write CSV, which carries columns as they are, or save the points to a file first");
     Notes notes;
     const std::vector<ColumnFormat> formats = formats_of_all(CsvSource(path, dimension, options), path, notes);
     auto source = std::make_unique<CsvSource>(path, dimension, options, &formats);

@@ -1,5 +1,3 @@
-#include "barycert/io/fields/field_file.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -9,7 +7,6 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
@@ -53,9 +50,8 @@ FieldLayout settle(std::string_view line, const std::string& column, const LineP
         out.columns = columns_of_field(cut.fields, column);
     }
     if (!out.columns.empty()) return out;
-    throw Exception(line_error(
-        place.file, place.line, "no such column", base::quoted(column), listed(cut.fields),
-        base::did_you_mean(column, cut.fields, "name a column of the first line, or say its place, from 1")));
+    refuse_line(place.file, place.line, "no such column", base::quoted(column), listed(cut.fields),
+                base::did_you_mean(column, cut.fields, "name a column of the first line, or say its place, from 1"));
 }
 
 /// Appends the values of the line.
@@ -87,7 +83,7 @@ void take_line(std::string_view line, bool whole, const FieldLayout& layout, con
 /// settles the separator as in files of points. Errors: no such column; a value that is no number, an integer that no
 /// double represents, a line with more or fewer fields than the first.
 Field read_csv_column(Field field, const std::string& path, const std::string& column) {
-    LineReader lines = LineReader::open(path).value();
+    LineReader lines(path);
     std::optional<FieldLayout> layout;
     for (std::string_view line; lines.next(line);) {
         if (!holds_fields(line, layout ? layout->lines.separator : ' ')) continue;
@@ -96,11 +92,13 @@ Field read_csv_column(Field field, const std::string& path, const std::string& c
             layout = settle(line, column, place);
             if (layout->lines.header) continue;
         }
-        const Status taken = status_of([&] { take_line(line, lines.line_ended(), *layout, place, field); });
-        if (!taken) lines.unchanged().value();
-        Status(taken).value();
+        try {
+            take_line(line, lines.line_ended(), *layout, place, field);
+        } catch (const Exception&) {
+            lines.unchanged().value();
+            throw;
+        }
     }
-    if (lines.failed()) throw Exception(lines.error());
     if (layout) field.components = static_cast<int>(layout->columns.size());
     return field;
 }
@@ -111,7 +109,7 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
     std::size_t line_number = 0, components = 0;
     std::vector<std::string_view> words;
     const auto refuse = [&](const std::string& expected, const std::string& found, const char* remedy) {
-        throw Exception(line_error(path, line_number, "a row of field \"" + field.name + '"', expected, found, remedy));
+        refuse_line(path, line_number, "a row of field \"" + field.name + '"', expected, found, remedy);
     };
     while (!bytes.empty()) {
         const std::string_view line = bytes.substr(0, bytes.find('\n'));
@@ -152,11 +150,10 @@ std::vector<std::size_t> components_of(const NpyTable& table, const Field& field
     if (!column.empty())
         columns = columns_of_field(names, are_places({column}) && !table.structured ? "column" + column : column);
     if (!columns.empty()) return columns;
-    throw Exception(file_error(
-        path, column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
-        column.empty() ? "an array of numbers" : base::quoted(column),
-        table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
-        base::did_you_mean(column, names, "name one of them: --field " + field.name + "=" + path + ":NAME")));
+    refuse_file(path, column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
+                column.empty() ? "an array of numbers" : base::quoted(column),
+                table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
+                base::did_you_mean(column, names, "name one of them: --field " + field.name + "=" + path + ":NAME"));
 }
 
 Field read_npy(Field field, const std::string& path, const std::string& column, Notes& notes) {
@@ -165,16 +162,15 @@ Field read_npy(Field field, const std::string& path, const std::string& column, 
     constexpr std::uint64_t max_components = 1U << 16;
     if (!file.header().structured &&
         (shape.empty() || shape.size() > 2 || (shape.size() == 2 && (shape[1] < 1 || shape[1] > max_components))))
-        throw Exception(file_error(path, "the shape of field \"" + field.name + '"', "(rows,) or (rows, components)",
-                                   as_tuple(shape), "save a.reshape(len(a), -1)"));
+        refuse_file(path, "the shape of field \"" + field.name + '"', "(rows,) or (rows, components)", as_tuple(shape),
+                    "save a.reshape(len(a), -1)");
     const NpyTable table = file.table();
     const std::vector<std::size_t> columns = components_of(table, field, path, column);
     for (const std::size_t c : columns) {
         const NpyType& type = table.columns[c].type;
         if (!type.is_number())
-            throw Exception(file_error(path, "the type of field \"" + field.name + '"',
-                                       "floats of 2, 4 or 8 bytes, or integers", base::quoted(type.text),
-                                       "save a.astype('f8')"));
+            refuse_file(path, "the type of field \"" + field.name + '"', "floats of 2, 4 or 8 bytes, or integers",
+                        base::quoted(type.text), "save a.astype('f8')");
     }
     if (const NpyType& type = table.columns[columns.front()].type; !type.is_double())
         notes.push_back(

@@ -28,7 +28,7 @@ const ElementType& choose(const MshFile& file, const TypeCounts& counts) {
     const auto any = [&](auto is_one) { return std::any_of(kinds.begin(), kinds.end(), is_one); };
     const auto refuse = [&](const char* what, const char* expected, const std::string& remedy) {
         const std::string found = counted_types(counts, dimension, dimension);
-        throw Exception(file_error(file.path(), what, expected, found.empty() ? "no elements" : found, remedy));
+        refuse_file(file.path(), what, expected, found.empty() ? "no elements" : found, remedy);
     };
     const bool solid = dimension == 3;
     if (dimension < 2)

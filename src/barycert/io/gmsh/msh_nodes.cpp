@@ -88,8 +88,8 @@ MshNodes read_msh_nodes(const MshFile& file) {
     const bool parametric = section == nullptr && file.version() == 22;
     if (parametric) section = file.find("ParametricNodes");
     if (section == nullptr)
-        throw Exception(file_error(file.path(), "the file contains no nodes", "a section $Nodes", "none",
-                                   "name a file with a mesh; this one may contain views or a geometry only"));
+        refuse_file(file.path(), "the file contains no nodes", "a section $Nodes", "none",
+                    "name a file with a mesh; this one may contain views or a geometry only");
     if (parametric && file.binary())
         file.refuse(section->name.data(), "binary $ParametricNodes", "$Nodes", "nodes with parameters",
                     "convert it with " + gmsh_command(file.path()));

@@ -18,9 +18,9 @@ void flatten(std::vector<double>& points, const std::string& path, const std::st
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         if (points[i + 2] != 0)
-            throw Exception(file_error(path, "z of node " + std::to_string(i / 3) + " (from 0)",
-                                       "0, as the mesh is of triangles", base::shortest(points[i + 2]),
-                                       plane_remedy(i == 0 ? points : std::vector<double>(), triangles)));
+            refuse_file(path, "z of node " + std::to_string(i / 3) + " (from 0)", "0, as the mesh is of triangles",
+                        base::shortest(points[i + 2]),
+                        plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
         points[to++] = points[i];
         points[to++] = points[i + 1];
     }

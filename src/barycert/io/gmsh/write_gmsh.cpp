@@ -11,6 +11,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -98,22 +99,19 @@ bool one_group_each(CellGroups& groups, std::size_t cells) {
 }
 
 /// `by_entity`: an entity can be in one group only (4.1). Error: one group with two names.
-Result<CellGroups> group_cells(const Mesh& mesh, bool by_entity, const std::string& path) {
+CellGroups group_cells(const Mesh& mesh, bool by_entity, const std::string& path) {
     CellGroups groups;
     groups.tags = element_tags(mesh);
-    const Field* physical = find_field(mesh, "gmsh:physical");
-    const Field* geometrical = find_field(mesh, "gmsh:geometrical");
     // Where all cells are of no group, or of entity 1 or none, the reader makes no field.
-    if (auto values = integers(physical); values && !all_are(*values, 0)) {
-        groups.physical = std::move(*values);
-    } else {
-        physical = nullptr;
-    }
-    if (auto values = integers(geometrical); values && !all_are(*values, 0) && !all_are(*values, 1)) {
-        groups.entity = std::move(*values);
-    } else {
-        geometrical = nullptr;
-    }
+    const auto take = [&](const char* name, std::int32_t nothing, std::vector<std::int32_t>& to) {
+        const Field* const field = find_field(mesh, name);
+        auto values = integers(field);
+        if (!values || all_are(*values, 0) || all_are(*values, nothing)) return static_cast<const Field*>(nullptr);
+        to = std::move(*values);
+        return field;
+    };
+    const Field* const physical = take("gmsh:physical", 0, groups.physical);
+    const Field* geometrical = take("gmsh:geometrical", 1, groups.entity);
     if (by_entity && !one_group_each(groups, mesh.cell_count())) {
         geometrical = nullptr;
         split_entities(groups, mesh.cell_count());
@@ -128,34 +126,26 @@ Result<CellGroups> group_cells(const Mesh& mesh, bool by_entity, const std::stri
         const std::int32_t group = std::abs(groups.physical[i]);
         const std::string& name = (*names)[i];
         if (group == 0 || name.empty()) continue;
-        if (groups.names.emplace(group, name).first->second != name ||
-            name.find_first_of("\r\n") != std::string::npos) {
-            return file_error(path, "a name of physical group " + std::to_string(group) + " that cannot be written",
-                              "one name for all of its cells, on one line", base::quoted(name),
-                              "correct the cell labels gmsh:physical_name");
-        }
+        if (groups.names.emplace(group, name).first->second != name || name.find_first_of("\r\n") != std::string::npos)
+            refuse_file(path, "a name of physical group " + std::to_string(group) + " that cannot be written",
+                        "one name for all of its cells, on one line", base::quoted(name),
+                        "correct the cell labels gmsh:physical_name");
     }
     return groups;
 }
 
-/// What is wrong with the names of fields; nothing if they can be written.
-Status check_names(const Mesh& mesh, const CellGroups& groups, const std::string& path) {
-    const auto check = [&](std::set<std::string>& names, const std::string& name) -> Status {
-        const bool fits = !name.empty() && name.find_first_of("\"\r\n") == std::string::npos;
-        if (fits && names.insert(name).second) return Done{};
-        return file_error(path, "a name of a field that cannot be written",
-                          "names that differ, without quotes and line breaks",
-                          name.empty() ? "no name" : base::quoted(name) + (fits ? " twice" : ""), "rename the field");
-    };
+void check_names(const Mesh& mesh, const CellGroups& groups, const std::string& path) {
     std::set<std::string> of_nodes, of_cells;
+    const auto check = [&](std::set<std::string>& names, const std::string& name) {
+        const bool fits = !name.empty() && name.find_first_of("\"\r\n") == std::string::npos;
+        if (!fits || !names.insert(name).second)
+            refuse_file(path, "a name of a field that cannot be written",
+                        "names that differ, without quotes and line breaks",
+                        name.empty() ? "no name" : base::quoted(name) + (fits ? " twice" : ""), "rename the field");
+    };
     if (!mesh.point_markers.empty()) of_nodes.insert("marker");
-    for (const Field& field : mesh.point_fields) {
-        if (Status s = check(of_nodes, field.name); !s) return s;
-    }
-    for (const Field* field : groups.data) {
-        if (Status s = check(of_cells, field->name); !s) return s;
-    }
-    return Done{};
+    for (const Field& field : mesh.point_fields) check(of_nodes, field.name);
+    for (const Field* field : groups.data) check(of_cells, field->name);
 }
 
 class GmshWriter {
@@ -167,13 +157,10 @@ public:
           new_(options.version == GmshWriteOptions::Version::v41) {}
 
     Status write() {
-        const auto dimension = static_cast<std::size_t>(mesh_.dimension);
         write_format();
         write_names();
         if (new_) write_entities();
-        out_.text("$Nodes\n");
-        new_ ? write_nodes_41(dimension) : write_nodes_22(dimension);
-        end_section("Nodes");
+        write_nodes();
         out_.text("$Elements\n");
         new_ ? write_elements_41() : write_elements_22();
         end_section("Elements");
@@ -226,22 +213,19 @@ private:
 
     /// The entities of the cells, each with the box of its nodes.
     void write_entities() {
-        struct Box {
-            std::array<double, 3> low{}, high{};
-            bool empty = true;
-        };
+        using Box = std::array<std::array<double, 3>, 2>;  // low, high
         std::map<std::int32_t, Box> boxes;
         const auto size = static_cast<std::size_t>(mesh_.dimension);
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
-            Box& box = boxes[groups_.entity_of(cell)];
+            const auto [found, added] = boxes.try_emplace(groups_.entity_of(cell));
+            Box& box = found->second;
             for (std::size_t k = 0; k < mesh_.corners(); ++k) {
                 const auto node = static_cast<std::size_t>(mesh_.cells[cell * mesh_.corners() + k]);
                 for (std::size_t axis = 0; axis < size; ++axis) {
                     const double x = mesh_.points[node * size + axis];
-                    box.low[axis] = box.empty ? x : std::min(box.low[axis], x);
-                    box.high[axis] = box.empty ? x : std::max(box.high[axis], x);
+                    box[0][axis] = added && k == 0 ? x : std::min(box[0][axis], x);
+                    box[1][axis] = added && k == 0 ? x : std::max(box[1][axis], x);
                 }
-                box.empty = false;
             }
         }
         out_.text("$Entities\n");
@@ -249,8 +233,7 @@ private:
         out_.end_row();
         for (const auto& [entity, physical] : groups_.physical_of) {
             integer(entity);
-            for (const double x : boxes[entity].low) out_.number(x);
-            for (const double x : boxes[entity].high) out_.number(x);
+            for (const auto& corner : boxes[entity]) out_.numbers<double>(corner);
             wide(physical != 0 ? 1 : 0);
             if (physical != 0) integer(physical);
             wide(0);
@@ -259,26 +242,24 @@ private:
         end_section("Entities");
     }
 
-    void write_point(std::size_t node, std::size_t dimension) {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            out_.number(axis < dimension ? mesh_.points[node * dimension + axis] : 0);
-        out_.end_row();
-    }
-
-    void write_nodes_41(std::size_t dimension) {
+    void write_nodes() {
+        const auto dimension = static_cast<std::size_t>(mesh_.dimension);
         const std::size_t count = mesh_.point_count();
-        row(std::size_t{1}, count, std::size_t{1}, count);
-        row(mesh_.dimension, groups_.physical_of.begin()->first, 0, count);
-        for (std::size_t node = 0; node < count; ++node) row(node + 1);
-        for (std::size_t node = 0; node < count; ++node) write_point(node, dimension);
-    }
-
-    void write_nodes_22(std::size_t dimension) {
-        line(mesh_.point_count());
-        for (std::size_t node = 0; node < mesh_.point_count(); ++node) {
-            integer(static_cast<std::int64_t>(node) + 1);
-            write_point(node, dimension);
+        out_.text("$Nodes\n");
+        if (new_) {
+            row(std::size_t{1}, count, std::size_t{1}, count);
+            row(mesh_.dimension, groups_.physical_of.begin()->first, 0, count);
+            for (std::size_t node = 0; node < count; ++node) row(node + 1);
+        } else {
+            line(count);
         }
+        for (std::size_t node = 0; node < count; ++node) {
+            if (!new_) integer(static_cast<std::int64_t>(node) + 1);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                out_.number(axis < dimension ? mesh_.points[node * dimension + axis] : 0);
+            out_.end_row();
+        }
+        end_section("Nodes");
     }
 
     int type() const {
@@ -364,11 +345,11 @@ Status write_gmsh(const Mesh& mesh, const std::string& path, const GmshWriteOpti
     const ExactEnvironment environment;
     if (const char* const fault = mesh::inconsistency(mesh, mesh::FieldValues::any); fault != nullptr)
         return file_error(path, std::string("cannot write the mesh: ") + fault, {}, {}, "correct the mesh in memory");
-    const Result<io::CellGroups> groups =
-        io::group_cells(mesh, options.version == GmshWriteOptions::Version::v41, path);
-    if (!groups) return groups.error();
-    if (Status s = io::check_names(mesh, *groups, path); !s) return s;
-    return io::GmshWriter(mesh, *groups, path, options).write();
+    return io::status_of([&] {
+        const io::CellGroups groups = io::group_cells(mesh, options.version == GmshWriteOptions::Version::v41, path);
+        io::check_names(mesh, groups, path);
+        io::GmshWriter(mesh, groups, path, options).write().value();
+    });
 }
 
 }  // namespace barycert

@@ -156,10 +156,10 @@ MeditFile::MeditFile(const std::string& path) : path_(path) {
     const std::string_view word = first_word(begin, '#');
     binary_ = is_medit(begin.substr(0, 12)) && begin[1] == 0;
     if (!binary_ && !same_word(word, "MeshVersionFormatted"))
-        throw Exception(line_error(path, 1, "not a file of Medit",
-                                   "\"MeshVersionFormatted\", or in a binary file the numbers 1, 1 to 4, 3",
-                                   head.empty() ? "an empty file" : base::quoted(word),
-                                   "check the path: other programs have files of this suffix, too"));
+        refuse_line(path, 1, "not a file of Medit",
+                    "\"MeshVersionFormatted\", or in a binary file the numbers 1, 1 to 4, 3",
+                    head.empty() ? "an empty file" : base::quoted(word),
+                    "check the path: other programs have files of this suffix, too");
     data_ = base::MappedFile::open(path).value();
     bytes_ = data_.bytes();
     if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.remove_prefix(3);

@@ -4,6 +4,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/point_columns.hpp"
 
@@ -17,14 +18,12 @@ constexpr std::size_t bytes_at_once = std::size_t{1} << 18;
 void make_simple(const NpyHeader& header, const std::string& file, NpyTable& table) {
     const auto type = npy_type(header.descr);
     if (!type || type->size == 0)
-        throw Exception(file_error(file, "cannot read an array of that type",
-                                   "integers, floating-point numbers or texts", base::quoted(header.descr),
-                                   "save a.astype('f8')"));
+        refuse_file(file, "cannot read an array of that type", "integers, floating-point numbers or texts",
+                    base::quoted(header.descr), "save a.astype('f8')");
     const std::uint64_t columns = header.shape.size() == 2 ? header.shape[1] : 1;
     if (columns > most_npy_columns)
-        throw Exception(file_error(file, "an array of another shape",
-                                   "at most " + std::to_string(most_npy_columns) + " columns", as_tuple(header.shape),
-                                   "save an array with a row for each point"));
+        refuse_file(file, "an array of another shape", "at most " + std::to_string(most_npy_columns) + " columns",
+                    as_tuple(header.shape), "save an array with a row for each point");
     table.row_size = columns * type->size;
     table.by_columns = header.fortran_order && columns > 1;
     for (std::uint64_t c = 0; c < columns; ++c) {
@@ -43,9 +42,8 @@ void check_room(const NpyTable& table, std::uint64_t room, const std::string& fi
             file_error(file, "the file ends too early",
                        std::to_string(table.rows) + " rows of " + std::to_string(row) + " bytes, as its header tells",
                        std::to_string(room) + " bytes", "the file may be cut short: write it again"));
-    throw Exception(file_error(file, "bytes after the array",
-                               std::to_string(table.rows * row) + ", as the header tells", std::to_string(room),
-                               "save one array a file"));
+    refuse_file(file, "bytes after the array", std::to_string(table.rows * row) + ", as the header tells",
+                std::to_string(room), "save one array a file");
 }
 
 }  // namespace
@@ -58,16 +56,16 @@ NpyFile::NpyFile(const std::string& path)
 void NpyFile::read(std::uint64_t offset, std::span<char> bytes) const {
     const std::uint64_t end = header_.size + offset + bytes.size();
     if (file_.read_at(header_.size + offset, bytes, path_).value() != bytes.size())
-        throw Exception(file_error(path_, "the file ends too early", "byte " + std::to_string(end - 1),
-                                   "the end of the file", "do not change the file while it is read"));
+        refuse_file(path_, "the file ends too early", "byte " + std::to_string(end - 1), "the end of the file",
+                    "do not change the file while it is read");
 }
 
 NpyTable NpyFile::table() const {
     const std::vector<std::uint64_t>& shape = header_.shape;
     NpyTable table{.rows = 0, .columns = {}, .structured = header_.structured};
     if (shape.empty() || shape.size() > (header_.structured ? 1U : 2U))
-        throw Exception(file_error(path_, "an array of another shape", header_.structured ? "(n,)" : "(n, columns)",
-                                   as_tuple(shape), "save an array with a row for each point"));
+        refuse_file(path_, "an array of another shape", header_.structured ? "(n,)" : "(n, columns)", as_tuple(shape),
+                    "save an array with a row for each point");
     table.rows = shape[0];
     if (header_.structured) {
         table.columns = header_.fields;

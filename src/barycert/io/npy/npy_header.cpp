@@ -4,6 +4,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 
 namespace barycert::io {
@@ -98,8 +99,8 @@ bool is_tuple(const Literal& literal) {
 }
 
 [[noreturn]] void not_npy(const std::string& file, std::string expected, std::string found, std::string remedy) {
-    throw Exception(file_error(file, "cannot read the header of the NPY file", std::move(expected), std::move(found),
-                               std::move(remedy)));
+    refuse_file(file, "cannot read the header of the NPY file", std::move(expected), std::move(found),
+                std::move(remedy));
 }
 
 constexpr const char* save_again = "save the array again with numpy.save";
@@ -207,10 +208,10 @@ NpyHeader parse_npy_text(std::string_view text, bool latin1, const std::string& 
             header.structured = true;
             if (!whole || !take_fields(value, header.fields, header.item_size, 0) || header.item_size == 0 ||
                 header.item_size > longest_npy_text << 10)
-                throw Exception(file_error(file, "cannot read a structured array of that type",
-                                           "a list of names and types of known size, and no Python objects",
-                                           base::quoted(from.substr(0, from.size() - rest.size())),
-                                           "save the fields that are needed: a[['x', 'y']]"));
+                refuse_file(file, "cannot read a structured array of that type",
+                            "a list of names and types of known size, and no Python objects",
+                            base::quoted(from.substr(0, from.size() - rest.size())),
+                            "save the fields that are needed: a[['x', 'y']]");
         }
         unsigned bit = 0;
         if (key.text == "descr" && (value.kind == '[' || value.kind == '\'')) bit = 1;
@@ -239,8 +240,8 @@ NpyHeader read_npy_header(const base::InputFile& file, const std::string& path) 
     const NpyText text = find_npy_text(bytes, path);
     const std::size_t size = text.offset + text.size;
     if (size > file.size())
-        throw Exception(file_error(path, "the file ends too early", "a header of " + std::to_string(size) + " bytes",
-                                   std::to_string(file.size()), "the file may be cut short: write it again"));
+        refuse_file(path, "the file ends too early", "a header of " + std::to_string(size) + " bytes",
+                    std::to_string(file.size()), "the file may be cut short: write it again");
     bytes.resize(text.size);
     bytes.resize(file.read_at(text.offset, bytes, path).value());
     NpyHeader header = parse_npy_text(bytes, text.latin1, path);

@@ -154,8 +154,8 @@ void NpySink::settle_types() {
     std::set<std::string> seen;
     for (const Field& field : fields) {
         if (const char* const expected = fault_of(field.name, seen); expected != nullptr)
-            throw Exception(file_error(path_, "a column name is not allowed in an NPY file", expected,
-                                       base::quoted(field.name), "rename the field, leave it out, or write CSV"));
+            refuse_file(path_, "a column name is not allowed in an NPY file", expected, base::quoted(field.name),
+                        "rename the field, leave it out, or write CSV");
         types_ += (types_.empty() ? "[(" : ", (") + as_literal(field.name) + ", '" + field.type + "')";
     }
     types_ += "]";
@@ -164,9 +164,9 @@ void NpySink::settle_types() {
 NpySink::NpySink(const std::string& path, const TableFormat& format) : RowSink(path, format) {
     file_.status().value();
     if (!file_.can_replace())
-        throw Exception(file_error(path_, "cannot write NPY to a pipe or device",
-                                   "a regular file: the number of rows is written into its header at the end", {},
-                                   "name a regular file, or write CSV"));
+        refuse_file(path_, "cannot write NPY to a pipe or device",
+                    "a regular file: the number of rows is written into its header at the end", {},
+                    "name a regular file, or write CSV");
     settle_types();
     for (std::size_t f = 0; f < features_.size(); ++f) {
         std::array<char, feature_size> text{};
@@ -185,9 +185,9 @@ NpySink::NpySink(const std::string& path, const TableFormat& format) : RowSink(p
     const std::size_t whole = (head_size_ + header(UINT64_MAX).size() + 1 + alignment - 1) / alignment * alignment;
     text_size_ = whole - head_size_;
     if (text_size_ > longest_npy_text)
-        throw Exception(file_error(path_, "too many columns for an NPY file",
-                                   "a header of at most " + std::to_string(longest_npy_text) + " bytes",
-                                   std::to_string(text_size_), "choose fewer fields, or write CSV"));
+        refuse_file(path_, "too many columns for an NPY file",
+                    "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(text_size_),
+                    "choose fewer fields, or write CSV");
     std::string head(npy_magic);
     head += {version_, '\0'};
     for (std::size_t i = 8; i < head_size_; ++i) head += static_cast<char>(text_size_ >> 8 * (i - 8) & 0xFFU);

@@ -48,9 +48,8 @@ void NpySource::check_shape() const {
                  std::string(dimension_ == 3 ? ",3" : "");
     if (shape.size() == 2 && shape[0] == dimension_ && shape[1] != dimension_ + 1)
         remedy = "if it has a column for each point, save a.T";
-    throw Exception(file_error(path_, "an array of another shape",
-                               "(n, " + d + "), for the mesh is " + d + "-dimensional", as_tuple(shape),
-                               std::move(remedy)));
+    refuse_file(path_, "an array of another shape", "(n, " + d + "), for the mesh is " + d + "-dimensional",
+                as_tuple(shape), std::move(remedy));
 }
 
 NpySource::NpySource(const std::string& path, int dimension, const PointOptions& options)
@@ -67,9 +66,9 @@ NpySource::NpySource(const std::string& path, int dimension, const PointOptions&
     for (const std::size_t place : places) {
         const NpyColumn& column = table_.columns[place];
         if (!column.type.is_number())
-            throw Exception(file_error(path_, "cannot read points of that type",
-                                       "integers or floating-point numbers of at most 64 bits",
-                                       base::quoted(column.type.text), "save a.astype('f8')"));
+            refuse_file(path_, "cannot read points of that type",
+                        "integers or floating-point numbers of at most 64 bits", base::quoted(column.type.text),
+                        "save a.astype('f8')");
         if (!column.type.is_double()) widened = column.type.text;
         axes_.push_back(column);
     }
@@ -95,9 +94,9 @@ void NpySource::keep(const NpyColumn& column, std::string name) {
     if (type.is_text()) format.max_bytes = type.size;
     if (type.kind == 'U') format.max_characters = std::max<std::size_t>(1, type.size / 4);
     if (!type.is_number() && !type.is_text())
-        throw Exception(file_error(path_, "column " + base::quoted(column.name) + " cannot be carried through",
-                                   "integers, floating-point numbers or texts", base::quoted(type.text),
-                                   "leave it out of options.keep, or save it as another type"));
+        refuse_file(path_, "column " + base::quoted(column.name) + " cannot be carried through",
+                    "integers, floating-point numbers or texts", base::quoted(type.text),
+                    "leave it out of options.keep, or save it as another type");
     kept_.push_back(column);
     formats_.push_back(std::move(format));
 }

@@ -14,8 +14,8 @@ constexpr const char* separators_remedy = "separate the columns by spaces, tabs 
 
 [[noreturn]] void refuse_at(const TextTable& table, const char* at, std::string what, std::string expected,
                             std::string found, std::string remedy) {
-    throw Exception(line_error(table.file, line_of(table.bytes, at), std::move(what), std::move(expected),
-                               std::move(found), std::move(remedy)));
+    refuse_line(table.file, line_of(table.bytes, at), std::move(what), std::move(expected), std::move(found),
+                std::move(remedy));
 }
 
 std::string plural(std::size_t count, const std::string& name) {
