@@ -176,7 +176,7 @@ Error missing(const std::string& path) {
         error.remedy = "there is " + found + ": name it with its suffix";
     } else if (const std::string near = base::near_file(path); !near.empty() && fs::path(path).has_extension()) {
         error.remedy = "did you mean " + near + "?";
-    } else if (other != nullptr && other->way != Way::meshio) {
+    } else if (other != nullptr && other->meshio == nullptr) {
         error.remedy = std::string("check the path; it would not be read (") + other->what +
                        "): " + other_format_error(*other, path).remedy;
     } else if (other != nullptr || (format_by_suffix(path) && !is_tetgen_file(path))) {
@@ -208,7 +208,7 @@ Result<MeshFormat> format_of_file(const std::string& path) {
     const Result<Found> found = look_at(path);
     if (!found) return found.error();
     if (found->format) return *found->format;
-    if (found->other != nullptr && found->other->way == Way::meshio) return MeshFormat::by_meshio;
+    if (found->other != nullptr && found->other->meshio != nullptr) return MeshFormat::by_meshio;
     if (found->other != nullptr) return other_format_error(*found->other, path);
     return Error{.what = "this is no mesh that is read",
                  .file = path,
@@ -236,7 +236,7 @@ Result<MeshFormat> mesh_format(const std::string& path) {
 
 std::string meshio_format(const std::string& path) {
     const Result<Found> found = look_at(path);
-    return found && found->other != nullptr && found->other->way == Way::meshio ? found->other->remedy : "";
+    return found && found->other != nullptr && found->other->meshio != nullptr ? found->other->meshio : "";
 }
 
 Result<MeshFormat> mesh_output_format(const std::string& path) {

@@ -135,23 +135,11 @@ Notes left_out_by(MeshFormat format, const Mesh& mesh);
 /// read as attribute0, attribute1, ...
 void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes);
 
-/// How to get at the mesh.
-enum class Way {
-    meshio,      ///< it is read by way of meshio: io/converted
-    gmsh,        ///< `gmsh IN -save -format msh41 -o OUT.msh`
-    mesher,      ///< a geometry: `gmsh -3 IN -format msh41 -o OUT.msh`
-    surface,     ///< `barycert mesh IN`
-    binary_ply,  ///< made text by meshio, then meshed
-    paraview,    ///< by its Python
-    unpack,      ///< compressed
-    other,       ///< as its remedy tells
-};
-
 struct OtherFormat {
-    std::string_view suffixes;  ///< with their dots, each between blanks; lower case
-    const char* what;           ///< "a mesh of Medit"
-    Way way;
-    const char* remedy;  ///< Way::meshio: its name there; unpack: the command; other: all of it; else nothing
+    std::string_view suffixes;     ///< with their dots, each between blanks; lower case
+    const char* what;              ///< "a mesh of Medit"
+    std::string_view remedy;       ///< how to get at the mesh, with {words} that the path fills
+    const char* meshio = nullptr;  ///< its name there, if it is read by way of meshio: io/converted
 };
 
 /// By the end of the path; nullptr if it is none of these.

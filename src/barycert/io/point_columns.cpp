@@ -1,4 +1,4 @@
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,6 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/point_columns.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/table.hpp"
 

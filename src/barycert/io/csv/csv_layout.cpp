@@ -12,7 +12,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 
 namespace barycert::io {
@@ -158,6 +158,10 @@ bool is_inexact(std::string_view text, double value) {
     return std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())) != text;
 }
 
+namespace {
+
+/// True if the text is a decimal number that no double holds: `value`, the nearest one, is another number when it is
+/// written with as many digits.
 bool is_rounded(std::string_view text, double value) {
     // A double holds 15 digits, unless it is subnormal, and has 767 at most.
     constexpr std::size_t held = 15, most = 767;
@@ -179,24 +183,26 @@ bool is_rounded(std::string_view text, double value) {
     return digits_of({nearest.data(), static_cast<std::size_t>(end - nearest.data())}) != digits;
 }
 
+}  // namespace
+
 void TypeOfTexts::see(std::string_view text) {
     if (text.empty()) {
-        empty_ = true;
+        empty = true;
         return;
     }
-    any_ = true;
+    any = true;
     // An integer is a number, unless no double represents it.
-    if (integers_ && !integer_of(text)) integers_ = false;
-    if (!numbers_) return;
+    if (integers && !integer_of(text)) integers = false;
+    if (!numbers) return;
     const std::optional<double> value = number_of(text);
-    numbers_ = value.has_value();
-    if (!numbers_ || !is_rounded(text, *value)) return;
-    (*value == 0 ? lost_ : rounded_) = true;
+    numbers = value.has_value();
+    if (!numbers || !is_rounded(text, *value)) return;
+    (*value == 0 ? lost : rounded) = true;
 }
 
 Column::Type TypeOfTexts::type() const {
-    if (any_ && integers_ && !empty_) return Column::Type::integer;
-    return any_ && numbers_ ? Column::Type::number : Column::Type::text;
+    if (any && integers && !empty) return Column::Type::integer;
+    return any && numbers ? Column::Type::number : Column::Type::text;
 }
 
 }  // namespace barycert::io

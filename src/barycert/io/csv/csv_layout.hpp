@@ -181,27 +181,17 @@ std::optional<double> number_of(std::string_view field);
 /// True if the text is an integer, in digits alone, and no double represents it; `value` is the nearest one.
 bool is_inexact(std::string_view text, double value);
 
-/// True if the text is a decimal number that no double holds: `value`, the nearest one, is another number when it is
-/// written with as many digits.
-bool is_rounded(std::string_view text, double value);
-
 /// The type that holds all texts that it has seen without loss.
-class TypeOfTexts {
-public:
-    void see(std::string_view text);
+struct TypeOfTexts {
+    bool integers = true, numbers = true;  ///< all of them are
+    bool empty = false, any = false;       ///< some are empty, some not
+    bool lost = false;                     ///< some numbers are not 0, but have 0 for the nearest double
+    bool rounded = false;                  ///< some have more digits than their nearest doubles
 
-    /// Numbers, of which some are not 0, but have 0 for the nearest double.
-    bool has_lost_numbers() const { return type() == Column::Type::number && lost_; }
-    /// Numbers, of which some have more digits than their nearest doubles.
-    bool has_rounded_numbers() const { return type() == Column::Type::number && rounded_; }
-    /// Numbers, of which some are missing.
-    bool has_missing_numbers() const { return type() == Column::Type::number && empty_; }
+    void see(std::string_view text);
 
     /// Text, too, where there was none but empty ones.
     Column::Type type() const;
-
-private:
-    bool integers_ = true, numbers_ = true, empty_ = false, any_ = false, lost_ = false, rounded_ = false;
 };
 
 }  // namespace barycert::io

@@ -146,11 +146,12 @@ std::vector<ColumnFormat> formats_of_all(CsvSource source, const std::string& pa
         if (!utf8[k]) formats[k].max_characters = 0;
         if (formats[k].type != Column::Type::text) formats[k] = {formats[k].name, formats[k].type};
         const auto note = [&](bool told, const std::string& what, const char* to) {
-            if (told) notes.push_back({Note::Kind::converted, what + " of column " + formats[k].name + to, path});
+            if (told && formats[k].type == Column::Type::number)
+                notes.push_back({Note::Kind::converted, what + " of column " + formats[k].name + to, path});
         };
-        note(types[k].has_missing_numbers(), "empty fields", " to NaN");
-        note(types[k].has_lost_numbers(), "numbers", " that are too small for a double to 0");
-        note(types[k].has_rounded_numbers(), "numbers", " that no double holds to the nearest doubles");
+        note(types[k].empty, "empty fields", " to NaN");
+        note(types[k].lost, "numbers", " that are too small for a double to 0");
+        note(types[k].rounded, "numbers", " that no double holds to the nearest doubles");
     }
     return formats;
 }

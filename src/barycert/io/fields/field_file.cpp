@@ -11,7 +11,7 @@
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 
 namespace barycert::io {
 namespace {

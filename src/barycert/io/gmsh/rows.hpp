@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +21,7 @@
 #include "barycert/io/gmsh/msh_file.hpp"
 #include "barycert/io/tetgen/integer_row.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
+#include "barycert/io/vtk/numbers.hpp"
 
 namespace barycert::io {
 
@@ -104,15 +103,6 @@ private:
     const char* end_;
 };
 
-/// The word at `at`, which must be there.
-template <class Word>
-Word word_in(const char* at, bool swapped) {
-    Word word = 0;
-    std::memcpy(&word, at, sizeof(Word));
-    if constexpr (sizeof(Word) == 8) return swapped ? __builtin_bswap64(word) : word;
-    return static_cast<Word>(swapped ? __builtin_bswap32(static_cast<std::uint32_t>(word)) : word);
-}
-
 /// Binary. The bytes of the row must be there.
 class BinaryRow : public Row {
 public:
@@ -122,12 +112,12 @@ public:
     BinaryRow(const char* at, bool wide, bool swapped) : Row(at), wide_(wide), swapped_(swapped) {}
 
     bool integer(std::int64_t& value, const char*) {
-        value = static_cast<std::int32_t>(take<std::uint32_t>());
+        value = take<std::int32_t>();
         return true;
     }
     bool tag(std::int64_t& value, const char* name) {
         if (!wide_) return integer(value, name);
-        value = static_cast<std::int64_t>(take<std::uint64_t>());
+        value = take<std::int64_t>();
         return true;
     }
     bool real(double& number, const char* name) {
@@ -135,7 +125,7 @@ public:
         return std::isfinite(number) || refuse({.what = "a number that is not finite", .expected = name});
     }
     bool value(double& value, const char*) {
-        value = std::bit_cast<double>(take<std::uint64_t>());
+        value = take<double>();
         return true;
     }
     template <std::size_t Count>
@@ -144,10 +134,11 @@ public:
     }
 
 private:
-    template <class Word>
-    Word take() {
-        at_ += sizeof(Word);
-        return word_in<Word>(at_ - sizeof(Word), swapped_);
+    template <class Number>
+    Number take() {
+        const char* const at = at_;
+        at_ += sizeof(Number);
+        return swapped_ ? number_at<Number, true>(at) : number_at<Number, false>(at);
     }
 
     bool wide_, swapped_;

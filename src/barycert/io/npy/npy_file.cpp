@@ -6,7 +6,7 @@
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 
 namespace barycert::io {
 namespace {

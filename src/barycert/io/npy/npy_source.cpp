@@ -7,7 +7,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
-#include "barycert/io/point_columns.hpp"
 #include "barycert/io/streams.hpp"
 
 namespace barycert::io {

@@ -27,7 +27,7 @@
 #include "barycert/base/large_pages.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 

@@ -13,7 +13,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/collection.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/xml.hpp"
