@@ -238,36 +238,28 @@ void rename_in(std::string& text, const std::string& from, const std::string& to
         text.replace(at, from.size(), to);
 }
 
-/// Whether the file is complete: what meshio counted, against what was read.
-std::string difference(const Json& answer, const Mesh& mesh) {
-    const auto differs = [](const std::string& what, std::size_t counted, std::size_t read) {
-        return counted == read
-                   ? ""
-                   : std::to_string(counted) + " " + what + ", of which " + std::to_string(read) + " came through";
+/// That the file is complete: what meshio counted, against what was read.
+void check_complete(const Json& answer, const Mesh& mesh, const std::string& path) {
+    const auto need = [&](const std::string& what, std::size_t counted, std::size_t read) {
+        if (counted != read)
+            refuse_file(path, "a mesh that is incomplete after its conversion", {},
+                        std::to_string(counted) + " " + what + ", of which " + std::to_string(read) + " came through");
     };
-    if (std::string text = differs("nodes", answer.at("nodes"), mesh.point_count()); !text.empty()) return text;
+    need("nodes", answer.at("nodes"), mesh.point_count());
     const std::string type = mesh.dimension == 3      ? mesh.mid_nodes.empty() ? "tetra" : "tetra10"
                              : mesh.mid_nodes.empty() ? "triangle"
                                                       : "triangle6";
-    if (std::string text =
-            differs("cells of type " + type, answer.at("types").value(type, std::size_t{0}), mesh.cell_count());
-        !text.empty())
-        return text;
+    need("cells of type " + type, answer.at("types").value(type, std::size_t{0}), mesh.cell_count());
     for (const bool of_cells : {false, true}) {
         const std::size_t rows = of_cells ? mesh.cell_count() : mesh.point_count();
-        const std::vector<Field>& fields = of_cells ? mesh.cell_fields : mesh.point_fields;
-        for (const auto& [name, shape] : answer.at("rows").at(of_cells ? "CellData" : "PointData").items()) {
-            const auto field =
-                std::find_if(fields.begin(), fields.end(), [&, &n = name](const Field& f) { return f.name == n; });
-            // Others are labels, markers, or told by the reader.
-            if (field == fields.end()) continue;
-            if (std::string text = differs("values of " + base::quoted(name), rows * shape.at(1).get<std::size_t>(),
-                                           field->data.size());
-                !text.empty())
-                return text;
+        const Json& shapes = answer.at("rows").at(of_cells ? "CellData" : "PointData");
+        // Others are labels, markers, or told by the reader.
+        for (const Field& field : of_cells ? mesh.cell_fields : mesh.point_fields) {
+            if (const auto shape = shapes.find(field.name); shape != shapes.end())
+                need("values of " + base::quoted(field.name), rows * shape->at(1).get<std::size_t>(),
+                     field.data.size());
         }
     }
-    return {};
 }
 
 /// Each line that meshio printed, once.
@@ -310,8 +302,7 @@ Mesh checked(const Json& answer, const MeshioFile& file, const std::string& path
     }
     Mesh& mesh = *read;
     for (Note& note : mesh.notes) rename_in(note.file, file.vtu, path);
-    if (const std::string found = difference(answer, mesh); !found.empty())
-        refuse_file(path, "a mesh that is incomplete after its conversion", {}, found);
+    check_complete(answer, mesh, path);
     Notes notes{{Note::Kind::converted,
                  "by meshio " + answer.at("meshio").get<std::string>() + ", as " + format +
                      "; nodes and cells are in its order",
