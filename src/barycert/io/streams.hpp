@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "barycert/base/output_file.hpp"
@@ -116,6 +117,20 @@ protected:
     virtual std::size_t longest_row(const TableView& rows) const = 0;
     /// Puts the rows [first, last) there; the place after them. Called on all threads.
     virtual char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const = 0;
+
+    /// put(value, k) for all that a row has, in the order of the columns: doubles, the cell, the feature, then the
+    /// value of each carried column k.
+    template <class Put>
+    void put_row(const TableView& rows, std::size_t row, const Put& put) const {
+        const auto dimension = static_cast<std::size_t>(format_.dimension);
+        for (const double x : rows.points.subspan(row * dimension, dimension)) put(x, 0);
+        put(rows.cells[row], 0);
+        put(rows.features[row], 0);
+        for (const double x : rows.values.subspan(row * columns_, columns_)) put(x, 0);
+        if (format_.distances) put(rows.distances[row], 0);
+        for (std::size_t k = 0; k < rows.carried.size(); ++k)
+            std::visit([&](const auto& values) { put(values[row], k); }, rows.carried[k].values);
+    }
 
     std::string path_;
     TableFormat format_;

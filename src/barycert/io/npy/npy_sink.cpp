@@ -5,6 +5,7 @@
 #include <cstring>
 #include <set>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "barycert/base/text.hpp"
@@ -118,10 +119,22 @@ private:
     Status check(const TableView& rows) const override;
     std::size_t longest_row(const TableView&) const override { return row_size_; }
     char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override {
-        for (; first != last; ++first) at = put_row(rows, first, at);
+        const auto put_one = [&]<class T>(const T& value, std::size_t k) {
+            if constexpr (std::is_same_v<T, std::string>) {
+                put_text(at, carried_[k], value, format_.carried[k].max_characters != 0);
+                at += carried_[k];
+            } else if constexpr (std::is_same_v<T, Feature>) {
+                std::memcpy(at, &features_[static_cast<std::size_t>(value)], feature_size);
+                at += feature_size;
+            } else if constexpr (std::is_same_v<T, double>) {
+                at = put(at, std::bit_cast<std::uint64_t>(value));
+            } else {
+                at = put(at, static_cast<std::uint64_t>(std::int64_t{value}));
+            }
+        };
+        for (; first != last; ++first) put_row(rows, first, put_one);
         return at;
     }
-    char* put_row(const TableView& rows, std::size_t row, char* at) const;
 
     std::string types_;          // the descr of the header
     std::size_t text_size_ = 0;  // of the header, with room for any count
@@ -194,30 +207,6 @@ NpySink::NpySink(const std::string& path, const TableFormat& format) : RowSink(p
     file_.write(head);
     file_.write(padded_header(0));
     file_.status().value();
-}
-
-char* NpySink::put_row(const TableView& rows, std::size_t row, char* at) const {
-    const auto dimension = static_cast<std::size_t>(format_.dimension);
-    for (const double x : rows.points.subspan(row * dimension, dimension))
-        at = put(at, std::bit_cast<std::uint64_t>(x));
-    at = put(at, static_cast<std::uint64_t>(static_cast<std::int64_t>(rows.cells[row])));
-    std::memcpy(at, &features_[static_cast<std::size_t>(rows.features[row])], feature_size);
-    at += feature_size;
-    for (const double x : rows.values.subspan(row * columns_, columns_)) at = put(at, std::bit_cast<std::uint64_t>(x));
-    if (format_.distances) at = put(at, std::bit_cast<std::uint64_t>(rows.distances[row]));
-    for (std::size_t k = 0; k < carried_.size(); ++k) {
-        const auto& values = rows.carried[k].values;
-        if (const auto* const integers = std::get_if<std::vector<std::int64_t>>(&values)) {
-            put(at, static_cast<std::uint64_t>((*integers)[row]));
-        } else if (const auto* const numbers = std::get_if<std::vector<double>>(&values)) {
-            put(at, std::bit_cast<std::uint64_t>((*numbers)[row]));
-        } else {
-            put_text(at, carried_[k], std::get<std::vector<std::string>>(values)[row],
-                     format_.carried[k].max_characters != 0);
-        }
-        at += carried_[k];
-    }
-    return at;
 }
 
 /// What the types of the file cannot hold.
