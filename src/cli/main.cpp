@@ -24,7 +24,7 @@
 #include "options.hpp"
 #include "options/mistyped.hpp"
 #include "options/want_of_memory.hpp"
-#include "tetgen/option_table.hpp"
+#include "tetgen/options.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "option_table.hpp"
+#include "options.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -17,7 +17,6 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "option_table.hpp"
 #include "options/mistyped.hpp"
 
 namespace barycert {

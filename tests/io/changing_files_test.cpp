@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "barycert/io.hpp"
-#include "barycert/io/fields/field_file.hpp"
+#include "barycert/io/formats.hpp"
 #include "io/tetgen/mesh_files.hpp"
 
 namespace barycert::testing {

@@ -1,13 +1,20 @@
-#include "barycert/io/formats.hpp"
 
+#include <tbb/task_arena.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/nearest_name.hpp"
+#include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/io/medit/medit_file.hpp"
+#include "barycert/io/vtk/collection.hpp"
 
 namespace barycert::io {
 namespace {
@@ -17,6 +24,15 @@ bool has_one_of(std::string_view path, std::initializer_list<std::string_view> s
 }
 
 }  // namespace
+
+void refuse_file(std::string file, std::string what, std::string expected, std::string found, std::string remedy) {
+    refuse_line(std::move(file), 0, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+}
+
+void refuse_line(std::string file, std::size_t line, std::string what, std::string expected, std::string found,
+                 std::string remedy) {
+    throw Exception({std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)});
+}
 
 void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
                 std::vector<std::string_view>& fields) {
@@ -107,4 +123,222 @@ Result<FileFormat> format_of_points(const std::string& path) {
     return text ? Result<FileFormat>(FileFormat::csv) : by_suffix;
 }
 
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_tetgen_file(const std::string& path) {
+    return tetgen_stem(path) != path;
+}
+
+bool exists(const std::string& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
+/// By the name alone.
+std::optional<MeshFormat> format_by_suffix(const std::string& path) {
+    if (is_tetgen_file(path)) return MeshFormat::tetgen;
+    if (is_vtk_file(path)) return MeshFormat::vtk;
+    if (has_suffix(path, ".msh")) return MeshFormat::gmsh;
+    if (has_suffix(path, ".mesh") || has_suffix(path, ".meshb")) return MeshFormat::medit;
+    return std::nullopt;
+}
+
+std::optional<MeshFormat> format_by_content(std::string_view head) {
+    if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
+    if (head.starts_with("$MeshFormat") || head.starts_with("$NOD")) return MeshFormat::gmsh;
+    if (head.starts_with("# vtk DataFile") || head.find("<VTKFile") != std::string_view::npos ||
+        head.find("\"file-series-version\"") != std::string_view::npos)
+        return MeshFormat::vtk;
+    if (is_medit(head)) return MeshFormat::medit;
+    return std::nullopt;
+}
+
+/// A mesh of that stem in another format, or nothing.
+std::string with_another_suffix(const std::string& path) {
+    for (const char* suffix : {".msh", ".vtu", ".vtk", ".pvtu", ".mesh", ".meshb"}) {
+        if (exists(path + suffix)) return path + suffix;
+    }
+    return {};
+}
+
+Error folder_error(const std::string& path) {
+    if (exists(path + "/constant/polyMesh")) return other_format_error(*other_format_by_suffix("case.foam"), path);
+    return file_error(path, "this is a folder", formats_read, {},
+                      "name the file of the mesh in it, or the stem of TetGen's files");
+}
+
+Error missing(const std::string& path) {
+    Error error{.what = "no such file", .file = path};
+    const OtherFormat* const other = other_format_by_suffix(path);
+    if (const std::string found = with_another_suffix(path); !found.empty()) {
+        error.remedy = "there is " + found + ": name it with its suffix";
+    } else if (const std::string near = base::near_file(path); !near.empty() && fs::path(path).has_extension()) {
+        error.remedy = "did you mean " + near + "?";
+    } else if (other != nullptr && other->meshio == nullptr) {
+        error.remedy = std::string("check the path; it would not be read (") + other->what +
+                       "): " + other_format_error(*other, path).remedy;
+    } else if (other != nullptr || (format_by_suffix(path) && !is_tetgen_file(path))) {
+        error.remedy = "check the path";
+    } else {
+        error.remedy = "MESH is the stem of TetGen's files, or one of them: part.1 for part.1.node and part.1.ele";
+    }
+    return error;
+}
+
+/// What a file is: a format that is read, or another one. Of a file that is there, and not TetGen's by a stem.
+struct Found {
+    std::optional<MeshFormat> format;
+    const OtherFormat* other = nullptr;
+};
+
+Result<Found> look_at(const std::string& path) {
+    const Result<std::string> head = base::InputFile::head(path, 4096);
+    if (!head) return head.error();
+    const std::optional<MeshFormat> by_content = format_by_content(*head), by_suffix = format_by_suffix(path);
+    if (by_content) return Found{by_content};
+    if (const OtherFormat* other = other_format_by_content(*head, path, by_suffix.has_value()); other != nullptr)
+        return Found{{}, other};
+    if (by_suffix) return Found{by_suffix};
+    return Found{{}, other_format_by_suffix(path)};
+}
+
+Result<MeshFormat> format_of_file(const std::string& path) {
+    const Result<Found> found = look_at(path);
+    if (!found) return found.error();
+    if (found->format) return *found->format;
+    if (found->other != nullptr && found->other->meshio != nullptr) return MeshFormat::by_meshio;
+    if (found->other != nullptr) return other_format_error(*found->other, path);
+    return Error{.what = "this is no mesh that is read",
+                 .file = path,
+                 .expected = formats_read,
+                 .remedy =
+                     "TetGen's files have to be named STEM.node and STEM.ele; save others as .vtu or Gmsh's .msh "
+                     "in the program that they are of"};
+}
+
+}  // namespace
+
+Result<MeshFormat> mesh_format(const std::string& path) {
+    std::error_code code;
+    const fs::file_status status = fs::status(path, code);
+    if (code == std::errc::permission_denied)
+        return file_error(path, "cannot read the file", {}, "permission denied", "check the permissions of its folder");
+    const bool stem = !is_tetgen_file(path) && exists(plain_or_packed(path + ".node"));
+    if (stem && (!format_by_suffix(path) || !fs::exists(status))) return MeshFormat::tetgen;
+    if (fs::is_directory(status)) return folder_error(path);
+    if (fs::exists(status)) return format_of_file(path);
+    // One of TetGen's files may be missing where others are there: their reader knows which.
+    if (is_tetgen_file(path) && exists(plain_or_packed(tetgen_stem(path) + ".node"))) return MeshFormat::tetgen;
+    return missing(path);
+}
+
+std::string meshio_format(const std::string& path) {
+    const Result<Found> found = look_at(path);
+    return found && found->other != nullptr && found->other->meshio != nullptr ? found->other->meshio : "";
+}
+
+Result<MeshFormat> mesh_output_format(const std::string& path) {
+    if (has_suffix(path, ".msh")) return MeshFormat::gmsh;
+    if (has_suffix(path, ".vtu") || has_suffix(path, ".vtk")) return MeshFormat::vtk;
+    const std::string suffix = suffix_of(path);
+    // part.1 is a stem: only what others use as a suffix is refused.
+    const bool digits = suffix.find_first_not_of("0123456789", 1) == std::string::npos;
+    if (digits || suffix == ".node" || suffix == ".ele") return MeshFormat::tetgen;
+    return unknown_suffix(path, "unknown format of a mesh to be written",
+                          ".vtu, .vtk, .msh, .node, or a stem of TetGen's files",
+                          "name a file with one of these suffixes");
+}
+
+Notes left_out_by(MeshFormat format, const Mesh& mesh) {
+    Notes notes;
+    const auto leave_out = [&](std::string text) { notes.push_back({Note::Kind::left_out, std::move(text)}); };
+    if (format == MeshFormat::tetgen) {
+        for (const auto& [fields, file] : {std::pair(&mesh.point_fields, "a .node"), {&mesh.cell_fields, "an .ele"}}) {
+            std::vector<TableField> columns;
+            for (const Field& f : *fields) columns.push_back({f.name, f.components});
+            note_lost_names(column_names(columns), file, notes);
+        }
+    }
+    const bool groups = std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
+                                    [](const Field& f) { return f.name == "gmsh:physical"; });
+    for (const Column& labels : mesh.cell_labels) {
+        const bool own = labels.name == "gmsh:tag" || (groups && labels.name == "gmsh:physical_name");
+        if (format == MeshFormat::tetgen || (format == MeshFormat::gmsh && !own))
+            leave_out("labels of cells, for which the format has no place: " + labels.name);
+    }
+    if (format != MeshFormat::tetgen && !mesh.faces.empty())
+        leave_out("faces, for which the format has no place: " + std::to_string(mesh.face_count()));
+    return notes;
+}
+
+void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes) {
+    std::string lost;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (const std::string own = "attribute" + std::to_string(i); columns[i] != own)
+            lost += (lost.empty() ? "" : ", ") + own + " is " + columns[i];
+    }
+    const Note note{Note::Kind::left_out,
+                    std::string("the names of fields, which ") + file + " file cannot hold: " + lost};
+    if (!lost.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
 }  // namespace barycert::io
+
+namespace barycert {
+namespace {
+
+template <class Read>
+Result<Mesh> on_threads(int threads, const Read& read) {
+    return threads <= 0 ? read() : tbb::task_arena(threads).execute(read);
+}
+
+}  // namespace
+
+Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
+    const Result<io::MeshFormat> format = io::mesh_format(path);
+    if (!format) return format.error();
+    if (options.step.made() && *format != io::MeshFormat::vtk) return io::no_series(path);
+    switch (*format) {
+        case io::MeshFormat::gmsh:
+            return read_gmsh(path, {.step = {}, .threads = options.threads});
+        case io::MeshFormat::vtk:
+            return on_threads(options.threads, [&] { return read_vtk(path, options.step); });
+        case io::MeshFormat::medit:
+            return on_threads(options.threads, [&] { return io::read_medit(path, options); });
+        case io::MeshFormat::by_meshio:
+            return io::read_converted(path, io::meshio_format(path));
+        default:
+            return read_tetgen(path, options);
+    }
+}
+
+std::vector<std::string> mesh_files(const std::string& path) {
+    const Result<io::MeshFormat> format = io::mesh_format(path);
+    if (format && *format == io::MeshFormat::vtk) return vtk_mesh_files(path);
+    if (format && *format == io::MeshFormat::by_meshio) return io::converted_files(path);
+    if (format && *format != io::MeshFormat::tetgen) return {path};
+    return tetgen_files(path);
+}
+
+Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
+    const Result<io::MeshFormat> format = io::mesh_output_format(path);
+    if (!format) return format.error();
+    switch (*format) {
+        case io::MeshFormat::gmsh:
+            return write_gmsh(mesh, path);
+        case io::MeshFormat::vtk:
+            return write_vtk(mesh, path, options.data);
+        default:
+            return write_tetgen(mesh, tetgen_stem(path), options);
+    }
+}
+
+Result<std::vector<std::string>> written_mesh_files(const std::string& path) {
+    const Result<io::MeshFormat> format = io::mesh_output_format(path);
+    if (!format) return format.error();
+    return *format == io::MeshFormat::tetgen ? tetgen_files(path) : std::vector<std::string>{path};
+}
+
+}  // namespace barycert

@@ -35,15 +35,34 @@ inline Error line_error(std::string file, std::size_t line, std::string what, st
     return {std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)};
 }
 
-/// read() in the environment of exact results. Error: memory is short.
+/// These, thrown as Exceptions.
+[[noreturn]] void refuse_file(std::string file, std::string what, std::string expected = {}, std::string found = {},
+                              std::string remedy = {});
+[[noreturn]] void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
+                              std::string found = {}, std::string remedy = {});
+
+/// read() in the environment of exact results. Error: what it throws as an Exception; memory is short.
 template <class Read>
 auto read_guarded(const std::string& path, const Read& read) -> decltype(read()) {
     const ExactEnvironment environment;
     try {
         return read();
+    } catch (const Exception& problem) {
+        return problem.error();
     } catch (const std::bad_alloc&) {
         return base::too_little_memory(path);
     }
+}
+
+/// What f() throws as an Exception, as a Status.
+template <class F>
+Status status_of(const F& f) {
+    try {
+        f();
+    } catch (const Exception& problem) {
+        return problem.error();
+    }
+    return Done{};
 }
 
 /// The fields of a line, parted by blanks or by a separator with blanks around it; an empty field where a separator has
@@ -78,13 +97,14 @@ bool is_vtk_file(std::string_view path);
 bool is_vtk_points_file(std::string_view path);
 
 // `path`, `options` and `format` are as for open_points and open_table.
-using Source = Result<std::unique_ptr<PointSource>>;
+// Errors are thrown as Exceptions.
+using Source = std::unique_ptr<PointSource>;
 Source open_csv_source(const std::string& path, int dimension, const PointOptions& options);
 Source open_npy_source(const std::string& path, int dimension, const PointOptions& options);
 Source open_node_source(const std::string& path, int dimension, const PointOptions& options);
 
-Result<std::unique_ptr<TableSink>> open_csv_sink(const std::string& path, const TableFormat& format);
-Result<std::unique_ptr<TableSink>> open_npy_sink(const std::string& path, const TableFormat& format);
+std::unique_ptr<TableSink> open_csv_sink(const std::string& path, const TableFormat& format);
+std::unique_ptr<TableSink> open_npy_sink(const std::string& path, const TableFormat& format);
 
 /// Refuses rows whose spans and columns do not fit together and the format, and the feature degenerate.
 Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path);
@@ -115,23 +135,11 @@ Notes left_out_by(MeshFormat format, const Mesh& mesh);
 /// read as attribute0, attribute1, ...
 void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes);
 
-/// How to get at the mesh.
-enum class Way {
-    meshio,      ///< it is read by way of meshio: io/converted
-    gmsh,        ///< `gmsh IN -save -format msh41 -o OUT.msh`
-    mesher,      ///< a geometry: `gmsh -3 IN -format msh41 -o OUT.msh`
-    surface,     ///< `barycert mesh IN`
-    binary_ply,  ///< made text by meshio, then meshed
-    paraview,    ///< by its Python
-    unpack,      ///< compressed
-    other,       ///< as its remedy tells
-};
-
 struct OtherFormat {
-    std::string_view suffixes;  ///< with their dots, each between blanks; lower case
-    const char* what;           ///< "a mesh of Medit"
-    Way way;
-    const char* remedy;  ///< Way::meshio: its name there; unpack: the command; other: all of it; else nothing
+    std::string_view suffixes;     ///< with their dots, each between blanks; lower case
+    const char* what;              ///< "a mesh of Medit"
+    std::string_view remedy;       ///< how to get at the mesh, with {words} that the path fills
+    const char* meshio = nullptr;  ///< its name there, if it is read by way of meshio: io/converted
 };
 
 /// By the end of the path; nullptr if it is none of these.
@@ -189,5 +197,19 @@ Source points_of_table(PointTable table, const std::string& file, int dimension,
 /// of XML files are not read, and their names are in PointTable::unread.
 Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
                                   NonfinitePoints nonfinite = NonfinitePoints::error);
+
+// Fields from files of their own: a row of numbers for each node or cell.
+
+/// One field of any number of rows, all of as many components.
+///
+/// Text: a row a line, numbers between blanks, tabs, commas or semicolons, rounded to nearest; nan and inf are taken as
+/// they are. Blank lines, and what follows a #, are passed over. With `column`, CSV, whose first line settles the
+/// separator as in files of points: the column of that name or number (from 1), or NAME.0, NAME.1, ... NPY (by the
+/// suffix): an array of shape (rows,) or (rows, components) of floats or integers, of either byte order and either
+/// order of axes; with `column` a field of a structured array, or the number of a column from 1. Errors: it cannot be
+/// read; a word that is no number; rows of different lengths; an integer that is no double; no such column; another
+/// array.
+Result<Field> read_field_file(const std::string& name, const std::string& path, const std::string& column,
+                              Notes& notes);
 
 }  // namespace barycert::io

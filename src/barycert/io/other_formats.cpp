@@ -13,40 +13,43 @@ namespace {
 
 // In the order in which they are looked for. Suffixes of several formats (.dat, .e) stand with the likelier one.
 constexpr std::array formats{
-    OtherFormat{" .inp ", "a mesh of Abaqus", Way::meshio, "abaqus"},
-    OtherFormat{" .xdmf .xmf ", "an XDMF file", Way::meshio, "xdmf"},
-    OtherFormat{" .med .rmed .mmed ", "a MED file of Salome or Code_Aster", Way::meshio, "med"},
-    OtherFormat{" .cgns ", "a CGNS file", Way::paraview, ""},
-    OtherFormat{" .exo .e .ex2 .exii .g ", "an Exodus file", Way::meshio, "exodus"},
-    OtherFormat{" .vol ", "a mesh of Netgen", Way::meshio, "netgen"},
-    OtherFormat{" .su2 ", "a mesh of SU2", Way::meshio, "su2"},
-    OtherFormat{" .unv .universal ", "a universal file of I-deas", Way::gmsh, ""},
-    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", Way::meshio, "nastran"},
-    OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", Way::paraview, ""},
-    OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", Way::meshio, "dolfin-xml"},
-    OtherFormat{" .avs ", "a mesh of AVS", Way::meshio, "avsucd"},
-    OtherFormat{" .ugrid ", "a mesh of UGRID", Way::meshio, "ugrid"},
-    OtherFormat{" .mdpa ", "a mesh of Kratos", Way::meshio, "mdpa"},
-    OtherFormat{" .f3grid ", "a mesh of FLAC3D", Way::meshio, "flac3d"},
-    OtherFormat{" .h5m ", "a mesh of MOAB", Way::meshio, "h5m"},
-    OtherFormat{" .hmf ", "an HMF file", Way::meshio, "hmf"},
-    OtherFormat{" .post .dato ", "a mesh of PERMAS", Way::meshio, "permas"},
-    OtherFormat{" .tec .dat ", "a file of Tecplot", Way::meshio, "tecplot"},
-    OtherFormat{" .cas ", "a case of Fluent", Way::paraview, ""},
-    OtherFormat{" .off .stl .ply .poly .smesh ", "a PLC (a surface), not a mesh", Way::surface, ""},
-    OtherFormat{" .obj ", "a surface, not a mesh", Way::other,
+    OtherFormat{" .inp ", "a mesh of Abaqus", "", "abaqus"},
+    OtherFormat{" .xdmf .xmf ", "an XDMF file", "", "xdmf"},
+    OtherFormat{" .med .rmed .mmed ", "a MED file of Salome or Code_Aster", "", "med"},
+    OtherFormat{" .cgns ", "a CGNS file", "{paraview}"},
+    OtherFormat{" .exo .e .ex2 .exii .g ", "an Exodus file", "", "exodus"},
+    OtherFormat{" .vol ", "a mesh of Netgen", "", "netgen"},
+    OtherFormat{" .su2 ", "a mesh of SU2", "", "su2"},
+    OtherFormat{" .unv .universal ", "a universal file of I-deas",
+                "convert it with {gmsh}; it numbers nodes anew, so that values in files of their own do not fit"},
+    OtherFormat{" .bdf .nas .fem ", "a file of Nastran", "", "nastran"},
+    OtherFormat{" .foam .openfoam ", "a case of OpenFOAM", "{paraview}"},
+    OtherFormat{" .xml ", "an XML file, perhaps a mesh of DOLFIN", "", "dolfin-xml"},
+    OtherFormat{" .avs ", "a mesh of AVS", "", "avsucd"},
+    OtherFormat{" .ugrid ", "a mesh of UGRID", "", "ugrid"},
+    OtherFormat{" .mdpa ", "a mesh of Kratos", "", "mdpa"},
+    OtherFormat{" .f3grid ", "a mesh of FLAC3D", "", "flac3d"},
+    OtherFormat{" .h5m ", "a mesh of MOAB", "", "h5m"},
+    OtherFormat{" .hmf ", "an HMF file", "", "hmf"},
+    OtherFormat{" .post .dato ", "a mesh of PERMAS", "", "permas"},
+    OtherFormat{" .tec .dat ", "a file of Tecplot", "", "tecplot"},
+    OtherFormat{" .cas ", "a case of Fluent", "{paraview}"},
+    OtherFormat{" .off .stl .ply .poly .smesh ", "a PLC (a surface), not a mesh",
+                "mesh it first with `barycert mesh {in}`"},
+    OtherFormat{" .obj ", "a surface, not a mesh",
                 "save it as .stl, .off or .ply (text) in the program that it is of, and mesh that"},
-    OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh", Way::mesher, ""},
-    OtherFormat{" .vtkhdf ", "a VTKHDF file", Way::paraview, ""},
-    OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", Way::other, "if it belongs to an .xdmf file, name that"},
-    OtherFormat{" .nc ", "a NetCDF file", Way::meshio, "exodus"},
-    OtherFormat{" .tgz ", "a TAR archive", Way::unpack, "tar -xzf"},
-    OtherFormat{" .bz2 ", "a file packed by bzip2", Way::unpack, "bzip2 -dc"},
-    OtherFormat{" .xz ", "a file packed by xz", Way::unpack, "xz -dc"},
-    OtherFormat{" .zst ", "a file packed by zstd", Way::unpack, "zstd -dc"},
-    OtherFormat{" .zip ", "a ZIP archive", Way::unpack, "unzip"},
-    OtherFormat{" .tar ", "a TAR archive", Way::unpack, "tar -xf"},
-    OtherFormat{" .csv .npy .npz .txt ", "a table, not a mesh", Way::other,
+    OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh",
+                "mesh it with `gmsh -3 {in} -format msh41 -o {stem.msh}` (-2 for triangles)"},
+    OtherFormat{" .vtkhdf ", "a VTKHDF file", "{paraview}"},
+    OtherFormat{" .h5 .hdf5 .hdf ", "an HDF5 file", "if it belongs to an .xdmf file, name that"},
+    OtherFormat{" .nc ", "a NetCDF file", "", "exodus"},
+    OtherFormat{" .tgz ", "a TAR archive", "unpack it with `tar -xzf {in}`"},
+    OtherFormat{" .bz2 ", "a file packed by bzip2", "unpack it with `bzip2 -dc {in} > {unpacked}`"},
+    OtherFormat{" .xz ", "a file packed by xz", "unpack it with `xz -dc {in} > {unpacked}`"},
+    OtherFormat{" .zst ", "a file packed by zstd", "unpack it with `zstd -dc {in} > {unpacked}`"},
+    OtherFormat{" .zip ", "a ZIP archive", "unpack it with `unzip {in}`"},
+    OtherFormat{" .tar ", "a TAR archive", "unpack it with `tar -xf {in}`"},
+    OtherFormat{" .csv .npy .npz .txt ", "a table, not a mesh",
                 "name the mesh first; points go with --points, values with --field NAME=FILE"},
 };
 
@@ -58,12 +61,12 @@ const OtherFormat* by_suffix(std::string_view suffix) {
     return nullptr;
 }
 
-constexpr OtherFormat fluent{"", "a mesh of Fluent", Way::meshio, "ansys"};
-constexpr OtherFormat freefem{"", "a mesh of FreeFem", Way::other,
+constexpr OtherFormat fluent{"", "a mesh of Fluent", "", "ansys"};
+constexpr OtherFormat freefem{"", "a mesh of FreeFem",
                               "in FreeFem, write it with load \"iovtk\" and savevtk(\"OUT.vtu\", Th)"};
 
-constexpr OtherFormat binary_ply{"", "a surface in binary form, not a mesh", Way::binary_ply, ""};
-constexpr OtherFormat flat_poly{"", "a PLC in the plane, not a mesh", Way::other,
+constexpr OtherFormat binary_ply{"", "a surface in binary form, not a mesh", "{text ply}"};
+constexpr OtherFormat flat_poly{"", "a PLC in the plane, not a mesh",
                                 "mesh it with Triangle, whose .node and .ele are read"};
 
 std::string lower(std::string_view text) {
@@ -241,35 +244,20 @@ std::string plane_remedy(std::span<const double> points, const std::string& path
 }
 
 Error other_format_error(const OtherFormat& format, const std::string& path) {
-    const std::string in = shell_word(path);
+    const auto word = [&](std::string_view name) {
+        if (name == "in") return shell_word(path);
+        if (name == "gmsh") return gmsh_command(path);
+        if (name == "stem.msh") return shell_word(stem_of(path) + ".msh");
+        if (name == "unpacked") return shell_word(unpacked_name(path));
+        return name == "paraview" ? by_paraview(path) : text_ply_remedy(path);
+    };
     std::string remedy;
-    switch (format.way) {
-        case Way::gmsh:
-            remedy = "convert it with " + gmsh_command(path) +
-                     "; it numbers nodes anew, so that values in files of their own do not fit";
-            break;
-        case Way::mesher:
-            remedy = "mesh it with `gmsh -3 " + in + " -format msh41 -o " + shell_word(stem_of(path) + ".msh") +
-                     "` (-2 for triangles)";
-            break;
-        case Way::surface:
-            remedy = "mesh it first with `barycert mesh " + in + "`";
-            break;
-        case Way::binary_ply:
-            remedy = text_ply_remedy(path);
-            break;
-        case Way::paraview:
-            remedy = by_paraview(path);
-            break;
-        case Way::unpack:
-            remedy = std::string("unpack it with `") + format.remedy + " " + in +
-                     (std::string_view(format.remedy).ends_with("-dc") ? " > " + shell_word(unpacked_name(path)) : "") +
-                     "`";
-            break;
-        case Way::meshio:
-        case Way::other:
-            remedy = format.remedy;
-            break;
+    for (std::string_view rest = format.remedy; !rest.empty();) {
+        const std::size_t begin = std::min(rest.find('{'), rest.size()),
+                          end = std::min(rest.find('}'), rest.size() - 1);
+        remedy += rest.substr(0, begin);
+        if (begin != rest.size()) remedy += word(rest.substr(begin + 1, end - begin - 1));
+        rest.remove_prefix(begin == rest.size() ? begin : end + 1);
     }
     const bool mesh = std::string_view(format.what).find("not a mesh") == std::string_view::npos;
     return file_error(path, std::string("this is ") + format.what + (mesh ? ", which is not read" : ""), formats_read,

@@ -1,4 +1,4 @@
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 
 #include <algorithm>
 #include <array>
@@ -40,31 +40,31 @@ std::string example(const TableColumns& all, int dimension, std::size_t first) {
     return text;
 }
 
-Error fault(const TableColumns& all, std::string what, std::string expected, std::string found, std::string remedy) {
-    return line_error(all.file, all.line, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+[[noreturn]] void refuse(const TableColumns& all, std::string what, std::string expected, std::string found,
+                         std::string remedy) {
+    throw Exception(
+        line_error(all.file, all.line, std::move(what), std::move(expected), std::move(found), std::move(remedy)));
 }
 
 /// The column of exactly that name; names.size() if there is none.
-Result<std::size_t> column_named(const TableColumns& all, std::string_view name) {
+std::size_t column_named(const TableColumns& all, std::string_view name) {
     const auto at = std::find(all.names.begin(), all.names.end(), name);
     if (at != all.names.end() && std::find(at + 1, all.names.end(), name) != all.names.end())
-        return fault(all, "two columns have the same name", "one column " + base::quoted(name), "two",
-                     "rename one of them");
+        refuse(all, "two columns have the same name", "one column " + base::quoted(name), "two", "rename one of them");
     return static_cast<std::size_t>(at - all.names.begin());
 }
 
-Error no_such_column(const TableColumns& all, const std::string& name, const std::string& remedy) {
-    return fault(all, "no such column", base::quoted(name), listed(all.names),
-                 base::did_you_mean(name, all.names, remedy));
+[[noreturn]] void no_such_column(const TableColumns& all, const std::string& name, const std::string& remedy) {
+    refuse(all, "no such column", base::quoted(name), listed(all.names), base::did_you_mean(name, all.names, remedy));
 }
 
-Result<std::vector<std::size_t>> axes_asked_for(const TableColumns& all, int dimension, const PointOptions& options) {
+std::vector<std::size_t> axes_asked_for(const TableColumns& all, int dimension, const PointOptions& options) {
     const auto count = static_cast<std::size_t>(dimension);
     const std::vector<std::string> names = parts_of(options.columns, count);
     if (names.size() != count)
-        return fault(all, "options.columns does not fit the mesh",
-                     std::to_string(count) + " columns, for the mesh is " + std::to_string(count) + "-dimensional",
-                     std::to_string(names.size()), "name a column for each axis, in their order");
+        refuse(all, "options.columns does not fit the mesh",
+               std::to_string(count) + " columns, for the mesh is " + std::to_string(count) + "-dimensional",
+               std::to_string(names.size()), "name a column for each axis, in their order");
     const bool places = are_places(names);
     std::vector<std::size_t> axes;
     for (const std::string& name : names) {
@@ -73,58 +73,53 @@ Result<std::vector<std::size_t>> axes_asked_for(const TableColumns& all, int dim
             std::from_chars(name.data(), name.data() + name.size(), column);
             --column;
         } else {
-            const auto found = column_named(all, name);
-            if (!found) return found.error();
-            column = *found;
+            column = column_named(all, name);
         }
         if (column >= all.names.size())
-            return no_such_column(all, name, "name columns that are there, or say their places, from 1");
+            no_such_column(all, name, "name columns that are there, or say their places, from 1");
         if (std::find(axes.begin(), axes.end(), column) != axes.end())
-            return fault(all, "a column is named twice in options.columns", "a column for each axis",
-                         base::quoted(name), "name a column for each axis, in their order");
+            refuse(all, "a column is named twice in options.columns", "a column for each axis", base::quoted(name),
+                   "name a column for each axis, in their order");
         axes.push_back(column);
     }
     return axes;
 }
 
-Error not_clear(const TableColumns& all, int dimension) {
+[[noreturn]] void not_clear(const TableColumns& all, int dimension) {
     const auto count = static_cast<std::size_t>(dimension);
     const std::string d = std::to_string(dimension);
     if (all.named)
-        return fault(all, "the header does not name the coordinates", listed_names(dimension), listed(all.names),
-                     all.names.size() >= count
-                         ? "say which they are, such as " + example(all, dimension, 0) + ", or use these names"
-                         : "use these column names, or start the file with numbers");
+        refuse(all, "the header does not name the coordinates", listed_names(dimension), listed(all.names),
+               all.names.size() >= count
+                   ? "say which they are, such as " + example(all, dimension, 0) + ", or use these names"
+                   : "use these column names, or start the file with numbers");
     const std::string found = std::to_string(all.names.size()) + " columns without names";
     if (all.names.size() < count)
-        return fault(all, "too few columns for a point", d + ", for the mesh is " + d + "-dimensional", found,
-                     "write one point a line, with a coordinate for each axis");
-    return fault(all, "it is not clear which columns are the coordinates", d + " columns, or names for them", found,
-                 "say which: " + example(all, dimension, 0) + ", or " +
-                     example(all, dimension, all.names.size() - count) + ", ..., or put a header line x,y" +
-                     (dimension == 3 ? ",z" : "") + ",... first");
+        refuse(all, "too few columns for a point", d + ", for the mesh is " + d + "-dimensional", found,
+               "write one point a line, with a coordinate for each axis");
+    refuse(all, "it is not clear which columns are the coordinates", d + " columns, or names for them", found,
+           "say which: " + example(all, dimension, 0) + ", or " + example(all, dimension, all.names.size() - count) +
+               ", ..., or put a header line x,y" + (dimension == 3 ? ",z" : "") + ",... first");
 }
 
 /// Adds the column NAME of NAME or NEW=NAME; false if there is none.
-Result<bool> keep_one(const TableColumns& all, const std::string& text, PointColumns& out) {
+bool keep_one(const TableColumns& all, const std::string& text, PointColumns& out) {
     std::string name = text;
-    auto column = column_named(all, text);
-    if (!column) return column.error();
+    std::size_t column = column_named(all, text);
     if (const std::size_t sign = text.find('=');
-        *column == all.names.size() && sign != std::string::npos && sign != 0 && sign < text.find(',')) {
+        column == all.names.size() && sign != std::string::npos && sign != 0 && sign < text.find(',')) {
         name = text.substr(0, sign);
         column = column_named(all, text.substr(sign + 1));
-        if (!column) return column.error();
     }
-    if (*column == all.names.size()) return false;
-    if (out.is_coordinate(*column))
-        return fault(all, "a column to keep is a coordinate", "another column", base::quoted(text),
-                     "leave it out of options.keep: rows begin with the coordinates");
-    out.kept.push_back({*column, std::move(name)});
+    if (column == all.names.size()) return false;
+    if (out.is_coordinate(column))
+        refuse(all, "a column to keep is a coordinate", "another column", base::quoted(text),
+               "leave it out of options.keep: rows begin with the coordinates");
+    out.kept.push_back({column, std::move(name)});
     return true;
 }
 
-Status keep_columns(const TableColumns& all, const std::vector<std::string>& keep, PointColumns& out) {
+void keep_columns(const TableColumns& all, const std::vector<std::string>& keep, PointColumns& out) {
     for (const std::string& text : keep) {
         if (text == "all") {
             for (std::size_t c = 0; c < all.names.size(); ++c) {
@@ -132,26 +127,22 @@ Status keep_columns(const TableColumns& all, const std::vector<std::string>& kee
             }
             continue;
         }
-        const auto kept = keep_one(all, text, out);  // a name may hold commas
-        if (!kept) return kept.error();
-        if (*kept) continue;
+        if (keep_one(all, text, out)) continue;  // a name may hold commas
         for (const std::string& part : parts_of({text}, 0)) {
-            const auto one = keep_one(all, part, out);
-            if (!one) return one.error();
-            if (!*one) return no_such_column(all, part, "name columns that are there, or options.keep all");
+            if (!keep_one(all, part, out))
+                no_such_column(all, part, "name columns that are there, or options.keep all");
         }
     }
     std::set<std::string> names;
     std::set<std::size_t> columns;
     for (const PointColumns::Kept& kept : out.kept) {
         if (!columns.insert(kept.column).second)
-            return fault(all, "a column to keep is named twice", "each once", base::quoted(all.names[kept.column]),
-                         "name it once in options.keep");
+            refuse(all, "a column to keep is named twice", "each once", base::quoted(all.names[kept.column]),
+                   "name it once in options.keep");
         if (!names.insert(kept.name).second)
-            return fault(all, "two columns to keep have the same name", "different names", base::quoted(kept.name),
-                         "name each once; options.keep NEW=NAME gives a column another name");
+            refuse(all, "two columns to keep have the same name", "different names", base::quoted(kept.name),
+                   "name each once; options.keep NEW=NAME gives a column another name");
     }
-    return Done{};
 }
 
 /// What nobody asked for.
@@ -214,16 +205,16 @@ bool are_places(const std::vector<std::string>& columns) {
     });
 }
 
-Result<std::optional<PointColumns>> find_coordinates(const TableColumns& all, int dimension) {
+std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimension) {
     for (const auto& names : coordinate_names) {
         std::array<std::optional<std::size_t>, 3> at{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (std::size_t i = 0; i < all.names.size(); ++i) {
                 if (!same_but_for_case(all.names[i], names[axis])) continue;
                 if (at[axis])
-                    return fault(all, "two columns have the same name", "one column " + std::string(names[axis]),
-                                 base::quoted(all.names[*at[axis]]) + " and " + base::quoted(all.names[i]),
-                                 "rename the column that is not a coordinate, or say which by options.columns");
+                    refuse(all, "two columns have the same name", "one column " + std::string(names[axis]),
+                           base::quoted(all.names[*at[axis]]) + " and " + base::quoted(all.names[i]),
+                           "rename the column that is not a coordinate, or say which by options.columns");
                 at[axis] = i;
             }
             if (!at[axis] && axis < static_cast<std::size_t>(dimension)) break;
@@ -232,33 +223,30 @@ Result<std::optional<PointColumns>> find_coordinates(const TableColumns& all, in
         PointColumns found{.axes = {*at[0], *at[1]}};
         if (dimension == 3) found.axes.push_back(*at[2]);
         if (dimension == 2) found.zero = at[2];
-        return std::optional(std::move(found));
+        return found;
     }
-    return std::optional<PointColumns>();
+    return std::nullopt;
 }
 
-Result<PointColumns> choose_columns(const TableColumns& all, int dimension, const PointOptions& options) {
-    PointColumns out;
+PointColumns choose_columns(const TableColumns& all, int dimension, const PointOptions& options) {
+    const auto count = static_cast<std::size_t>(dimension);
+    PointColumns out{.axes = {0, 1}};
+    if (dimension == 3) out.axes.push_back(2);
     if (!options.columns.empty()) {
-        auto axes = axes_asked_for(all, dimension, options);
-        if (!axes) return axes.error();
-        out.axes = std::move(*axes);
+        out.axes = axes_asked_for(all, dimension, options);
     } else if (all.coordinates != 0) {
-        if (all.coordinates < static_cast<std::size_t>(dimension))
-            return fault(all, "the points have another dimension", "3, for the mesh is 3-dimensional", "2",
-                         "give points of the dimension of the mesh");
-        for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis) out.axes.push_back(axis);
-        if (all.coordinates > out.axes.size()) out.zero = out.axes.size();
+        if (all.coordinates < count)
+            refuse(all, "the points have another dimension", "3, for the mesh is 3-dimensional", "2",
+                   "give points of the dimension of the mesh");
+        if (all.coordinates > count) out.zero = count;
     } else if (all.named) {
-        auto found = find_coordinates(all, dimension);
-        if (!found) return found.error();
-        if (!*found) return not_clear(all, dimension);
-        out = std::move(**found);
-    } else {
-        if (all.names.size() != static_cast<std::size_t>(dimension)) return not_clear(all, dimension);
-        for (std::size_t axis = 0; axis < all.names.size(); ++axis) out.axes.push_back(axis);
+        std::optional<PointColumns> found = find_coordinates(all, dimension);
+        if (!found) not_clear(all, dimension);
+        out = std::move(*found);
+    } else if (all.names.size() != count) {
+        not_clear(all, dimension);
     }
-    if (Status kept = keep_columns(all, options.keep, out); !kept) return kept.error();
+    keep_columns(all, options.keep, out);
     note_the_others(all, out);
     return out;
 }

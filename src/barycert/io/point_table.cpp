@@ -7,7 +7,6 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/point_columns.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/table.hpp"
 
@@ -28,7 +27,7 @@ public:
     std::optional<std::uint64_t> count() const override { return count_; }
 
 private:
-    Result<std::size_t> next(std::size_t max_points, std::vector<double>& out) override {
+    std::size_t next(std::size_t max_points, std::vector<double>& out) override {
         const std::size_t taken = std::min(max_points, count_ - next_);
         const double* const first = points_.data() + next_ * dimension_;
         out.insert(out.end(), first, first + taken * dimension_);
@@ -64,33 +63,31 @@ public:
         for (const std::string& name : table.unread) add(name, {});
     }
 
-    Result<std::unique_ptr<PointSource>> source(int dimension, const PointOptions& options) {
-        Result<PointColumns> chosen = choose_columns(all_, dimension, options);
-        if (!chosen) return chosen.error();
-        const std::size_t count = table_.points.size() / size_, d = chosen->axes.size();
+    Source source(int dimension, const PointOptions& options) {
+        PointColumns chosen = choose_columns(all_, dimension, options);
+        const std::size_t count = table_.points.size() / size_, d = chosen.axes.size();
         std::vector<double> points(d * count);
         for (std::size_t axis = 0; axis < d; ++axis) {
-            const Place& place = places_[chosen->axes[axis]];
-            if (place.label) return no_number(chosen->axes[axis]);
+            const Place& place = places_[chosen.axes[axis]];
+            if (place.label) refuse_label(chosen.axes[axis]);
             for (std::size_t i = 0; i < count; ++i) {
                 points[d * i + axis] = number(place, i);
                 if (options.nonfinite_points == NonfinitePoints::error && !std::isfinite(points[d * i + axis]))
-                    return not_finite(chosen->axes[axis], i);
+                    refuse_point(chosen.axes[axis], i);
             }
         }
-        for (std::size_t i = 0; chosen->zero && i < count; ++i) {
-            const double z = number(places_[*chosen->zero], i);
+        for (std::size_t i = 0; chosen.zero && i < count; ++i) {
+            const double z = number(places_[*chosen.zero], i);
             if (z != 0 && base::all_finite({&points[d * i], d}))
-                return off_plane(all_.file, 0,
-                                 (table_.of_nodes ? "node " : "point ") + std::to_string(i) + ", counted from 0",
-                                 base::shortest(z));
+                throw Exception(off_plane(
+                    all_.file, 0, (table_.of_nodes ? "node " : "point ") + std::to_string(i) + ", counted from 0",
+                    base::shortest(z)));
         }
         std::vector<Column> columns;
-        for (PointColumns::Kept& kept : chosen->kept) columns.push_back(column(places_[kept.column], kept.name, count));
+        for (PointColumns::Kept& kept : chosen.kept) columns.push_back(column(places_[kept.column], kept.name, count));
         Notes notes = std::move(table_.notes);
-        notes.insert(notes.end(), chosen->notes.begin(), chosen->notes.end());
-        return std::unique_ptr<PointSource>(
-            std::make_unique<TableSource>(std::move(points), dimension, std::move(columns), std::move(notes)));
+        notes.insert(notes.end(), chosen.notes.begin(), chosen.notes.end());
+        return std::make_unique<TableSource>(std::move(points), dimension, std::move(columns), std::move(notes));
     }
 
 private:
@@ -112,17 +109,17 @@ private:
         for (std::size_t i = 0; i < count; ++i) values[i] = number(place, i);
         return {std::move(name), std::move(values)};
     }
-    Error no_number(std::size_t column) const {
-        return file_error(all_.file,
-                          table_.of_nodes ? "a marker cannot be a coordinate"
-                                          : "a column of texts or large integers cannot be a coordinate",
-                          {}, base::quoted(all_.names[column]), "name a column of numbers in options.columns");
+    [[noreturn]] void refuse_label(std::size_t column) const {
+        refuse_file(all_.file,
+                    table_.of_nodes ? "a marker cannot be a coordinate"
+                                    : "a column of texts or large integers cannot be a coordinate",
+                    {}, base::quoted(all_.names[column]), "name a column of numbers in options.columns");
     }
-    Error not_finite(std::size_t column, std::size_t point) const {
-        return file_error(all_.file, "a point that is not finite", "finite coordinates",
-                          base::shortest(number(places_[column], point)) + " in " + base::quoted(all_.names[column]) +
-                              " of point " + std::to_string(point) + ", counted from 0",
-                          std::string("remove the point, give it coordinates") + or_nan_for_it);
+    [[noreturn]] void refuse_point(std::size_t column, std::size_t point) const {
+        refuse_file(all_.file, "a point that is not finite", "finite coordinates",
+                    base::shortest(number(places_[column], point)) + " in " + base::quoted(all_.names[column]) +
+                        " of point " + std::to_string(point) + ", counted from 0",
+                    std::string("remove the point, give it coordinates") + or_nan_for_it);
     }
 
     PointTable& table_;
@@ -130,13 +127,6 @@ private:
     TableColumns all_;
     std::vector<Place> places_;
 };
-
-Source open_vtk_points(const std::string& path, int dimension, const PointOptions& options) {
-    Result<PointTable> table =
-        read_vtk_table(path, !options.keep.empty() || !options.columns.empty(), options.nonfinite_points);
-    if (!table) return table.error();
-    return points_of_table(std::move(*table), path, dimension, options);
-}
 
 /// True if a file that a mesh may be in is there.
 bool names_a_mesh(const std::string& path) {
@@ -147,16 +137,34 @@ bool names_a_mesh(const std::string& path) {
 }
 
 /// The nodes of a mesh.
-Source open_nodes(const std::string& path, int dimension, const PointOptions& options) {
-    Result<Mesh> mesh = read_mesh(path, {.faces = false, .neighbours = false});
-    if (!mesh) return mesh.error();
+PointTable nodes_of(Mesh mesh) {
     PointTable table;
-    table.dimension = mesh->dimension;
-    table.points = std::move(mesh->points);
-    table.fields = std::move(mesh->point_fields);
-    if (!mesh->point_markers.empty()) table.labels.push_back({"marker", std::move(mesh->point_markers)});
-    table.notes = std::move(mesh->notes);
-    return points_of_table(std::move(table), path, dimension, options);
+    table.dimension = mesh.dimension;
+    table.points = std::move(mesh.points);
+    table.fields = std::move(mesh.point_fields);
+    if (!mesh.point_markers.empty()) table.labels.push_back({"marker", std::move(mesh.point_markers)});
+    table.notes = std::move(mesh.notes);
+    return table;
+}
+
+Source open_any(const std::string& path, int dimension, const PointOptions& options) {
+    const auto source_of = [&](PointTable table) {
+        return points_of_table(std::move(table), path, dimension, options);
+    };
+    if (is_vtk_points_file(path)) {
+        const bool arrays = !options.keep.empty() || !options.columns.empty();
+        return source_of(read_vtk_table(path, arrays, options.nonfinite_points).value());
+    }
+    const Result<FileFormat> format = format_of_points(path);
+    if (format)
+        return (*format == FileFormat::csv   ? open_csv_source
+                : *format == FileFormat::npy ? open_npy_source
+                                             : open_node_source)(path, dimension, options);
+    // A stem, or the file of a mesh; what is neither is told as a file of points that is not known.
+    if (names_a_mesh(path)) return source_of(nodes_of(read_mesh(path, {.faces = false, .neighbours = false}).value()));
+    Error unknown = format.error();
+    unknown.expected = "points (.csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh";
+    throw Exception(unknown);
 }
 
 }  // namespace
@@ -176,27 +184,10 @@ std::unique_ptr<PointSource> memory_points(std::vector<double> points, int dimen
 PointSource::~PointSource() = default;
 
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension, const PointOptions& options) {
-    const ExactEnvironment environment;
     if (dimension != 2 && dimension != 3)
         return file_error(path, "points can have 2 or 3 coordinates", "2 or 3", std::to_string(dimension));
-    if (io::is_vtk_points_file(path)) return io::open_vtk_points(path, dimension, options);
-    const Result<io::FileFormat> format = io::format_of_points(path);
-    if (!format) {
-        // A stem, or the file of a mesh; what is neither is told as a file of points that is not known.
-        if (io::names_a_mesh(path)) return io::open_nodes(path, dimension, options);
-        Error unknown = format.error();
-        unknown.expected =
-            "points (.csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh";
-        return unknown;
-    }
-    switch (*format) {
-        case io::FileFormat::csv:
-            return io::open_csv_source(path, dimension, options);
-        case io::FileFormat::npy:
-            return io::open_npy_source(path, dimension, options);
-        default:
-            return io::open_node_source(path, dimension, options);
-    }
+    return io::read_guarded(
+        path, [&]() -> Result<std::unique_ptr<PointSource>> { return io::open_any(path, dimension, options); });
 }
 
 }  // namespace barycert

@@ -1,10 +1,15 @@
-/// What sources of points with carried columns have alike.
+/// What sources of points with carried columns have alike: which columns are what, and how they are read. What sinks of
+/// rows have alike. Errors are thrown as Exceptions.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "barycert/base/output_file.hpp"
@@ -13,6 +18,56 @@
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
+
+/// The columns of a file.
+struct TableColumns {
+    std::vector<std::string> names;  ///< of files that name none column1, column2, ...
+    bool named = true;
+    std::string file = {};
+    std::size_t line = 0;         ///< of the names, in a text
+    std::size_t coordinates = 0;  ///< so many columns, the first ones, are the coordinates by the format of the file
+};
+
+/// column1, column2, ...
+std::string column_number(std::size_t column);
+
+/// What the columns are taken for.
+struct PointColumns {
+    struct Kept {
+        std::size_t column = 0;
+        std::string name;
+    };
+    std::vector<std::size_t> axes;      ///< of each coordinate
+    std::optional<std::size_t> zero{};  ///< a z beside a mesh in the plane
+    std::vector<Kept> kept{};
+    Notes notes{};  ///< what is left out
+
+    bool is_coordinate(std::size_t column) const {
+        return zero == column || std::find(axes.begin(), axes.end(), column) != axes.end();
+    }
+};
+
+/// The places of x, y[, z], or of one of the other names that are known; nothing if none of them is there as a whole.
+/// In the plane also of the z that belongs to them. Error: two columns of one of these names.
+std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimension);
+
+/// The texts, each cut at its commas unless there are `count` of them.
+std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::size_t count);
+
+/// True if all are numbers from 1: columns by their places.
+bool are_places(const std::vector<std::string>& columns);
+
+/// By PointOptions. Errors: columns that are not there, or not clear; a coordinate that is to be carried through.
+PointColumns choose_columns(const TableColumns& all, int dimension, const PointOptions& options);
+
+/// The end of what to do with a point that is not finite.
+inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
+
+/// A z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
+Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found);
+
+/// "a", "b", ...: at most 8.
+std::string listed(const std::vector<std::string>& names);
 
 class ColumnSource : public PointSource {
 public:
@@ -27,14 +82,16 @@ public:
         const ExactEnvironment environment;
         if (!error_.what.empty()) return error_;
         mesh::begin_columns(formats_, carried_);
-        Result<std::size_t> taken = next(max_points, out);
-        if (!taken) error_ = taken.error();
-        return taken;
+        try {
+            return next(max_points, out);
+        } catch (const Exception& problem) {
+            return error_ = problem.error();
+        }
     }
 
 protected:
-    /// As read(); `carried_` has empty columns for what goes with the points. Not called after an Error.
-    virtual Result<std::size_t> next(std::size_t max_points, std::vector<double>& out) = 0;
+    /// As read(); `carried_` has empty columns for what goes with the points. An Error is thrown; not called after one.
+    virtual std::size_t next(std::size_t max_points, std::vector<double>& out) = 0;
 
     std::size_t dimension_;
     std::vector<ColumnFormat> formats_;  ///< of the carried columns
@@ -44,13 +101,6 @@ protected:
 private:
     Error error_;
 };
-
-/// The source or sink, unless its begin(arguments...) fails.
-template <class Base, class Made, class... Arguments>
-Result<std::unique_ptr<Base>> begun(std::unique_ptr<Made> made, const Arguments&... arguments) {
-    if (Status status = made->begin(arguments...); !status) return status.error();
-    return std::unique_ptr<Base>(std::move(made));
-}
 
 class RowSink : public TableSink {
 public:
@@ -67,6 +117,20 @@ protected:
     virtual std::size_t longest_row(const TableView& rows) const = 0;
     /// Puts the rows [first, last) there; the place after them. Called on all threads.
     virtual char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const = 0;
+
+    /// put(value, k) for all that a row has, in the order of the columns: doubles, the cell, the feature, then the
+    /// value of each carried column k.
+    template <class Put>
+    void put_row(const TableView& rows, std::size_t row, const Put& put) const {
+        const auto dimension = static_cast<std::size_t>(format_.dimension);
+        for (const double x : rows.points.subspan(row * dimension, dimension)) put(x, 0);
+        put(rows.cells[row], 0);
+        put(rows.features[row], 0);
+        for (const double x : rows.values.subspan(row * columns_, columns_)) put(x, 0);
+        if (format_.distances) put(rows.distances[row], 0);
+        for (std::size_t k = 0; k < rows.carried.size(); ++k)
+            std::visit([&](const auto& values) { put(values[row], k); }, rows.carried[k].values);
+    }
 
     std::string path_;
     TableFormat format_;

@@ -90,12 +90,16 @@ Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const Tab
                           base::quoted(name) + " twice", "rename a field, or leave it out");
     }
     const Result<io::FileFormat> kind = io::format_of(path);
-    if (kind && *kind == io::FileFormat::csv) return io::open_csv_sink(path, format);
-    if (kind && *kind == io::FileFormat::npy) return io::open_npy_sink(path, format);
     if (kind && *kind == io::FileFormat::vtu) return io::open_vtu_sink(path, format);
-    return file_error(path, "cannot write rows in the format of that suffix",
-                      ".csv, .npy or .vtu, or - for CSV on the standard output",
-                      kind ? "a format for points alone" : kind.error().found, "name a .csv, .npy or .vtu file");
+    if (!kind || *kind == io::FileFormat::node)
+        return file_error(path, "cannot write rows in the format of that suffix",
+                          ".csv, .npy or .vtu, or - for CSV on the standard output",
+                          kind ? "a format for points alone" : kind.error().found, "name a .csv, .npy or .vtu file");
+    try {
+        return *kind == io::FileFormat::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);
+    } catch (const Exception& problem) {
+        return problem.error();
+    }
 }
 
 }  // namespace barycert

@@ -10,7 +10,6 @@
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/fields/field_file.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/jobs/job_files.hpp"

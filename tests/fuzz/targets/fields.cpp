@@ -1,7 +1,7 @@
 // Fields in files of their own: text, CSV, NPY. The first byte: which, and the column.
 #include <array>
 
-#include "barycert/io/fields/field_file.hpp"
+#include "barycert/io/formats.hpp"
 #include "fuzz/files.hpp"
 #include "fuzz/target.hpp"
 

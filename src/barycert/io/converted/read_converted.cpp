@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/base/descriptor.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
@@ -37,25 +38,11 @@ constexpr std::chrono::seconds most_time{600};
 constexpr std::int64_t tick = 50;                        // milliseconds after which it is looked at
 constexpr std::size_t most_text = std::size_t{1} << 18;  // of each stream
 
-/// Closed when it goes.
-struct Descriptor {
-    int value = -1;
-    explicit Descriptor(int descriptor = -1) : value(descriptor) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() { close(); }
-    void close() {
-        if (value >= 0) ::close(std::exchange(value, -1));
-    }
-};
-
 struct Pipe {
-    Descriptor out, in;
+    base::Descriptor out, in;
     Pipe() {
         std::array<int, 2> ends{-1, -1};
-        if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
-        out.value = ends[0];
-        in.value = ends[1];
+        if (::pipe2(ends.data(), O_CLOEXEC) == 0) out.number = ends[0], in.number = ends[1];
     }
 };
 
@@ -69,7 +56,7 @@ struct Process {
         posix_spawnattr_t attributes;
         posix_spawn_file_actions_init(&files);
         posix_spawnattr_init(&attributes);
-        const std::array<int, 5> from{life.out.value, answer.in.value, messages.in.value, output, input};
+        const std::array<int, 5> from{life.out.number, answer.in.number, messages.in.number, output, input};
         for (const int end : from) failure = end < 0 ? EMFILE : failure;
         // Onto high numbers first: one of them may be in the place of another.
         for (int i = 0; i < 5; ++i)
@@ -122,7 +109,7 @@ struct Process {
 
     /// All that it prints, up to its end, whoever else holds the other ends. False: it takes too long.
     bool listen(std::string& text, std::string& errors) {
-        std::array<pollfd, 2> open{{{answer.out.value, POLLIN, 0}, {messages.out.value, POLLIN, 0}}};
+        std::array<pollfd, 2> open{{{answer.out.number, POLLIN, 0}, {messages.out.number, POLLIN, 0}}};
         const auto until = Clock::now() + most_time;
         while (open[0].fd >= 0 || open[1].fd >= 0) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
@@ -174,10 +161,10 @@ std::string half_of_memory() {
 
 /// A file that meshio has read.
 struct MeshioFile {
-    std::shared_ptr<Descriptor> descriptor = {};  ///< of the mesh as a .vtu file without a name
-    std::string vtu = {};                         ///< its path
-    std::string answer = {};                      ///< what was read, JSON
-    std::string messages = {};                    ///< what meshio printed, cut off where it is long
+    std::shared_ptr<base::Descriptor> descriptor = {};  ///< of the mesh as a .vtu file without a name
+    std::string vtu = {};                               ///< its path
+    std::string answer = {};                            ///< what was read, JSON
+    std::string messages = {};                          ///< what meshio printed, cut off where it is long
 };
 
 /// Has `path` read as what meshio calls `format`, by the Python of BARYCERT_MESHIO, else python3 or /usr/bin/python3.
@@ -185,20 +172,19 @@ struct MeshioFile {
 /// The process is started without fork(), in a session of its own, with limits of time, memory and output; it is ended
 /// as a whole, also by the end of this process, and leaves no file. Error: there is no meshio, it may not be used, it
 /// did not come to its end.
-Result<MeshioFile> run_meshio(const std::string& path, const std::string& format) {
+MeshioFile run_meshio(const std::string& path, const std::string& format) {
     const char* const named = std::getenv("BARYCERT_MESHIO");
     if (named != nullptr && *named == '\0')
-        return file_error(path, "this file is read by way of meshio, which BARYCERT_MESHIO turns off", {}, {},
-                          "unset BARYCERT_MESHIO, or set it to a Python that has meshio");
-    const Result<base::InputFile> input = base::InputFile::open(path);
-    if (!input) return input.error();
+        refuse_file(path, "this file is read by way of meshio, which BARYCERT_MESHIO turns off", {}, {},
+                    "unset BARYCERT_MESHIO, or set it to a Python that has meshio");
+    const base::InputFile input = base::InputFile::open(path).value();
     const auto keyword = [&](std::string_view block, std::uint64_t) -> Status {
         if (format != "abaqus" || block.starts_with('*') || block.find("\n*") != std::string_view::npos) return Done{};
         return file_error(path, "not a mesh of Abaqus",
                           "a keyword, such as *NODE, in the first " + std::to_string(block.size()) + " bytes", "none",
                           "check the path, or write the file again");
     };
-    if (Status begins = input->check(beginning_of(*input, path, format), path, keyword); !begins) return begins.error();
+    input.check(beginning_of(input, path, format), path, keyword).value();
     std::vector<std::string> pythons{"python3", "/usr/bin/python3"};
     if (named != nullptr) pythons = {named};
     const std::string memory = half_of_memory();
@@ -207,10 +193,11 @@ Result<MeshioFile> run_meshio(const std::string& path, const std::string& format
                                              memory, memory,        std::to_string(most_time.count())};
     std::string tried;
     for (const std::string& python : pythons) {
-        MeshioFile file{.descriptor = std::make_shared<Descriptor>(::memfd_create("barycert-meshio", MFD_CLOEXEC))};
-        if (file.descriptor->value < 0) return base::read_failure(path, errno);
-        file.vtu = "/proc/self/fd/" + std::to_string(file.descriptor->value);
-        Process process(python, arguments, file.descriptor->value, input->descriptor());
+        MeshioFile file{.descriptor =
+                            std::make_shared<base::Descriptor>(::memfd_create("barycert-meshio", MFD_CLOEXEC))};
+        if (file.descriptor->number < 0) throw Exception(base::read_failure(path, errno));
+        file.vtu = "/proc/self/fd/" + std::to_string(file.descriptor->number);
+        Process process(python, arguments, file.descriptor->number, input.descriptor());
         const bool ended = process.failure != 0 || process.listen(file.answer, file.messages);
         const int status = process.end();
         tried += (tried.empty() ? "" : ", ") + python + ": ";
@@ -221,7 +208,7 @@ Result<MeshioFile> run_meshio(const std::string& path, const std::string& format
         } else if (!file.answer.empty()) {
             return file;
         } else {
-            return file_error(
+            refuse_file(
                 path, "meshio did not come to its end",
                 "an answer within " + std::to_string(most_time.count()) + " s, in half of the memory of this machine",
                 !ended                ? "none"
@@ -230,7 +217,7 @@ Result<MeshioFile> run_meshio(const std::string& path, const std::string& format
                 "convert the file to .vtu with the program that it is of");
         }
     }
-    return not_installed(path, tried);
+    throw Exception(not_installed(path, tried));
 }
 
 using Json = nlohmann::json;
@@ -251,36 +238,28 @@ void rename_in(std::string& text, const std::string& from, const std::string& to
         text.replace(at, from.size(), to);
 }
 
-/// Whether the file is complete: what meshio counted, against what was read.
-std::string difference(const Json& answer, const Mesh& mesh) {
-    const auto differs = [](const std::string& what, std::size_t counted, std::size_t read) {
-        return counted == read
-                   ? ""
-                   : std::to_string(counted) + " " + what + ", of which " + std::to_string(read) + " came through";
+/// That the file is complete: what meshio counted, against what was read.
+void check_complete(const Json& answer, const Mesh& mesh, const std::string& path) {
+    const auto need = [&](const std::string& what, std::size_t counted, std::size_t read) {
+        if (counted != read)
+            refuse_file(path, "a mesh that is incomplete after its conversion", {},
+                        std::to_string(counted) + " " + what + ", of which " + std::to_string(read) + " came through");
     };
-    if (std::string text = differs("nodes", answer.at("nodes"), mesh.point_count()); !text.empty()) return text;
+    need("nodes", answer.at("nodes"), mesh.point_count());
     const std::string type = mesh.dimension == 3      ? mesh.mid_nodes.empty() ? "tetra" : "tetra10"
                              : mesh.mid_nodes.empty() ? "triangle"
                                                       : "triangle6";
-    if (std::string text =
-            differs("cells of type " + type, answer.at("types").value(type, std::size_t{0}), mesh.cell_count());
-        !text.empty())
-        return text;
+    need("cells of type " + type, answer.at("types").value(type, std::size_t{0}), mesh.cell_count());
     for (const bool of_cells : {false, true}) {
         const std::size_t rows = of_cells ? mesh.cell_count() : mesh.point_count();
-        const std::vector<Field>& fields = of_cells ? mesh.cell_fields : mesh.point_fields;
-        for (const auto& [name, shape] : answer.at("rows").at(of_cells ? "CellData" : "PointData").items()) {
-            const auto field =
-                std::find_if(fields.begin(), fields.end(), [&, &n = name](const Field& f) { return f.name == n; });
-            // Others are labels, markers, or told by the reader.
-            if (field == fields.end()) continue;
-            if (std::string text = differs("values of " + base::quoted(name), rows * shape.at(1).get<std::size_t>(),
-                                           field->data.size());
-                !text.empty())
-                return text;
+        const Json& shapes = answer.at("rows").at(of_cells ? "CellData" : "PointData");
+        // Others are labels, markers, or told by the reader.
+        for (const Field& field : of_cells ? mesh.cell_fields : mesh.point_fields) {
+            if (const auto shape = shapes.find(field.name); shape != shapes.end())
+                need("values of " + base::quoted(field.name), rows * shape->at(1).get<std::size_t>(),
+                     field.data.size());
         }
     }
-    return {};
 }
 
 /// Each line that meshio printed, once.
@@ -311,22 +290,22 @@ void record(const Json& files) {
     }
 }
 
-Result<Mesh> checked(const Json& answer, const MeshioFile& file, const std::string& path, const std::string& format) {
+Mesh checked(const Json& answer, const MeshioFile& file, const std::string& path, const std::string& format) {
     record(answer.value("files", Json::array()));
-    if (answer.contains("error")) return not_read(answer, file.messages, path, format);
-    Result<Mesh> mesh = read_vtk(file.vtu);
-    if (!mesh) {
-        Error error = mesh.error();
+    if (answer.contains("error")) throw Exception(not_read(answer, file.messages, path, format));
+    Result<Mesh> read = read_vtk(file.vtu);
+    if (!read) {
+        Error error = read.error();
         const std::string stem = path.substr(0, path.size() - suffix_of(path).size());
         for (std::string* part : {&error.what, &error.file, &error.found, &error.remedy}) {
             for (const char* more : {"-", "."}) rename_in(*part, file.vtu + more, stem + more);
             rename_in(*part, file.vtu, path);
         }
-        return error;
+        throw Exception(error);
     }
-    for (Note& note : mesh->notes) rename_in(note.file, file.vtu, path);
-    if (const std::string found = difference(answer, *mesh); !found.empty())
-        return file_error(path, "a mesh that is incomplete after its conversion", {}, found);
+    Mesh& mesh = *read;
+    for (Note& note : mesh.notes) rename_in(note.file, file.vtu, path);
+    check_complete(answer, mesh, path);
     Notes notes{{Note::Kind::converted,
                  "by meshio " + answer.at("meshio").get<std::string>() + ", as " + format +
                      "; nodes and cells are in its order",
@@ -334,17 +313,18 @@ Result<Mesh> checked(const Json& answer, const MeshioFile& file, const std::stri
     for (const Json& lost : answer.at("lost"))
         notes.push_back({Note::Kind::left_out, base::printable(lost.get<std::string>()), path});
     tell_messages(file.messages, path, notes);
-    mesh->notes.insert(mesh->notes.begin(), notes.begin(), notes.end());
-    return mesh;
+    mesh.notes.insert(mesh.notes.begin(), notes.begin(), notes.end());
+    return std::move(mesh);
 }
 
 }  // namespace
 
 Result<Mesh> read_converted(const std::string& path, const std::string& format) {
-    const Result<MeshioFile> file = run_meshio(path, format);
-    if (!file) return file.error();
     try {
-        return checked(Json::parse(file->answer), *file, path, format);
+        const MeshioFile file = run_meshio(path, format);
+        return checked(Json::parse(file.answer), file, path, format);
+    } catch (const Exception& problem) {
+        return problem.error();
     } catch (const Json::exception&) {
         return file_error(path, "meshio gave no answer that can be read");
     }

@@ -1,15 +1,18 @@
 #include "barycert/io/csv/csv_layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 
 namespace barycert::io {
@@ -28,12 +31,10 @@ char separator_of(std::string_view line) {
 }
 
 /// Whether the first line is a header.
-Result<bool> is_header(const TableColumns& all, int dimension, const PointOptions& options) {
+bool is_header(const TableColumns& all, int dimension, const PointOptions& options) {
     const std::vector<std::string> asked = parts_of(options.columns, static_cast<std::size_t>(dimension));
     if (asked.empty()) {
-        const auto found = find_coordinates(all, dimension);
-        if (!found) return found.error();
-        return *found || std::none_of(all.names.begin(), all.names.end(), looks_numeric);
+        return find_coordinates(all, dimension) || std::none_of(all.names.begin(), all.names.end(), looks_numeric);
     }
     if (!are_places(asked)) return true;
     return std::none_of(asked.begin(), asked.end(), [&](const std::string& text) {
@@ -81,54 +82,127 @@ bool holds_fields(std::string_view line, char separator) {
     return line[at] != '#';
 }
 
-Result<CsvLine> cut_first_line(std::string_view line, const LinePlace& place) {
+CsvLine cut_first_line(std::string_view line, const LinePlace& place) {
     if (line.find('\r') != std::string_view::npos)
-        return line_error(place.file, place.line, "lines end with CR alone", "LF or CR LF", "CR alone",
-                          "save the file with LF or CR LF as line ends");
+        refuse_line(place.file, place.line, "lines end with CR alone", "LF or CR LF", "CR alone",
+                    "save the file with LF or CR LF as line ends");
     CsvLine out{.separator = separator_of(line)};
     FieldCutter cutter(line, out.separator);
     for (std::string_view field; cutter.next(field);) out.fields.push_back(cutter.name(field));
     if (!cutter.malformed()) return out;
     CsvLayout layout;
     layout.separator = out.separator;
-    return csv_row_error(line, layout, place);
+    throw Exception(csv_row_error(line, layout, place));
 }
 
-Result<CsvLayout> settle_csv_layout(std::string_view line, int dimension, const PointOptions& options,
-                                    const LinePlace& place) {
-    const Result<CsvLine> cut = cut_first_line(line, place);
-    if (!cut) return cut.error();
-    TableColumns all{.names = cut->fields, .named = true, .file = place.file, .line = place.line};
-    const Result<bool> header = is_header(all, dimension, options);
-    if (!header) return header.error();
+CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOptions& options, const LinePlace& place) {
+    const CsvLine cut = cut_first_line(line, place);
+    TableColumns all{.names = cut.fields, .named = true, .file = place.file, .line = place.line};
     CsvLayout layout;
-    layout.separator = cut->separator;
-    layout.header = all.named = *header;
+    layout.separator = cut.separator;
+    layout.header = all.named = is_header(all, dimension, options);
     layout.any_point = options.nonfinite_points == NonfinitePoints::nan;
     layout.role_of.assign(all.names.size(), CsvLayout::passed_over);
-    if (!*header && options.columns.empty()) {
+    if (!layout.header && options.columns.empty()) {
         const std::size_t empty = empty_at_the_end(all, dimension);
         all.names.resize(all.names.size() - empty);
         std::fill_n(layout.role_of.rbegin(), empty, CsvLayout::must_be_empty);
         layout.plain = empty == 0;
     }
     for (std::size_t i = 0; i < all.names.size(); ++i) {
-        if (!*header || all.names[i].empty()) all.names[i] = column_number(i);
+        if (!layout.header || all.names[i].empty()) all.names[i] = column_number(i);
     }
-    Result<PointColumns> columns = choose_columns(all, dimension, options);
-    if (!columns) return columns.error();
-    for (std::size_t axis = 0; axis < columns->axes.size(); ++axis)
-        layout.role_of[columns->axes[axis]] = static_cast<int>(axis);
-    if (columns->zero) layout.role_of[*columns->zero] = 2;
-    layout.flat = columns->zero.has_value();
-    for (PointColumns::Kept& kept : columns->kept) {
+    PointColumns columns = choose_columns(all, dimension, options);
+    for (std::size_t axis = 0; axis < columns.axes.size(); ++axis)
+        layout.role_of[columns.axes[axis]] = static_cast<int>(axis);
+    if (columns.zero) layout.role_of[*columns.zero] = 2;
+    layout.flat = columns.zero.has_value();
+    for (PointColumns::Kept& kept : columns.kept) {
         layout.role_of[kept.column] = CsvLayout::first_kept + static_cast<int>(layout.kept.size());
         layout.kept.push_back({std::move(kept.name), Column::Type::text});
         layout.plain = false;
     }
     note_the_guesses(all, layout);
-    layout.notes.insert(layout.notes.end(), columns->notes.begin(), columns->notes.end());
+    layout.notes.insert(layout.notes.end(), columns.notes.begin(), columns.notes.end());
     return layout;
+}
+
+std::optional<std::int64_t> integer_of(std::string_view field) {
+    const std::string_view digits = field.substr(field.starts_with('-') ? 1 : 0);
+    if (digits.empty() || (digits.front() == '0' && field.size() != 1)) return std::nullopt;
+    std::int64_t value = 0;
+    const char* const last = field.data() + field.size();
+    const auto [end, error] = std::from_chars(field.data(), last, value);
+    if (error != std::errc{} || end != last) return std::nullopt;
+    return value;
+}
+
+std::optional<double> number_of(std::string_view field) {
+    if (field.empty()) return std::numeric_limits<double>::quiet_NaN();
+    const std::string_view body = field.substr(field.starts_with('-') || field.starts_with('+') ? 1 : 0);
+    if (body.size() > 1 && body.front() == '0' && (is_digit(body[1]) || body[1] == 'x' || body[1] == 'X'))
+        return std::nullopt;
+    const std::optional<double> value = base::parse_double(field);
+    return value && is_inexact(field, *value) ? std::nullopt : value;
+}
+
+bool is_inexact(std::string_view text, double value) {
+    if (std::fabs(value) < 0x1p53) return false;
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+    if (text.find_first_not_of("0123456789") != std::string_view::npos) return false;
+    text.remove_prefix(std::min(text.find_first_not_of('0'), text.size()));
+    // Every double from 2^53 on is an integer: the same one if it has the same digits.
+    std::array<char, 512> digits{};
+    const auto [end, error] =
+        std::to_chars(digits.data(), digits.data() + digits.size(), std::fabs(value), std::chars_format::fixed, 0);
+    return std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())) != text;
+}
+
+namespace {
+
+/// True if the text is a decimal number that no double holds: `value`, the nearest one, is another number when it is
+/// written with as many digits.
+bool is_rounded(std::string_view text, double value) {
+    // A double holds 15 digits, unless it is subnormal, and has 767 at most.
+    constexpr std::size_t held = 15, most = 767;
+    const bool normal = std::fabs(value) >= std::numeric_limits<double>::min();
+    if (normal && text.size() <= held) return false;
+    const auto digits_of = [](std::string_view number) {
+        number = number.substr(0, number.find_first_of("eE"));
+        std::string digits;
+        std::copy_if(number.begin(), number.end(), std::back_inserter(digits), is_digit);
+        digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+        return digits.substr(0, digits.find_last_not_of('0') + 1);
+    };
+    const std::string digits = digits_of(text);
+    if (digits.empty() || (normal && digits.size() <= held)) return false;
+    if (digits.size() > most) return true;
+    std::array<char, 800> nearest{};
+    const auto [end, error] = std::to_chars(nearest.data(), nearest.data() + nearest.size(), value,
+                                            std::chars_format::scientific, static_cast<int>(digits.size()) - 1);
+    return digits_of({nearest.data(), static_cast<std::size_t>(end - nearest.data())}) != digits;
+}
+
+}  // namespace
+
+void TypeOfTexts::see(std::string_view text) {
+    if (text.empty()) {
+        empty = true;
+        return;
+    }
+    any = true;
+    // An integer is a number, unless no double represents it.
+    if (integers && !integer_of(text)) integers = false;
+    if (!numbers) return;
+    const std::optional<double> value = number_of(text);
+    numbers = value.has_value();
+    if (!numbers || !is_rounded(text, *value)) return;
+    (*value == 0 ? lost : rounded) = true;
+}
+
+Column::Type TypeOfTexts::type() const {
+    if (any && integers && !empty) return Column::Type::integer;
+    return any && numbers ? Column::Type::number : Column::Type::text;
 }
 
 }  // namespace barycert::io

@@ -8,10 +8,9 @@
 #include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/mesh/columns.hpp"
 

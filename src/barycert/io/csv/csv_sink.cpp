@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <utility>
 
@@ -56,11 +57,14 @@ std::string as_field(const std::string& name) {
     return text;
 }
 
-char* put(char* at, const Column& column, std::size_t row) {
-    if (const auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values))
-        return std::to_chars(at, at + longest_integer, (*integers)[row]).ptr;
-    if (const auto* const numbers = std::get_if<std::vector<double>>(&column.values)) return put(at, (*numbers)[row]);
-    return put(at, std::string_view(std::get<std::vector<std::string>>(column.values)[row]));
+template <std::signed_integral Integer>
+char* put(char* at, Integer x) {
+    return std::to_chars(at, at + longest_integer, x).ptr;
+}
+
+char* put(char* at, Feature feature) {
+    const std::string_view word = name(feature);
+    return std::copy(word.begin(), word.end(), at);
 }
 
 /// What the carried columns of any of these rows take at most.
@@ -79,15 +83,13 @@ std::size_t longest_carried(const TableView& rows) {
 
 class CsvSink final : public RowSink {
 public:
-    using RowSink::RowSink;
-
-    Status begin() {
+    CsvSink(const std::string& path, const TableFormat& format) : RowSink(path, format) {
         std::string header = format_.dimension == 2 ? "x,y,cell,feature" : "x,y,z,cell,feature";
         for (const std::string& column : format_.columns()) header += ',' + as_field(column);
         if (format_.distances) header += ",distance";
         for (const ColumnFormat& column : format_.carried) header += ',' + as_field(column.name);
         file_.write(header + '\n');
-        return file_.status();
+        file_.status().value();
     }
 
 private:
@@ -96,40 +98,22 @@ private:
         const std::size_t numbers = dimension + columns_ + (format_.distances ? 1 : 0);
         return numbers * longest_double + longest_cell + longest_feature + 1 + longest_carried(rows);
     }
-    char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override;
-};
-
-char* CsvSink::put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const {
-    const auto dimension = static_cast<std::size_t>(format_.dimension);
-    for (std::size_t row = first; row < last; ++row) {
-        for (const double x : rows.points.subspan(row * dimension, dimension)) {
-            at = put(at, x);
-            *at++ = ',';
+    char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override {
+        for (; first != last; ++first) {
+            put_row(rows, first, [&](const auto& value, std::size_t) {
+                at = put(at, value);
+                *at++ = ',';
+            });
+            at[-1] = '\n';
         }
-        at = std::to_chars(at, at + longest_cell, rows.cells[row]).ptr;
-        *at++ = ',';
-        for (const char c : name(rows.features[row])) *at++ = c;
-        for (const double value : rows.values.subspan(row * columns_, columns_)) {
-            *at++ = ',';
-            at = put(at, value);
-        }
-        if (format_.distances) {
-            *at++ = ',';
-            at = put(at, rows.distances[row]);
-        }
-        for (const Column& column : rows.carried) {
-            *at++ = ',';
-            at = put(at, column, row);
-        }
-        *at++ = '\n';
+        return at;
     }
-    return at;
-}
+};
 
 }  // namespace
 
-Result<std::unique_ptr<TableSink>> open_csv_sink(const std::string& path, const TableFormat& format) {
-    return begun<TableSink>(std::make_unique<CsvSink>(path, format));
+std::unique_ptr<TableSink> open_csv_sink(const std::string& path, const TableFormat& format) {
+    return std::make_unique<CsvSink>(path, format);
 }
 
 }  // namespace barycert::io

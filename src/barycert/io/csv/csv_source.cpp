@@ -21,17 +21,16 @@ constexpr std::size_t text_a_piece = std::size_t{1} << 16;
 
 class CsvSource final : public ColumnSource {
 public:
-    CsvSource(LineReader lines, int dimension) : ColumnSource(dimension), lines_(std::move(lines)) {}
-
     /// Reads up to the header or over the first point. `kept`: the formats of the carried columns, where they are
     /// known.
-    Status begin(const PointOptions& options, const std::vector<ColumnFormat>* kept);
+    CsvSource(const std::string& path, int dimension, const PointOptions& options,
+              const std::vector<ColumnFormat>* kept = nullptr);
 
     std::optional<std::uint64_t> count() const override { return std::nullopt; }
     void add_notes(const Notes& more) { notes_.insert(notes_.end(), more.begin(), more.end()); }
 
 private:
-    Result<std::size_t> next(std::size_t max, std::vector<double>& out) override;
+    std::size_t next(std::size_t max, std::vector<double>& out) override;
     bool parse_more();
     Error row_error(const CsvPiece& piece) const;
     LinePlace place() const { return {lines_.name(), lines_.number()}; }
@@ -44,28 +43,27 @@ private:
     Error pending_;  // behind the points that are left
 };
 
-Status CsvSource::begin(const PointOptions& options, const std::vector<ColumnFormat>* kept) {
+CsvSource::CsvSource(const std::string& path, int dimension, const PointOptions& options,
+                     const std::vector<ColumnFormat>* kept)
+    : ColumnSource(dimension), lines_(path) {
     for (std::string_view line; lines_.next(line);) {
         if (!holds_fields(line, ' ')) continue;
-        Result<CsvLayout> layout = settle_csv_layout(line, dimension(), options, place());
-        if (!layout) return layout.error();
-        layout_ = std::move(*layout);
+        layout_ = settle_csv_layout(line, dimension, options, place());
         if (kept != nullptr && kept->size() == layout_.kept.size()) layout_.kept = *kept;
         formats_ = layout_.kept;
         notes_ = layout_.notes;
-        if (layout_.header) return Done{};
+        if (layout_.header) return;
         // The first point; it is given like all others.
         const std::string text = std::string(line) + (lines_.line_ended() ? "\n" : "");
         pieces_.resize(1);
-        parse_csv(text, layout_, dimension(), pieces_.front());
-        if (pieces_.front().failed) return row_error(pieces_.front());
+        parse_csv(text, layout_, dimension, pieces_.front());
+        if (pieces_.front().failed) throw Exception(row_error(pieces_.front()));
         piece_count_ = 1;
-        return Done{};
+        return;
     }
-    if (lines_.failed()) return lines_.error();
-    return file_error(lines_.name(), "the file is empty", "a header line or a point",
-                      lines_.number() == 0 ? "nothing" : "blank lines and comments",
-                      "write the file again; a file with a header only is a file without points");
+    refuse_file(lines_.name(), "the file is empty", "a header line or a point",
+                lines_.number() == 0 ? "nothing" : "blank lines and comments",
+                "write the file again; a file with a header only is a file without points");
 }
 
 /// The bad line has been counted.
@@ -75,15 +73,12 @@ Error CsvSource::row_error(const CsvPiece& piece) const {
                      : csv_row_error(piece.bad, layout_, place());
 }
 
-/// Parses the next pieces; false at the end of the file, or at an error, which is kept. Precondition: all pieces have
+/// Parses the next pieces; false at the end of the file. The error of a line is kept. Precondition: all pieces have
 /// been given.
 bool CsvSource::parse_more() {
     piece_ = piece_count_ = given_ = 0;
     std::string_view text;
-    if (!lines_.next_lines(text)) {
-        if (lines_.failed()) pending_ = lines_.error();
-        return false;
-    }
+    if (!lines_.next_lines(text)) return false;
     texts_.clear();
     while (!text.empty()) {
         std::size_t size = text.size();
@@ -103,14 +98,14 @@ bool CsvSource::parse_more() {
     return true;
 }
 
-Result<std::size_t> CsvSource::next(std::size_t max, std::vector<double>& out) {
+std::size_t CsvSource::next(std::size_t max, std::vector<double>& out) {
     const std::size_t size = dimension_;
     std::size_t taken = 0;
     while (taken != max) {
         if (piece_ == piece_count_) {
-            if (pending_.what.empty() && parse_more()) continue;
-            if (!pending_.what.empty()) return pending_;
-            break;
+            if (!pending_.what.empty()) throw Exception(pending_);
+            if (!parse_more()) break;
+            continue;
         }
         const std::vector<double>& points = pieces_[piece_].points;
         const std::size_t count = std::min(max - taken, points.size() / size - given_);
@@ -126,17 +121,8 @@ Result<std::size_t> CsvSource::next(std::size_t max, std::vector<double>& out) {
     return taken;
 }
 
-Result<std::unique_ptr<CsvSource>> open_as(const std::string& path, int dimension, const PointOptions& options,
-                                           const std::vector<ColumnFormat>* kept) {
-    Result<LineReader> lines = LineReader::open(path);
-    if (!lines) return lines.error();
-    auto source = std::make_unique<CsvSource>(std::move(*lines), dimension);
-    if (Status begun = source->begin(options, kept); !begun) return begun.error();
-    return source;
-}
-
 /// The formats of the carried columns, from all their values: a first pass over the file.
-Result<std::vector<ColumnFormat>> formats_of_all(CsvSource& source, const std::string& path, Notes& notes) {
+std::vector<ColumnFormat> formats_of_all(CsvSource source, const std::string& path, Notes& notes) {
     constexpr std::size_t block = std::size_t{1} << 15;
     std::vector<ColumnFormat> formats = source.carried();
     std::vector<TypeOfTexts> types(formats.size());
@@ -145,9 +131,7 @@ Result<std::vector<ColumnFormat>> formats_of_all(CsvSource& source, const std::s
     std::vector<Column> columns;
     while (true) {
         points.clear();
-        const Result<std::size_t> taken = source.read(block, points);
-        if (!taken) return taken.error();
-        if (*taken == 0) break;
+        if (source.read(block, points).value() == 0) break;
         source.take_carried(columns);
         for (std::size_t k = 0; k < formats.size(); ++k) {
             for (const std::string& text : std::get<std::vector<std::string>>(columns[k].values)) types[k].see(text);
@@ -162,42 +146,30 @@ Result<std::vector<ColumnFormat>> formats_of_all(CsvSource& source, const std::s
         if (!utf8[k]) formats[k].max_characters = 0;
         if (formats[k].type != Column::Type::text) formats[k] = {formats[k].name, formats[k].type};
         const auto note = [&](bool told, const std::string& what, const char* to) {
-            if (told) notes.push_back({Note::Kind::converted, what + " of column " + formats[k].name + to, path});
+            if (told && formats[k].type == Column::Type::number)
+                notes.push_back({Note::Kind::converted, what + " of column " + formats[k].name + to, path});
         };
-        note(types[k].has_missing_numbers(), "empty fields", " to NaN");
-        note(types[k].has_lost_numbers(), "numbers", " that are too small for a double to 0");
-        note(types[k].has_rounded_numbers(), "numbers", " that no double holds to the nearest doubles");
+        note(types[k].empty, "empty fields", " to NaN");
+        note(types[k].lost, "numbers", " that are too small for a double to 0");
+        note(types[k].rounded, "numbers", " that no double holds to the nearest doubles");
     }
     return formats;
 }
 
-Error cannot_be_read_twice(const std::string& path) {
-    return file_error(path == "-" ? "standard input" : path, "the types of columns cannot be found in a stream",
-                      "a regular file, which can be read twice", "a pipe or device",
-                      "write CSV, which carries columns as they are, or save the points to a file first");
-}
-
 }  // namespace
 
-Result<std::unique_ptr<PointSource>> open_csv_source(const std::string& path, int dimension,
-                                                     const PointOptions& options) {
-    if (!options.typed || options.keep.empty()) {
-        auto source = open_as(path, dimension, options, nullptr);
-        if (!source) return source.error();
-        return std::unique_ptr<PointSource>(std::move(*source));
-    }
+Source open_csv_source(const std::string& path, int dimension, const PointOptions& options) {
+    if (!options.typed || options.keep.empty()) return std::make_unique<CsvSource>(path, dimension, options);
     std::error_code ignored;
     if (path == "-" || (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)))
-        return cannot_be_read_twice(path);
-    auto first = open_as(path, dimension, options, nullptr);
-    if (!first) return first.error();
+        refuse_file(path == "-" ? "standard input" : path, "the types of columns cannot be found in a stream",
+                    "a regular file, which can be read twice", "a pipe or device",
+                    "write CSV, which carries columns as they are, or save the points to a file first");
     Notes notes;
-    const auto formats = formats_of_all(**first, path, notes);
-    if (!formats) return formats.error();
-    auto source = open_as(path, dimension, options, &*formats);
-    if (!source) return source.error();
-    (*source)->add_notes(notes);
-    return std::unique_ptr<PointSource>(std::move(*source));
+    const std::vector<ColumnFormat> formats = formats_of_all(CsvSource(path, dimension, options), path, notes);
+    auto source = std::make_unique<CsvSource>(path, dimension, options, &formats);
+    source->add_notes(notes);
+    return source;
 }
 
 }  // namespace barycert::io

@@ -13,17 +13,18 @@
 
 namespace barycert::io {
 
-/// Reads in chunks. A byte-order mark of UTF-8 is passed over, one of UTF-16 refused.
+/// Reads in chunks. A byte-order mark of UTF-8 is passed over, one of UTF-16 refused. Errors are thrown as Exceptions:
+/// missing, unreadable, a folder, a line too long; or it was changed since it was opened.
 class LineReader {
 public:
     /// The longest line, and so what the reader holds in memory.
     static constexpr std::size_t longest_line = std::size_t{1} << 20;
 
-    /// "-" is the standard input. Errors: missing, unreadable, a folder.
-    static Result<LineReader> open(const std::string& path);
+    /// "-" is the standard input.
+    explicit LineReader(const std::string& path);
 
     /// The next line without its LF or CR LF; valid until the next call, and one byte after it may be read.
-    /// False at the end of the file, or after an error: see failed().
+    /// False at the end of the file.
     bool next(std::string_view& line);
 
     /// Several lines at once, whole ones with their ends but for the last of the file, which may lack its own: at least
@@ -36,9 +37,6 @@ public:
     /// one. Looked at where the file ends.
     Status unchanged() const { return then_ ? base::unchanged(descriptor_, *then_, name_) : Status(Done{}); }
 
-    bool failed() const { return !error_.what.empty(); }
-    const Error& error() const { return error_; }
-
     /// The last line given ended with LF or CR, and not with the file.
     bool line_ended() const { return line_ended_; }
 
@@ -49,13 +47,10 @@ public:
     const std::string& name() const { return name_; }
 
 private:
-    explicit LineReader(std::string name) : name_(std::move(name)) {}
-    bool refill();
+    void refill();
+    void skip_mark();
     /// Reading would not wait.
     bool more_is_there() const;
-    bool skip_mark();
-    /// False: nothing more comes, and failed() if the file was changed.
-    bool end();
 
     struct Close {
         void operator()(const int* descriptor) const;
@@ -71,7 +66,6 @@ private:
     std::size_t searched_ = 0;  // no LF from begin_ to here
     bool line_ended_ = true;
     std::size_t number_ = 0;
-    Error error_;
 };
 
 }  // namespace barycert::io

@@ -1,5 +1,3 @@
-#include "barycert/io/fields/field_file.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -9,13 +7,11 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/io/csv/csv_fields.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/npy/npy_file.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/npy/npy.hpp"
+#include "barycert/io/streams.hpp"
 
 namespace barycert::io {
 namespace {
@@ -37,31 +33,29 @@ struct FieldLayout {
     std::vector<std::size_t> columns;  ///< of each component
 };
 
-Result<FieldLayout> settle(std::string_view line, const std::string& column, const LinePlace& place) {
-    const Result<CsvLine> cut = cut_first_line(line, place);
-    if (!cut) return cut.error();
+FieldLayout settle(std::string_view line, const std::string& column, const LinePlace& place) {
+    const CsvLine cut = cut_first_line(line, place);
     FieldLayout out;
-    out.lines.separator = cut->separator;
-    out.lines.role_of.assign(cut->fields.size(), CsvLayout::passed_over);
+    out.lines.separator = cut.separator;
+    out.lines.role_of.assign(cut.fields.size(), CsvLayout::passed_over);
     out.lines.header = true;
     if (are_places({column})) {
         std::size_t number = 0;
         std::from_chars(column.data(), column.data() + column.size(), number);
-        if (number <= cut->fields.size()) {
+        if (number <= cut.fields.size()) {
             out.columns = {number - 1};
-            out.lines.header = !looks_numeric(cut->fields[number - 1]);
+            out.lines.header = !looks_numeric(cut.fields[number - 1]);
         }
     } else {
-        out.columns = columns_of_field(cut->fields, column);
+        out.columns = columns_of_field(cut.fields, column);
     }
     if (!out.columns.empty()) return out;
-    return line_error(
-        place.file, place.line, "no such column", base::quoted(column), listed(cut->fields),
-        base::did_you_mean(column, cut->fields, "name a column of the first line, or say its place, from 1"));
+    refuse_line(place.file, place.line, "no such column", base::quoted(column), listed(cut.fields),
+                base::did_you_mean(column, cut.fields, "name a column of the first line, or say its place, from 1"));
 }
 
 /// Appends the values of the line.
-Status take_line(std::string_view line, bool whole, const FieldLayout& layout, const LinePlace& place, Field& field) {
+void take_line(std::string_view line, bool whole, const FieldLayout& layout, const LinePlace& place, Field& field) {
     FieldCutter cutter(line, layout.lines.separator);
     std::size_t count = 0;
     bool cut = false;
@@ -72,51 +66,50 @@ Status take_line(std::string_view line, bool whole, const FieldLayout& layout, c
             if (layout.columns[c] != count) continue;
             const auto x = base::parse_double(text);
             if (!x || is_inexact(text, *x))
-                return line_error(place.file, place.line, "a value of field \"" + field.name + '"',
-                                  x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
-                                  x ? "write it with a decimal point to round it" : "mend or remove the line");
+                throw Exception(
+                    line_error(place.file, place.line, "a value of field \"" + field.name + '"',
+                               x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
+                               x ? "write it with a decimal point to round it" : "mend or remove the line"));
             field.data[before + c] = *x;
             cut = !whole && text.data() + text.size() == line.data() + line.size();
         }
     }
-    if (cutter.malformed() || count != layout.lines.role_of.size()) return csv_row_error(line, layout.lines, place);
-    if (cut) return base::unended_number(place.file, place.line);
-    return Done{};
+    if (cutter.malformed() || count != layout.lines.role_of.size())
+        throw Exception(csv_row_error(line, layout.lines, place));
+    if (cut) throw Exception(base::unended_number(place.file, place.line));
 }
 
 /// Adds the data of the column of that name or number (from 1), or of the columns NAME.0, NAME.1, ... The first line
 /// settles the separator as in files of points. Errors: no such column; a value that is no number, an integer that no
 /// double represents, a line with more or fewer fields than the first.
-Result<Field> read_csv_column(Field field, const std::string& path, const std::string& column) {
-    Result<LineReader> lines = LineReader::open(path);
-    if (!lines) return lines.error();
+Field read_csv_column(Field field, const std::string& path, const std::string& column) {
+    LineReader lines(path);
     std::optional<FieldLayout> layout;
-    for (std::string_view line; lines->next(line);) {
+    for (std::string_view line; lines.next(line);) {
         if (!holds_fields(line, layout ? layout->lines.separator : ' ')) continue;
-        const LinePlace place{lines->name(), lines->number()};
+        const LinePlace place{lines.name(), lines.number()};
         if (!layout) {
-            Result<FieldLayout> settled = settle(line, column, place);
-            if (!settled) return settled.error();
-            layout = std::move(*settled);
+            layout = settle(line, column, place);
             if (layout->lines.header) continue;
         }
-        if (Status taken = take_line(line, lines->line_ended(), *layout, place, field); !taken) {
-            const Status same = lines->unchanged();
-            return same ? taken.error() : same.error();
+        try {
+            take_line(line, lines.line_ended(), *layout, place, field);
+        } catch (const Exception&) {
+            lines.unchanged().value();
+            throw;
         }
     }
-    if (lines->failed()) return lines->error();
     if (layout) field.components = static_cast<int>(layout->columns.size());
     return field;
 }
 
-Result<Field> read_text(Field field, const std::string& path, std::string_view bytes) {
+Field read_text(Field field, const std::string& path, std::string_view bytes) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
     const char* const file_end = bytes.data() + bytes.size();
     std::size_t line_number = 0, components = 0;
     std::vector<std::string_view> words;
-    const auto refused = [&](const std::string& expected, const std::string& found, const char* remedy) {
-        return line_error(path, line_number, "a row of field \"" + field.name + '"', expected, found, remedy);
+    const auto refuse = [&](const std::string& expected, const std::string& found, const char* remedy) {
+        refuse_line(path, line_number, "a row of field \"" + field.name + '"', expected, found, remedy);
     };
     while (!bytes.empty()) {
         const std::string_view line = bytes.substr(0, bytes.find('\n'));
@@ -127,26 +120,26 @@ Result<Field> read_text(Field field, const std::string& path, std::string_view b
         for (const std::string_view word : words) {
             const auto x = base::parse_double(word);
             if (!x)
-                return refused("numbers", base::quoted(word),
-                               "write one row of numbers per node or cell; start header lines with #");
+                refuse("numbers", base::quoted(word),
+                       "write one row of numbers per node or cell; start header lines with #");
             if (is_inexact(word, *x))
-                return refused("an integer that a double holds exactly", base::quoted(word),
-                               "write it with a decimal point to round it");
-            if (word.data() + word.size() == file_end) return base::unended_number(path, line_number);
+                refuse("an integer that a double holds exactly", base::quoted(word),
+                       "write it with a decimal point to round it");
+            if (word.data() + word.size() == file_end) throw Exception(base::unended_number(path, line_number));
             field.data.push_back(*x);
         }
         if (components == 0) components = words.size();
         if (words.size() != components)
-            return refused(std::to_string(components) + " numbers, as in the first row", std::to_string(words.size()),
-                           "rows have one number for each component of the field");
+            refuse(std::to_string(components) + " numbers, as in the first row", std::to_string(words.size()),
+                   "rows have one number for each component of the field");
     }
     field.components = static_cast<int>(std::max<std::size_t>(components, 1));
     return field;
 }
 
 /// The columns of the array that are the components.
-Result<std::vector<std::size_t>> components_of(const NpyTable& table, const Field& field, const std::string& path,
-                                               const std::string& column) {
+std::vector<std::size_t> components_of(const NpyTable& table, const Field& field, const std::string& path,
+                                       const std::string& column) {
     std::vector<std::string> names;
     for (const NpyColumn& c : table.columns) names.push_back(c.name);
     std::vector<std::size_t> columns;
@@ -157,57 +150,51 @@ Result<std::vector<std::size_t>> components_of(const NpyTable& table, const Fiel
     if (!column.empty())
         columns = columns_of_field(names, are_places({column}) && !table.structured ? "column" + column : column);
     if (!columns.empty()) return columns;
-    return file_error(
-        path, column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
-        column.empty() ? "an array of numbers" : base::quoted(column),
-        table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
-        base::did_you_mean(column, names, "name one of them: --field " + field.name + "=" + path + ":NAME"));
+    refuse_file(path, column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
+                column.empty() ? "an array of numbers" : base::quoted(column),
+                table.structured && column.empty() ? "a structured array of " + listed(names) : listed(names),
+                base::did_you_mean(column, names, "name one of them: --field " + field.name + "=" + path + ":NAME"));
 }
 
-Result<Field> read_npy(Field field, const std::string& path, const std::string& column, Notes& notes) {
-    Result<NpyFile> file = NpyFile::open(path);
-    if (!file) return file.error();
-    const auto& shape = file->header().shape;
+Field read_npy(Field field, const std::string& path, const std::string& column, Notes& notes) {
+    NpyFile file(path);
+    const auto& shape = file.header().shape;
     constexpr std::uint64_t max_components = 1U << 16;
-    if (!file->header().structured &&
+    if (!file.header().structured &&
         (shape.empty() || shape.size() > 2 || (shape.size() == 2 && (shape[1] < 1 || shape[1] > max_components))))
-        return file_error(path, "the shape of field \"" + field.name + '"', "(rows,) or (rows, components)",
-                          as_tuple(shape), "save a.reshape(len(a), -1)");
-    const Result<NpyTable> table = file->table();
-    if (!table) return table.error();
-    const auto columns = components_of(*table, field, path, column);
-    if (!columns) return columns.error();
-    for (const std::size_t c : *columns) {
-        const NpyType& type = table->columns[c].type;
+        refuse_file(path, "the shape of field \"" + field.name + '"', "(rows,) or (rows, components)", as_tuple(shape),
+                    "save a.reshape(len(a), -1)");
+    const NpyTable table = file.table();
+    const std::vector<std::size_t> columns = components_of(table, field, path, column);
+    for (const std::size_t c : columns) {
+        const NpyType& type = table.columns[c].type;
         if (!type.is_number())
-            return file_error(path, "the type of field \"" + field.name + '"', "floats of 2, 4 or 8 bytes, or integers",
-                              base::quoted(type.text), "save a.astype('f8')");
+            refuse_file(path, "the type of field \"" + field.name + '"', "floats of 2, 4 or 8 bytes, or integers",
+                        base::quoted(type.text), "save a.astype('f8')");
     }
-    const NpyType& type = table->columns[columns->front()].type;
-    if (type.kind != 'f' || type.size != 8)
+    if (const NpyType& type = table.columns[columns.front()].type; !type.is_double())
         notes.push_back(
             {Note::Kind::converted, "field " + field.name + " of type " + type.text + " to double, exactly", path});
-    const std::size_t components = columns->size(), at_once = NpyFile::rows_at_once(*table);
+    const std::size_t components = columns.size(), at_once = NpyFile::rows_at_once(table);
     field.components = static_cast<int>(components);
-    field.data.resize(table->rows * components);
-    for (std::uint64_t row = 0; row < table->rows; row += at_once) {
-        const std::size_t count = std::min<std::uint64_t>(at_once, table->rows - row);
-        Status done = file->go_to(*table, row, count);
-        for (std::size_t c = 0; c < components && done; ++c)
-            done = file->numbers(table->columns[(*columns)[c]], "field \"" + field.name + '"',
-                                 field.data.data() + row * components + c, components);
-        if (!done) return done.error();
+    field.data.resize(table.rows * components);
+    for (std::uint64_t row = 0; row < table.rows; row += at_once) {
+        file.go_to(table, row, std::min<std::uint64_t>(at_once, table.rows - row));
+        for (std::size_t c = 0; c < components; ++c)
+            file.numbers(table.columns[columns[c]], "field \"" + field.name + '"',
+                         field.data.data() + row * components + c, components);
     }
     return field;
 }
 
-/// A column of the CSV file that might be meant.
+/// The Error, with a column of the CSV file that might be meant.
 Error with_columns(Error error, const std::string& name, const std::string& path, std::string_view bytes) {
     const std::string_view first = bytes.substr(0, bytes.find('\n'));
-    const Result<CsvLine> line = cut_first_line(first.substr(0, first.find('\r')), {path, 1});
-    if (!line || line->fields.empty() || error.line != 1) return error;
-    if (std::none_of(line->fields.begin(), line->fields.end(), looks_numeric))
-        error.remedy = "name a column of the header: --field " + name + "=" + path + ":" + line->fields.front();
+    CsvLine line;
+    const Status cut = status_of([&] { line = cut_first_line(first.substr(0, first.find('\r')), {path, 1}); });
+    if (!cut || line.fields.empty() || error.line != 1) return error;
+    if (std::none_of(line.fields.begin(), line.fields.end(), looks_numeric))
+        error.remedy = "name a column of the header: --field " + name + "=" + path + ":" + line.fields.front();
     return error;
 }
 
@@ -215,20 +202,22 @@ Error with_columns(Error error, const std::string& name, const std::string& path
 
 Result<Field> read_field_file(const std::string& name, const std::string& path, const std::string& column,
                               Notes& notes) {
-    const ExactEnvironment environment;
-    Field field{.name = name, .components = 1, .data = {}};
-    if (has_suffix(path, ".npy")) return read_npy(std::move(field), path, column, notes);
-    if (!column.empty()) return read_csv_column(std::move(field), path, column);
-    const auto rows_in = [&](std::string_view bytes) -> Result<Field> {
-        Result<Field> read = read_text(field, path, bytes);
-        return read ? read : with_columns(read.error(), name, path, bytes);
-    };
-    const auto first_rows = [&](std::string_view block, std::uint64_t) -> Status {
-        const Result<Field> read = rows_in(block.substr(0, block.rfind('\n') + 1));
-        return read ? Status(Done{}) : Status(read.error());
-    };
-    const auto file = base::MappedFile::open(path, 1, base::Text::all, first_rows);
-    return file ? rows_in(file->bytes()) : file.error();
+    return read_guarded(path, [&]() -> Result<Field> {
+        const Field field{.name = name, .components = 1, .data = {}};
+        if (has_suffix(path, ".npy")) return read_npy(field, path, column, notes);
+        if (!column.empty()) return read_csv_column(field, path, column);
+        const auto rows_in = [&](std::string_view bytes) {
+            try {
+                return read_text(field, path, bytes);
+            } catch (const Exception& problem) {
+                throw Exception(with_columns(problem.error(), name, path, bytes));
+            }
+        };
+        const auto first_rows = [&](std::string_view block, std::uint64_t) {
+            return status_of([&] { rows_in(block.substr(0, block.rfind('\n') + 1)); });
+        };
+        return rows_in(base::MappedFile::open(path, 1, base::Text::all, first_rows).value().bytes());
+    });
 }
 
 }  // namespace barycert::io

@@ -16,7 +16,7 @@ std::string order_remedy(const MshFile& file) {
 }
 
 /// The type of the cells.
-Result<const ElementType*> choose(const MshFile& file, const TypeCounts& counts) {
+const ElementType& choose(const MshFile& file, const TypeCounts& counts) {
     int dimension = 0;
     std::vector<const ElementType*> kinds;  // of that dimension
     for (const ElementType& type : element_types()) {
@@ -26,24 +26,25 @@ Result<const ElementType*> choose(const MshFile& file, const TypeCounts& counts)
         kinds.push_back(&type);
     }
     const auto any = [&](auto is_one) { return std::any_of(kinds.begin(), kinds.end(), is_one); };
-    const std::string found = counted_types(counts, dimension, dimension);
-    const auto no_cells = [&](const char* what, const char* expected, const std::string& remedy) {
-        return file_error(file.path(), what, expected, found.empty() ? "no elements" : found, remedy);
+    const auto refuse = [&](const char* what, const char* expected, const std::string& remedy) {
+        const std::string found = counted_types(counts, dimension, dimension);
+        refuse_file(file.path(), what, expected, found.empty() ? "no elements" : found, remedy);
     };
+    const bool solid = dimension == 3;
     if (dimension < 2)
-        return no_cells("the file contains no mesh", "tetrahedra, or triangles in the plane z = 0",
-                        "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the "
-                        "volume one, or add -save_all");
-    const char* const expected = dimension == 3 ? "tetrahedra of order 1 or 2" : "triangles of order 1 or 2";
+        refuse("the file contains no mesh", "tetrahedra, or triangles in the plane z = 0",
+               "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the volume one, or "
+               "add -save_all");
+    const char* const expected = solid ? "tetrahedra of order 1 or 2" : "triangles of order 1 or 2";
     if (any([](const ElementType* type) {
             return type->family != ElementFamily::tetrahedron && type->family != ElementFamily::triangle;
         }))
-        return no_cells(dimension == 3 ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
-                        to_simplices(file.path()));
+        refuse(solid ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
+               to_simplices(file.path()));
     if (any([](const ElementType* type) { return type->order > 2; }))
-        return no_cells("cells of a higher order", expected, order_remedy(file));
-    if (kinds.size() > 1) return no_cells("cells of both orders in one mesh", "cells of one order", order_remedy(file));
-    return kinds.front();
+        refuse("cells of a higher order", expected, order_remedy(file));
+    if (kinds.size() > 1) refuse("cells of both orders in one mesh", "cells of one order", order_remedy(file));
+    return *kinds.front();
 }
 
 /// Takes the tags of nodes and gives their positions.
@@ -91,7 +92,7 @@ struct Target {
 };
 
 template <std::size_t Corners>
-Status read_chosen(const Target& to, std::span<const Run> runs) {
+void read_chosen(const Target& to, std::span<const Run> runs) {
     const int version = to.file.version();
     std::int64_t* const tags = to.cells.tags.data();
     Mesh::Index* const corners = to.cells.corners.data();
@@ -99,45 +100,42 @@ Status read_chosen(const Target& to, std::span<const Run> runs) {
     double* const physical = to.cells.physical.data();
     double* const geometrical = to.cells.geometrical.data();
     std::atomic<bool> more{false};
-    Status status =
-        parse_runs(to.file, "Elements", runs, [&, mids = to.mids](auto& row, const Run& run, std::size_t i) {
-            const char* const start = row.at();
-            // A row of small integers, of which so many stand before the corners.
-            const auto take_plain = [&]<std::size_t Before>() {
-                std::array<std::uint32_t, Before + Corners> plain{};
-                if (!row.plain(plain)) return false;
-                tags[i] = plain[0];
-                bool good = Before == 1 || plain[2] == 2;
-                for (std::size_t k = 0; k < Corners; ++k)
-                    good &= (corners[i * Corners + k] = to.nodes.find(plain[Before + k])) >= 0;
-                if constexpr (Before != 1) {
-                    physical[i] = plain[3];
-                    geometrical[i] = plain[4];
-                }
-                if (!good) row.back(start);
-                return good;
-            };
-            if (mids == 0 &&
-                (version == 22 ? take_plain.template operator()<5>() : take_plain.template operator()<1>()))
-                return true;
-            Head head;
-            if (!take_head(row, version, to.elements.blocks[run.id], head)) return false;
-            tags[i] = head.tag;
-            if (version == 22) {
-                physical[i] = static_cast<double>(head.physical);
-                geometrical[i] = static_cast<double>(head.entity);
-                if (head.more) more = true;
+    parse_runs(to.file, "Elements", runs, [&, mids = to.mids](auto& row, const Run& run, std::size_t i) {
+        const char* const start = row.at();
+        // A row of small integers, of which so many stand before the corners.
+        const auto take_plain = [&]<std::size_t Before>() {
+            std::array<std::uint32_t, Before + Corners> plain{};
+            if (!row.plain(plain)) return false;
+            tags[i] = plain[0];
+            bool good = Before == 1 || plain[2] == 2;
+            for (std::size_t k = 0; k < Corners; ++k)
+                good &= (corners[i * Corners + k] = to.nodes.find(plain[Before + k])) >= 0;
+            if constexpr (Before != 1) {
+                physical[i] = plain[3];
+                geometrical[i] = plain[4];
             }
-            for (std::size_t k = 0; k < Corners; ++k) {
-                if (!take_node(row, to.nodes, corners[i * Corners + k])) return false;
-            }
-            for (std::size_t k = 0; k < mids; ++k) {
-                if (!take_node(row, to.nodes, mid_nodes[i * mids + k])) return false;
-            }
+            if (!good) row.back(start);
+            return good;
+        };
+        if (mids == 0 && (version == 22 ? take_plain.template operator()<5>() : take_plain.template operator()<1>()))
             return true;
-        });
+        Head head;
+        if (!take_head(row, version, to.elements.blocks[run.id], head)) return false;
+        tags[i] = head.tag;
+        if (version == 22) {
+            physical[i] = static_cast<double>(head.physical);
+            geometrical[i] = static_cast<double>(head.entity);
+            if (head.more) more = true;
+        }
+        for (std::size_t k = 0; k < Corners; ++k) {
+            if (!take_node(row, to.nodes, corners[i * Corners + k])) return false;
+        }
+        for (std::size_t k = 0; k < mids; ++k) {
+            if (!take_node(row, to.nodes, mid_nodes[i * mids + k])) return false;
+        }
+        return true;
+    });
     to.cells.partitioned = more;
-    return status;
 }
 
 /// In 2.x Gmsh writes an element of several groups once for each, one after the other. All but the first go.
@@ -195,10 +193,10 @@ std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::
 }
 
 /// Elements of a lower dimension: their nodes must be there, too.
-Status look_at_others(const Target& to, std::span<const Run> runs, const std::vector<std::uint8_t>& used) {
+void look_at_others(const Target& to, std::span<const Run> runs, const std::vector<std::uint8_t>& used) {
     std::atomic<bool> apart{false};
     const int version = to.file.version();
-    Status status = parse_runs(to.file, "Elements", runs, [&](auto& row, const Run& run, std::size_t) {
+    parse_runs(to.file, "Elements", runs, [&](auto& row, const Run& run, std::size_t) {
         const ElementBlock& block = to.elements.blocks[run.id];
         Head head;
         if (!take_head(row, version, block, head)) return false;
@@ -210,16 +208,12 @@ Status look_at_others(const Target& to, std::span<const Run> runs, const std::ve
         return true;
     });
     to.cells.apart = apart;
-    return status;
 }
 
 }  // namespace
 
-Result<MshCells> read_msh_cells(const MshFile& file, const MshElements& elements, const TagIndex& nodes,
-                                std::size_t node_count) {
-    const Result<const ElementType*> chosen = choose(file, elements.counts);
-    if (!chosen) return chosen.error();
-    const ElementType& type = **chosen;
+MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes) {
+    const ElementType& type = choose(file, elements.counts);
     MshCells cells;
     cells.dimension = type.dimension();
     std::vector<Run> runs, others;
@@ -233,7 +227,7 @@ Result<MshCells> read_msh_cells(const MshFile& file, const MshElements& elements
         (taken ? runs : others).push_back(run);
     }
     const auto corners = static_cast<std::size_t>(cells.dimension) + 1;
-    const Target target{file, elements, nodes, cells, type.nodes - corners};
+    const Target target{file, elements, nodes.index, cells, type.nodes - corners};
     base::resize_large(cells.corners, count * corners);
     base::resize_large(cells.mid_nodes, count * target.mids);
     base::resize_large(cells.tags, count);
@@ -242,8 +236,7 @@ Result<MshCells> read_msh_cells(const MshFile& file, const MshElements& elements
         base::resize_large(cells.physical, count);
     }
 
-    Status status = corners == 4 ? read_chosen<4>(target, runs) : read_chosen<3>(target, runs);
-    if (!status) return status.error();
+    corners == 4 ? read_chosen<4>(target, runs) : read_chosen<3>(target, runs);
     if (count != elements.count) {
         cells.numbers.reserve(count);
         for (const Run& run : runs) {
@@ -252,10 +245,10 @@ Result<MshCells> read_msh_cells(const MshFile& file, const MshElements& elements
         }
     }
     if (file.version() == 22) drop_repeats(cells, corners, target.mids);
-    const std::vector<std::uint8_t> used = mark_nodes(file, cells, node_count);
+    const std::vector<std::uint8_t> used = mark_nodes(file, cells, nodes.points.size() / 3);
     cells.left_out = elements.counts;
     cells.left_out[static_cast<std::size_t>(type.number)] = 0;
-    if (status = look_at_others(target, others, used); !status) return status.error();
+    look_at_others(target, others, used);
     return cells;
 }
 

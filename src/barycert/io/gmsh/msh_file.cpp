@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
+#include <set>
 
 #include "barycert/base/text.hpp"
+#include "barycert/base/workers.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {
@@ -20,31 +23,14 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// Bytes before the text.
-std::size_t byte_order_mark(std::string_view bytes) {
-    return bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-}
-
-/// Where `mark` stands next, or nullptr.
-const char* find_mark(std::string_view bytes, std::string_view mark) {
-    const char* const end = bytes.data() + bytes.size();
-    for (const char* at = bytes.data(); at < end; ++at) {
-        at = static_cast<const char*>(std::memchr(at, '$', static_cast<std::size_t>(end - at)));
-        if (at == nullptr) return nullptr;
-        if (std::string_view(at, static_cast<std::size_t>(end - at)).starts_with(mark)) return at;
-    }
-    return nullptr;
-}
-
 }  // namespace
 
 std::string_view take_line(const char*& at, const char* end) {
-    const char* const start = at;
-    const void* const feed = std::memchr(at, '\n', static_cast<std::size_t>(end - at));
-    const char* stop = feed == nullptr ? end : static_cast<const char*>(feed);
-    at = feed == nullptr ? end : stop + 1;
-    if (stop != start && stop[-1] == '\r') --stop;
-    return {start, static_cast<std::size_t>(stop - start)};
+    const std::string_view rest(at, static_cast<std::size_t>(end - at));
+    std::string_view line = rest.substr(0, rest.find('\n'));
+    at += std::min(line.size() + 1, rest.size());
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
 }
 
 std::string word_at(const char* at, const char* end) {
@@ -53,167 +39,237 @@ std::string word_at(const char* at, const char* end) {
     return at == stop ? "the end of the file" : base::quoted({at, static_cast<std::size_t>(stop - at)});
 }
 
-Error MshFile::error_at(const char* at, std::string what, std::string expected, std::string found,
-                        std::string remedy) const {
+void MshFile::refuse(const char* at, std::string what, std::string expected, std::string found,
+                     std::string remedy) const {
     const bool text = !binary_ || at < after_format_;
-    return line_error(path_, text ? line_of(bytes_, at) : 0, std::move(what), std::move(expected), std::move(found),
-                      std::move(remedy));
+    refuse_line(path_, text ? line_of(bytes_, at) : 0, std::move(what), std::move(expected), std::move(found),
+                std::move(remedy));
 }
 
-Status MshFile::read_format() {
+void MshFile::read_format() {
     const std::string convert_remedy = "convert it with " + gmsh_command(path_);
     const char* const save_remedy = "write the file again, in version 4.1";
-    const char* at = bytes_.data() + byte_order_mark(bytes_);
-    const char* const end = bytes_.data() + bytes_.size();
+    const char* at = begin();
     const char* const first = at;
-    const std::string_view head = trimmed(take_line(at, end));
-    if (head == "$NOD")
-        return error_at(first, "a .msh file of version 1", "version 2.2 or 4.1", "\"$NOD\"", convert_remedy);
+    const std::string_view head = trimmed(take_line(at, end()));
+    if (head == "$NOD") refuse(first, "a .msh file of version 1", "version 2.2 or 4.1", "\"$NOD\"", convert_remedy);
     if (head.starts_with("$MeshFormat") && head.find('\r') != std::string_view::npos)
-        return error_at(first, "the lines have other ends", "LF or CR LF", "CR alone", "convert the ends of the lines");
-    if (head.empty() && first != end)
-        return error_at(first, "not a file of Gmsh", "a first line \"$MeshFormat\"", "an empty line",
-                        "remove the empty lines at the beginning");
+        refuse(first, "the lines have other ends", "LF or CR LF", "CR alone", "convert the ends of the lines");
+    const bool blank = head.empty() && first != end();
     if (head != "$MeshFormat")
-        return error_at(first, "not a file of Gmsh", "a first line \"$MeshFormat\"", word_at(first, end),
-                        "check the path");
+        refuse(first, "not a file of Gmsh", "a first line \"$MeshFormat\"",
+               blank ? "an empty line" : word_at(first, end()),
+               blank ? "remove the empty lines at the beginning" : "check the path");
     const char* const line = at;
     std::vector<std::string_view> words;
-    cut_fields(take_line(at, end), " \t\r", "", words);
+    cut_fields(take_line(at, end()), " \t\r", "", words);
     after_format_ = at;
     if (words.size() != 3)
-        return error_at(line, "bad $MeshFormat", "version, file type and data size, such as 4.1 0 8",
-                        word_at(line, end), save_remedy);
+        refuse(line, "bad $MeshFormat", "version, file type and data size, such as 4.1 0 8", word_at(line, end()),
+               save_remedy);
     constexpr std::array<std::pair<std::string_view, int>, 7> versions{
         {{"2", 22}, {"2.0", 22}, {"2.1", 22}, {"2.2", 22}, {"4", 40}, {"4.0", 40}, {"4.1", 41}}};
     const auto* const version =
         std::find_if(versions.begin(), versions.end(), [&](const auto& v) { return v.first == words[0]; });
     if (version == versions.end())
-        return error_at(line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]),
-                        words[0].starts_with("2.") || words[0].starts_with("3") ? convert_remedy : save_remedy);
+        refuse(line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]),
+               words[0].starts_with("2.") || words[0].starts_with("3") ? convert_remedy : save_remedy);
     version_ = version->second;
     if (words[1] != "0" && words[1] != "1")
-        return error_at(line, "bad file type in $MeshFormat", "0 (text) or 1 (binary)", base::quoted(words[1]),
-                        save_remedy);
-    if (words[1] == "0") return Done{};
+        refuse(line, "bad file type in $MeshFormat", "0 (text) or 1 (binary)", base::quoted(words[1]), save_remedy);
+    if (words[1] == "0") return;
     if (words[2] != "8")
-        return error_at(line, "bad data size in $MeshFormat", "8 in a binary file", base::quoted(words[2]),
-                        convert_remedy);
-    if (version_ == 40) {  // of which Gmsh itself writes text alone
-        return error_at(line, "a binary file of version 4.0", "version 4.1 or 2.2", base::quoted(words[0]),
-                        save_remedy);
-    }
+        refuse(line, "bad data size in $MeshFormat", "8 in a binary file", base::quoted(words[2]), convert_remedy);
+    if (version_ == 40)  // of which Gmsh itself writes text alone
+        refuse(line, "a binary file of version 4.0", "version 4.1 or 2.2", base::quoted(words[0]), save_remedy);
     binary_ = true;
     std::int32_t one = 0;
-    if (end - at >= 4) std::memcpy(&one, at, 4);
+    if (end() - at >= 4) std::memcpy(&one, at, 4);
     swapped_ = one == 0x01000000;
     if (one != 1 && !swapped_)
-        return error_at(line, "bad byte order mark in $MeshFormat", "the number 1 in 4 bytes after this line",
-                        "other bytes", "check whether the file was changed on the way, such as by a transfer as text");
-    return Done{};
+        refuse(line, "bad byte order mark in $MeshFormat", "the number 1 in 4 bytes after this line", "other bytes",
+               "check whether the file was changed on the way, such as by a transfer as text");
 }
 
-Status MshFile::add_section(const char* at, const char* end) {
-    const char* const file_end = bytes_.data() + bytes_.size();
+void MshFile::add_section(const char* at, const char* stop) {
     const char* body = at;
-    const std::string_view name = trimmed(take_line(body, file_end)).substr(1);
-    if (end == nullptr)
-        return error_at(at, "section $" + base::printable(name.substr(0, 40)) + " has no end",
-                        "a line \"$End" + base::printable(name.substr(0, 40)) + "\"", "none in the rest of the file",
-                        "the file may be cut short: write it again");
-    sections_.push_back({name, {body, static_cast<std::size_t>(end - body)}});
-    return Done{};
+    const std::string_view name = trimmed(take_line(body, end())).substr(1);
+    if (stop == nullptr) {
+        const std::string shown = base::printable(name.substr(0, 40));
+        refuse(at, "section $" + shown + " has no end", "a line \"$End" + shown + "\"", "none in the rest of the file",
+               "the file may be cut short: write it again");
+    }
+    sections_.push_back({name, {body, static_cast<std::size_t>(stop - body)}});
 }
 
-Status MshFile::list_text_sections() {
-    const char* const file_end = bytes_.data() + bytes_.size();
-    const auto name_of = [&](const char* at) { return trimmed(take_line(at, file_end)).substr(1); };
+void MshFile::list_text_sections() {
+    const auto name_of = [&](const char* at) { return trimmed(take_line(at, end())).substr(1); };
     const std::vector<const char*>& marks = words_.marked();
-    const char* from = bytes_.data() + byte_order_mark(bytes_);
-    const auto stray = [&](const char* end) -> Status {
-        while (from != end && is_space(*from)) ++from;
-        if (from == end) return Done{};
-        return error_at(from, "text between sections", "a line \"$...\" that begins a section", word_at(from, file_end),
-                        "remove it, or put it into a section $Comments");
+    const char* from = begin();
+    const auto no_text_before = [&](const char* stop) {
+        while (from != stop && is_space(*from)) ++from;
+        if (from != stop)
+            refuse(from, "text between sections", "a line \"$...\" that begins a section", word_at(from, end()),
+                   "remove it, or put it into a section $Comments");
     };
     for (std::size_t i = 0; i < marks.size(); ++i) {
         const std::string_view name = name_of(marks[i]);
-        if (Status clean = stray(marks[i]); !clean) return clean;
+        no_text_before(marks[i]);
         std::size_t last = i + 1;
         const auto ends = [&](const char* at) {
             const std::string_view other = name_of(at);
             return other.starts_with("End") && other.substr(3) == name;
         };
         while (last < marks.size() && !ends(marks[last])) ++last;
-        if (Status s = add_section(marks[i], last < marks.size() ? marks[last] : nullptr); !s) return s;
+        add_section(marks[i], last < marks.size() ? marks[last] : nullptr);
         from = marks[last];
-        take_line(from, file_end);
+        take_line(from, end());
         i = last;
     }
-    return stray(file_end);
+    no_text_before(end());
 }
 
-Status MshFile::list_binary_sections() {
-    const char* at = bytes_.data() + byte_order_mark(bytes_);
-    const char* const end = bytes_.data() + bytes_.size();
-    while (true) {
-        while (at != end && is_space(*at)) ++at;
-        if (at == end) return Done{};
+void MshFile::list_binary_sections() {
+    for (const char* at = begin();;) {
+        while (at != end() && is_space(*at)) ++at;
+        if (at == end()) return;
         if (*at != '$')
-            return error_at(at, "bytes between sections", "\"$\", which begins a section", word_at(at, end),
-                            "the file may be damaged: write it again");
+            refuse(at, "bytes between sections", "\"$\", which begins a section", word_at(at, end()),
+                   "the file may be damaged: write it again");
         const char* body = at;
-        const std::string mark = "$End" + std::string(trimmed(take_line(body, end)).substr(1));
-        const char* const last = find_mark({body, static_cast<std::size_t>(end - body)}, mark);
-        if (Status s = add_section(at, last); !s) return s;
-        at = last + mark.size();
+        const std::string mark = "$End" + std::string(trimmed(take_line(body, end())).substr(1));
+        const std::size_t last = bytes_.find(mark, static_cast<std::size_t>(body - bytes_.data()));
+        add_section(at, last == std::string_view::npos ? nullptr : bytes_.data() + last);
+        at = bytes_.data() + last + mark.size();
     }
 }
 
-Status MshFile::check_sections() const {
-    constexpr std::array<std::string_view, 7> once{"MeshFormat", "PhysicalNames",   "Entities", "PartitionedEntities",
-                                                   "Nodes",      "ParametricNodes", "Elements"};
-    for (const std::string_view name : once) {
-        const MshSection* first = nullptr;
-        for (const MshSection& section : sections_) {
-            if (section.name != name) continue;
-            if (first != nullptr)
-                return error_at(section.name.data(), "a second section $" + std::string(name), "one of each kind",
-                                "two", "keep one mesh a file");
-            first = &section;
-        }
+void MshFile::check_sections() const {
+    const std::set<std::string_view> once{"MeshFormat", "PhysicalNames",   "Entities", "PartitionedEntities",
+                                          "Nodes",      "ParametricNodes", "Elements"};
+    std::set<std::string_view> found;
+    const MshSection* second = nullptr;
+    for (const MshSection& section : sections_) {
+        if (second == nullptr && once.contains(section.name) && !found.insert(section.name).second) second = &section;
     }
-    return Done{};
+    if (second != nullptr)
+        refuse(second->name.data(), "a second section $" + std::string(second->name), "one of each kind", "two",
+               "keep one mesh a file");
 }
 
-Result<MshFile> MshFile::open(const std::string& path, int threads) {
-    MshFile file;
-    file.path_ = path;
+MshFile::MshFile(const std::string& path, int threads) : path_(path), threads_(threads) {
     const auto format_in = [&](std::string_view block, std::uint64_t) {
-        file.bytes_ = block;
-        return file.read_format();
+        bytes_ = block;
+        return status_of([&] { read_format(); });
     };
-    Result<base::MappedFile> mapped = base::MappedFile::open(path, threads, base::Text::head, format_in);
-    if (!mapped) return mapped.error();
-    file.threads_ = threads;
-    file.data_ = std::move(*mapped);
-    file.bytes_ = file.data_.bytes();
-    Status status = file.read_format();
-    if (status && file.binary_) {
-        status = file.list_binary_sections();
-    } else if (status) {
-        file.words_ = WordIndex(file.bytes_.substr(byte_order_mark(file.bytes_)), threads);
-        status = file.list_text_sections();
+    data_ = base::MappedFile::open(path, threads, base::Text::head, format_in).value();
+    bytes_ = data_.bytes();
+    read_format();
+    if (binary_) {
+        list_binary_sections();
+    } else {
+        const char* const text = begin();
+        words_ = WordIndex({text, static_cast<std::size_t>(end() - text)}, threads);
+        list_text_sections();
     }
-    if (status) status = file.check_sections();
-    if (!status) return status.error();
-    return file;
+    check_sections();
 }
 
 const MshSection* MshFile::find(std::string_view name) const {
     const auto found =
         std::find_if(sections_.begin(), sections_.end(), [&](const MshSection& s) { return s.name == name; });
     return found == sections_.end() ? nullptr : &*found;
+}
+
+namespace {
+
+/// Fits in a core's own cache, which has it for the second look.
+constexpr std::size_t piece = std::size_t{1} << 18;
+
+bool in_word(char c) {
+    return static_cast<unsigned char>(c) > ' ';
+}
+
+/// How many words begin in [at, end); the byte before is read. 64 bytes at a time: sums of bytes, which compilers make
+/// vectors of, overflow after 255 rounds.
+std::size_t count_words(const char* at, const char* end) {
+    std::size_t total = 0;
+    while (end - at >= 64) {
+        std::array<std::uint8_t, 64> sums{};
+        for (int round = 0; round < 255 && end - at >= 64; ++round, at += 64) {
+            for (std::size_t i = 0; i < 64; ++i) {
+                const auto begins = static_cast<std::uint8_t>(static_cast<std::uint8_t>(at[i]) > ' ') &
+                                    static_cast<std::uint8_t>(static_cast<std::uint8_t>((at - 1)[i]) <= ' ');
+                sums[i] = static_cast<std::uint8_t>(sums[i] + begins);
+            }
+        }
+        for (const std::uint8_t sum : sums) total += sum;
+    }
+    for (; at < end; ++at) total += in_word(at[0]) && !in_word(at[-1]) ? 1 : 0;
+    return total;
+}
+
+}  // namespace
+
+WordIndex::WordIndex(std::string_view text, int threads) : text_(text) {
+    const std::size_t pieces = (text.size() + piece - 1) / piece;
+    before_.resize(pieces + 1);
+    std::vector<std::vector<const char*>> marks(pieces);
+    base::share_work(threads, pieces, [&](std::size_t i) {
+        const std::string_view part = text.substr(i * piece, piece);
+        const char *at = part.data(), *const end = at + part.size();
+        before_[i + 1] = count_words(at + (i == 0 ? 1 : 0), end);
+        while ((at = static_cast<const char*>(std::memchr(at, '$', static_cast<std::size_t>(end - at)))) != nullptr) {
+            if (at == text.data() || at[-1] == '\n') marks[i].push_back(at);
+            ++at;
+        }
+        return true;
+    });
+    for (std::size_t i = 0; i < pieces; ++i) before_[i + 1] += before_[i];
+    for (const auto& some : marks) marked_.insert(marked_.end(), some.begin(), some.end());
+}
+
+std::size_t WordIndex::before(const char* at) const {
+    const std::size_t i = static_cast<std::size_t>(at - text_.data()) / piece;
+    return before_[i] + count_words(text_.data() + std::max<std::size_t>(i * piece, 1), at);
+}
+
+const char* WordIndex::find(std::size_t number) const {
+    // The last piece with no more before it.
+    const auto after = std::upper_bound(before_.begin(), before_.end(), number);
+    const auto i = static_cast<std::size_t>(after - before_.begin()) - 1;
+    const char* at = text_.data() + std::max<std::size_t>(i * piece, 1);
+    std::size_t left = number - before_[i];
+    constexpr std::ptrdiff_t step = 1024;
+    const char* const end = text_.data() + text_.size();
+    for (std::size_t count = 0; end - at > step && (count = count_words(at, at + step)) <= left; at += step)
+        left -= count;
+    while (!in_word(at[0]) || in_word(at[-1]) || left-- != 0) ++at;
+    return at;
+}
+
+std::vector<WordIndex::Part> WordIndex::cut(const char* from, std::size_t rows, std::size_t words) const {
+    std::vector<Part> parts;
+    if (rows == 0) return parts;
+    const std::size_t base = before(from);
+    for (Part part{0, 0, from}; part.first != rows; part.first = part.last) {
+        const auto i = static_cast<std::size_t>(part.at - text_.data()) / piece;
+        part.last = std::clamp((before_[i + 1] - base + words - 1) / words, part.first + 1, rows);
+        parts.push_back(part);
+        if (part.last != rows) part.at = find(base + part.last * words);
+    }
+    return parts;
+}
+
+const char* skip_words(const char* at, const char* end, std::size_t& count) {
+    std::size_t found = 0;
+    for (const char* next = at; found != count; ++found, at = next) {
+        while (next != end && !in_word(*next)) ++next;
+        if (next == end) break;
+        while (next != end && in_word(*next)) ++next;
+    }
+    count = found;
+    return at;
 }
 
 }  // namespace barycert::io

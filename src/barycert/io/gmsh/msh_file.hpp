@@ -1,4 +1,6 @@
 /// A .msh file in memory: its format, and where its sections are.
+///
+/// Within the readers of .msh files an Error is thrown as an Exception, which read_guarded() makes a Result.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +58,7 @@ struct MshSection {
 class MshFile {
 public:
     /// Error: it cannot be read, is of another format or version, or a section has no end.
-    static Result<MshFile> open(const std::string& path, int threads);
+    MshFile(const std::string& path, int threads);
 
     const std::string& path() const { return path_; }
     int version() const { return version_; }  ///< 22 (all of 2.x), 40 or 41
@@ -65,27 +67,30 @@ public:
     int threads() const { return threads_; }
     const WordIndex& words() const { return words_; }  ///< of text
     std::string_view bytes() const { return bytes_; }
+    const char* end() const { return bytes_.data() + bytes_.size(); }
 
     const std::vector<MshSection>& sections() const { return sections_; }
     /// The only section of that name; nullptr if there is none.
     const MshSection* find(std::string_view name) const;
 
     /// An Error about the place `at`, with its line where the file is text.
-    Error error_at(const char* at, std::string what, std::string expected, std::string found,
-                   std::string remedy = {}) const;
+    [[noreturn]] void refuse(const char* at, std::string what, std::string expected, std::string found,
+                             std::string remedy = {}) const;
 
 private:
-    Status read_format();
-    Status list_text_sections();
-    Status list_binary_sections();
-    Status check_sections() const;
+    void read_format();
+    void list_text_sections();
+    void list_binary_sections();
+    void check_sections() const;
     /// The section that begins at `at` and whose end, if it has one, is `end`.
-    Status add_section(const char* at, const char* end);
+    void add_section(const char* at, const char* end);
+    /// After a byte-order mark.
+    const char* begin() const { return bytes_.data() + (bytes_.starts_with("\xEF\xBB\xBF") ? 3 : 0); }
 
     std::string path_;
     base::MappedFile data_;
     std::string_view bytes_;  // of data_
-    int version_ = 41, threads_ = 0;
+    int version_ = 41, threads_;
     bool binary_ = false, swapped_ = false;
     WordIndex words_;
     const char* after_format_ = nullptr;

@@ -5,7 +5,10 @@
 //     but for points also: boundaries count, boundary...
 // $PartitionedEntities, 4.1: partitions count, ghosts count, rows: ghost partition; four counts; rows as above, with
 //     parent-dimension parent-tag, partitions count, partition... after the tag.
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <set>
 #include <string_view>
 
 #include "barycert/io/gmsh/msh_parts.hpp"
@@ -13,107 +16,203 @@
 namespace barycert::io {
 namespace {
 
-constexpr const char* name_line = "a line: dimension tag \"name\"";
-
-Status read_names(const MshFile& file, const MshSection& section, MshGroups& groups) {
-    Walk walk(file, section, true);
-    std::int64_t count = 0;
-    const char* start = walk.at();
-    const auto bad = [&] {
-        return file.error_at(start, "bad line in $PhysicalNames", name_line, word_at(start, walk.end()));
+void read_names(const MshFile& file, const MshSection& section, MshGroups& groups) {
+    constexpr const char* name_line = "a line: dimension tag \"name\"";
+    Walk walk(file, section, true, "bad line in");
+    const auto refuse_at = [&](const char* at) {
+        walk.move_to(at);
+        walk.refuse_word(name_line, word_at(at, walk.end()));
     };
-    if (!walk.size(count, "")) return bad();
+    const std::int64_t count = walk.integer(name_line);
+    if (count < 0) refuse_at(section.body.data());
     walk.line();
     for (std::int64_t i = 0; i < count; ++i) {
-        start = walk.at();
-        std::int64_t dimension = 0, tag = 0;
-        if (!walk.integer(dimension, "") || !walk.integer(tag, "")) return bad();
+        const char* const start = walk.at();
+        const std::int64_t dimension = walk.integer(name_line), tag = walk.integer(name_line);
         const std::string_view rest = walk.line();
         const std::size_t first = rest.find('"'), last = rest.rfind('"');
-        if (first == std::string_view::npos || first == last) return bad();
+        if (first == std::string_view::npos || first == last) refuse_at(start);
         groups.names[{dimension, tag}] = std::string(rest.substr(first + 1, last - first - 1));
     }
-    return Done{};
 }
 
-bool take_integers(Walk& walk, const char* count_name, const char* name, std::vector<std::int64_t>* values) {
-    std::int64_t count = 0, value = 0;
-    if (!walk.size(count, count_name)) return false;
-    for (std::int64_t i = 0; i < count; ++i) {
-        if (!walk.integer(value, name)) return false;
-        if (values != nullptr) values->push_back(value);
-    }
-    return true;
+std::vector<std::int64_t> take_integers(Walk& walk, const char* count_name, const char* name) {
+    std::vector<std::int64_t> values;
+    for (std::int64_t left = walk.size(count_name); left > 0; --left) values.push_back(walk.integer(name));
+    return values;
 }
 
 /// One row. `parts`: of $PartitionedEntities.
-bool take_entity(Walk& walk, std::int64_t dimension, int reals, bool parts, MshGroups& groups) {
-    std::int64_t tag = 0, whole_dimension = 0;
-    MshEntity entity;
-    if (!walk.integer(tag, "the tag of an entity")) return false;
-    entity.whole = tag;
+void take_entity(Walk& walk, std::int64_t dimension, int reals, bool parts, MshGroups& groups) {
+    const std::int64_t tag = walk.integer("the tag of an entity");
+    MshEntity entity{{}, tag};
     if (parts) {
-        std::int64_t whole = 0;
-        if (!walk.integer(whole_dimension, "the dimension of an entity") ||
-            !walk.integer(whole, "the tag of an entity") ||
-            !take_integers(walk, "the number of partitions", "a partition", nullptr)) {
-            return false;
-        }
+        const std::int64_t whole_dimension = walk.integer("the dimension of an entity");
+        const std::int64_t whole = walk.integer("the tag of an entity");
+        take_integers(walk, "the number of partitions", "a partition");
         if (whole_dimension == dimension) entity.whole = whole;
     }
-    double ignored = 0;
-    for (int i = 0; i < reals; ++i) {
-        if (!walk.real(ignored, "a coordinate")) return false;
-    }
-    if (!take_integers(walk, "the number of physical groups", "the tag of a physical group", &entity.physical))
-        return false;
-    if (dimension > 0 && !take_integers(walk, "the number of boundaries", "the tag of an entity", nullptr))
-        return false;
+    for (int i = 0; i < reals; ++i) walk.real("a coordinate");
+    entity.physical = take_integers(walk, "the number of physical groups", "the tag of a physical group");
+    if (dimension > 0) take_integers(walk, "the number of boundaries", "the tag of an entity");
     if (!entity.physical.empty() || entity.whole != tag) groups.entities[{dimension, tag}] = std::move(entity);
-    return true;
 }
 
-bool take_entities(Walk& walk, int version, bool parts, MshGroups& groups) {
+/// `parts`: of $PartitionedEntities.
+void take_entities(const MshFile& file, const MshSection& section, bool parts, MshGroups& groups) {
+    Walk walk(file, section);
+    if (parts) {
+        walk.size("the number of partitions");
+        for (std::int64_t ghosts = walk.size("the number of ghost entities"); ghosts > 0; --ghosts)
+            walk.integer("the tag of an entity"), walk.integer("a partition");
+        groups.partitioned = true;
+    }
     std::array<std::int64_t, 4> counts{};
-    for (std::int64_t& count : counts) {
-        if (!walk.size(count, "the number of entities")) return false;
-    }
+    for (std::int64_t& count : counts) count = walk.size("the number of entities");
     for (std::int64_t dimension = 0; dimension < 4; ++dimension) {
-        const int reals = dimension == 0 && version == 41 ? 3 : 6;
-        for (std::int64_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
-            if (!take_entity(walk, dimension, reals, parts, groups)) return false;
-        }
+        const int reals = dimension == 0 && file.version() == 41 ? 3 : 6;
+        for (std::int64_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i)
+            take_entity(walk, dimension, reals, parts, groups);
     }
-    return walk.at_end();
+    walk.need_end();
 }
 
-bool take_parts(Walk& walk, int version, MshGroups& groups) {
-    std::int64_t partitions = 0, ghosts = 0, ignored = 0;
-    if (!walk.size(partitions, "the number of partitions") || !walk.size(ghosts, "the number of ghost entities"))
-        return false;
-    for (std::int64_t i = 0; i < ghosts; ++i) {
-        if (!walk.integer(ignored, "the tag of an entity") || !walk.integer(ignored, "a partition")) return false;
+/// The tag of an entity: 1, or 0 for none, throughout says nothing.
+bool says_something(std::int64_t tag, std::int64_t first) {
+    return tag != first || (tag != 0 && tag != 1);
+}
+
+bool has_field(const Mesh& mesh, const char* name) {
+    return std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
+                       [&](const Field& field) { return field.name == name; });
+}
+
+/// 4.x: groups of cells by way of their entities. Nothing is filled in that would say nothing.
+void fill_from_entities(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells,
+                        Notes& notes) {
+    struct Piece {
+        std::size_t count;
+        std::int64_t physical, whole;
+    };
+    std::vector<Piece> pieces;
+    std::set<std::int64_t> in_several;
+    bool grouped = false, any_entity = false;
+    for (const ElementBlock& block : elements.blocks) {
+        if (cells.left_out[static_cast<std::size_t>(block.type->number)] != 0 || block.run.count == 0) continue;
+        Piece piece{block.run.count, 0, block.entity};
+        const auto found = groups.entities.find({cells.dimension, block.entity});
+        if (found != groups.entities.end()) {
+            const std::vector<std::int64_t>& physical = found->second.physical;
+            piece.whole = found->second.whole;
+            if (!physical.empty()) piece.physical = physical.front();
+            if (physical.size() > 1) in_several.insert(block.entity);
+        }
+        grouped = grouped || piece.physical != 0;
+        any_entity = any_entity || says_something(piece.whole, pieces.empty() ? piece.whole : pieces.front().whole);
+        pieces.push_back(piece);
     }
-    return take_entities(walk, version, true, groups);
+    const auto fill = [&](std::vector<double>& values, std::int64_t Piece::*tag) {
+        values.reserve(cells.tags.size());
+        for (const Piece& piece : pieces) values.insert(values.end(), piece.count, static_cast<double>(piece.*tag));
+    };
+    if (grouped) fill(cells.physical, &Piece::physical);
+    if (any_entity) fill(cells.geometrical, &Piece::whole);
+    if (in_several.empty()) return;
+    notes.push_back({Note::Kind::left_out,
+                     "further physical groups of " + std::to_string(in_several.size()) + " entities, the first being " +
+                         std::to_string(*in_several.begin()) + ": gmsh:physical has the first group of each cell",
+                     file.path(), true});
+}
+
+/// 2.x: the same for what was read with each cell.
+void drop_what_says_nothing(MshCells& cells) {
+    if (std::all_of(cells.physical.begin(), cells.physical.end(), [](double tag) { return tag == 0; }))
+        cells.physical.clear();
+    const std::vector<double>& tags = cells.geometrical;
+    const bool any = std::any_of(tags.begin(), tags.end(), [&](double tag) {
+        return says_something(static_cast<std::int64_t>(tag), static_cast<std::int64_t>(tags.front()));
+    });
+    if (!any) cells.geometrical.clear();
+}
+
+/// The name of the group of each cell; empty where it has none.
+std::vector<std::string> group_names(const MshCells& cells, const MshGroups& groups) {
+    std::vector<std::string> names;
+    names.reserve(cells.physical.size());
+    double last = 0;
+    const std::string nothing;
+    const std::string* name = &nothing;
+    for (const double tag : cells.physical) {
+        if (tag != last || names.empty()) {
+            // A group that is turned around has its tag with a minus.
+            const auto found = groups.names.find({cells.dimension, static_cast<std::int64_t>(std::fabs(tag))});
+            name = found == groups.names.end() ? &nothing : &found->second;
+            last = tag;
+        }
+        names.push_back(*name);
+    }
+    return names;
 }
 
 }  // namespace
 
-Result<MshGroups> read_msh_groups(const MshFile& file) {
+MshGroups read_msh_groups(const MshFile& file) {
     MshGroups groups;
-    if (const MshSection* const names = file.find("PhysicalNames"); names != nullptr) {
-        if (Status s = read_names(file, *names, groups); !s) return s.error();
-    }
-    if (const MshSection* const entities = file.find("Entities"); entities != nullptr && file.version() != 22) {
-        Walk walk(file, *entities);
-        if (!take_entities(walk, file.version(), false, groups)) return walk.error();
-    }
-    if (const MshSection* const parts = file.find("PartitionedEntities"); parts != nullptr && file.version() == 41) {
-        Walk walk(file, *parts);
-        if (!take_parts(walk, file.version(), groups)) return walk.error();
-        groups.partitioned = true;
-    }
+    if (const MshSection* const names = file.find("PhysicalNames"); names != nullptr) read_names(file, *names, groups);
+    if (const MshSection* const entities = file.find("Entities"); entities != nullptr && file.version() != 22)
+        take_entities(file, *entities, false, groups);
+    if (const MshSection* const parts = file.find("PartitionedEntities"); parts != nullptr && file.version() == 41)
+        take_entities(file, *parts, true, groups);
     return groups;
+}
+
+void note_cells(const MshCells& cells, const MshGroups& groups, const std::string& path, Notes& notes) {
+    const std::string others = counted_types(cells.left_out, 0, cells.dimension - 1);
+    // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result, and to
+    // tell it each time would teach users to look away. What has nodes of its own is another matter: a wire or a shell
+    // beside the cells, of which nothing is left.
+    if (!others.empty())
+        notes.push_back(
+            {Note::Kind::left_out,
+             "elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
+             path, cells.apart});
+    if (cells.repeated != 0)
+        notes.push_back({Note::Kind::left_out,
+                         std::to_string(cells.repeated) +
+                             " elements that repeat the one before them for a further physical group: gmsh:physical "
+                             "has the first group of each cell",
+                         path, true});
+    if (cells.unused_nodes != 0)
+        notes.push_back({Note::Kind::left_out,
+                         std::to_string(cells.unused_nodes) +
+                             " nodes of no cell: no value is taken from them; all nodes keep their numbers",
+                         path});
+    if (cells.partitioned || groups.partitioned)
+        notes.push_back({Note::Kind::left_out, "partitions of the mesh: it is read as one", path});
+}
+
+void label_cells(const MshFile& file, const MshElements& elements, MshCells cells, const MshGroups& groups,
+                 Mesh& mesh) {
+    if (file.version() == 22) {
+        drop_what_says_nothing(cells);
+    } else {
+        fill_from_entities(file, elements, groups, cells, mesh.notes);
+    }
+    const bool grouped = !cells.physical.empty();
+    bool in_sequence = true;
+    for (std::size_t i = 0; i < cells.tags.size() && in_sequence; ++i) {
+        in_sequence = cells.tags[i] == std::int64_t{mesh.cell_number(static_cast<Mesh::Index>(i))} + 1;
+    }
+    if (grouped) {
+        std::vector<std::string> names = group_names(cells, groups);
+        if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return !name.empty(); }))
+            mesh.cell_labels.push_back({"gmsh:physical_name", std::move(names)});
+    }
+    if (!in_sequence) mesh.cell_labels.push_back({"gmsh:tag", std::move(cells.tags)});
+    if (grouped && !has_field(mesh, "gmsh:physical"))
+        mesh.cell_fields.push_back({"gmsh:physical", 1, std::move(cells.physical)});
+    if (!cells.geometrical.empty() && !has_field(mesh, "gmsh:geometrical"))
+        mesh.cell_fields.push_back({"gmsh:geometrical", 1, std::move(cells.geometrical)});
 }
 
 }  // namespace barycert::io

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/io.hpp"
 #include "barycert/io/gmsh/msh_file.hpp"
 #include "barycert/io/gmsh/rows.hpp"
-#include "barycert/io.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
@@ -49,10 +49,9 @@ std::string counted_types(const TypeCounts& counts, int low, int high);
 
 class TagIndex {
 public:
-    /// Tags in any order, with gaps of any size. `first_twice` gets the position of the first one that stood before, if
-    /// there is one; then the index is of no use. Precondition: fewer than 2^31.
-    TagIndex(std::span<const std::int64_t> tags, std::optional<std::size_t>& first_twice) {
-        first_twice.reset();
+    TagIndex() = default;
+    /// Tags in any order, with gaps of any size. Precondition: fewer than 2^31.
+    explicit TagIndex(std::span<const std::int64_t> tags) {
         if (tags.empty()) return;
         const auto [low, high] = std::minmax_element(tags.begin(), tags.end());
         low_ = *low;
@@ -78,7 +77,9 @@ public:
                 first_twice = std::min(first_twice.value_or(position), position);
         }
     }
-    TagIndex() = default;
+
+    /// The position of the first tag that stood before, if there is one; then the index is of no use.
+    std::optional<std::size_t> first_twice;
 
     /// The position of a tag, or -1.
     Mesh::Index find(std::int64_t tag) const {
@@ -109,7 +110,7 @@ struct MshNodes {
 };
 
 /// Error: what the grammar does not have, a tag twice, a coordinate that is not finite.
-Result<MshNodes> read_msh_nodes(const MshFile& file);
+MshNodes read_msh_nodes(const MshFile& file);
 
 /// Elements of one type, one after the other.
 struct ElementBlock {
@@ -127,7 +128,7 @@ struct MshElements {
 };
 
 /// Looks at headers, in text of 2.x at the types of the elements. Error: what the grammar does not have, unknown types.
-Result<MshElements> find_msh_elements(const MshFile& file);
+MshElements find_msh_elements(const MshFile& file);
 
 /// The header of a block of 4.x.
 struct BlockHeader {
@@ -139,26 +140,28 @@ struct BlockHeader {
 /// Calls add(header) for each block of $Nodes or $Elements, which moves over its rows. `what`: "nodes"; `kind`: what
 /// BlockHeader::kind is; `found`: how many rows there are so far.
 template <class Add>
-bool walk_blocks(Walk& walk, int version, const std::string& what, const char* kind, const std::size_t& found,
+void walk_blocks(Walk& walk, int version, const std::string& what, const char* kind, const std::size_t& found,
                  const Add& add) {
     constexpr std::uint64_t most = INT32_MAX;
     const std::string all = "the number of " + what, one = all + " in a block";
     constexpr const char *dimension = "the dimension of an entity", *entity = "the tag of an entity";
-    std::int64_t blocks = 0, total = 0, ignored = 0;
-    if (!walk.size(blocks, "the number of blocks") || !walk.size(total, all.c_str())) return false;
-    if (version == 41 && !(walk.size(ignored, "the lowest tag") && walk.size(ignored, "the highest tag"))) return false;
+    const std::int64_t blocks = walk.size("the number of blocks"), total = walk.size(all.c_str());
+    if (version == 41) walk.size("the lowest tag"), walk.size("the highest tag");
     for (std::int64_t i = 0; i < blocks; ++i) {
         BlockHeader b;
-        const bool head = version == 40 ? walk.integer(b.entity, entity) && walk.integer(b.dimension, dimension)
-                                        : walk.integer(b.dimension, dimension) && walk.integer(b.entity, entity);
-        if (!head || !walk.integer(b.kind, kind) || !walk.size(b.count, one.c_str())) return false;
+        if (version == 40) b.entity = walk.integer(entity);
+        b.dimension = walk.integer(dimension);
+        if (version != 40) b.entity = walk.integer(entity);
+        b.kind = walk.integer(kind);
+        b.count = walk.size(one.c_str());
         if (static_cast<std::uint64_t>(b.count) > most - found)
-            return walk.refuse("too many " + what, "at most 2147483647", "more");
-        if (!add(b)) return false;
+            walk.refuse("too many " + what, "at most 2147483647", "more");
+        add(b);
     }
-    if (static_cast<std::uint64_t>(total) == found) return walk.at_end();
-    return walk.refuse("the blocks do not add up", std::to_string(total) + " " + what, std::to_string(found),
-                       "mend the numbers of " + what);
+    if (static_cast<std::uint64_t>(total) != found)
+        walk.refuse("the blocks do not add up", std::to_string(total) + " " + what, std::to_string(found),
+                    "mend the numbers of " + what);
+    walk.need_end();
 }
 
 struct MshCells {
@@ -176,8 +179,7 @@ struct MshCells {
 
 /// Tetrahedra, or triangles where there is nothing of dimension 3. Error: other cells of that dimension, cells of both
 /// orders, an element that names a node that there is not.
-Result<MshCells> read_msh_cells(const MshFile& file, const MshElements& elements, const TagIndex& nodes,
-                                std::size_t node_count);
+MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes);
 
 /// An entity or a physical group: its dimension and its tag.
 using GmshKey = std::pair<std::int64_t, std::int64_t>;
@@ -194,7 +196,7 @@ struct MshGroups {
     bool partitioned = false;               ///< there are parts of entities
 };
 
-Result<MshGroups> read_msh_groups(const MshFile& file);
+MshGroups read_msh_groups(const MshFile& file);
 
 /// Tells which elements are not among the cells, and which nodes are of no cell.
 void note_cells(const MshCells& cells, const MshGroups& groups, const std::string& path, Notes& notes);
@@ -214,7 +216,7 @@ struct MshView : GmshStep {
 };
 
 /// All such sections, in the order of the file. Error: what the grammar does not have.
-Result<std::vector<MshView>> find_msh_views(const MshFile& file);
+std::vector<MshView> find_msh_views(const MshFile& file);
 
 /// What views are about.
 struct ViewTargets {
@@ -226,23 +228,7 @@ struct ViewTargets {
 
 /// Appends one field for each name among the views `of` nodes or elements, and tells in `notes` what is missing.
 /// `step`: of each field; not set: its first.
-Status read_msh_fields(const MshFile& file, const std::vector<MshView>& views, MshView::Of of,
-                       const ViewTargets& targets, std::optional<std::int64_t> step, std::vector<Field>& fields,
-                       Notes& notes);
-
-struct CellGroups {
-    std::vector<std::int64_t> tags;                    ///< of elements
-    std::vector<std::int32_t> physical;                ///< a cell; empty: none
-    std::vector<std::int32_t> entity;                  ///< a cell; empty: 1
-    std::map<std::int32_t, std::int32_t> physical_of;  ///< of each entity, 0 for none; `by_entity` alone
-    std::map<std::int32_t, std::string> names;         ///< of physical groups
-    std::vector<const Field*> data;                    ///< the cell fields that are written as such
-
-    std::int32_t entity_of(std::size_t cell) const { return entity.empty() ? 1 : entity[cell]; }
-    std::int32_t group_of(std::size_t cell) const { return physical.empty() ? 0 : physical[cell]; }
-};
-
-/// `by_entity`: an entity can be in one group only (4.1). Error: one group with two names.
-Result<CellGroups> group_cells(const Mesh& mesh, bool by_entity, const std::string& path);
+void read_msh_fields(const MshFile& file, const std::vector<MshView>& views, MshView::Of of, const ViewTargets& targets,
+                     std::optional<std::int64_t> step, std::vector<Field>& fields, Notes& notes);
 
 }  // namespace barycert::io

@@ -20,48 +20,43 @@ std::string string_of(std::string_view line) {
     return std::string(line);
 }
 
-Status read_header(const MshFile& file, MshView& view) {
+void read_header(const MshFile& file, MshView& view) {
     constexpr std::int64_t max_components = 100;
     Walk walk(file, *view.section, true, "bad header of");
-    const auto bad = [&](const char* expected, std::string found) {
-        walk.refuse_word(expected, std::move(found));
-        return walk.error();
-    };
     const char* const end = walk.end();
-    std::int64_t count = 0;
-    if (!walk.integer(count, "the number of strings")) return walk.error();
+    const std::int64_t strings = walk.integer("the number of strings");
     walk.line();
-    for (std::int64_t i = 0; i < count; ++i) {
-        if (walk.at() == end) return bad("a string", word_at(end, end));
+    for (std::int64_t i = 0; i < strings; ++i) {
+        if (walk.at() == end) walk.refuse_word("a string", word_at(end, end));
         std::string text = string_of(walk.line());
         if (i == 0) view.field = std::move(text);
         if (i == 1) view.interpolated = true;
     }
-    if (!walk.integer(count, "the number of real numbers")) return walk.error();
-    for (std::int64_t i = 0; i < count; ++i) {
-        double value = 0;
-        if (!walk.value(value, "a real number")) return walk.error();
+    const std::int64_t reals = walk.integer("the number of real numbers");
+    for (std::int64_t i = 0; i < reals; ++i) {
+        const double value = walk.real("a real number", true);
         if (i == 0) view.time = value;
     }
-    if (!walk.integer(count, "the number of integers")) return walk.error();
+    const std::int64_t integers = walk.integer("the number of integers");
     std::array<std::int64_t, 3> values{0, 0, -1};
-    for (std::int64_t i = 0, ignored = 0; i < count; ++i) {
-        if (!walk.integer(i < 3 ? values[static_cast<std::size_t>(i)] : ignored, "an integer")) return walk.error();
+    for (std::int64_t i = 0; i < integers; ++i) {
+        const std::int64_t value = walk.integer("an integer");
+        if (i < 3) values[static_cast<std::size_t>(i)] = value;
     }
     view.step = values[0];
     if (values[1] < 1 || values[1] > max_components)
-        return bad("the number of components, 1 to 100", std::to_string(values[1]));
-    if (values[2] < 0 || values[2] > INT32_MAX) return bad("the number of values", std::to_string(values[2]));
+        walk.refuse_word("the number of components, 1 to 100", std::to_string(values[1]));
+    if (values[2] < 0 || values[2] > INT32_MAX) walk.refuse_word("the number of values", std::to_string(values[2]));
     view.components = static_cast<int>(values[1]);
     if (walk.line().find_first_not_of(" \t") != std::string_view::npos)
-        return bad("a line end", word_at(walk.at(), end));
-    if (view.of == MshView::Of::element_nodes) return Done{};
+        walk.refuse_word("a line end", word_at(walk.at(), end));
+    if (view.of == MshView::Of::element_nodes) return;
     Walk rows(file, *view.section);
     rows.move_to(walk.at());
     const std::size_t numbers = 1 + static_cast<std::size_t>(values[1]), bytes = 8 * numbers - 4;
     view.rows = {rows.at(), static_cast<std::size_t>(values[2]), 0, numbers, bytes, 0};
-    if (!rows.skip_rows(values[2], numbers, bytes, "values") || !rows.at_end()) return rows.error();
-    return Done{};
+    rows.skip_rows(values[2], numbers, bytes, "values");
+    rows.need_end();
 }
 
 /// The rows of one section.
@@ -70,21 +65,19 @@ struct ViewRows {
     std::vector<double> values;
 };
 
-Result<ViewRows> read_rows(const MshFile& file, const MshView& view) {
+ViewRows read_rows(const MshFile& file, const MshView& view) {
     ViewRows rows;
     const auto components = static_cast<std::size_t>(view.components);
     rows.tags.resize(view.rows.count);
     rows.values.resize(view.rows.count * components);
     const std::string section(view.section->name);
-    const Status status = parse_runs(file, section.c_str(), std::span(&view.rows, 1),
-                                     [&, components](auto& row, const Run&, std::size_t i) {
-                                         if (!row.integer(rows.tags[i], "a tag")) return false;
-                                         for (std::size_t c = 0; c < components; ++c) {
-                                             if (!row.value(rows.values[i * components + c], "a number")) return false;
-                                         }
-                                         return true;
-                                     });
-    if (!status) return status.error();
+    parse_runs(file, section.c_str(), std::span(&view.rows, 1), [&, components](auto& row, const Run&, std::size_t i) {
+        if (!row.integer(rows.tags[i], "a tag")) return false;
+        for (std::size_t c = 0; c < components; ++c) {
+            if (!row.value(rows.values[i * components + c], "a number")) return false;
+        }
+        return true;
+    });
     return rows;
 }
 
@@ -105,22 +98,18 @@ public:
         }
     }
 
-    Status add(const MshView& view) {
+    void add(const MshView& view) {
         if (view.components != first_.components) return skip(view, "has another number of components");
-        Result<ViewRows> rows = read_rows(file_, view);
-        if (!rows) return rows.error();
-        std::vector<Mesh::Index> to(rows->tags.size());
+        ViewRows rows = read_rows(file_, view);
+        std::vector<Mesh::Index> to(rows.tags.size());
         bool all = placed_ == 0 && to.size() == targets_.count;
         for (std::size_t i = 0; i < to.size(); ++i) {
-            to[i] = targets_.index.find(rows->tags[i]);
+            to[i] = targets_.index.find(rows.tags[i]);
             all = all && to[i] == static_cast<Mesh::Index>(i);
         }
-        if (all) {
-            field_.data = std::move(rows->values);
-            placed_ = targets_.count;
-            return Done{};
-        }
-        return place(view, *rows, to);
+        if (!all) return place(view, rows, to);
+        field_.data = std::move(rows.values);
+        placed_ = targets_.count;
     }
 
     void finish(std::vector<Field>& fields) {
@@ -142,13 +131,12 @@ private:
     void note(Note::Kind kind, std::string text, bool important) {
         notes_.push_back({kind, std::move(text), file_.path(), important});
     }
-    Status skip(const MshView& view, const char* why) {
+    void skip(const MshView& view, const char* why) {
         note(Note::Kind::left_out,
              "a second section " + base::quoted(view.field) + " of " + step_text(view) + ": it " + why, true);
-        return Done{};
     }
 
-    Status place(const MshView& view, const ViewRows& rows, const std::vector<Mesh::Index>& to) {
+    void place(const MshView& view, const ViewRows& rows, const std::vector<Mesh::Index>& to) {
         const auto components = static_cast<std::size_t>(field_.components);
         if (has_.empty()) {
             has_.assign(targets_.count, placed_ == targets_.count ? 1 : 0);
@@ -165,15 +153,14 @@ private:
             }
             const auto i = static_cast<std::size_t>(to[row]);
             if (has_[i] == 2)
-                return file_.error_at(view.section->name.data(),
-                                      "two values of " + base::quoted(view.field) + " for one " + targets_.one,
-                                      "each tag once in a section", "tag " + std::to_string(rows.tags[row]) + " again");
+                file_.refuse(view.section->name.data(),
+                             "two values of " + base::quoted(view.field) + " for one " + targets_.one,
+                             "each tag once in a section", "tag " + std::to_string(rows.tags[row]) + " again");
             has_[i] = 2;
             ++placed_;
             std::copy_n(&rows.values[row * components], components, &field_.data[i * components]);
         }
         std::replace(has_.begin(), has_.end(), std::uint8_t{2}, std::uint8_t{1});
-        return Done{};
     }
 
     const MshFile& file_;
@@ -206,7 +193,7 @@ std::optional<std::int64_t> choose_step(const std::vector<const MshView*>& views
 
 }  // namespace
 
-Result<std::vector<MshView>> find_msh_views(const MshFile& file) {
+std::vector<MshView> find_msh_views(const MshFile& file) {
     constexpr std::array<std::string_view, 3> names{"NodeData", "ElementData", "ElementNodeData"};
     std::vector<MshView> views;
     for (const MshSection& section : file.sections()) {
@@ -216,15 +203,14 @@ Result<std::vector<MshView>> find_msh_views(const MshFile& file) {
         view.of = static_cast<MshView::Of>(name - names.begin());
         view.of_cells = view.of == MshView::Of::elements;
         view.section = &section;
-        if (Status s = read_header(file, view); !s) return s.error();
+        read_header(file, view);
         views.push_back(std::move(view));
     }
     return views;
 }
 
-Status read_msh_fields(const MshFile& file, const std::vector<MshView>& views, MshView::Of of,
-                       const ViewTargets& targets, std::optional<std::int64_t> step, std::vector<Field>& fields,
-                       Notes& notes) {
+void read_msh_fields(const MshFile& file, const std::vector<MshView>& views, MshView::Of of, const ViewTargets& targets,
+                     std::optional<std::int64_t> step, std::vector<Field>& fields, Notes& notes) {
     std::vector<std::vector<const MshView*>> by_name;
     std::map<std::string, std::size_t> position;
     for (const MshView& view : views) {
@@ -243,11 +229,10 @@ Status read_msh_fields(const MshFile& file, const std::vector<MshView>& views, M
         for (const MshView* view : same) {
             if (view->step != *chosen) continue;
             if (!maker) maker.emplace(file, targets, *view, notes);
-            if (Status s = maker->add(*view); !s) return s;
+            maker->add(*view);
         }
         maker->finish(fields);
     }
-    return Done{};
 }
 
 }  // namespace barycert::io

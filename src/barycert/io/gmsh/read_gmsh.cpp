@@ -14,18 +14,17 @@ namespace io {
 namespace {
 
 /// Coordinates of the plane z = 0, in place.
-Status flatten(std::vector<double>& points, const std::string& path, const std::string& triangles) {
+void flatten(std::vector<double>& points, const std::string& path, const std::string& triangles) {
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         if (points[i + 2] != 0)
-            return file_error(path, "z of node " + std::to_string(i / 3) + " (from 0)",
-                              "0, as the mesh is of triangles", base::shortest(points[i + 2]),
-                              plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
+            refuse_file(path, "z of node " + std::to_string(i / 3) + " (from 0)", "0, as the mesh is of triangles",
+                        base::shortest(points[i + 2]),
+                        plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
         points[to++] = points[i];
         points[to++] = points[i + 1];
     }
     points.resize(to);
-    return Done{};
 }
 
 /// What is in the file and has no place in a mesh.
@@ -50,54 +49,41 @@ void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes
     }
 }
 
-Result<Mesh> read_whole(const MshFile& file, const GmshReadOptions& options) {
-    Result<MshNodes> nodes = read_msh_nodes(file);
-    if (!nodes) return nodes.error();
-    const Result<MshElements> elements = find_msh_elements(file);
-    if (!elements) return elements.error();
-    Result<MshCells> cells = read_msh_cells(file, *elements, nodes->index, nodes->points.size() / 3);
-    if (!cells) return cells.error();
-    const Result<MshGroups> groups = read_msh_groups(file);
-    if (!groups) return groups.error();
-    const Result<std::vector<MshView>> views = find_msh_views(file);
-    if (!views) return views.error();
+Mesh read_whole(const MshFile& file, const GmshReadOptions& options) {
+    MshNodes nodes = read_msh_nodes(file);
+    const MshElements elements = find_msh_elements(file);
+    MshCells cells = read_msh_cells(file, elements, nodes);
+    const MshGroups groups = read_msh_groups(file);
+    const std::vector<MshView> views = find_msh_views(file);
 
     Mesh mesh;
-    mesh.dimension = cells->dimension;
-    mesh.points = std::move(nodes->points);
-    mesh.cells = std::move(cells->corners);
-    mesh.mid_nodes = std::move(cells->mid_nodes);
+    mesh.dimension = cells.dimension;
+    mesh.points = std::move(nodes.points);
+    mesh.cells = std::move(cells.corners);
+    mesh.mid_nodes = std::move(cells.mid_nodes);
     if (!mesh.mid_nodes.empty()) {
         // Of a triangle both orders are the same.
         mesh.mid_edge_order = mesh.dimension == 3 ? MidEdgeOrder::gmsh : MidEdgeOrder::vtk;
         mesh::normalise_mid_nodes(mesh);
     }
     mesh.index_base = 1;
-    mesh.cell_numbers = std::move(cells->numbers);
-    if (mesh.dimension == 2) {
-        if (Status s = flatten(mesh.points, file.path(), mesh.mid_nodes.empty() ? file.path() : ""); !s)
-            return s.error();
+    mesh.cell_numbers = std::move(cells.numbers);
+    if (mesh.dimension == 2) flatten(mesh.points, file.path(), mesh.mid_nodes.empty() ? file.path() : "");
+    note_cells(cells, groups, file.path(), mesh.notes);
+    read_msh_fields(file, views, MshView::Of::nodes, {nodes.index, mesh.point_count(), "node", "nodes"}, options.step,
+                    mesh.point_fields, mesh.notes);
+    if (std::any_of(views.begin(), views.end(), [](const MshView& v) { return v.of == MshView::Of::elements; })) {
+        const TagIndex index(cells.tags);
+        if (const auto twice = index.first_twice; twice)
+            file.refuse(file.find("Elements")->name.data(),
+                        "two cells with the tag " + std::to_string(cells.tags[*twice]),
+                        "each tag once, for $ElementData refers to them",
+                        "it again at cell " + std::to_string(*twice) + " from 0", "give each element a tag of its own");
+        read_msh_fields(file, views, MshView::Of::elements, {index, mesh.cell_count(), "cell", "cells"}, options.step,
+                        mesh.cell_fields, mesh.notes);
     }
-    note_cells(*cells, *groups, file.path(), mesh.notes);
-    const ViewTargets node_targets{nodes->index, mesh.point_count(), "node", "nodes"};
-    Status status =
-        read_msh_fields(file, *views, MshView::Of::nodes, node_targets, options.step, mesh.point_fields, mesh.notes);
-    if (!status) return status.error();
-    if (std::any_of(views->begin(), views->end(), [](const MshView& v) { return v.of == MshView::Of::elements; })) {
-        std::optional<std::size_t> twice;
-        const TagIndex index(cells->tags, twice);
-        if (twice)
-            return file.error_at(
-                file.find("Elements")->name.data(), "two cells with the tag " + std::to_string(cells->tags[*twice]),
-                "each tag once, for $ElementData refers to them",
-                "it again at cell " + std::to_string(*twice) + " from 0", "give each element a tag of its own");
-        const ViewTargets targets{index, mesh.cell_count(), "cell", "cells"};
-        status =
-            read_msh_fields(file, *views, MshView::Of::elements, targets, options.step, mesh.cell_fields, mesh.notes);
-        if (!status) return status.error();
-    }
-    label_cells(file, *elements, std::move(*cells), *groups, mesh);
-    note_sections(file, *views, mesh.notes);
+    label_cells(file, elements, std::move(cells), groups, mesh);
+    note_sections(file, views, mesh.notes);
     return mesh;
 }
 
@@ -105,20 +91,15 @@ Result<Mesh> read_whole(const MshFile& file, const GmshReadOptions& options) {
 }  // namespace io
 
 Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options) {
-    return io::read_guarded(path, [&]() -> Result<Mesh> {
-        const Result<io::MshFile> file = io::MshFile::open(path, options.threads);
-        return file ? io::read_whole(*file, options) : file.error();
-    });
+    return io::read_guarded(
+        path, [&]() -> Result<Mesh> { return io::read_whole(io::MshFile(path, options.threads), options); });
 }
 
 Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
     return io::read_guarded(path, [&]() -> Result<std::vector<GmshStep>> {
-        const Result<io::MshFile> file = io::MshFile::open(path, 0);
-        if (!file) return file.error();
-        const Result<std::vector<io::MshView>> views = io::find_msh_views(*file);
-        if (!views) return views.error();
+        const io::MshFile file(path, 0);
         std::vector<GmshStep> steps;
-        for (const io::MshView& v : *views) {
+        for (const io::MshView& v : io::find_msh_views(file)) {
             if (v.of != io::MshView::Of::element_nodes) steps.push_back(v);
         }
         return steps;
@@ -129,14 +110,9 @@ Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimens
     if (dimension != 2 && dimension != 3)
         return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
     return io::read_guarded(path, [&]() -> Result<std::vector<double>> {
-        const Result<io::MshFile> file = io::MshFile::open(path, threads);
-        if (!file) return file.error();
-        Result<io::MshNodes> nodes = io::read_msh_nodes(*file);
-        if (!nodes) return nodes.error();
-        if (dimension == 2) {
-            if (Status s = io::flatten(nodes->points, path, {}); !s) return s.error();
-        }
-        return std::move(nodes->points);
+        std::vector<double> points = io::read_msh_nodes(io::MshFile(path, threads)).points;
+        if (dimension == 2) io::flatten(points, path, {});
+        return points;
     });
 }
 

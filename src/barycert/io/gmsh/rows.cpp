@@ -1,6 +1,7 @@
 #include "barycert/io/gmsh/rows.hpp"
 
 #include <bit>
+#include <utility>
 
 #include "barycert/base/text.hpp"
 
@@ -24,67 +25,63 @@ void Walk::skip() {
     while (at_ != end_ && (is_blank(*at_) || *at_ == '\n' || *at_ == '\r')) ++at_;
 }
 
-bool Walk::fail(const std::string& what, std::string expected, std::string found, std::string remedy) {
-    error_ = file_->error_at(at_, what + " $" + std::string(name_), std::move(expected), std::move(found),
-                             std::move(remedy));
-    return false;
+void Walk::refuse(const std::string& what, std::string expected, std::string found, std::string remedy) const {
+    file_->refuse(at_, what + " in $" + std::string(name_), std::move(expected), std::move(found), std::move(remedy));
 }
 
-bool Walk::take(const char* after, const char* name) {
+void Walk::refuse_word(std::string expected, std::string found) const {
+    file_->refuse(at_, std::string(bad_) + " $" + std::string(name_), std::move(expected), std::move(found));
+}
+
+void Walk::take(const char* after, const char* name) {
     if (after == nullptr || static_cast<unsigned char>(*after) > ' ' || after > end_)
-        return refuse_word(name, word_at(at_, file_->bytes().data() + file_->bytes().size()));
+        refuse_word(name, word_at(at_, file_->end()));
     at_ = after;
-    return true;
 }
 
-bool Walk::number(std::int64_t& value, std::size_t bytes, const char* name) {
+std::int64_t Walk::number(std::size_t bytes, const char* name) {
+    std::int64_t value = 0;
     if (text_) {
         skip();
-        return take(scan_integer(at_, value), name);
+        take(scan_integer(at_, value), name);
+        return value;
     }
     if (static_cast<std::size_t>(end_ - at_) < bytes)
-        return refuse("the section ends too early", name, "the end of the section");
-    value = bytes == 4 ? static_cast<std::int32_t>(word_in<std::uint32_t>(at_, file_->swapped()))
-                       : static_cast<std::int64_t>(word_in<std::uint64_t>(at_, file_->swapped()));
-    at_ += bytes;
-    return true;
+        refuse("the section ends too early", name, "the end of the section");
+    BinaryRow row(at_, bytes == 8, file_->swapped());
+    row.tag(value, name);
+    at_ = row.at();
+    return value;
 }
 
-bool Walk::size(std::int64_t& value, const char* name) {
+std::int64_t Walk::size(const char* name) {
     const char* const at = at_;
-    if (!number(value, 8, name)) return false;
-    if (value >= 0) return true;
+    const std::int64_t value = number(8, name);
+    if (value >= 0) return value;
     at_ = at;
-    return refuse("bad number", name, std::to_string(value));
+    refuse("bad number", name, std::to_string(value));
 }
 
-bool Walk::real(double& value, const char* name) {
-    if (text_) {
-        skip();
-        return take(scan_real(at_, end_, value), name);
-    }
-    std::int64_t bits = 0;
-    if (!number(bits, 8, name)) return false;
-    value = std::bit_cast<double>(bits);
-    return true;
-}
-
-bool Walk::value(double& value, const char* name) {
+double Walk::real(const char* name, bool any) {
+    if (!text_) return std::bit_cast<double>(number(8, name));
     skip();
-    return take(scan_any_real(at_, end_, value), name);
+    double value = 0;
+    take(any ? scan_any_real(at_, end_, value) : scan_real(at_, end_, value), name);
+    return value;
 }
 
-bool Walk::count_line(std::int64_t& value, const char* name) {
-    if (text_) return size(value, name);
+std::int64_t Walk::count_line(const char* name) {
+    if (text_) return size(name);
+    std::int64_t value = 0;
     const char* const after = scan_integer(at_, value);
-    if (!take(after, name)) return false;
+    take(after, name);
     const std::string_view rest = line();
     if (value < 0 || rest.find_first_not_of(" \t") != std::string_view::npos)
-        return refuse("bad number", name, base::quoted({after, rest.size()}));
-    return true;
+        refuse("bad number", name, base::quoted({after, rest.size()}));
+    return value;
 }
 
-bool Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name) {
+void Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name) {
     const auto count = static_cast<std::uint64_t>(rows);
     const auto room = static_cast<std::uint64_t>(end_ - at_);
     bool good = count <= room;  // in any layout a row has a byte or more, so that products do not overflow below
@@ -103,16 +100,17 @@ bool Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, 
         if (good) at_ = after;
         if (!good) found = std::to_string((passed + rest) / numbers);
     }
-    return good || refuse("the section ends too early", std::to_string(rows) + " " + name, found,
-                          "the file may be cut short: write it again, or mend the number");
+    if (!good)
+        refuse("the section ends too early", std::to_string(rows) + " " + name, found,
+               "the file may be cut short: write it again, or mend the number");
 }
 
-bool Walk::at_end() {
+void Walk::need_end() {
     skip();
-    if (at_ == end_) return true;
-    return refuse("more than its header tells", "the end of the section",
-                  text_ ? word_at(at_, end_) : std::to_string(end_ - at_) + " more bytes",
-                  "mend the numbers at the beginning of the section");
+    if (at_ != end_)
+        refuse("more than its header tells", "the end of the section",
+               text_ ? word_at(at_, end_) : std::to_string(end_ - at_) + " more bytes",
+               "mend the numbers at the beginning of the section");
 }
 
 std::vector<RunPart> cut_runs(const MshFile& file, std::span<const Run> runs) {
@@ -135,14 +133,15 @@ std::vector<RunPart> cut_runs(const MshFile& file, std::span<const Run> runs) {
     return parts;
 }
 
-Error row_error(const MshFile& file, const char* section, const char* at, const RowFault& fault, std::size_t row) {
-    const char* const end = file.bytes().data() + file.bytes().size();
+void refuse_row(const MshFile& file, const char* section, const char* at, const RowFault& fault, std::size_t row) {
     const bool text = !file.binary();
-    while (text && at != end && (is_blank(*at) || *at == '\r' || *at == '\n') && !fault.number) ++at;
+    while (text && at != file.end() && (is_blank(*at) || *at == '\r' || *at == '\n') && !fault.number) ++at;
     std::string what = std::string(fault.what) + " in $" + section;
     if (!text) what += ", row " + std::to_string(row) + " from 0";
-    const std::string found = fault.number ? std::to_string(*fault.number) : text ? word_at(at, end) : "another one";
-    return file.error_at(at, what, fault.expected, found, fault.remedy);
+    const std::string found = fault.number ? std::to_string(*fault.number)
+                              : text       ? word_at(at, file.end())
+                                           : "another one";
+    file.refuse(at, what, fault.expected, found, fault.remedy);
 }
 
 }  // namespace barycert::io

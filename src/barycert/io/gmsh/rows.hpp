@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +21,7 @@
 #include "barycert/io/gmsh/msh_file.hpp"
 #include "barycert/io/tetgen/integer_row.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
+#include "barycert/io/vtk/numbers.hpp"
 
 namespace barycert::io {
 
@@ -104,15 +103,6 @@ private:
     const char* end_;
 };
 
-/// The word at `at`, which must be there.
-template <class Word>
-Word word_in(const char* at, bool swapped) {
-    Word word = 0;
-    std::memcpy(&word, at, sizeof(Word));
-    if constexpr (sizeof(Word) == 8) return swapped ? __builtin_bswap64(word) : word;
-    return static_cast<Word>(swapped ? __builtin_bswap32(static_cast<std::uint32_t>(word)) : word);
-}
-
 /// Binary. The bytes of the row must be there.
 class BinaryRow : public Row {
 public:
@@ -122,12 +112,12 @@ public:
     BinaryRow(const char* at, bool wide, bool swapped) : Row(at), wide_(wide), swapped_(swapped) {}
 
     bool integer(std::int64_t& value, const char*) {
-        value = static_cast<std::int32_t>(take<std::uint32_t>());
+        value = take<std::int32_t>();
         return true;
     }
     bool tag(std::int64_t& value, const char* name) {
         if (!wide_) return integer(value, name);
-        value = static_cast<std::int64_t>(take<std::uint64_t>());
+        value = take<std::int64_t>();
         return true;
     }
     bool real(double& number, const char* name) {
@@ -135,7 +125,7 @@ public:
         return std::isfinite(number) || refuse({.what = "a number that is not finite", .expected = name});
     }
     bool value(double& value, const char*) {
-        value = std::bit_cast<double>(take<std::uint64_t>());
+        value = take<double>();
         return true;
     }
     template <std::size_t Count>
@@ -144,10 +134,11 @@ public:
     }
 
 private:
-    template <class Word>
-    Word take() {
-        at_ += sizeof(Word);
-        return word_in<Word>(at_ - sizeof(Word), swapped_);
+    template <class Number>
+    Number take() {
+        const char* const at = at_;
+        at_ += sizeof(Number);
+        return swapped_ ? number_at<Number, true>(at) : number_at<Number, false>(at);
     }
 
     bool wide_, swapped_;
@@ -170,12 +161,13 @@ struct RunPart {
 };
 std::vector<RunPart> cut_runs(const MshFile& file, std::span<const Run> runs);
 
-/// The Error of a row of $`section`, which stopped at `at`; `row` counts from 0 among those of all runs.
-Error row_error(const MshFile& file, const char* section, const char* at, const RowFault& fault, std::size_t row);
+/// Refuses a row of $`section`, which stopped at `at`; `row` counts from 0 among those of all runs.
+[[noreturn]] void refuse_row(const MshFile& file, const char* section, const char* at, const RowFault& fault,
+                             std::size_t row);
 
 /// Calls parse(row, run, i) for each row i of all runs, and tells the first that it refuses.
 template <class Parse>
-Status parse_runs(const MshFile& file, const char* section, std::span<const Run> runs, const Parse& parse) {
+void parse_runs(const MshFile& file, const char* section, std::span<const Run> runs, const Parse& parse) {
     struct Stop {
         const char* at;
         RowFault fault;
@@ -193,15 +185,15 @@ Status parse_runs(const MshFile& file, const char* section, std::span<const Run>
             return true;
         };
         return file.binary() ? all(BinaryRow(part.at, file.version() == 41, file.swapped()))
-                             : all(TextRow(part.at, file.bytes().data() + file.bytes().size()));
+                             : all(TextRow(part.at, file.end()));
     };
-    if (base::share_work(file.threads(), parts.size(), [&](std::size_t p) { return read(parts[p], nullptr); }))
-        return Done{};
+    if (base::share_work(file.threads(), parts.size(), [&](std::size_t p) { return read(parts[p], nullptr); })) return;
     // Again in their order: the first one is told, whatever the threads did.
     Stop stop{};
-    const auto bad = std::find_if(parts.begin(), parts.end(), [&](const RunPart& part) { return !read(part, &stop); });
-    if (bad == parts.end()) return Error{.what = "a row is refused once and not again", .file = file.path()};
-    return row_error(file, section, stop.at, stop.fault, stop.row);
+    for (const RunPart& part : parts) {
+        if (!read(part, &stop)) refuse_row(file, section, stop.at, stop.fault, stop.row);
+    }
+    file.refuse(file.end(), "a row is refused once and not again", {}, {});
 }
 
 /// How many rows of text of `words` words from `at` on are whole and like the first one, `most` at most: same(row)
@@ -248,9 +240,7 @@ std::size_t rows_alike(const MshFile& file, const char* at, const char* end, std
     return alike;
 }
 
-/// A section from its beginning: headers number by number, rows passed over.
-///
-/// Each step is false if what it wants is not there; error() then says so. Nothing may follow a failed step.
+/// A section from its beginning: headers number by number, rows passed over. What is not there is refused.
 class Walk {
 public:
     /// `text`: the numbers are text, as those of some headers are in binary files too. `bad`: what errors call a word
@@ -258,13 +248,12 @@ public:
     Walk(const MshFile& file, const MshSection& section, bool text, const char* bad = "bad number in");
     Walk(const MshFile& file, const MshSection& section) : Walk(file, section, !file.binary()) {}
 
-    bool integer(std::int64_t& value, const char* name) { return number(value, 4, name); }  ///< int
-    bool size(std::int64_t& value, const char* name);                                       ///< size_t; not negative
-    bool real(double& value, const char* name);
-    /// A number that may be infinite or NaN, in text.
-    bool value(double& value, const char* name);
+    std::int64_t integer(const char* name) { return number(4, name); }  ///< int
+    std::int64_t size(const char* name);                                ///< size_t; not negative
+    /// `any`: in text it may be infinite or NaN.
+    double real(const char* name, bool any = false);
     /// A number on a line of its own, which is text in binary files too; not negative.
-    bool count_line(std::int64_t& value, const char* name);
+    std::int64_t count_line(const char* name);
     /// The rest of the line, which is text in any file, without its end.
     std::string_view line() { return take_line(at_, end_); }
 
@@ -274,26 +263,21 @@ public:
     /// How many words of text are left.
     std::size_t words_left() const { return file_->words().before(end_) - file_->words().before(at_); }
     /// Moves over rows: so many numbers or bytes each.
-    bool skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name);
+    void skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name);
     /// White space and nothing else is left.
-    bool at_end();
+    void need_end();
 
-    const Error& error() const { return error_; }
-    bool refuse(const std::string& what, std::string expected, std::string found, std::string remedy = {}) {
-        return fail(what + " in", std::move(expected), std::move(found), std::move(remedy));
-    }
+    [[noreturn]] void refuse(const std::string& what, std::string expected, std::string found,
+                             std::string remedy = {}) const;
     /// Refuses what stands here as a word that is no number.
-    bool refuse_word(std::string expected, std::string found) {
-        return fail(bad_, std::move(expected), std::move(found), {});
-    }
+    [[noreturn]] void refuse_word(std::string expected, std::string found) const;
     /// Goes on at another place.
     void move_to(const char* at) { at_ = at; }
 
 private:
-    bool fail(const std::string& what, std::string expected, std::string found, std::string remedy);
-    bool take(const char* after, const char* name);
+    void take(const char* after, const char* name);
     void skip();
-    bool number(std::int64_t& value, std::size_t bytes, const char* name);
+    std::int64_t number(std::size_t bytes, const char* name);
 
     const MshFile* file_;
     std::string_view name_;
@@ -301,7 +285,6 @@ private:
     const char* bad_;
     const char* at_;
     const char* end_;  // of the section
-    Error error_;
 };
 
 }  // namespace barycert::io

@@ -1,13 +1,17 @@
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
 #include <set>
 #include <span>
+#include <variant>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/gmsh/msh_parts.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -16,24 +20,132 @@ namespace barycert {
 namespace io {
 namespace {
 
-/// What is wrong with the names of fields; nothing if they can be written.
-Status check_names(const Mesh& mesh, const CellGroups& groups, const std::string& path) {
-    const auto check = [&](std::set<std::string>& names, const std::string& name) -> Status {
-        const bool fits = !name.empty() && name.find_first_of("\"\r\n") == std::string::npos;
-        if (fits && names.insert(name).second) return Done{};
-        return file_error(path, "a name of a field that cannot be written",
-                          "names that differ, without quotes and line breaks",
-                          name.empty() ? "no name" : base::quoted(name) + (fits ? " twice" : ""), "rename the field");
+struct CellGroups {
+    std::vector<std::int64_t> tags;                    ///< of elements
+    std::vector<std::int32_t> physical;                ///< a cell; empty: none
+    std::vector<std::int32_t> entity;                  ///< a cell; empty: 1
+    std::map<std::int32_t, std::int32_t> physical_of;  ///< of each entity, 0 for none; `by_entity` alone
+    std::map<std::int32_t, std::string> names;         ///< of physical groups
+    std::vector<const Field*> data;                    ///< the cell fields that are written as such
+
+    std::int32_t entity_of(std::size_t cell) const { return entity.empty() ? 1 : entity[cell]; }
+    std::int32_t group_of(std::size_t cell) const { return physical.empty() ? 0 : physical[cell]; }
+};
+
+/// The values of a field, if each is an integer of 32 bits (and no -0, which would not come back).
+std::optional<std::vector<std::int32_t>> integers(const Field* field) {
+    if (field == nullptr || field->components != 1) return std::nullopt;
+    std::vector<std::int32_t> values;
+    values.reserve(field->data.size());
+    for (const double x : field->data) {
+        if (!(std::fabs(x) <= INT32_MAX) || x != std::trunc(x) || (x == 0 && std::signbit(x))) return std::nullopt;
+        values.push_back(static_cast<std::int32_t>(x));
+    }
+    return values;
+}
+
+bool all_are(const std::vector<std::int32_t>& values, std::int32_t value) {
+    return std::all_of(values.begin(), values.end(), [&](std::int32_t v) { return v == value; });
+}
+
+const Field* find_field(const Mesh& mesh, const char* name) {
+    for (const Field& field : mesh.cell_fields) {
+        if (field.name == name) return &field;
+    }
+    return nullptr;
+}
+
+template <class T>
+const std::vector<T>* find_label(const Mesh& mesh, const char* name) {
+    for (const Column& column : mesh.cell_labels) {
+        if (column.name == name && column.size() == mesh.cell_count())
+            return std::get_if<std::vector<T>>(&column.values);
+    }
+    return nullptr;
+}
+
+/// Those of the file the mesh came from, where they can be tags.
+std::vector<std::int64_t> element_tags(const Mesh& mesh) {
+    if (const auto* const label = find_label<std::int64_t>(mesh, "gmsh:tag"); label != nullptr) {
+        std::vector<std::int64_t> sorted = *label;
+        std::sort(sorted.begin(), sorted.end());
+        const bool differ = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+        if (differ && !sorted.empty() && sorted.front() >= 1 && sorted.back() <= INT32_MAX) return *label;
+    }
+    std::vector<std::int64_t> tags(mesh.cell_count());
+    for (std::size_t i = 0; i < tags.size(); ++i)
+        tags[i] = std::int64_t{mesh.cell_number(static_cast<Mesh::Index>(i))} + 1;
+    return tags;
+}
+
+/// Makes an entity of each pair of an entity and a group.
+void split_entities(CellGroups& groups, std::size_t cells) {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> parts;
+    std::vector<std::int32_t> entity(cells);
+    for (std::size_t i = 0; i < cells; ++i) {
+        const auto next = static_cast<std::int32_t>(parts.size()) + 1;
+        entity[i] = parts.emplace(std::pair(groups.entity_of(i), groups.group_of(i)), next).first->second;
+    }
+    groups.entity = std::move(entity);
+}
+
+bool one_group_each(CellGroups& groups, std::size_t cells) {
+    groups.physical_of.clear();
+    for (std::size_t i = 0; i < cells; ++i) {
+        if (groups.physical_of.emplace(groups.entity_of(i), groups.group_of(i)).first->second != groups.group_of(i))
+            return false;
+    }
+    return true;
+}
+
+/// `by_entity`: an entity can be in one group only (4.1). Error: one group with two names.
+CellGroups group_cells(const Mesh& mesh, bool by_entity, const std::string& path) {
+    CellGroups groups;
+    groups.tags = element_tags(mesh);
+    // Where all cells are of no group, or of entity 1 or none, the reader makes no field.
+    const auto take = [&](const char* name, std::int32_t nothing, std::vector<std::int32_t>& to) {
+        const Field* const field = find_field(mesh, name);
+        auto values = integers(field);
+        if (!values || all_are(*values, 0) || all_are(*values, nothing)) return static_cast<const Field*>(nullptr);
+        to = std::move(*values);
+        return field;
     };
+    const Field* const physical = take("gmsh:physical", 0, groups.physical);
+    const Field* geometrical = take("gmsh:geometrical", 1, groups.entity);
+    if (by_entity && !one_group_each(groups, mesh.cell_count())) {
+        geometrical = nullptr;
+        split_entities(groups, mesh.cell_count());
+        one_group_each(groups, mesh.cell_count());
+    }
+    if (groups.physical_of.empty()) groups.physical_of[1] = 0;
+    for (const Field& field : mesh.cell_fields) {
+        if (&field != physical && &field != geometrical) groups.data.push_back(&field);
+    }
+    const auto* const names = find_label<std::string>(mesh, "gmsh:physical_name");
+    for (std::size_t i = 0; names != nullptr && !groups.physical.empty() && i < names->size(); ++i) {
+        const std::int32_t group = std::abs(groups.physical[i]);
+        const std::string& name = (*names)[i];
+        if (group == 0 || name.empty()) continue;
+        if (groups.names.emplace(group, name).first->second != name || name.find_first_of("\r\n") != std::string::npos)
+            refuse_file(path, "a name of physical group " + std::to_string(group) + " that cannot be written",
+                        "one name for all of its cells, on one line", base::quoted(name),
+                        "correct the cell labels gmsh:physical_name");
+    }
+    return groups;
+}
+
+void check_names(const Mesh& mesh, const CellGroups& groups, const std::string& path) {
     std::set<std::string> of_nodes, of_cells;
+    const auto check = [&](std::set<std::string>& names, const std::string& name) {
+        const bool fits = !name.empty() && name.find_first_of("\"\r\n") == std::string::npos;
+        if (!fits || !names.insert(name).second)
+            refuse_file(path, "a name of a field that cannot be written",
+                        "names that differ, without quotes and line breaks",
+                        name.empty() ? "no name" : base::quoted(name) + (fits ? " twice" : ""), "rename the field");
+    };
     if (!mesh.point_markers.empty()) of_nodes.insert("marker");
-    for (const Field& field : mesh.point_fields) {
-        if (Status s = check(of_nodes, field.name); !s) return s;
-    }
-    for (const Field* field : groups.data) {
-        if (Status s = check(of_cells, field->name); !s) return s;
-    }
-    return Done{};
+    for (const Field& field : mesh.point_fields) check(of_nodes, field.name);
+    for (const Field* field : groups.data) check(of_cells, field->name);
 }
 
 class GmshWriter {
@@ -45,13 +157,10 @@ public:
           new_(options.version == GmshWriteOptions::Version::v41) {}
 
     Status write() {
-        const auto dimension = static_cast<std::size_t>(mesh_.dimension);
         write_format();
         write_names();
         if (new_) write_entities();
-        out_.text("$Nodes\n");
-        new_ ? write_nodes_41(dimension) : write_nodes_22(dimension);
-        end_section("Nodes");
+        write_nodes();
         out_.text("$Elements\n");
         new_ ? write_elements_41() : write_elements_22();
         end_section("Elements");
@@ -104,22 +213,19 @@ private:
 
     /// The entities of the cells, each with the box of its nodes.
     void write_entities() {
-        struct Box {
-            std::array<double, 3> low{}, high{};
-            bool empty = true;
-        };
+        using Box = std::array<std::array<double, 3>, 2>;  // low, high
         std::map<std::int32_t, Box> boxes;
         const auto size = static_cast<std::size_t>(mesh_.dimension);
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
-            Box& box = boxes[groups_.entity_of(cell)];
+            const auto [found, added] = boxes.try_emplace(groups_.entity_of(cell));
+            Box& box = found->second;
             for (std::size_t k = 0; k < mesh_.corners(); ++k) {
                 const auto node = static_cast<std::size_t>(mesh_.cells[cell * mesh_.corners() + k]);
                 for (std::size_t axis = 0; axis < size; ++axis) {
                     const double x = mesh_.points[node * size + axis];
-                    box.low[axis] = box.empty ? x : std::min(box.low[axis], x);
-                    box.high[axis] = box.empty ? x : std::max(box.high[axis], x);
+                    box[0][axis] = added && k == 0 ? x : std::min(box[0][axis], x);
+                    box[1][axis] = added && k == 0 ? x : std::max(box[1][axis], x);
                 }
-                box.empty = false;
             }
         }
         out_.text("$Entities\n");
@@ -127,8 +233,7 @@ private:
         out_.end_row();
         for (const auto& [entity, physical] : groups_.physical_of) {
             integer(entity);
-            for (const double x : boxes[entity].low) out_.number(x);
-            for (const double x : boxes[entity].high) out_.number(x);
+            for (const auto& corner : boxes[entity]) out_.numbers<double>(corner);
             wide(physical != 0 ? 1 : 0);
             if (physical != 0) integer(physical);
             wide(0);
@@ -137,26 +242,24 @@ private:
         end_section("Entities");
     }
 
-    void write_point(std::size_t node, std::size_t dimension) {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            out_.number(axis < dimension ? mesh_.points[node * dimension + axis] : 0);
-        out_.end_row();
-    }
-
-    void write_nodes_41(std::size_t dimension) {
+    void write_nodes() {
+        const auto dimension = static_cast<std::size_t>(mesh_.dimension);
         const std::size_t count = mesh_.point_count();
-        row(std::size_t{1}, count, std::size_t{1}, count);
-        row(mesh_.dimension, groups_.physical_of.begin()->first, 0, count);
-        for (std::size_t node = 0; node < count; ++node) row(node + 1);
-        for (std::size_t node = 0; node < count; ++node) write_point(node, dimension);
-    }
-
-    void write_nodes_22(std::size_t dimension) {
-        line(mesh_.point_count());
-        for (std::size_t node = 0; node < mesh_.point_count(); ++node) {
-            integer(static_cast<std::int64_t>(node) + 1);
-            write_point(node, dimension);
+        out_.text("$Nodes\n");
+        if (new_) {
+            row(std::size_t{1}, count, std::size_t{1}, count);
+            row(mesh_.dimension, groups_.physical_of.begin()->first, 0, count);
+            for (std::size_t node = 0; node < count; ++node) row(node + 1);
+        } else {
+            line(count);
         }
+        for (std::size_t node = 0; node < count; ++node) {
+            if (!new_) integer(static_cast<std::int64_t>(node) + 1);
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                out_.number(axis < dimension ? mesh_.points[node * dimension + axis] : 0);
+            out_.end_row();
+        }
+        end_section("Nodes");
     }
 
     int type() const {
@@ -242,11 +345,11 @@ Status write_gmsh(const Mesh& mesh, const std::string& path, const GmshWriteOpti
     const ExactEnvironment environment;
     if (const char* const fault = mesh::inconsistency(mesh, mesh::FieldValues::any); fault != nullptr)
         return file_error(path, std::string("cannot write the mesh: ") + fault, {}, {}, "correct the mesh in memory");
-    const Result<io::CellGroups> groups =
-        io::group_cells(mesh, options.version == GmshWriteOptions::Version::v41, path);
-    if (!groups) return groups.error();
-    if (Status s = io::check_names(mesh, *groups, path); !s) return s;
-    return io::GmshWriter(mesh, *groups, path, options).write();
+    return io::status_of([&] {
+        const io::CellGroups groups = io::group_cells(mesh, options.version == GmshWriteOptions::Version::v41, path);
+        io::check_names(mesh, groups, path);
+        io::GmshWriter(mesh, groups, path, options).write().value();
+    });
 }
 
 }  // namespace barycert

@@ -3,21 +3,88 @@
 #include <strings.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 #include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
 namespace {
 
+using K = MeditKeyword;
+using enum MeditKind;
+
+// Codes of libMeshb's documentation. What is not named here is left out in any case. Some programs write Hexaedra.
+constexpr std::array keywords{
+    K{4, "Vertices", vertices, 0, 0},
+    K{5, "Edges", cells, 1, 2},
+    K{6, "Triangles", cells, 2, 3},
+    K{7, "Quadrilaterals", cells, 2, 4},
+    K{8, "Tetrahedra", cells, 3, 4},
+    K{9, "Prisms", cells, 3, 6},
+    K{9, "Wedges", cells, 3, 6},
+    K{10, "Hexahedra", cells, 3, 8},
+    K{10, "Hexaedra", cells, 3, 8},
+    K{24, "TrianglesP2", cells, 2, 6},
+    K{25, "EdgesP2", cells, 1, 3},
+    K{27, "QuadrilateralsQ2", cells, 2, 9},
+    K{30, "TetrahedraP2", cells, 3, 10},
+    K{33, "HexahedraQ2", cells, 3, 27},
+    K{49, "Pyramids", cells, 3, 5},
+    K{62, "SolAtVertices", solution, 0, 0},
+    K{64, "SolAtTriangles", solution, 2, 0},
+    K{66, "SolAtTetrahedra", solution, 3, 0},
+    K{86, "PrismsP2", cells, 3, 18},
+    K{87, "PyramidsP2", cells, 3, 14},
+    K{88, "QuadrilateralsQ3", cells, 2, 16},
+    K{89, "QuadrilateralsQ4", cells, 2, 25},
+    K{90, "TrianglesP3", cells, 2, 10},
+    K{91, "TrianglesP4", cells, 2, 15},
+    K{92, "EdgesP3", cells, 1, 4},
+    K{93, "EdgesP4", cells, 1, 5},
+    K{96, "TetrahedraP3", cells, 3, 20},
+    K{97, "TetrahedraP4", cells, 3, 35},
+    K{98, "HexahedraQ3", cells, 3, 64},
+    K{99, "HexahedraQ4", cells, 3, 125},
+    K{100, "PyramidsP3", cells, 3, 30},
+    K{101, "PyramidsP4", cells, 3, 55},
+    K{102, "PrismsP3", cells, 3, 40},
+    K{103, "PrismsP4", cells, 3, 75},
+};
+
+// Names of others, for messages about binary files.
+constexpr std::string_view other_keywords =
+    " 3 Dimension 13 Corners 14 Ridges 15 RequiredVertices 16 RequiredEdges 17 RequiredTriangles "
+    "18 RequiredQuadrilaterals 20 NormalAtVertices 34 ExtraVerticesAtEdges 35 ExtraVerticesAtTriangles "
+    "37 ExtraVerticesAtTetrahedra 59 Tangents 60 Normals 61 TangentAtVertices 63 SolAtEdges "
+    "65 SolAtQuadrilaterals 67 SolAtPrisms 68 SolAtHexahedra 77 Iterations 78 Time ";
+
 constexpr const char* cut_short = "the file may be cut short: write it again, or mend the count";
 constexpr std::int64_t max_rows = INT32_MAX, max_fields = 1 << 16;
 constexpr std::int64_t code_of_dimension = 3, code_of_end = 54;
+
+/// Whether a keyword is this one, in any case.
+bool same_word(std::string_view word, std::string_view name) {
+    return word.size() == name.size() && strncasecmp(word.data(), name.data(), name.size()) == 0;
+}
+
+/// nullptr if there is none for which that holds.
+template <class IsOne>
+const MeditKeyword* find_keyword(const IsOne& is_one) {
+    const auto* const found = std::find_if(keywords.begin(), keywords.end(), is_one);
+    return found == keywords.end() ? nullptr : found;
+}
+
+std::string name_of(std::int64_t code, const MeditKeyword* keyword) {
+    if (keyword != nullptr) return std::string(keyword->name);
+    const std::string word = " " + std::to_string(code) + " ";
+    const std::size_t at = other_keywords.find(word);
+    if (at == std::string_view::npos) return "keyword " + std::to_string(code);
+    return std::string(first_word(other_keywords.substr(at + word.size()), '#'));
+}
 
 /// Takes the text up to the next keyword and the keyword itself off `text`; empty, at its end, if there is none. Names
 /// in quotes are passed over, and so are nan and inf.
@@ -73,10 +140,6 @@ void make_rows(std::size_t count, MeditRows& rows) {
 
 }  // namespace
 
-bool same_word(std::string_view word, std::string_view name) {
-    return word.size() == name.size() && strncasecmp(word.data(), name.data(), name.size()) == 0;
-}
-
 bool is_medit(std::string_view head) {
     if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
     if (same_word(first_word(head, '#').substr(0, 11), "MeshVersion")) return true;
@@ -86,39 +149,32 @@ bool is_medit(std::string_view head) {
            take_integer(head, 4, swapped) == code_of_dimension;
 }
 
-Result<MeditFile> MeditFile::open(const std::string& path) {
-    MeditFile file;
-    file.path_ = path;
+MeditFile::MeditFile(const std::string& path) : path_(path) {
     // A large file that is none is not read for that.
-    const Result<std::string> head = base::InputFile::head(path, 4096);
-    if (!head) return head.error();
-    const std::string_view begin = std::string_view(*head).substr(head->starts_with("\xEF\xBB\xBF") ? 3 : 0);
+    const std::string head = base::InputFile::head(path, 4096).value();
+    const std::string_view begin = std::string_view(head).substr(head.starts_with("\xEF\xBB\xBF") ? 3 : 0);
     const std::string_view word = first_word(begin, '#');
-    file.binary_ = is_medit(begin.substr(0, 12)) && begin[1] == 0;
-    if (!file.binary_ && !same_word(word, "MeshVersionFormatted"))
-        return line_error(path, 1, "not a file of Medit",
-                          "\"MeshVersionFormatted\", or in a binary file the numbers 1, 1 to 4, 3",
-                          head->empty() ? "an empty file" : base::quoted(word),
-                          "check the path: other programs have files of this suffix, too");
-    Result<base::MappedFile> data = base::MappedFile::open(path);
-    if (!data) return data.error();
-    file.data_ = std::move(*data);
-    file.bytes_ = file.data_.bytes();
-    if (file.bytes_.starts_with("\xEF\xBB\xBF")) file.bytes_.remove_prefix(3);
-    if (Status s = file.binary_ ? file.list_binary() : file.list_text(); !s) return s.error();
-    if (file.dimension_ == 0)
-        return file.error_at(file.bytes_.data(), "the dimension", "a keyword Dimension", "none", "write it again");
-    return file;
+    binary_ = is_medit(begin.substr(0, 12)) && begin[1] == 0;
+    if (!binary_ && !same_word(word, "MeshVersionFormatted"))
+        refuse_line(path, 1, "not a file of Medit",
+                    "\"MeshVersionFormatted\", or in a binary file the numbers 1, 1 to 4, 3",
+                    head.empty() ? "an empty file" : base::quoted(word),
+                    "check the path: other programs have files of this suffix, too");
+    data_ = base::MappedFile::open(path).value();
+    bytes_ = data_.bytes();
+    if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.remove_prefix(3);
+    binary_ ? list_binary() : list_text();
+    if (dimension_ == 0) refuse(bytes_.data(), "the dimension", "a keyword Dimension", "none", "write it again");
 }
 
-Error MeditFile::error_at(const char* at, std::string what, std::string expected, std::string found,
-                          std::string remedy) const {
+void MeditFile::refuse(const char* at, std::string what, std::string expected, std::string found,
+                       std::string remedy) const {
     if (binary_) what += ", at byte " + std::to_string(at - bytes_.data());
-    return line_error(path_, binary_ ? 0 : line_of(bytes_, at), std::move(what), std::move(expected), std::move(found),
-                      std::move(remedy));
+    throw Exception(
+        line_error(path_, line_at(at), std::move(what), std::move(expected), std::move(found), std::move(remedy)));
 }
 
-Error MeditFile::error_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,
+void MeditFile::refuse_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,
                           std::string expected, std::string found, std::string remedy) const {
     const char* at = section.body.data();
     if (binary_) {
@@ -131,62 +187,53 @@ Error MeditFile::error_in(const MeditSection& section, const MeditRows& rows, st
             word = next_word(rest);
         at = word.data();
     }
-    return error_at(at, "row " + std::to_string(row + 1) + " (from 1) of " + section.name, std::move(expected),
-                    std::move(found), std::move(remedy));
+    refuse(at, "row " + std::to_string(row + 1) + " (from 1) of " + section.name, std::move(expected), std::move(found),
+           std::move(remedy));
 }
 
-Result<std::int64_t> MeditFile::count_at(std::string_view& text, std::size_t bytes, const char* what,
-                                         std::int64_t least, std::int64_t most) const {
+std::int64_t MeditFile::take_count(std::string_view& text, std::size_t bytes, const char* what, std::int64_t least,
+                                   std::int64_t most) const {
     const char* at = text.data();
-    const std::string expected = "a number from " + std::to_string(least) + " to " + std::to_string(most);
-    if (binary_) {
-        if (text.size() < bytes) return error_at(at, what, expected, "the end of the section");
+    std::string found = "the end of the section";
+    if (!binary_) {
+        const std::string_view word = next_word(text);
+        const std::optional<std::uint64_t> number = parse_count(word);
+        if (number && std::cmp_greater_equal(*number, least) && std::cmp_less_equal(*number, most))
+            return static_cast<std::int64_t>(*number);
+        at = word.data();
+        if (!word.empty()) found = base::quoted(word);
+    } else if (text.size() >= bytes) {
         const std::int64_t number = take_integer(text, bytes, swapped_);
         if (number >= least && number <= most) return number;
-        return error_at(at, what, expected, std::to_string(number));
+        found = std::to_string(number);
     }
-    const std::string_view word = next_word(text);
-    const std::optional<std::uint64_t> number = parse_count(word);
-    if (number && std::cmp_greater_equal(*number, least) && std::cmp_less_equal(*number, most))
-        return static_cast<std::int64_t>(*number);
-    return error_at(word.data(), what, expected, word.empty() ? "the end of the section" : base::quoted(word));
+    refuse(at, what, "a number from " + std::to_string(least) + " to " + std::to_string(most), found);
 }
 
-Status MeditFile::set_header(std::int64_t& number, std::string_view text, std::int64_t least, std::int64_t most) {
+void MeditFile::set_header(std::int64_t& number, std::string_view text, std::int64_t least, std::int64_t most) {
     const char* const what = &number == &version_ ? "the version of the format" : "the dimension";
-    if (number != 0) return error_at(text.data(), std::string(what) + " again", "it once", "it twice");
-    const Result<std::int64_t> read = count_at(text, 4, what, least, most);
-    if (!read) return read.error();
-    number = *read;
-    return Done{};
+    if (number != 0) refuse(text.data(), std::string(what) + " again", "it once", "it twice");
+    number = take_count(text, 4, what, least, most);
 }
 
-Status MeditFile::add(std::string name, const MeditKeyword* keyword, std::string_view body) {
+void MeditFile::add(std::string name, const MeditKeyword* keyword, std::string_view body) {
     MeditSection section{.keyword = keyword == nullptr ? MeditKeyword{} : *keyword, .name = std::move(name)};
     const MeditKind kind = section.keyword.kind;
-    const auto is_same = [&](const MeditSection& other) { return other.keyword.code == section.keyword.code; };
-    if (kind != MeditKind::other) {
+    const auto is_same = [&](const MeditSection& one) { return one.keyword.code == section.keyword.code; };
+    if (kind != other) {
         if (std::any_of(sections_.begin(), sections_.end(), is_same))
-            return error_at(body.data(), "a second section " + section.name, "one", "two");
-        const Result<std::int64_t> count = count_at(body, integer_bytes(), "the number of rows", 0, max_rows);
-        if (!count) return count.error();
-        section.count = static_cast<std::size_t>(*count);
+            refuse(body.data(), "a second section " + section.name, "one", "two");
+        section.count = static_cast<std::size_t>(take_count(body, integer_bytes(), "the number of rows", 0, max_rows));
     }
-    if (kind == MeditKind::solution) {
-        const Result<std::int64_t> types = count_at(body, 4, "the number of fields", 1, max_fields);
-        if (!types) return types.error();
-        for (std::int64_t i = 0; i < *types; ++i) {
-            const Result<std::int64_t> type = count_at(body, 4, "the type of a field", 1, 4);
-            if (!type) return type.error();
-            section.types.push_back(*type);
-        }
+    if (kind == solution) {
+        for (std::int64_t left = take_count(body, 4, "the number of fields", 1, max_fields); left > 0; --left)
+            section.types.push_back(take_count(body, 4, "the type of a field", 1, 4));
     }
     section.body = body;
     sections_.push_back(std::move(section));
-    return Done{};
 }
 
-Status MeditFile::list_text() {
+void MeditFile::list_text() {
     if (bytes_.find('#') != std::string_view::npos) {
         uncommented_.assign(bytes_.begin(), bytes_.end());
         for (auto at = uncommented_.begin(); (at = std::find(at, uncommented_.end(), '#')) != uncommented_.end();) {
@@ -202,21 +249,23 @@ Status MeditFile::list_text() {
         next = next_keyword(rest);
         body = body.substr(0, static_cast<std::size_t>(next.data() - body.data()));
         if (same_word(keyword, "End")) {
-            if (next.empty() && next_word(body).empty()) return Done{};
-            return error_at(body.data(), "text after the keyword End", "the end of the file", "more");
+            if (next.empty() && next_word(body).empty()) return;
+            refuse(body.data(), "text after the keyword End", "the end of the file", "more");
         }
-        Status added = same_word(keyword, "MeshVersionFormatted") ? set_header(version_, body, 1, 4)
-                       : same_word(keyword, "Dimension")
-                           ? set_header(dimension_, body, 2, 3)
-                           : add(base::printable(keyword.substr(0, 40)), medit_keyword(keyword), body);
-        if (!added) return added;
+        if (same_word(keyword, "MeshVersionFormatted")) {
+            set_header(version_, body, 1, 4);
+        } else if (same_word(keyword, "Dimension")) {
+            set_header(dimension_, body, 2, 3);
+        } else {
+            add(base::printable(keyword.substr(0, 40)),
+                find_keyword([&](const K& k) { return same_word(k.name, keyword); }), body);
+        }
     }
     // Without End, what is cut may be a keyword or a number.
-    if (!is_white(bytes_.back())) return base::unended_number(path_, error_at(rest.data(), "", "", "").line);
-    return Done{};
+    if (!is_white(bytes_.back())) throw Exception(base::unended_number(path_, line_at(rest.data())));
 }
 
-Status MeditFile::list_binary() {
+void MeditFile::list_binary() {
     std::string_view rest = bytes_;
     swapped_ = rest[0] == 0;
     take_integer(rest, 4, swapped_);
@@ -225,25 +274,24 @@ Status MeditFile::list_binary() {
     while (true) {
         const char* const at = rest.data();
         if (rest.size() < head)
-            return error_at(at, "the file ends without the keyword End", "another keyword",
-                            std::to_string(rest.size()) + " bytes", cut_short);
+            refuse(at, "the file ends without the keyword End", "another keyword",
+                   std::to_string(rest.size()) + " bytes", cut_short);
         const std::int64_t code = take_integer(rest, 4, swapped_), here = at - bytes_.data(),
                            next = take_integer(rest, head - 4, swapped_);
-        if (code == code_of_end) return Done{};
-        const MeditKeyword* const known = medit_keyword(code);
-        const std::string name = known != nullptr ? std::string(known->name) : "keyword " + std::to_string(code);
+        if (code == code_of_end) return;
+        const MeditKeyword* const known = find_keyword([&](const K& k) { return k.code == code; });
+        const std::string name = name_of(code, known);
         if (next < here + static_cast<std::int64_t>(head) || next > static_cast<std::int64_t>(bytes_.size()))
-            return error_at(at, "the place of what follows " + name,
-                            "one behind it, in a file of " + std::to_string(bytes_.size()) + " bytes",
-                            std::to_string(next), cut_short);
+            refuse(at, "the place of what follows " + name,
+                   "one behind it, in a file of " + std::to_string(bytes_.size()) + " bytes", std::to_string(next),
+                   cut_short);
         const std::string_view body = rest.substr(0, static_cast<std::size_t>(next - here) - head);
         rest = bytes_.substr(static_cast<std::size_t>(next));
-        if (Status s = code == code_of_dimension ? set_header(dimension_, body, 2, 3) : add(name, known, body); !s)
-            return s;
+        code == code_of_dimension ? set_header(dimension_, body, 2, 3) : add(name, known, body);
     }
 }
 
-Status MeditFile::read_text_rows(const MeditSection& section, MeditRows& rows) const {
+void MeditFile::read_text_rows(const MeditSection& section, MeditRows& rows) const {
     const std::size_t reals = rows.reals_a_row, integers = rows.integers_a_row, width = reals + integers;
     std::string_view text = section.body;
     // Rows of both are read as real numbers.
@@ -252,17 +300,17 @@ Status MeditFile::read_text_rows(const MeditSection& section, MeditRows& rows) c
                                                          integers != 0 ? numbers : rows.reals)
                                          : io::read_text(text, NumberType::int64, section.count * width, rows.integers);
     if (fault.kind == NumberFault::Kind::too_few)
-        return error_at(text.data(), "the end of " + section.name,
-                        std::to_string(section.count) + " rows of " + std::to_string(width) + " numbers",
-                        std::to_string(fault.index) + " numbers", cut_short);
+        refuse(text.data(), "the end of " + section.name,
+               std::to_string(section.count) + " rows of " + std::to_string(width) + " numbers",
+               std::to_string(fault.index) + " numbers", cut_short);
     if (fault)
-        return error_in(section, rows, fault.index / width, fault.index % width,
-                        fault.index % width < reals ? "a number" : "an integer", base::quoted(fault.text));
+        refuse_in(section, rows, fault.index / width, fault.index % width,
+                  fault.index % width < reals ? "a number" : "an integer", base::quoted(fault.text));
     if (const char* const at = text.data(); !next_word(text).empty())
-        return error_at(at, "more numbers in " + section.name,
-                        std::to_string(section.count) + " rows of " + std::to_string(width) + " numbers", "more",
-                        "mend the count, or the dimension");
-    if (integers == 0 || reals == 0) return Done{};
+        refuse(at, "more numbers in " + section.name,
+               std::to_string(section.count) + " rows of " + std::to_string(width) + " numbers", "more",
+               "mend the count, or the dimension");
+    if (integers == 0 || reals == 0) return;
     make_rows(section.count, rows);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::size_t row = i / width, column = i % width;
@@ -271,26 +319,24 @@ Status MeditFile::read_text_rows(const MeditSection& section, MeditRows& rows) c
         } else if (std::fabs(numbers[i]) <= 0x1p53 && std::trunc(numbers[i]) == numbers[i]) {
             rows.integers[row * integers + column - reals] = static_cast<std::int64_t>(numbers[i]);
         } else {
-            return error_in(section, rows, row, column, "an integer up to 2^53", base::shortest(numbers[i]));
+            refuse_in(section, rows, row, column, "an integer up to 2^53", base::shortest(numbers[i]));
         }
     }
-    return Done{};
 }
 
-Result<MeditRows> MeditFile::rows(const MeditSection& section, std::size_t reals_a_row,
-                                  std::size_t integers_a_row) const {
+MeditRows MeditFile::rows(const MeditSection& section, std::size_t reals_a_row, std::size_t integers_a_row) const {
     MeditRows rows{reals_a_row, integers_a_row, {}, {}};
     if (!binary_) {
-        if (Status s = read_text_rows(section, rows); !s) return s.error();
+        read_text_rows(section, rows);
         return rows;
     }
     const std::size_t row_bytes = reals_a_row * real_bytes() + integers_a_row * integer_bytes();
     if (section.count * row_bytes != section.body.size())
-        return error_at(section.body.data(), "the size of " + section.name,
-                        std::to_string(section.count * row_bytes) + " bytes for " + std::to_string(section.count) +
-                            " rows, for the version is " + std::to_string(version_) + " and the dimension " +
-                            std::to_string(dimension_),
-                        std::to_string(section.body.size()), cut_short);
+        refuse(section.body.data(), "the size of " + section.name,
+               std::to_string(section.count * row_bytes) + " bytes for " + std::to_string(section.count) +
+                   " rows, for the version is " + std::to_string(version_) + " and the dimension " +
+                   std::to_string(dimension_),
+               std::to_string(section.body.size()), cut_short);
     make_rows(section.count, rows);
     const char* const at = section.body.data();
     const auto take = [&]<class Real, class Integer>() {

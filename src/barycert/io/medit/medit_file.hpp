@@ -16,6 +16,7 @@
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 
@@ -36,13 +37,6 @@ struct MeditKeyword {
     std::size_t nodes = 0;  ///< of a cell
 };
 
-/// Whether a keyword is this one, in any case.
-bool same_word(std::string_view word, std::string_view name);
-
-/// nullptr if it is not known.
-const MeditKeyword* medit_keyword(std::string_view name);
-const MeditKeyword* medit_keyword(std::int64_t code);
-
 struct MeditSection {
     MeditKeyword keyword;
     std::string name = {};                 ///< as in the file
@@ -58,10 +52,11 @@ struct MeditRows {
     std::vector<std::int64_t> integers;
 };
 
+/// Errors are thrown as Exceptions, which read_guarded() makes a Result.
 class MeditFile {
 public:
     /// Error: no file of Medit; a section that does not end within it; two of one kind; another dimension than 2 or 3.
-    static Result<MeditFile> open(const std::string& path);
+    explicit MeditFile(const std::string& path);
 
     const std::string& path() const { return path_; }
     int dimension() const { return static_cast<int>(dimension_); }
@@ -69,24 +64,25 @@ public:
     const std::vector<MeditSection>& sections() const { return sections_; }
 
     /// Error: fewer numbers or more, or others. Memory is bounded by a multiple of the file's size.
-    Result<MeditRows> rows(const MeditSection& section, std::size_t reals_a_row, std::size_t integers_a_row) const;
+    MeditRows rows(const MeditSection& section, std::size_t reals_a_row, std::size_t integers_a_row) const;
 
-    /// That a number of a row is refused.
-    Error error_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,
-                   std::string expected, std::string found, std::string remedy = {}) const;
+    /// Refuses a number of a row.
+    [[noreturn]] void refuse_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,
+                                std::string expected, std::string found, std::string remedy = {}) const;
 
 private:
-    Status list_text();
-    Status list_binary();
-    Status add(std::string name, const MeditKeyword* keyword, std::string_view body);
-    Status set_header(std::int64_t& number, std::string_view text, std::int64_t least, std::int64_t most);
-    Result<std::int64_t> count_at(std::string_view& text, std::size_t bytes, const char* what, std::int64_t least,
-                                  std::int64_t most) const;
-    Status read_text_rows(const MeditSection& section, MeditRows& rows) const;
+    void list_text();
+    void list_binary();
+    void add(std::string name, const MeditKeyword* keyword, std::string_view body);
+    void set_header(std::int64_t& number, std::string_view text, std::int64_t least, std::int64_t most);
+    std::int64_t take_count(std::string_view& text, std::size_t bytes, const char* what, std::int64_t least,
+                            std::int64_t most) const;
+    void read_text_rows(const MeditSection& section, MeditRows& rows) const;
     std::size_t real_bytes() const { return version_ == 1 ? 4 : 8; }
     std::size_t integer_bytes() const { return version_ == 4 ? 8 : 4; }
-    Error error_at(const char* at, std::string what, std::string expected, std::string found,
-                   std::string remedy = {}) const;
+    std::size_t line_at(const char* at) const { return binary_ ? 0 : line_of(bytes_, at); }
+    [[noreturn]] void refuse(const char* at, std::string what, std::string expected, std::string found,
+                             std::string remedy = {}) const;
 
     std::string path_;
     base::MappedFile data_;

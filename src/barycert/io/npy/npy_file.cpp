@@ -1,12 +1,12 @@
-#include "barycert/io/npy/npy_file.hpp"
-
 #include <algorithm>
-#include <cstring>
-#include <string_view>
+#include <type_traits>
 #include <utility>
 
+#include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/npy/npy_header.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/io/npy/npy.hpp"
+#include "barycert/io/streams.hpp"
 
 namespace barycert::io {
 namespace {
@@ -14,48 +14,67 @@ namespace {
 /// Bytes read at a time, or a row.
 constexpr std::size_t bytes_at_once = std::size_t{1} << 18;
 
-Error too_short(const std::string& path, std::string expected, std::string found, const char* remedy) {
-    return file_error(path, "the file ends too early", std::move(expected), std::move(found), remedy);
+/// The columns and the bytes of a row of an array without fields.
+void make_simple(const NpyHeader& header, const std::string& file, NpyTable& table) {
+    const auto type = npy_type(header.descr);
+    if (!type || type->size == 0)
+        refuse_file(file, "cannot read an array of that type", "integers, floating-point numbers or texts",
+                    base::quoted(header.descr), "save a.astype('f8')");
+    const std::uint64_t columns = header.shape.size() == 2 ? header.shape[1] : 1;
+    if (columns > most_npy_columns)
+        refuse_file(file, "an array of another shape", "at most " + std::to_string(most_npy_columns) + " columns",
+                    as_tuple(header.shape), "save an array with a row for each point");
+    table.row_size = columns * type->size;
+    table.by_columns = header.fortran_order && columns > 1;
+    for (std::uint64_t c = 0; c < columns; ++c) {
+        const std::uint64_t first = (table.by_columns ? table.rows : 1) * c * type->size;
+        table.columns.push_back({column_number(c), *type, first, table.by_columns ? type->size : table.row_size});
+    }
+}
+
+/// `room`: the bytes after the header.
+void check_room(const NpyTable& table, std::uint64_t room, const std::string& file) {
+    const std::uint64_t row = table.row_size;
+    const bool too_few = row != 0 && table.rows > room / row;
+    if (!too_few && table.rows * row == room) return;
+    if (too_few)
+        throw Exception(
+            file_error(file, "the file ends too early",
+                       std::to_string(table.rows) + " rows of " + std::to_string(row) + " bytes, as its header tells",
+                       std::to_string(room) + " bytes", "the file may be cut short: write it again"));
+    refuse_file(file, "bytes after the array", std::to_string(table.rows * row) + ", as the header tells",
+                std::to_string(room), "save one array a file");
 }
 
 }  // namespace
 
-Status NpyFile::read(std::uint64_t offset, std::span<char> bytes) const {
-    const Result<std::size_t> got = file_.read_at(data_ + offset, bytes, path_);
-    if (!got) return got.error();
-    if (*got == bytes.size()) return Done{};
-    return too_short(path_, "byte " + std::to_string(data_ + offset + bytes.size() - 1), "the end of the file",
-                     "do not change the file while it is read");
+NpyFile::NpyFile(const std::string& path)
+    : path_(path),
+      file_(base::InputFile::open(path, "save the array to a regular file first; CSV can be read from a pipe").value()),
+      header_(read_npy_header(file_, path)) {}
+
+void NpyFile::read(std::uint64_t offset, std::span<char> bytes) const {
+    const std::uint64_t end = header_.size + offset + bytes.size();
+    if (file_.read_at(header_.size + offset, bytes, path_).value() != bytes.size())
+        refuse_file(path_, "the file ends too early", "byte " + std::to_string(end - 1), "the end of the file",
+                    "do not change the file while it is read");
 }
 
-Result<NpyFile> NpyFile::open(const std::string& path) {
-    Result<base::InputFile> opened =
-        base::InputFile::open(path, "save the array to a regular file first; CSV can be read from a pipe");
-    if (!opened) return opened.error();
-    NpyFile out;
-    out.path_ = path;
-    out.file_ = std::move(*opened);
-    const std::uint64_t size = out.file_.size();
-    std::vector<char> bytes(std::min<std::uint64_t>(npy_head, size));
-    if (Status head = out.read(0, bytes); !head) return head.error();
-    const Result<NpyText> text = find_npy_text({bytes.data(), bytes.size()}, path);
-    if (!text) return text.error();
-    if (text->offset + text->size > size)
-        return too_short(path, "a header of " + std::to_string(text->offset + text->size) + " bytes",
-                         std::to_string(size), "the file may be cut short: write it again");
-    bytes.resize(text->size);
-    if (Status read = out.read(text->offset, bytes); !read) return read.error();
-    auto header = parse_npy_text({bytes.data(), bytes.size()}, text->latin1, path);
-    if (!header) return header.error();
-    out.header_ = std::move(*header);
-    out.data_ = text->offset + text->size;
-    return out;
-}
-
-Result<NpyTable> NpyFile::table() const {
-    Result<NpyTable> table = npy_table(header_, path_);
-    if (!table) return table;
-    if (Status fits = check_npy_room(*table, file_.size() - data_, path_); !fits) return fits.error();
+NpyTable NpyFile::table() const {
+    const std::vector<std::uint64_t>& shape = header_.shape;
+    NpyTable table{.rows = 0, .columns = {}, .structured = header_.structured};
+    if (shape.empty() || shape.size() > (header_.structured ? 1U : 2U))
+        refuse_file(path_, "an array of another shape", header_.structured ? "(n,)" : "(n, columns)", as_tuple(shape),
+                    "save an array with a row for each point");
+    table.rows = shape[0];
+    if (header_.structured) {
+        table.columns = header_.fields;
+        table.row_size = header_.item_size;
+        for (NpyColumn& column : table.columns) column.step = table.row_size;
+    } else {
+        make_simple(header_, path_, table);
+    }
+    check_room(table, file_.size() - header_.size, path_);
     return table;
 }
 
@@ -63,79 +82,51 @@ std::size_t NpyFile::rows_at_once(const NpyTable& table) {
     return std::max<std::size_t>(1, bytes_at_once / std::max<std::size_t>(1, table.row_size));
 }
 
-Status NpyFile::go_to(const NpyTable& table, std::uint64_t first, std::size_t count) {
+void NpyFile::go_to(const NpyTable& table, std::uint64_t first, std::size_t count) {
     by_columns_ = table.by_columns;
     first_ = first;
     count_ = count;
-    if (by_columns_) return Done{};
+    if (by_columns_) return;
     bytes_.resize(count * table.row_size);
-    return read(first * table.row_size, bytes_);
+    read(first * table.row_size, bytes_);
 }
 
 /// Where the first value of the column in the rows stands.
-Result<const char*> NpyFile::items(const NpyColumn& column) {
-    if (by_columns_) {
-        bytes_.resize(count_ * column.step);
-        if (Status done = read(column.first + first_ * column.step, bytes_); !done) return done.error();
-    }
-    return static_cast<const char*>(bytes_.data() + (by_columns_ ? 0 : column.first));
+const char* NpyFile::items(const NpyColumn& column) {
+    if (!by_columns_) return bytes_.data() + column.first;
+    bytes_.resize(count_ * column.step);
+    read(column.first + first_ * column.step, bytes_);
+    return bytes_.data();
 }
 
-/// Calls take(i, place) for the value i of the rows; the first Error ends that.
-template <class Take>
-Status NpyFile::for_items(const NpyColumn& column, Take take) {
-    const Result<const char*> first = items(column);
-    if (!first) return first.error();
-    const char* at = *first;
-    for (std::size_t i = 0; i < count_; ++i, at += column.step) {
-        if (Status taken = take(i, at); !taken) return taken;
-    }
-    return Done{};
+void NpyFile::refuse(const std::string& what, std::size_t row, const char* expected, const char* remedy) const {
+    throw Exception(
+        file_error(path_, "row " + std::to_string(first_ + row) + " of " + what, expected, "another value", remedy));
 }
 
-Error NpyFile::value_error(const std::string& what, std::size_t row, const char* expected, const char* remedy) const {
-    return file_error(path_, "row " + std::to_string(first_ + row) + " of " + what, expected, "another value", remedy);
+void NpyFile::numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride) {
+    const std::size_t good = npy_numbers(items(column), column.step, count_, column.type, out, stride);
+    if (good != count_) refuse(what, good, "an integer that a double holds exactly", "save a.astype('f8') to round it");
 }
 
-Status NpyFile::numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride) {
-    if (column.type.kind == 'f') {  // there is nothing to refuse
-        const Result<const char*> first = items(column);
-        if (!first) return first.error();
-        const char* at = *first;
-        const bool as_in_memory = column.type.size == sizeof(double) && !column.type.swapped;
-        for (std::size_t i = 0; i < count_; ++i, at += column.step) {
-            if (as_in_memory) {
-                std::memcpy(out + i * stride, at, sizeof(double));
-            } else {
-                out[i * stride] = *npy_double(at, column.type);
+void NpyFile::values(const NpyColumn& column, const std::string& what, Column& out) {
+    const char* const first = items(column);
+    const auto append = [&]<class T>(std::vector<T>& values) {
+        const char* const remedy = "leave the column out of options.keep";
+        const std::size_t before = values.size();
+        if constexpr (std::is_same_v<T, std::string>) {
+            for (std::size_t i = 0; i < count_; ++i) {
+                auto text = npy_text(first + i * column.step, column.type);
+                if (!text) refuse(what, i, "characters of Unicode", remedy);
+                values.push_back(std::move(*text));
             }
-        }
-        return Done{};
-    }
-    return for_items(column, [&](std::size_t i, const char* at) -> Status {
-        const auto x = npy_double(at, column.type);
-        if (!x)
-            return value_error(what, i, "an integer that a double holds exactly", "save a.astype('f8') to round it");
-        out[i * stride] = *x;
-        return Done{};
-    });
-}
-
-Status NpyFile::values(const NpyColumn& column, const std::string& what, Column& out) {
-    return for_items(column, [&](std::size_t i, const char* at) -> Status {
-        if (column.type.kind == 'f') {
-            std::get<std::vector<double>>(out.values).push_back(*npy_double(at, column.type));
-        } else if (column.type.is_integer()) {
-            const auto x = npy_integer(at, column.type);
-            if (!x) return value_error(what, i, "an integer below 2^63", "leave the column out of options.keep");
-            std::get<std::vector<std::int64_t>>(out.values).push_back(*x);
         } else {
-            auto text = npy_text(at, column.type);
-            if (!text) return value_error(what, i, "characters of Unicode", "leave the column out of options.keep");
-            std::get<std::vector<std::string>>(out.values).push_back(std::move(*text));
+            values.resize(before + count_);
+            const std::size_t good = npy_numbers(first, column.step, count_, column.type, values.data() + before, 1);
+            if (good != count_) refuse(what, good, "an integer below 2^63", remedy);
         }
-        return Done{};
-    });
+    };
+    std::visit(append, out.values);
 }
 
 }  // namespace barycert::io

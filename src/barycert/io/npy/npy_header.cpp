@@ -1,12 +1,11 @@
-#include "barycert/io/npy/npy_header.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/formats.hpp"
+#include "barycert/io/npy/npy.hpp"
 
 namespace barycert::io {
 namespace {
@@ -99,9 +98,9 @@ bool is_tuple(const Literal& literal) {
                                               [](const Literal& item) { return item.kind == '0'; });
 }
 
-Error not_npy(const std::string& file, std::string expected, std::string found, std::string remedy) {
-    return file_error(file, "cannot read the header of the NPY file", std::move(expected), std::move(found),
-                      std::move(remedy));
+[[noreturn]] void not_npy(const std::string& file, std::string expected, std::string found, std::string remedy) {
+    refuse_file(file, "cannot read the header of the NPY file", std::move(expected), std::move(found),
+                std::move(remedy));
 }
 
 constexpr const char* save_again = "save the array again with numpy.save";
@@ -155,53 +154,44 @@ bool take_fields(const Literal& list, std::vector<NpyColumn>& columns, std::uint
     return true;
 }
 
-/// The columns and the bytes of a row of an array without fields.
-Status simple_table(const NpyHeader& header, const std::string& file, NpyTable& table) {
-    const auto type = npy_type(header.descr);
-    if (!type || type->size == 0)
-        return file_error(file, "cannot read an array of that type", "integers, floating-point numbers or texts",
-                          base::quoted(header.descr), "save a.astype('f8')");
-    const std::uint64_t columns = header.shape.size() == 2 ? header.shape[1] : 1;
-    if (columns > most_npy_columns)
-        return file_error(file, "an array of another shape", "at most " + std::to_string(most_npy_columns) + " columns",
-                          as_tuple(header.shape), "save an array with a row for each point");
-    table.row_size = columns * type->size;
-    table.by_columns = header.fortran_order && columns > 1;
-    for (std::uint64_t c = 0; c < columns; ++c) {
-        const std::uint64_t first = (table.by_columns ? table.rows : 1) * c * type->size;
-        table.columns.push_back({column_number(c), *type, first, table.by_columns ? type->size : table.row_size});
-    }
-    return Done{};
-}
+/// Where the text of a header begins, how many bytes it has, and whether it is Latin-1; else it is UTF-8.
+struct NpyText {
+    std::size_t offset = 0, size = 0;
+    bool latin1 = false;
+};
 
-}  // namespace
-
-Result<NpyText> find_npy_text(std::string_view head, const std::string& file) {
+/// From the first bytes of the file: 6 of magic, 2 of version, then the length of the text in 2 or 4.
+constexpr std::size_t npy_head = 12;
+NpyText find_npy_text(std::string_view head, const std::string& file) {
     if (head.starts_with("PK\x03\x04"))
-        return not_npy(file, "one array", "a ZIP archive, as numpy.savez writes it",
-                       "save the one array of points with numpy.save");
+        not_npy(file, "one array", "a ZIP archive, as numpy.savez writes it",
+                "save the one array of points with numpy.save");
     if (!head.starts_with(npy_magic))
-        return not_npy(file, "a file that begins with \\x93NUMPY",
-                       head.empty() ? "nothing" : base::quoted(head.substr(0, npy_magic.size())), save_again);
-    if (head.size() < 10) return not_npy(file, "a whole header", "the end of the file", save_again);
+        not_npy(file, "a file that begins with \\x93NUMPY",
+                head.empty() ? "nothing" : base::quoted(head.substr(0, npy_magic.size())), save_again);
+    const auto need = [&](std::size_t size) {
+        if (head.size() < size) not_npy(file, "a whole header", "the end of the file", save_again);
+    };
+    need(10);
     const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(head[i])); };
     const std::size_t major = byte(6);
     if (major < 1 || major > 3)
-        return not_npy(file, "version 1, 2 or 3", "version " + std::to_string(major) + "." + std::to_string(byte(7)),
-                       save_again);
+        not_npy(file, "version 1, 2 or 3", "version " + std::to_string(major) + "." + std::to_string(byte(7)),
+                save_again);
     NpyText text{.offset = 10, .size = byte(8) | byte(9) << 8, .latin1 = major != 3};
     if (major != 1) {
-        if (head.size() < npy_head) return not_npy(file, "a whole header", "the end of the file", save_again);
+        need(npy_head);
         text.offset = npy_head;
         text.size |= byte(10) << 16 | byte(11) << 24;
     }
     if (text.size > longest_npy_text)
-        return not_npy(file, "a header of at most " + std::to_string(longest_npy_text) + " bytes",
-                       std::to_string(text.size), save_again);
+        not_npy(file, "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(text.size),
+                save_again);
     return text;
 }
 
-Result<NpyHeader> parse_npy_text(std::string_view text, bool latin1, const std::string& file) {
+/// From the text of the header, a Python dictionary of descr, fortran_order and shape.
+NpyHeader parse_npy_text(std::string_view text, bool latin1, const std::string& file) {
     std::string utf8;
     for (const char byte : text) append_utf8(utf8, static_cast<unsigned char>(byte));
     NpyHeader header;
@@ -218,10 +208,10 @@ Result<NpyHeader> parse_npy_text(std::string_view text, bool latin1, const std::
             header.structured = true;
             if (!whole || !take_fields(value, header.fields, header.item_size, 0) || header.item_size == 0 ||
                 header.item_size > longest_npy_text << 10)
-                return file_error(file, "cannot read a structured array of that type",
-                                  "a list of names and types of known size, and no Python objects",
-                                  base::quoted(from.substr(0, from.size() - rest.size())),
-                                  "save the fields that are needed: a[['x', 'y']]");
+                refuse_file(file, "cannot read a structured array of that type",
+                            "a list of names and types of known size, and no Python objects",
+                            base::quoted(from.substr(0, from.size() - rest.size())),
+                            "save the fields that are needed: a[['x', 'y']]");
         }
         unsigned bit = 0;
         if (key.text == "descr" && (value.kind == '[' || value.kind == '\'')) bit = 1;
@@ -239,7 +229,24 @@ Result<NpyHeader> parse_npy_text(std::string_view text, bool latin1, const std::
     }
     skip_blanks(rest);
     if (good && seen == 7 && rest.empty()) return header;
-    return not_npy(file, "a dictionary of descr, fortran_order and shape", base::quoted(text), save_again);
+    not_npy(file, "a dictionary of descr, fortran_order and shape", base::quoted(text), save_again);
+}
+
+}  // namespace
+
+NpyHeader read_npy_header(const base::InputFile& file, const std::string& path) {
+    std::string bytes(npy_head, '\0');
+    bytes.resize(file.read_at(0, bytes, path).value());
+    const NpyText text = find_npy_text(bytes, path);
+    const std::size_t size = text.offset + text.size;
+    if (size > file.size())
+        refuse_file(path, "the file ends too early", "a header of " + std::to_string(size) + " bytes",
+                    std::to_string(file.size()), "the file may be cut short: write it again");
+    bytes.resize(text.size);
+    bytes.resize(file.read_at(text.offset, bytes, path).value());
+    NpyHeader header = parse_npy_text(bytes, text.latin1, path);
+    header.size = size;
+    return header;
 }
 
 std::string as_tuple(const std::vector<std::uint64_t>& shape) {
@@ -248,34 +255,8 @@ std::string as_tuple(const std::vector<std::uint64_t>& shape) {
     return text + (shape.size() == 1 ? ",)" : ")");
 }
 
-Result<NpyTable> npy_table(const NpyHeader& header, const std::string& file) {
-    NpyTable table{.rows = 0, .columns = {}, .structured = header.structured};
-    const std::size_t axes = header.shape.size();
-    if (axes == 0 || axes > (header.structured ? 1U : 2U))
-        return file_error(file, "an array of another shape", header.structured ? "(n,)" : "(n, columns)",
-                          as_tuple(header.shape), "save an array with a row for each point");
-    table.rows = header.shape[0];
-    if (header.structured) {
-        table.columns = header.fields;
-        table.row_size = header.item_size;
-        for (NpyColumn& column : table.columns) column.step = table.row_size;
-    } else if (Status simple = simple_table(header, file, table); !simple) {
-        return simple.error();
-    }
-    return table;
-}
-
-Status check_npy_room(const NpyTable& table, std::uint64_t room, const std::string& file) {
-    const std::uint64_t row = table.row_size;
-    const std::string rows = std::to_string(table.rows);
-    if (row != 0 && table.rows > room / row)
-        return file_error(file, "the file ends too early",
-                          rows + " rows of " + std::to_string(row) + " bytes, as its header tells",
-                          std::to_string(room) + " bytes", "the file may be cut short: write it again");
-    if (table.rows * row != room)
-        return file_error(file, "bytes after the array", std::to_string(table.rows * row) + ", as the header tells",
-                          std::to_string(room), "save one array a file");
-    return Done{};
+std::string npy_dictionary(const std::string& descr, const std::vector<std::uint64_t>& shape) {
+    return "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + as_tuple(shape) + ", }";
 }
 
 }  // namespace barycert::io

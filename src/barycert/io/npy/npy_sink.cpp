@@ -5,11 +5,12 @@
 #include <cstring>
 #include <set>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/npy/npy_header.hpp"
+#include "barycert/io/npy/npy.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/mesh/columns.hpp"
 
@@ -72,11 +73,31 @@ char* put(char* at, std::uint64_t bits) {
     return at + sizeof bits;
 }
 
+/// Whether that many bytes hold the text, as characters or as bytes.
+bool fits_text(std::string_view text, std::size_t size, bool characters) {
+    if (text.ends_with('\0')) return false;
+    if (!characters) return text.size() <= size;
+    const std::ptrdiff_t count = mesh::count_characters(text);
+    return count >= 0 && static_cast<std::size_t>(count) <= size / 4;
+}
+
+/// Writes the text into `size` bytes, with zeros behind it. Precondition: it fits.
+void put_text(char* at, std::size_t size, std::string_view text, bool characters) {
+    std::memset(at, 0, size);
+    if (!characters) {
+        std::copy(text.begin(), text.end(), at);
+        return;
+    }
+    for (; !text.empty(); at += 4) {
+        const auto [code, bytes] = base::first_character(text);
+        text.remove_prefix(bytes);
+        for (std::size_t i = 0; i < 4; ++i) at[i] = static_cast<char>(code >> 8 * i & 0xFFU);
+    }
+}
+
 class NpySink final : public RowSink {
 public:
-    using RowSink::RowSink;
-
-    Status begin();
+    NpySink(const std::string& path, const TableFormat& format);
     Status commit() override {
         file_.replace(head_size_, padded_header(count_));
         return RowSink::commit();
@@ -88,10 +109,8 @@ public:
     }
 
 private:
-    Status settle_types();
-    std::string header(std::uint64_t count) const {
-        return "{'descr': " + types_ + ", 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
-    }
+    void settle_types();
+    std::string header(std::uint64_t count) const { return npy_dictionary(types_, {count}); }
     std::string padded_header(std::uint64_t count) const {
         std::string text = header(count);
         text.resize(text_size_ - 1, ' ');
@@ -100,10 +119,22 @@ private:
     Status check(const TableView& rows) const override;
     std::size_t longest_row(const TableView&) const override { return row_size_; }
     char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override {
-        for (; first != last; ++first) at = put_row(rows, first, at);
+        const auto put_one = [&]<class T>(const T& value, std::size_t k) {
+            if constexpr (std::is_same_v<T, std::string>) {
+                put_text(at, carried_[k], value, format_.carried[k].max_characters != 0);
+                at += carried_[k];
+            } else if constexpr (std::is_same_v<T, Feature>) {
+                std::memcpy(at, &features_[static_cast<std::size_t>(value)], feature_size);
+                at += feature_size;
+            } else if constexpr (std::is_same_v<T, double>) {
+                at = put(at, std::bit_cast<std::uint64_t>(value));
+            } else {
+                at = put(at, static_cast<std::uint64_t>(std::int64_t{value}));
+            }
+        };
+        for (; first != last; ++first) put_row(rows, first, put_one);
         return at;
     }
-    char* put_row(const TableView& rows, std::size_t row, char* at) const;
 
     std::string types_;          // the descr of the header
     std::size_t text_size_ = 0;  // of the header, with room for any count
@@ -116,7 +147,7 @@ private:
 };
 
 /// Error: an empty name, one that is not UTF-8, two that are alike.
-Status NpySink::settle_types() {
+void NpySink::settle_types() {
     struct Field {
         std::string name;
         std::string type = "<f8";
@@ -136,21 +167,20 @@ Status NpySink::settle_types() {
     std::set<std::string> seen;
     for (const Field& field : fields) {
         if (const char* const expected = fault_of(field.name, seen); expected != nullptr)
-            return file_error(path_, "a column name is not allowed in an NPY file", expected, base::quoted(field.name),
-                              "rename the field, leave it out, or write CSV");
+            refuse_file(path_, "a column name is not allowed in an NPY file", expected, base::quoted(field.name),
+                        "rename the field, leave it out, or write CSV");
         types_ += (types_.empty() ? "[(" : ", (") + as_literal(field.name) + ", '" + field.type + "')";
     }
     types_ += "]";
-    return Done{};
 }
 
-Status NpySink::begin() {
-    if (!file_.status()) return file_.status();
+NpySink::NpySink(const std::string& path, const TableFormat& format) : RowSink(path, format) {
+    file_.status().value();
     if (!file_.can_replace())
-        return file_error(path_, "cannot write NPY to a pipe or device",
-                          "a regular file: the number of rows is written into its header at the end", {},
-                          "name a regular file, or write CSV");
-    if (Status settled = settle_types(); !settled) return settled;
+        refuse_file(path_, "cannot write NPY to a pipe or device",
+                    "a regular file: the number of rows is written into its header at the end", {},
+                    "name a regular file, or write CSV");
+    settle_types();
     for (std::size_t f = 0; f < features_.size(); ++f) {
         std::array<char, feature_size> text{};
         const std::string_view word = name(static_cast<Feature>(f));
@@ -168,39 +198,15 @@ Status NpySink::begin() {
     const std::size_t whole = (head_size_ + header(UINT64_MAX).size() + 1 + alignment - 1) / alignment * alignment;
     text_size_ = whole - head_size_;
     if (text_size_ > longest_npy_text)
-        return file_error(path_, "too many columns for an NPY file",
-                          "a header of at most " + std::to_string(longest_npy_text) + " bytes",
-                          std::to_string(text_size_), "choose fewer fields, or write CSV");
+        refuse_file(path_, "too many columns for an NPY file",
+                    "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(text_size_),
+                    "choose fewer fields, or write CSV");
     std::string head(npy_magic);
     head += {version_, '\0'};
     for (std::size_t i = 8; i < head_size_; ++i) head += static_cast<char>(text_size_ >> 8 * (i - 8) & 0xFFU);
     file_.write(head);
     file_.write(padded_header(0));
-    return file_.status();
-}
-
-char* NpySink::put_row(const TableView& rows, std::size_t row, char* at) const {
-    const auto dimension = static_cast<std::size_t>(format_.dimension);
-    for (const double x : rows.points.subspan(row * dimension, dimension))
-        at = put(at, std::bit_cast<std::uint64_t>(x));
-    at = put(at, static_cast<std::uint64_t>(static_cast<std::int64_t>(rows.cells[row])));
-    std::memcpy(at, &features_[static_cast<std::size_t>(rows.features[row])], feature_size);
-    at += feature_size;
-    for (const double x : rows.values.subspan(row * columns_, columns_)) at = put(at, std::bit_cast<std::uint64_t>(x));
-    if (format_.distances) at = put(at, std::bit_cast<std::uint64_t>(rows.distances[row]));
-    for (std::size_t k = 0; k < carried_.size(); ++k) {
-        const auto& values = rows.carried[k].values;
-        if (const auto* const integers = std::get_if<std::vector<std::int64_t>>(&values)) {
-            put(at, static_cast<std::uint64_t>((*integers)[row]));
-        } else if (const auto* const numbers = std::get_if<std::vector<double>>(&values)) {
-            put(at, std::bit_cast<std::uint64_t>((*numbers)[row]));
-        } else {
-            put_npy_text(at, carried_[k], std::get<std::vector<std::string>>(values)[row],
-                         format_.carried[k].max_characters != 0);
-        }
-        at += carried_[k];
-    }
-    return at;
+    file_.status().value();
 }
 
 /// What the types of the file cannot hold.
@@ -210,7 +216,7 @@ Status NpySink::check(const TableView& rows) const {
         if (texts == nullptr) continue;
         const bool characters = format_.carried[k].max_characters != 0;
         for (const std::string& text : *texts) {
-            if (fits_npy_text(text, carried_[k], characters)) continue;
+            if (fits_text(text, carried_[k], characters)) continue;
             return file_error(
                 path_, "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
                 std::to_string(carried_[k] / (characters ? 4 : 1)) + (characters ? " characters of UTF-8" : " bytes") +
@@ -223,8 +229,8 @@ Status NpySink::check(const TableView& rows) const {
 
 }  // namespace
 
-Result<std::unique_ptr<TableSink>> open_npy_sink(const std::string& path, const TableFormat& format) {
-    return begun<TableSink>(std::make_unique<NpySink>(path, format));
+std::unique_ptr<TableSink> open_npy_sink(const std::string& path, const TableFormat& format) {
+    return std::make_unique<NpySink>(path, format);
 }
 
 }  // namespace barycert::io

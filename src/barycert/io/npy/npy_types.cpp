@@ -1,42 +1,17 @@
-#include "barycert/io/npy/npy_header.hpp"
-
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
-#include "barycert/base/text.hpp"
-#include "barycert/mesh/columns.hpp"
+#include "barycert/io/npy/npy.hpp"
+#include "barycert/io/vtk/numbers.hpp"
 
 namespace barycert::io {
 namespace {
 
-template <class Word>
-Word load(const char* at) {
-    Word word = 0;
-    std::memcpy(&word, at, sizeof word);
-    return word;
-}
-
-/// The item as an integer without sign; 8 bytes at most.
-std::uint64_t word_at(const char* at, const NpyType& type) {
-    switch (type.size) {
-        case 8:
-            return type.swapped ? __builtin_bswap64(load<std::uint64_t>(at)) : load<std::uint64_t>(at);
-        case 4:
-            return type.swapped ? __builtin_bswap32(load<std::uint32_t>(at)) : load<std::uint32_t>(at);
-        case 2:
-            return type.swapped ? __builtin_bswap16(load<std::uint16_t>(at)) : load<std::uint16_t>(at);
-        default:
-            return load<std::uint8_t>(at);
-    }
-}
-
 /// Sign, 5 bits of exponent, 10 of fraction.
-double half(std::uint64_t bits) {
+double half(std::uint16_t bits) {
     const auto fraction = static_cast<double>(bits & 0x3FFU);
     const int exponent = static_cast<int>(bits >> 10 & 0x1FU);
     double x = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(fraction + 1024, exponent - 25);
@@ -45,12 +20,43 @@ double half(std::uint64_t bits) {
     return (bits & 0x8000U) != 0 ? -x : x;
 }
 
-std::int64_t signed_value(std::uint64_t word, std::size_t size) {
-    const auto unused = static_cast<int>(64 - 8 * size);
-    return static_cast<std::int64_t>(word << unused) >> unused;
+/// Of types whose kind and size are known: neither halves nor booleans.
+NumberType number_type(const NpyType& type) {
+    const auto doublings = static_cast<int>(std::bit_width(type.size)) - 1;
+    const int first = static_cast<int>(NumberType::int8) + (type.kind == 'i' ? 0 : 1);
+    if (type.kind == 'f') return type.is_double() ? NumberType::float64 : NumberType::float32;
+    return static_cast<NumberType>(first + 2 * doublings);
+}
+
+template <class To>
+std::size_t take_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, To* out,
+                         std::size_t stride) {
+    const auto all = [&]<class From>(const auto& change) {
+        const auto numbers = [&]<bool swap>() {
+            std::size_t i = 0;
+            while (i < count && convert_number(change(number_at<From, swap>(at + i * step)), out[i * stride])) ++i;
+            return i;
+        };
+        return type.swapped ? numbers.template operator()<true>() : numbers.template operator()<false>();
+    };
+    if (type.kind == 'f' && type.size == 2) return all.template operator()<std::uint16_t>(half);
+    if (type.kind == 'b')
+        return all.template operator()<std::uint8_t>([](std::uint8_t x) { return static_cast<int>(x != 0); });
+    return with_number_type(number_type(type),
+                            [&]<class From>() { return all.template operator()<From>([](From x) { return x; }); });
 }
 
 }  // namespace
+
+std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, double* out,
+                        std::size_t stride) {
+    return take_numbers(at, step, count, type, out, stride);
+}
+
+std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, std::int64_t* out,
+                        std::size_t stride) {
+    return take_numbers(at, step, count, type, out, stride);
+}
 
 void append_utf8(std::string& text, std::uint32_t code) {
     const auto more = [&](int shift) { text += static_cast<char>(0x80U | (code >> shift & 0x3FU)); };
@@ -95,32 +101,6 @@ std::optional<NpyType> npy_type(std::string_view descr) {
     return type;
 }
 
-std::optional<std::int64_t> npy_integer(const char* at, const NpyType& type) {
-    const std::uint64_t word = word_at(at, type);
-    if (type.kind == 'b') return word != 0 ? 1 : 0;
-    if (type.kind == 'i') return signed_value(word, type.size);
-    if (word > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) return std::nullopt;
-    return static_cast<std::int64_t>(word);
-}
-
-std::optional<double> npy_double(const char* at, const NpyType& type) {
-    const std::uint64_t word = word_at(at, type);
-    if (type.kind == 'f' && type.size == 8) return std::bit_cast<double>(word);
-    if (type.kind == 'f' && type.size == 4)
-        return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(word)));
-    if (type.kind == 'f') return half(word);
-    if (type.kind == 'b') return word != 0 ? 1 : 0;
-    const std::int64_t whole = type.kind == 'i' ? signed_value(word, type.size) : 0;
-    const bool negative = whole < 0;
-    const std::uint64_t magnitude = type.kind != 'i' ? word
-                                    : negative       ? 0 - static_cast<std::uint64_t>(whole)
-                                                     : static_cast<std::uint64_t>(whole);
-    // A double holds 53 bits, and any number of zeros behind them.
-    if (magnitude != 0 && std::bit_width(magnitude) - std::countr_zero(magnitude) > 53) return std::nullopt;
-    const auto x = static_cast<double>(magnitude);
-    return negative ? -x : x;
-}
-
 std::optional<std::string> npy_text(const char* at, const NpyType& type) {
     if (type.kind == 'S') {
         std::size_t size = type.size;
@@ -129,34 +109,16 @@ std::optional<std::string> npy_text(const char* at, const NpyType& type) {
     }
     std::string text;
     std::size_t count = type.size / 4;
-    const NpyType character{.kind = 'u', .size = 4, .swapped = type.swapped};
-    while (count != 0 && word_at(at + 4 * (count - 1), character) == 0) --count;
+    const auto code_at = [&](std::size_t i) {
+        return type.swapped ? number_at<std::uint32_t, true>(at + 4 * i) : number_at<std::uint32_t, false>(at + 4 * i);
+    };
+    while (count != 0 && code_at(count - 1) == 0) --count;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::uint64_t code = word_at(at + 4 * i, character);
+        const std::uint32_t code = code_at(i);
         if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return std::nullopt;
-        append_utf8(text, static_cast<std::uint32_t>(code));
+        append_utf8(text, code);
     }
     return text;
-}
-
-bool fits_npy_text(std::string_view text, std::size_t size, bool characters) {
-    if (text.ends_with('\0')) return false;
-    if (!characters) return text.size() <= size;
-    const std::ptrdiff_t count = mesh::count_characters(text);
-    return count >= 0 && static_cast<std::size_t>(count) <= size / 4;
-}
-
-void put_npy_text(char* at, std::size_t size, std::string_view text, bool characters) {
-    std::memset(at, 0, size);
-    if (!characters) {
-        std::copy(text.begin(), text.end(), at);
-        return;
-    }
-    for (; !text.empty(); at += 4) {
-        const auto [code, bytes] = base::first_character(text);
-        text.remove_prefix(bytes);
-        for (std::size_t i = 0; i < 4; ++i) at[i] = static_cast<char>(code >> 8 * i & 0xFFU);
-    }
 }
 
 }  // namespace barycert::io

@@ -2,6 +2,7 @@
 #include "barycert/io/npz/weights_file.hpp"
 
 #include <libdeflate.h>
+#include <zlib.h>
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -14,7 +15,7 @@
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/npy/npy_header.hpp"
+#include "barycert/io/npy/npy.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
@@ -53,32 +54,11 @@ std::uint64_t or_limit(std::uint64_t x) {
 }
 
 std::string npy_header_of(const std::string& descr, const std::vector<std::uint64_t>& shape) {
-    std::string text = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': " + as_tuple(shape) + ", }";
+    std::string text = npy_dictionary("'" + descr + "'", shape);
     constexpr std::size_t head = 10;
     text.resize(npz_npy_header - head - 1, ' ');
     text += '\n';
     return Bytes().text(npy_magic).text({"\1\0", 2}).two(text.size()).text(text).all();
-}
-
-/// The product of two polynomials over bits modulo that of CRC-32; the top bit is the constant term.
-std::uint32_t product(std::uint32_t a, std::uint32_t b) {
-    std::uint32_t sum = 0;
-    for (std::uint32_t bit = 1U << 31; bit != 0; bit >>= 1) {
-        if ((a & bit) != 0) sum ^= b;
-        b = (b >> 1) ^ ((b & 1U) != 0 ? 0xedb88320U : 0U);
-    }
-    return sum;
-}
-
-/// The checksum of two texts in a row, of which the second has so many bytes: the first is moved over these, that is
-/// multiplied by x to the power of 8 * size.
-std::uint32_t joined(std::uint32_t first, std::uint32_t second, std::uint64_t size) {
-    std::uint32_t power = 1U << 23;  // x^8
-    for (; size != 0; size >>= 1) {
-        if ((size & 1U) != 0) first = product(first, power);
-        power = product(power, power);
-    }
-    return first ^ second;
 }
 
 static_assert(std::endian::native == std::endian::little, "NPY files are written as numbers stand in memory");
@@ -122,7 +102,8 @@ public:
     void end(const std::vector<std::uint64_t>& shape) {
         Member& m = members_.back();
         const std::string header = npy_header_of(m.descr, shape);
-        m.checksum = joined(libdeflate_crc32(0, header.data(), header.size()), numbers_, m.size);
+        m.checksum = static_cast<std::uint32_t>(
+            crc32_combine(libdeflate_crc32(0, header.data(), header.size()), numbers_, static_cast<z_off_t>(m.size)));
         m.size += header.size();
         file_.replace(m.offset, local_header(m) + header);
     }
@@ -172,15 +153,8 @@ private:
         const unsigned version = extra == 0 ? zip_version : zip64_version;
         Bytes b;
         b.four(0x02014b50).two(3U << 8 | version).two(version).two(0).two(0).two(0).two(zip_date);
-        b.four(m.checksum)
-            .four(or_limit(m.size))
-            .four(or_limit(m.size))
-            .two(m.name.size())
-            .two(extra)
-            .two(0)
-            .two(0)
-            .two(0);
-        b.four(0100644ULL << 16).four(or_limit(m.offset)).text(m.name);
+        b.four(m.checksum).four(or_limit(m.size)).four(or_limit(m.size)).two(m.name.size()).two(extra);
+        b.two(0).two(0).two(0).four(0100644ULL << 16).four(or_limit(m.offset)).text(m.name);
         if (extra != 0) b.two(zip64_field).two(field.all().size()).text(field.all());
         return b.all();
     }

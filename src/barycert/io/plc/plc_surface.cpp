@@ -8,6 +8,7 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/plc/plc_text.hpp"
+#include "barycert/io/vtk/numbers.hpp"
 
 namespace barycert::io {
 namespace {
@@ -70,10 +71,10 @@ private:
     std::vector<std::int32_t> ring_;
 };
 
-std::uint32_t little_endian(std::string_view bytes) {
-    std::uint32_t word = 0;
-    for (std::size_t i = 4; i-- > 0;) word = (word << 8) | static_cast<unsigned char>(bytes[i]);
-    return word;
+/// The number of 4 bytes at that place.
+template <class T>
+T little_endian(std::string_view bytes, std::size_t at) {
+    return number_at<T, std::endian::native == std::endian::big>(bytes.data() + at);
 }
 
 constexpr std::size_t header = 84;  // 80 bytes of text and a count
@@ -82,11 +83,10 @@ constexpr std::size_t record = 50;  // normal and three corners as floats, two b
 /// Of a file of `size` bytes that begins so. Some binary files begin with `solid` too; a text file has no zero byte.
 bool is_binary_stl(std::string_view bytes, std::size_t size, const std::string& path) {
     if (bytes.substr(0, 5) == "solid" && bytes.find('\0') == std::string_view::npos) return false;
-    const std::size_t count = bytes.size() < header ? 0 : little_endian(bytes.substr(80));
+    const std::size_t count = bytes.size() < header ? 0 : little_endian<std::uint32_t>(bytes, 80);
     if (size >= header && (size - header) / record == count && (size - header) % record == 0) return true;
-    throw Exception(file_error(path, "neither a text nor a whole binary .stl",
-                               "`solid`, or " + std::to_string(header + record * count) + " bytes",
-                               std::to_string(size) + " bytes"));
+    refuse_file(path, "neither a text nor a whole binary .stl",
+                "`solid`, or " + std::to_string(header + record * count) + " bytes", std::to_string(size) + " bytes");
 }
 
 Plc read_binary_stl(const std::string& path, std::string_view bytes) {
@@ -97,7 +97,7 @@ Plc read_binary_stl(const std::string& path, std::string_view bytes) {
             std::array<double, 3> point{};
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const std::size_t at = header + record * i + 12 * (corner + 1) + 4 * axis;
-                point[axis] = static_cast<double>(std::bit_cast<float>(little_endian(bytes.substr(at))));
+                point[axis] = static_cast<double>(little_endian<float>(bytes, at));
                 if (!std::isfinite(point[axis]))
                     throw Exception(
                         file_error(path, "a coordinate of triangle " + std::to_string(i) + " is not finite"));

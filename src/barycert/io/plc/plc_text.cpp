@@ -40,10 +40,9 @@ std::string read_whole_file(const std::string& path) {
     std::error_code code;
     const std::filesystem::file_status status = std::filesystem::status(path, code);
     if (code == std::errc::permission_denied)
-        throw Exception(file_error(path, "cannot read", "a file in a folder that you may search", "permission denied"));
-    if (!std::filesystem::exists(status)) throw Exception(file_error(path, "no such file"));
-    if (std::filesystem::is_directory(status))
-        throw Exception(file_error(path, "cannot read", "a file", "a directory"));
+        refuse_file(path, "cannot read", "a file in a folder that you may search", "permission denied");
+    if (!std::filesystem::exists(status)) refuse_file(path, "no such file");
+    if (std::filesystem::is_directory(status)) refuse_file(path, "cannot read", "a file", "a directory");
     // A binary .stl may begin with zeros; its size tells at once whether it is one.
     const bool stl = has_suffix(path, ".stl");
     if (stl) check_stl_size(path);
@@ -51,7 +50,7 @@ std::string read_whole_file(const std::string& path) {
     Result<std::string> text =
         base::read_file(path, base::longest_pipe, stl ? base::Text::none : base::Text::all, header);
     if (!text) throw Exception(text.error());
-    if (text->empty()) throw Exception(file_error(path, "cannot read", "a PLC", "an empty file"));
+    if (text->empty()) refuse_file(path, "cannot read", "a PLC", "an empty file");
     if (const OtherFormat* packed = packed_format(*text); packed != nullptr)
         throw Exception(other_format_error(*packed, path));
     if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);  // byte order mark

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
+#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -12,10 +12,10 @@ namespace {
 
 constexpr const char* separators_remedy = "separate the columns by spaces, tabs or commas";
 
-Error error_at(const TextTable& table, const char* at, std::string what, std::string expected, std::string found,
-               std::string remedy) {
-    return line_error(table.file, line_of(table.bytes, at), std::move(what), std::move(expected), std::move(found),
-                      std::move(remedy));
+[[noreturn]] void refuse_at(const TextTable& table, const char* at, std::string what, std::string expected,
+                            std::string found, std::string remedy) {
+    refuse_line(table.file, line_of(table.bytes, at), std::move(what), std::move(expected), std::move(found),
+                std::move(remedy));
 }
 
 std::string plural(std::size_t count, const std::string& name) {
@@ -83,61 +83,59 @@ Complaint about_real(std::string_view field, const std::string& finite_remedy) {
     return {"a number", remedy_for_text(field)};
 }
 
-Error id_error(const TextTable& table, std::string_view field, std::size_t row) {
+[[noreturn]] void refuse_id(const TextTable& table, std::string_view field, std::size_t row) {
     const std::string expected = std::to_string(table.base + static_cast<std::int64_t>(row));
     const std::string remedy =
         "number the rows without gaps: TetGen ignores the numbers and would silently take the rows as they come";
     if (row != 0)
-        return error_at(table, field.data(), "a row out of sequence", "row " + expected, base::quoted(field), remedy);
+        refuse_at(table, field.data(), "a row out of sequence", "row " + expected, base::quoted(field), remedy);
     if (table.base_is_given && (field == "0" || field == "1"))
-        return error_at(table, field.data(), "the files of this mesh count from different bases",
-                        "row " + expected + " first, as in the .node file", base::quoted(field),
-                        "number all files from 0 or all from 1");
-    return error_at(table, field.data(), "a bad first row number", table.base_is_given ? expected : "0 or 1",
-                    base::quoted(field), remedy);
+        refuse_at(table, field.data(), "the files of this mesh count from different bases",
+                  "row " + expected + " first, as in the .node file", base::quoted(field),
+                  "number all files from 0 or all from 1");
+    refuse_at(table, field.data(), "a bad first row number", table.base_is_given ? expected : "0 or 1",
+              base::quoted(field), remedy);
 }
 
-Error index_error(const TextTable& table, const Columns& columns, std::string_view field) {
+[[noreturn]] void refuse_index(const TextTable& table, const Columns& columns, std::string_view field) {
     const std::string last = std::to_string(columns.limit - 1 + table.base);
     std::string expected = columns.limit == 0
                                ? "none, for there are no " + columns.refers_to
                                : std::to_string(table.base) + " to " + last + " (" + columns.refers_to + ")";
     if (columns.kind == ColumnKind::neighbour) expected += ", or -1 for none";
-    return error_at(table, field.data(), columns.name + " out of range", expected, base::quoted(field),
-                    "check that the files belong together and count from the same base");
+    refuse_at(table, field.data(), columns.name + " out of range", expected, base::quoted(field),
+              "check that the files belong together and count from the same base");
 }
 
-/// Why the field is no number of its kind, in range, if it is none.
-std::optional<Error> field_error(const TextTable& table, const Columns& columns, std::string_view field,
-                                 std::size_t row) {
+/// Refuses a field that is no number of its kind, in range.
+void check_field(const TextTable& table, const Columns& columns, std::string_view field, std::size_t row) {
     const char* const end = field.data() + field.size();
     if (field.empty())
-        return error_at(table, end, "bad " + columns.name, "a number before and after each comma", "nothing",
-                        "fill in the missing number or remove the comma");
+        refuse_at(table, end, "bad " + columns.name, "a number before and after each comma", "nothing",
+                  "fill in the missing number or remove the comma");
     const bool real = columns.kind == ColumnKind::real;
     std::int64_t value = 0;
     double number = 0;
     if ((real ? scan_real(field.data(), end, number) : scan_integer(field.data(), value)) != end) {
         const Complaint complaint = real ? about_real(field, table.finite_remedy) : about_integer(field);
-        return error_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
+        refuse_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
     }
     if (columns.kind == ColumnKind::id && value != table.base + static_cast<std::int64_t>(row))
-        return id_error(table, field, row);
+        refuse_id(table, field, row);
     const bool index = columns.kind == ColumnKind::index || (columns.kind == ColumnKind::neighbour && value != -1);
-    if (index && (value < table.base || value - table.base >= columns.limit)) return index_error(table, columns, field);
-    return std::nullopt;
+    if (index && (value < table.base || value - table.base >= columns.limit)) refuse_index(table, columns, field);
 }
 
-Error column_count_error(const TextTable& table, const std::vector<std::string_view>& fields) {
+[[noreturn]] void refuse_column_count(const TextTable& table, const std::vector<std::string_view>& fields) {
     const std::size_t expected = table.column_count();
     const char* const at = fields.front().data();
     if (fields.size() < expected)
-        return error_at(table, at, "too few columns in a row", described_columns(table), std::to_string(fields.size()),
-                        "complete the row, or mend the header: it tells how many columns there are");
+        refuse_at(table, at, "too few columns in a row", described_columns(table), std::to_string(fields.size()),
+                  "complete the row, or mend the header: it tells how many columns there are");
     const std::string found =
         std::to_string(fields.size()) + ", the first too many being " +
         (fields[expected].empty() ? "an empty one after a comma" : base::quoted(fields[expected]));
-    return error_at(table, at, "too many columns in a row", described_columns(table), found, table.surplus_remedy);
+    refuse_at(table, at, "too many columns in a row", described_columns(table), found, table.surplus_remedy);
 }
 
 }  // namespace
@@ -157,16 +155,16 @@ std::vector<std::string_view> fields_of_line(const TextTable& table, const char*
     return fields;
 }
 
-Error header_error(const TextTable& table, std::string what, std::string expected, std::string found,
+void refuse_header(const TextTable& table, std::string what, std::string expected, std::string found,
                    std::string remedy) {
     const char* const at = table.header_at == nullptr ? table.begin() : table.header_at;
-    return error_at(table, at, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+    refuse_at(table, at, std::move(what), std::move(expected), std::move(found), std::move(remedy));
 }
 
-Error count_error(const TextTable& table, std::string_view field, const char* name) {
+void refuse_count(const TextTable& table, std::string_view field, const char* name) {
     if (field == "BIN")
-        return header_error(table, "a binary file", "text", "\"BIN\" in the header",
-                            "save the mesh as text: in Chaste, leave out SetWriteFilesAsBinary()");
+        refuse_header(table, "a binary file", "text", "\"BIN\" in the header",
+                      "save the mesh as text: in Chaste, leave out SetWriteFilesAsBinary()");
     std::int64_t value = 0;
     const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
     const Complaint complaint = integer ? Complaint{} : about_integer(field);
@@ -177,39 +175,39 @@ Error count_error(const TextTable& table, std::string_view field, const char* na
     const std::string expected = complaint.expected.find("zeros") != std::string::npos
                                      ? complaint.expected
                                      : "an integer from 0 to " + std::to_string(max_count);
-    return header_error(table, std::string("bad number of ") + name + " in the header", expected,
-                        field.empty() ? "nothing" : base::quoted(field), remedy);
+    refuse_header(table, std::string("bad number of ") + name + " in the header", expected,
+                  field.empty() ? "nothing" : base::quoted(field), remedy);
 }
 
-Error row_error(const TextTable& table, const char* at, std::size_t row) {
+void refuse_row(const TextTable& table, const char* at, std::size_t row) {
     const std::vector<std::string_view> fields = fields_of_line(table, at);
     std::size_t i = 0;
     for (const Columns& columns : table.columns) {
         for (std::size_t k = 0; k < columns.count && i < fields.size(); ++k, ++i) {
-            if (const auto error = field_error(table, columns, fields[i], row)) return *error;
+            check_field(table, columns, fields[i], row);
         }
     }
-    if (!fields.empty() && fields.size() != table.column_count()) return column_count_error(table, fields);
-    return error_at(table, at, "the last row has no line end, so the file may be cut short", "a line end",
-                    "the end of the file", "if nothing is missing, end the last line, as echo >> FILE does");
+    if (!fields.empty() && fields.size() != table.column_count()) refuse_column_count(table, fields);
+    refuse_at(table, at, "the last row has no line end, so the file may be cut short", "a line end",
+              "the end of the file", "if nothing is missing, end the last line, as echo >> FILE does");
 }
 
-Error too_few_rows(const TextTable& table, std::size_t found) {
-    return error_at(table, table.end(), "the file ends too early", plural(table.rows, "row") + " as the header tells",
-                    std::to_string(found), "the file may be cut short: write it again, or mend the header");
+void refuse_end(const TextTable& table, std::size_t found) {
+    refuse_at(table, table.end(), "the file ends too early", plural(table.rows, "row") + " as the header tells",
+              std::to_string(found), "the file may be cut short: write it again, or mend the header");
 }
 
-Error surplus_text(const TextTable& table, const char* at) {
+void refuse_surplus(const TextTable& table, const char* at) {
     const std::vector<std::string_view> fields = fields_of_line(table, at);
     const std::string_view field = fields.empty() ? std::string_view() : fields.front();
     std::int64_t value = 0;
     const bool another_row = scan_integer(at, value) == field.data() + field.size() &&
                              value == table.base + static_cast<std::int64_t>(table.rows);
     if (another_row)
-        return error_at(table, at, "more rows than the header tells", plural(table.rows, "row"),
-                        "a row " + base::quoted(field), "mend the header or remove the row");
-    return error_at(table, at, "text after the last row", "the end of the file or a comment", base::quoted(field),
-                    "remove the text, put # before it, or mend the number of rows in the header");
+        refuse_at(table, at, "more rows than the header tells", plural(table.rows, "row"),
+                  "a row " + base::quoted(field), "mend the header or remove the row");
+    refuse_at(table, at, "text after the last row", "the end of the file or a comment", base::quoted(field),
+              "remove the text, put # before it, or mend the number of rows in the header");
 }
 
 }  // namespace barycert::io

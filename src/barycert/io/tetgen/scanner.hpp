@@ -149,22 +149,12 @@ struct Scanner {
         return at != start;
     }
 
-    bool integer(std::int64_t& value) {
-        const char* const after = scan_integer(at, value);
-        if (after == nullptr) return false;
-        at = after;
-        return true;
-    }
+    bool integer(std::int64_t& value) { return move_to(scan_integer(at, value)); }
+    bool real(double& value) { return move_to(scan_real(at, end, value)); }
+    bool nonfinite(double& value) { return move_to(scan_nonfinite(at, end, value)); }
 
-    bool real(double& value) {
-        const char* const after = scan_real(at, end, value);
-        if (after == nullptr) return false;
-        at = after;
-        return true;
-    }
-
-    bool nonfinite(double& value) {
-        const char* const after = scan_nonfinite(at, end, value);
+private:
+    bool move_to(const char* after) {
         if (after == nullptr) return false;
         at = after;
         return true;

@@ -13,20 +13,21 @@
 // without gaps. A row has as many columns as the header tells, and the file as many rows.
 //
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
+#include <tbb/task_arena.h>
+
 #include <array>
 #include <filesystem>
 #include <initializer_list>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "barycert/base/large_pages.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
@@ -41,9 +42,9 @@ std::string header_text(std::initializer_list<std::int64_t> numbers) {
     return text + '"';
 }
 
-Error cannot_mean(const TextTable& table, const std::string& what, std::string expected, std::int64_t found,
-                  std::string remedy) {
-    return header_error(table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
+[[noreturn]] void refuse_meaning(const TextTable& table, const std::string& what, std::string expected,
+                                 std::int64_t found, std::string remedy) {
+    refuse_header(table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
 }
 
 /// One read, step by step. Each preparation reads a header, takes the memory and says where the columns go.
@@ -51,19 +52,16 @@ class TetgenReader {
 public:
     TetgenReader(std::string stem, const ReadOptions& options) : stem_(std::move(stem)), options_(options) {}
 
-    Result<Mesh> read() {
-        Status status = prepare_nodes();
-        if (status) status = prepare_cells();
-        if (status && options_.faces && exists(".face")) status = prepare_faces();
-        if (status && options_.neighbours && exists(".neigh")) status = prepare_neighbours();
-        if (!status) return status.error();
-
+    Mesh read() {
+        prepare_nodes();
+        prepare_cells();
+        if (options_.faces && exists(".face")) prepare_faces();
+        if (options_.neighbours && exists(".neigh")) prepare_neighbours();
         std::vector<TextTable*> tables{&nodes_, &cells_};
-        if (faces_) tables.push_back(faces_.get());
-        if (neighbours_) tables.push_back(neighbours_.get());
-        status = parse_tables(tables, options_.threads);
-        if (status) status = settle_mid_edge_order();
-        if (!status) return status.error();
+        if (faces_) tables.push_back(&*faces_);
+        if (neighbours_) tables.push_back(&*neighbours_);
+        parse_tables(tables, options_.threads);
+        settle_mid_edge_order();
         return std::move(mesh_);
     }
 
@@ -73,39 +71,35 @@ private:
         return std::filesystem::exists(plain_or_packed(stem_ + suffix), ignored);
     }
 
-    /// A table beside the nodes, which have told the base.
-    Status open(const char* suffix, std::span<const char* const> header_names, TextTable& table) {
-        Result<TextTable> opened = open_table(stem_ + suffix, header_names, options_.threads);
-        if (!opened) return opened.error();
-        table = std::move(*opened);
+    /// `apart`: beside the nodes, which have told the base.
+    TextTable open(const char* suffix, std::span<const char* const> header_names, bool apart = true) const {
+        TextTable table = open_table(stem_ + suffix, header_names, options_.threads);
         table.base = mesh_.index_base;
-        table.base_is_given = true;
-        return Done{};
+        table.base_is_given = apart;
+        return table;
     }
 
-    Status prepare_nodes();
-    Status prepare_cells();
-    Status prepare_faces();
-    Status prepare_neighbours();
-    Status settle_mid_edge_order();
+    void prepare_nodes();
+    void prepare_cells();
+    void prepare_faces();
+    void prepare_neighbours();
+    void settle_mid_edge_order();
 
     std::string stem_;
     ReadOptions options_;
     Mesh mesh_;
     TextTable nodes_, cells_;
-    std::unique_ptr<TextTable> faces_, neighbours_;  // where there is such a file
+    std::optional<TextTable> faces_, neighbours_;  // where there is such a file
 };
 
-Status TetgenReader::prepare_nodes() {
+void TetgenReader::prepare_nodes() {
     constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
-    if (Status opened = open(".node", names, nodes_); !opened) return opened;
-    TextTable& table = nodes_;
-    table.base_is_given = false;
+    TextTable& table = nodes_ = open(".node", names, false);
 
     const std::int64_t dimension = table.header_field(1, 3);
     if (dimension != 2 && dimension != 3)
-        return cannot_mean(table, "bad dimension", "2 or 3", dimension,
-                           "the header is: nodes, dimension, attributes, markers");
+        refuse_meaning(table, "bad dimension", "2 or 3", dimension,
+                       "the header is: nodes, dimension, attributes, markers");
     const std::int64_t count = table.header[0], attributes = table.header_field(2, 0),
                        markers = table.header_field(3, 0);
     const std::string more = header_text({count, dimension, attributes + 1, markers});
@@ -114,24 +108,22 @@ Status TetgenReader::prepare_nodes() {
                                      header_text({count, dimension, attributes, 1}) + "; if it is an attribute, " + more
                                : "if there is one attribute more, make the header " + more;
     mesh_.dimension = static_cast<int>(dimension);
-    Status settled = settle_node_columns(table, dimension, mesh_.points, mesh_.point_fields, mesh_.point_markers);
+    settle_node_columns(table, dimension, mesh_.points, mesh_.point_fields, mesh_.point_markers);
     mesh_.index_base = table.base;
-    return settled;
 }
 
-Status TetgenReader::prepare_cells() {
+void TetgenReader::prepare_cells() {
     constexpr std::array names{"cells", "corners", "attributes"};
     if (!exists(".ele"))
-        return file_error(stem_ + ".ele", "there are nodes but no cells", "an .ele file beside " + nodes_.file,
-                          "no such file", "mesh the nodes first, or put the .ele file there");
-    if (Status opened = open(".ele", names, cells_); !opened) return opened;
-    TextTable& table = cells_;
+        refuse_file(stem_ + ".ele", "there are nodes but no cells", "an .ele file beside " + nodes_.file,
+                    "no such file", "mesh the nodes first, or put the .ele file there");
+    TextTable& table = cells_ = open(".ele", names);
 
     const bool flat = mesh_.dimension == 2;
     const std::int64_t corners = table.header_field(1, flat ? 3 : 4);
     const std::int64_t attributes = table.header_field(2, 0);
     if (flat ? corners != 3 && corners != 6 : corners != 4 && corners != 10)
-        return cannot_mean(
+        refuse_meaning(
             table, "bad number of corners",
             flat ? "3 or 6, for the .node file has 2 dimensions" : "4 or 10, for the .node file has 3 dimensions",
             corners, "check that the files belong together and hold triangles (2D) or tetrahedra (3D)");
@@ -140,7 +132,7 @@ Status TetgenReader::prepare_cells() {
                      {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"}};
     table.surplus_remedy =
         "if there is one attribute more, make the header " + header_text({table.header[0], corners, attributes + 1});
-    if (Status room = check_room(table); !room) return room;
+    check_room(table);
 
     Columns& nodes = table.columns[1];
     nodes.step = mesh_.corners();
@@ -148,19 +140,16 @@ Status TetgenReader::prepare_cells() {
     base::resize_large(mesh_.mid_nodes, table.rows * (nodes.count - nodes.step));
     nodes.more_indices = mesh_.mid_nodes.data();
     make_attributes(table, mesh_.cell_fields);
-    return Done{};
 }
 
-Status TetgenReader::prepare_faces() {
+void TetgenReader::prepare_faces() {
     constexpr std::array names{"faces", "markers"};
-    faces_ = std::make_unique<TextTable>();
-    TextTable& table = *faces_;
-    if (Status opened = open(".face", names, table); !opened) return opened;
+    TextTable& table = faces_.emplace(open(".face", names));
     if (mesh_.dimension == 2)
-        return header_error(table, "a mesh of triangles has no faces", {}, {},
-                            "remove the .face file or do not ask for faces");
+        refuse_header(table, "a mesh of triangles has no faces", {}, {},
+                      "remove the .face file or do not ask for faces");
     const std::int64_t markers = table.header_field(1, 0);
-    if (markers > 1) return cannot_mean(table, "bad number of markers", "0 or 1", markers, {});
+    if (markers > 1) refuse_meaning(table, "bad number of markers", "0 or 1", markers, {});
     const auto marker_columns = static_cast<std::size_t>(markers);
     const std::size_t found = table.first_row().size();
     const std::size_t linear = 4 + marker_columns;  // id, corners, marker
@@ -173,7 +162,7 @@ Status TetgenReader::prepare_faces() {
     table.surplus_remedy = markers == 0
                                ? "if the last column is a marker, make the header " + header_text({table.header[0], 1})
                                : "let all rows have as many columns as the first";
-    if (Status room = check_room(table); !room) return room;
+    check_room(table);
 
     Columns &nodes = table.columns[1], &marks = table.columns[2];
     nodes.step = 3;
@@ -181,38 +170,34 @@ Status TetgenReader::prepare_faces() {
     base::resize_large(mesh_.face_mid_nodes, table.rows * (nodes.count - nodes.step));
     nodes.more_indices = mesh_.face_mid_nodes.data();
     marks.integers = room_for(mesh_.face_markers, marks, table.rows);
-    return Done{};
 }
 
-Status TetgenReader::prepare_neighbours() {
+void TetgenReader::prepare_neighbours() {
     constexpr std::array names{"cells", "neighbours"};
-    neighbours_ = std::make_unique<TextTable>();
-    TextTable& table = *neighbours_;
-    if (Status opened = open(".neigh", names, table); !opened) return opened;
+    TextTable& table = neighbours_.emplace(open(".neigh", names));
     const std::size_t sides = mesh_.corners();
     const char* const remedy = "check that the files belong together, or remove the .neigh file";
     if (table.rows != cells_.rows)
-        return header_error(table, "the number of cells differs from that of the .ele file",
-                            std::to_string(cells_.rows), std::to_string(table.rows), remedy);
+        refuse_header(table, "the number of cells differs from that of the .ele file", std::to_string(cells_.rows),
+                      std::to_string(table.rows), remedy);
     const std::int64_t declared = table.header_field(1, static_cast<std::int64_t>(sides));
     if (declared != static_cast<std::int64_t>(sides))
-        return cannot_mean(table, "bad number of neighbours", std::to_string(sides), declared, remedy);
+        refuse_meaning(table, "bad number of neighbours", std::to_string(sides), declared, remedy);
     table.columns = {{ColumnKind::id, 1, "id"}, {ColumnKind::neighbour, sides, "neighbour", cells_.limit(), "cells"}};
     table.surplus_remedy = "let each row have an id and " + std::to_string(sides) + " neighbours";
-    if (Status room = check_room(table); !room) return room;
+    check_room(table);
     table.columns[1].indices = room_for(mesh_.neighbours, table.columns[1], table.rows);
-    return Done{};
 }
 
-Status TetgenReader::settle_mid_edge_order() {
-    if (mesh_.mid_nodes.empty()) return Done{};
+void TetgenReader::settle_mid_edge_order() {
+    if (mesh_.mid_nodes.empty()) return;
     const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
     if (!vote)
-        return header_error(cells_, "the order of the mid-edge nodes is unknown",
-                            "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
-                            "another order in most cells",
-                            "check that the files belong together, or write the mesh again as " +
-                                std::to_string(mesh_.corners()) + "-node cells");
+        refuse_header(cells_, "the order of the mid-edge nodes is unknown",
+                      "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
+                      "another order in most cells",
+                      "check that the files belong together, or write the mesh again as " +
+                          std::to_string(mesh_.corners()) + "-node cells");
     mesh_.mid_edge_order = vote->order;
     if (vote->guessed)
         mesh_.notes.push_back({Note::Kind::guessed,
@@ -220,10 +205,34 @@ Status TetgenReader::settle_mid_edge_order() {
                                    (mesh_.dimension == 2 ? "Triangle" : "TetGen") + ", as no cell tells another",
                                stem_ + ".ele", true});
     mesh::normalise_mid_nodes(mesh_);
-    return Done{};
 }
 
 }  // namespace
+
+Source open_node_source(const std::string& path, int dimension, const PointOptions& options) {
+    constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
+    const int threads = tbb::this_task_arena::max_concurrency();
+    TextTable table = open_table(path, names, threads);
+    const std::int64_t found = table.header_field(1, 3);
+    // Points in space may lie in the plane of a mesh.
+    if ((found < dimension && options.columns.empty()) || found < 2 || found > 3) {
+        const std::string d = std::to_string(dimension);
+        refuse_header(table, "bad dimension in the header", d + ", for the mesh is " + d + "-dimensional",
+                      std::to_string(found), "give points of the dimension of the mesh");
+    }
+    table.any_real = options.nonfinite_points == NonfinitePoints::nan;
+    table.surplus_remedy = "mend the header: nodes, dimension, attributes, markers";
+    table.finite_remedy = std::string("remove the point, give it coordinates") + or_nan_for_it;
+    PointTable points;
+    points.dimension = static_cast<int>(found);
+    points.of_nodes = true;
+    std::vector<std::int64_t> markers;
+    settle_node_columns(table, found, points.points, points.fields, markers);
+    parse_tables(std::array{&table}, threads);
+    if (table.columns[3].count != 0) points.labels.push_back({"marker", std::move(markers)});
+    return points_of_table(std::move(points), table.file, dimension, options);
+}
+
 }  // namespace io
 
 namespace {
@@ -249,8 +258,8 @@ std::vector<std::string> tetgen_files(const std::string& path) {
 }
 
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options) {
-    const ExactEnvironment environment;
-    return io::TetgenReader(tetgen_stem(path), options).read();
+    return io::read_guarded(path,
+                            [&]() -> Result<Mesh> { return io::TetgenReader(tetgen_stem(path), options).read(); });
 }
 
 }  // namespace barycert

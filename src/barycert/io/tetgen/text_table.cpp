@@ -122,54 +122,41 @@ bool parse_rows(const TextTable& table, Scanner& scanner, const char* stop, std:
     return good && r == last;
 }
 
-/// Parses the blocks on several threads; true if every one is as it should be.
-bool parse_blocks(const std::vector<Block>& blocks, int threads) {
-    return base::share_work(threads, blocks.size(), [&](std::size_t i) {
-        const Block& block = blocks[i];
-        Scanner scanner{block.start, block.table->end()};
-        std::size_t row = block.first_row;
-        return parse_rows(*block.table, scanner, block.stop, row, block.last_row);
-    });
-}
-
 /// The whole table at once: the slow twin that knows the first error.
-Status parse_in_order(const TextTable& table) {
+void parse_in_order(const TextTable& table) {
     Scanner scanner{table.body, table.end()};
     std::size_t row = 0;
-    if (parse_rows(table, scanner, table.end(), row, table.rows)) return Done{};
-    if (row == table.rows) return surplus_text(table, scanner.at);
+    if (parse_rows(table, scanner, table.end(), row, table.rows)) return;
+    if (row == table.rows) refuse_surplus(table, scanner.at);
     // A row parser stops inside the row; only the search for the next row reaches the end with no row begun.
-    if (scanner.at == table.end() && fields_of_line(table, scanner.at).empty()) return too_few_rows(table, row);
-    return row_error(table, scanner.at, row);
+    if (scanner.at == table.end() && fields_of_line(table, scanner.at).empty()) refuse_end(table, row);
+    refuse_row(table, scanner.at, row);
 }
 
 /// The header, and where it and the body begin.
-Status read_header(TextTable& table, std::span<const char* const> header_names) {
+void read_header(TextTable& table, std::span<const char* const> header_names) {
     if (const OtherFormat* packed = packed_format(table.bytes); packed != nullptr)
-        return other_format_error(*packed, table.file);
+        throw Exception(other_format_error(*packed, table.file));
     Scanner scanner{table.begin(), table.end()};
     if (table.bytes.starts_with("\xEF\xBB\xBF")) scanner.at += 3;
     const std::string expected = std::string("a header that begins with the number of ") + header_names[0];
     if (!scanner.next_row(table.end()))
-        return header_error(table, "the file is empty", expected, "nothing", "write the file again");
+        refuse_header(table, "the file is empty", expected, "nothing", "write the file again");
     table.header_at = scanner.at;
     scanner.skip_line();
     table.body = scanner.at;
 
-    const std::vector<std::string_view> fields = fields_of_line(table, table.header_at);
-    for (const std::string_view field : fields) {
+    for (const std::string_view field : fields_of_line(table, table.header_at)) {
         const std::size_t i = table.header.size();
         std::int64_t value = 0;
         const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
         if (i == header_names.size() && field != "BIN")
-            return header_error(table, "too many numbers in the header",
-                                "at most " + std::to_string(header_names.size()), base::quoted(field),
-                                "remove it or put # before it");
+            refuse_header(table, "too many numbers in the header", "at most " + std::to_string(header_names.size()),
+                          base::quoted(field), "remove it or put # before it");
         if (!integer || value < 0 || value > max_count)
-            return count_error(table, field, i < header_names.size() ? header_names[i] : "columns");
+            refuse_count(table, field, i < header_names.size() ? header_names[i] : "columns");
         table.header.push_back(value);
     }
-    return Done{};
 }
 
 }  // namespace
@@ -186,12 +173,12 @@ void make_attributes(TextTable& table, std::vector<Field>& fields) {
     columns.fields = table.attributes.data();
 }
 
-Status settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
-                           std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
+void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
+                         std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
     const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
     if (markers > 1)
-        return header_error(table, "bad number of markers in the header", "0 or 1", std::to_string(markers),
-                            "declare further columns as attributes");
+        refuse_header(table, "bad number of markers in the header", "0 or 1", std::to_string(markers),
+                      "declare further columns as attributes");
     table.columns = {{ColumnKind::id, 1, "id"},
                      {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate"},
                      {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
@@ -199,11 +186,10 @@ Status settle_node_columns(TextTable& table, std::int64_t dimension, std::vector
     const std::vector<std::string_view> first = table.first_row();
     std::int64_t id = 0;
     table.base = !first.empty() && scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
-    if (Status room = check_room(table); !room) return room;
+    check_room(table);
     table.columns[1].reals = room_for(points, table.columns[1], table.rows);
     make_attributes(table, fields);
     table.columns[3].integers = room_for(markers_of_nodes, table.columns[3], table.rows);
-    return Done{};
 }
 
 std::size_t TextTable::column_count() const {
@@ -218,49 +204,52 @@ std::vector<std::string_view> TextTable::first_row() const {
     return fields_of_line(*this, scanner.at);
 }
 
-Result<TextTable> open_table(const std::string& name, std::span<const char* const> header_names, int threads) {
+TextTable open_table(const std::string& name, std::span<const char* const> header_names, int threads) {
     TextTable table;
     table.file = plain_or_packed(name);
-    const auto header_in = [&](std::string_view block, std::uint64_t) {
+    const auto header_in = [&](std::string_view block, std::uint64_t) -> Status {
         TextTable beginning;
         beginning.file = table.file;
         beginning.bytes = block.substr(0, block.rfind('\n') + 1);  // no comment is cut, and no number
-        Status read = read_header(beginning, header_names);
+        Status read = status_of([&] { read_header(beginning, header_names); });
         return beginning.header_at == nullptr ? Status(Done{}) : read;  // after many comments
     };
-    Result<base::MappedFile> mapped = base::MappedFile::open(table.file, threads, base::Text::all, header_in);
-    if (!mapped) return mapped.error();
-    table.data = std::move(*mapped);
+    table.data = base::MappedFile::open(table.file, threads, base::Text::all, header_in).value();
     table.bytes = table.data.bytes();
-    if (Status read = read_header(table, header_names); !read) return read.error();
+    read_header(table, header_names);
     table.rows = static_cast<std::size_t>(table.header[0]);
     return table;
 }
 
-Status check_room(const TextTable& table) {
+void check_room(const TextTable& table) {
     // Each field takes a character and something that ends it.
     const auto room = static_cast<std::size_t>(table.end() - table.body);
-    if (table.rows * 2 * table.column_count() <= room) return Done{};
+    if (table.rows * 2 * table.column_count() <= room) return;
     // Then rows are missing, or one is too short, or the last has no line end.
     const char* at = table.end();
     std::size_t rows = 0;
     for (Scanner scanner{table.body, table.end()}; rows < table.rows && scanner.next_row(table.end()); ++rows) {
         at = scanner.at;
-        if (fields_of_line(table, at).size() < table.column_count()) return row_error(table, at, rows);
+        if (fields_of_line(table, at).size() < table.column_count()) refuse_row(table, at, rows);
         scanner.skip_line();
     }
-    return rows < table.rows ? too_few_rows(table, rows) : row_error(table, at, rows - 1);
+    if (rows < table.rows) refuse_end(table, rows);
+    refuse_row(table, at, rows - 1);
 }
 
-Status parse_tables(std::span<TextTable* const> tables, int threads) {
+void parse_tables(std::span<TextTable* const> tables, int threads) {
     std::vector<Block> blocks;
     bool good = true;
     for (const TextTable* table : tables) good = good && append_blocks(*table, blocks);
-    if (good && parse_blocks(blocks, threads)) return Done{};
-    for (const TextTable* table : tables) {
-        if (Status status = parse_in_order(*table); !status) return status;
+    if (good && base::share_work(threads, blocks.size(), [&](std::size_t i) {
+            const Block& block = blocks[i];
+            Scanner scanner{block.start, block.table->end()};
+            std::size_t row = block.first_row;
+            return parse_rows(*block.table, scanner, block.stop, row, block.last_row);
+        })) {
+        return;
     }
-    return Done{};
+    for (const TextTable* table : tables) parse_in_order(*table);
 }
 
 }  // namespace barycert::io

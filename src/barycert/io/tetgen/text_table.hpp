@@ -3,7 +3,8 @@
 /// Rows are parsed on several threads. Their ids tell where they belong, so each block of lines can write straight to
 /// its place: the first id of each block is looked at before any work starts, and every block verifies that its rows
 /// lead from its own first id to that of the next block. Whatever fails is parsed again from the beginning, on one
-/// thread, which finds the first error; results and errors therefore do not depend on the number of threads.
+/// thread, which finds the first error; results and errors therefore do not depend on the number of threads. Errors are
+/// thrown as Exceptions, which read_guarded() makes a Result.
 #pragma once
 
 #include <cstddef>
@@ -81,11 +82,11 @@ struct TextTable {
 };
 
 /// Reads the file and its header: non-negative integers up to 2^31 - 1, one for each of `header_names` or fewer.
-Result<TextTable> open_table(const std::string& path, std::span<const char* const> header_names, int threads);
+TextTable open_table(const std::string& path, std::span<const char* const> header_names, int threads);
 
 /// Refuses a count of rows that cannot stand in the file. Call before memory is taken for them.
 /// Needs the columns and the base.
-Status check_room(const TextTable& table);
+void check_room(const TextTable& table);
 
 /// Room for the values of these columns, of which `step` or all go there.
 template <class T>
@@ -99,29 +100,29 @@ void make_attributes(TextTable& table, std::vector<Field>& fields);
 
 /// Sets the columns and the base of a .node file of that dimension, by its header and its first row, and makes room for
 /// their values. Error: another number of markers; as check_room.
-Status settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
-                           std::vector<Field>& fields, std::vector<std::int64_t>& markers);
+void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
+                         std::vector<Field>& fields, std::vector<std::int64_t>& markers);
 
 /// Parses the rows of all tables; the error of the first table that has one.
-Status parse_tables(std::span<TextTable* const> tables, int threads);
+void parse_tables(std::span<TextTable* const> tables, int threads);
 
 /// The fields of the line that holds `at`, without its comment; an empty field where a comma has no neighbour.
 std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at);
 
-/// The error of a header field or of the whole header.
-Error header_error(const TextTable& table, std::string what, std::string expected, std::string found,
-                   std::string remedy);
+/// Refuses a header field or the whole header.
+[[noreturn]] void refuse_header(const TextTable& table, std::string what, std::string expected, std::string found,
+                                std::string remedy);
 
-/// The error of header field `field` that is no count; `name` is what it counts.
-Error count_error(const TextTable& table, std::string_view field, const char* name);
+/// Header field `field` is no count; `name` is what it counts.
+[[noreturn]] void refuse_count(const TextTable& table, std::string_view field, const char* name);
 
-/// The error of row number `row` (from 0), which holds `at` and which the row parser refused.
-Error row_error(const TextTable& table, const char* at, std::size_t row);
+/// Row number `row` (from 0), which holds `at` and which the row parser refused.
+[[noreturn]] void refuse_row(const TextTable& table, const char* at, std::size_t row);
 
 /// The file ended after `found` rows.
-Error too_few_rows(const TextTable& table, std::size_t found);
+[[noreturn]] void refuse_end(const TextTable& table, std::size_t found);
 
 /// At `at` there is text after the last row.
-Error surplus_text(const TextTable& table, const char* at);
+[[noreturn]] void refuse_surplus(const TextTable& table, const char* at);
 
 }  // namespace barycert::io

@@ -10,7 +10,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/point_columns.hpp"
+#include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/collection.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 

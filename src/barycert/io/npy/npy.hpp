@@ -1,0 +1,139 @@
+/// NPY files: the types of their items, the columns that the header makes of them, their rows. The format:
+/// numpy.org/doc/stable/reference/generated/numpy.lib.format.html
+///
+/// Errors are thrown as Exceptions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barycert/base/input_file.hpp"
+#include "barycert/mesh.hpp"
+
+namespace barycert::io {
+
+/// A type by the letter of its kind and its bytes: 'f' 2, 4, 8; 'i', 'u' 1, 2, 4, 8; 'b' 1 (booleans); 'S' bytes, 'U'
+/// characters of 4 bytes; 'V' others, that are passed over.
+struct NpyType {
+    char kind = 'V';
+    std::size_t size = 0;
+    bool swapped = false;  ///< in the byte order that is not this machine's
+    std::string text{};    ///< as it stands in the file
+
+    bool is_double() const { return kind == 'f' && size == 8; }
+    bool is_integer() const { return kind == 'i' || kind == 'u' || kind == 'b'; }
+    bool is_number() const { return kind == 'f' || is_integer(); }
+    bool is_text() const { return kind == 'S' || kind == 'U'; }
+};
+
+/// Of a simple type such as <f8. Nothing where the size of an item is not known, or an item is a Python object.
+std::optional<NpyType> npy_type(std::string_view descr);
+
+/// The numbers of `count` items, each `step` bytes behind the one before, to out[0], out[stride], ..., up to the first
+/// that is none of that type (an integer that is no double, or beyond int64); how many there were. Precondition:
+/// is_number(), and for integers is_integer().
+std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, double* out,
+                        std::size_t stride);
+std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, std::int64_t* out,
+                        std::size_t stride);
+
+/// The text at `at`, in UTF-8 if it is of characters, without the zeros at its end; nothing if one is no character.
+/// Precondition: is_text().
+std::optional<std::string> npy_text(const char* at, const NpyType& type);
+
+/// Precondition: a code of Unicode, and no surrogate.
+void append_utf8(std::string& text, std::uint32_t code);
+
+inline constexpr std::string_view npy_magic = "\x93NUMPY";
+
+/// The text of a header is at most this long: more has no meaning for an array of numbers.
+inline constexpr std::size_t longest_npy_text = std::size_t{1} << 20;
+
+/// As Python writes it: (5, 3), (5,), ().
+std::string as_tuple(const std::vector<std::uint64_t>& shape);
+
+/// The dictionary of a header, without its end.
+std::string npy_dictionary(const std::string& descr, const std::vector<std::uint64_t>& shape);
+
+/// Value i of a column stands at first + i * step, in bytes from the end of the header.
+struct NpyColumn {
+    std::string name;
+    NpyType type;
+    std::uint64_t first = 0, step = 0;
+};
+
+struct NpyHeader {
+    std::string descr;  ///< the type as it stands there: <f8
+    bool structured = false;
+    std::vector<NpyColumn> fields;  ///< of a structured type, without steps
+    std::uint64_t item_size = 0;    ///< likewise, in bytes
+    bool fortran_order = false;
+    std::vector<std::uint64_t> shape;
+    std::size_t size = 0;  ///< of the header, in bytes
+};
+
+/// Error: not an NPY file, another version, a header that is none.
+NpyHeader read_npy_header(const base::InputFile& file, const std::string& path);
+
+/// At most so many columns: more have no meaning for points.
+inline constexpr std::uint64_t most_npy_columns = std::uint64_t{1} << 16;
+
+/// A field NAME of several values is NAME.0, NAME.1, ...; fields that are structures, and unnamed ones, are passed
+/// over. An array without names has column1, column2, ...; one of shape (rows,) is one column.
+struct NpyTable {
+    std::uint64_t rows = 0;
+    std::vector<NpyColumn> columns;
+    std::size_t row_size = 0;  ///< bytes
+    bool structured = false;
+    bool by_columns = false;  ///< one column after the other, not row after row
+};
+
+/// The rows are read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.
+class NpyFile {
+public:
+    NpyFile() = default;
+    /// Reads the header.
+    explicit NpyFile(const std::string& path);
+
+    const NpyHeader& header() const { return header_; }
+
+    /// Columns can be read afterwards. Error: a type of unknown size, or Python objects; a shape that is no table; a
+    /// file of another size.
+    NpyTable table() const;
+
+    /// How many rows of the table are read at once: some hundred kilobytes, or one.
+    static std::size_t rows_at_once(const NpyTable& table);
+
+    /// Reads `count` rows from row `first` on; of a table by columns nothing, yet.
+    void go_to(const NpyTable& table, std::uint64_t first, std::size_t count);
+
+    /// The numbers of a column in these rows, to out[0], out[stride], ...; `what` is the column in messages. Error: an
+    /// integer that is no double. Precondition: a column of numbers.
+    void numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride);
+
+    /// Appends them to `out`, a column of integers, numbers or texts, as the type is. Error: an integer beyond int64; a
+    /// text that is not of characters.
+    void values(const NpyColumn& column, const std::string& what, Column& out);
+
+    /// The bytes of the array from `offset` on.
+    void read(std::uint64_t offset, std::span<char> bytes) const;
+
+private:
+    const char* items(const NpyColumn& column);
+    [[noreturn]] void refuse(const std::string& what, std::size_t row, const char* expected, const char* remedy) const;
+
+    std::string path_;
+    base::InputFile file_;
+    NpyHeader header_;
+    bool by_columns_ = false;
+    std::uint64_t first_ = 0;  // of the rows gone to
+    std::size_t count_ = 0;
+    std::vector<char> bytes_;  // of these rows, or of one column
+};
+
+}  // namespace barycert::io
