@@ -244,6 +244,15 @@ struct CellMeasures {
     std::vector<double> max_angle;    ///< largest dihedral angle (2D: angle), degrees
 };
 
+/// Those that are numbers, under the names that files and reports have.
+inline constexpr std::array<std::pair<std::string_view, std::vector<double> CellMeasures::*>, 6> cell_measures{
+    {{"volume", &CellMeasures::volume},
+     {"condition", &CellMeasures::condition},
+     {"radius_edge", &CellMeasures::radius_edge},
+     {"aspect", &CellMeasures::aspect},
+     {"min_angle", &CellMeasures::min_angle},
+     {"max_angle", &CellMeasures::max_angle}}};
+
 /// Distribution of a measure over the cells where it is not NaN.
 struct Distribution {
     double min = 0, median = 0, max = 0;
@@ -252,8 +261,8 @@ struct Distribution {
 
 Distribution distribution(const std::vector<double>& values);
 
-/// Measures and defects of cells as fields, under the names that files have: orientation, volume, condition,
-/// radius_edge, aspect, min_angle, max_angle; and problems, the sum of the bits of DefectSet.
+/// Measures and defects of cells as fields: orientation, those of cell_measures, and problems, the sum of the bits of
+/// DefectSet.
 std::vector<Field> measure_fields(const CellMeasures& measures);
 
 /// A point that two cells share, rounded; if `exact`, the rounded point is itself shared. `fraction`: the exact point
