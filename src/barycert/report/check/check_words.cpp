@@ -84,6 +84,12 @@ std::string reason(const Defect& defect) {
     return (defect.at_least ? "at least " : "") + counted(defect.count, c->one, c->more);
 }
 
+std::string_view touch_text(const CellContact& contact) {
+    return contact.dimension <= 0   ? "touch in a point"
+           : contact.dimension == 1 ? "touch along a segment"
+                                    : "touch in an area";
+}
+
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& p) {
     const auto cells = used(report.cell_number(p.cells));
     auto nodes = used(p.nodes), others = used(p.other_nodes);
@@ -165,8 +171,7 @@ std::vector<std::string> fix_sentences(const FixedMesh& fixed) {
         if (n != 0) all.push_back(counted(n, one, more) + std::string(text));
     };
     if (!done.merged.empty()) {
-        const auto far = std::max_element(done.merged.begin(), done.merged.end(),
-                                          [](const MergedNode& a, const MergedNode& b) { return a.moved < b.moved; });
+        const auto far = std::ranges::max_element(done.merged, {}, &MergedNode::moved);
         all.push_back(counted(done.merged.size(), "node") + " merged into the lowest at their place" +
                       (far->moved == 0 ? "; none moved"
                                        : fmt::format(", moved by at most {} (node {} to node {})",
