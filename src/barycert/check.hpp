@@ -133,45 +133,54 @@ enum class DefectKind : std::uint8_t {
 
 struct DefectText {
     DefectKind kind;
-    std::string_view name;       ///< as in reports
-    std::string_view condition;  ///< "P1" ... or "" if it does not break the certificate by itself
-    std::string_view text;       ///< what it is
-    std::string_view remedy;     ///< what to do about it; empty if nothing need be done
-    bool breaks;                 ///< the certificate
+    std::string_view name;                 ///< as in reports
+    std::string_view condition;            ///< "P1" ... or "" if it does not break the certificate by itself
+    std::string_view text;                 ///< what it is
+    std::string_view remedy;               ///< what to do about it; empty if nothing need be done
+    bool breaks;                           ///< the certificate
+    std::string_view one = {}, more = {};  ///< of those that do: what it means for the verdict, after its count
 };
 
 inline constexpr std::array<DefectText, 26> defect_texts{{
     {DefectKind::bad_structure, "bad_structure", "P1", "arrays whose sizes are no whole number of nodes or cells",
-     "give d coordinates per node and d + 1 vertices per cell", true},
+     "give d coordinates per node and d + 1 vertices per cell", true, "array has a wrong size",
+     "arrays have a wrong size"},
     {DefectKind::index_out_of_range, "index_out_of_range", "P1", "cells with a vertex index out of range",
-     "check the index base and the node count", true},
+     "check the index base and the node count", true, "cell has an invalid index", "cells have an invalid index"},
     {DefectKind::not_finite, "not_finite", "P1", "nodes with a NaN or infinite coordinate",
-     "find where these coordinates were computed", true},
+     "find where these coordinates were computed", true, "node is not finite", "nodes are not finite"},
     {DefectKind::repeated_node, "repeated_node", "P1", "cells that name a node twice",
-     "check --fix drops these collapsed cells", true},
+     "check --fix drops these collapsed cells", true, "cell has a node twice", "cells have a node twice"},
     {DefectKind::degenerate_cell, "degenerate_cell", "P1", "cells with a volume of exactly zero",
-     "mesh again with a quality bound, or move a node", true},
+     "mesh again with a quality bound, or move a node", true, "cell is degenerate", "cells are degenerate"},
     {DefectKind::duplicate_cell, "duplicate_cell", "P2", "cells with the same nodes as another",
-     "check --fix keeps one of each", true},
+     "check --fix keeps one of each", true, "cell is a duplicate", "cells are duplicates"},
     {DefectKind::overfull_facet, "overfull_facet", "P2", "facets that belong to more than two cells",
-     "cells overlap there or are duplicates: remove them", true},
+     "cells overlap there or are duplicates: remove them", true, "facet belongs to more than two cells",
+     "facets belong to more than two cells"},
     {DefectKind::same_side, "same_side", "P2", "facets with both cells on the same side",
-     "move back the node that passed through the facet", true},
+     "move back the node that passed through the facet", true, "facet has both cells on the same side",
+     "facets have both cells on the same side"},
     {DefectKind::open_boundary, "open_boundary", "", "ridges where the boundary is not closed",
-     "remove the defects above: this one follows from them", true},
+     "remove the defects above: this one follows from them", true, "ridge leaves the boundary open",
+     "ridges leave the boundary open"},
     {DefectKind::boundary_contact, "boundary_contact", "P3",
      "pairs of boundary facets that meet outside common vertices and edges",
-     "move the parts apart, or cut both where they cross", true},
+     "move the parts apart, or cut both where they cross", true, "pair of boundary facets meets",
+     "pairs of boundary facets meet"},
     {DefectKind::nested_part, "nested_part", "P4", "pieces of the boundary where a cell overlaps others",
-     "a part lies inside another one: remove one of them", true},
+     "a part lies inside another one: remove one of them", true, "piece of the boundary lies in cells",
+     "pieces of the boundary lie in cells"},
     {DefectKind::overlapping_cells, "overlapping_cells", "", "pairs of cells whose interiors meet",
-     "remove the other defects: this one follows from them", true},
+     "remove the other defects: this one follows from them", true, "pair of cells overlaps", "pairs of cells overlap"},
     {DefectKind::wrong_neighbour, "wrong_neighbour", "P5", "entries of .neigh that disagree with the cells",
-     "delete the .neigh file or write it again", true},
+     "delete the .neigh file or write it again", true, "entry of .neigh is wrong", "entries of .neigh are wrong"},
     {DefectKind::wrong_face, "wrong_face", "P5", "faces in the files that are not facets of a cell",
-     "delete the .face file (of Medit the section Triangles) or write it again", true},
+     "delete the .face file (of Medit the section Triangles) or write it again", true,
+     "face in the files is not a facet", "faces in the files are not facets"},
     {DefectKind::unfit_array, "unfit_array", "P5", "other arrays that do not fit the nodes and cells",
-     "give one value per component of each node or cell, and valid node indices", true},
+     "give one value per component of each node or cell, and valid node indices", true,
+     "array does not fit nodes and cells", "arrays do not fit nodes and cells"},
     {DefectKind::mixed_orientation, "mixed_orientation", "", "cells of the less frequent orientation",
      "check --fix writes a copy with positive cells", false},
     {DefectKind::plain_sign_wrong, "plain_sign_wrong", "", "cells whose volume has the wrong sign in plain double",
@@ -182,7 +191,7 @@ inline constexpr std::array<DefectText, 26> defect_texts{{
     {DefectKind::pinched_ridge, "pinched_ridge", "", "ridges where the boundary touches itself", "", false},
     {DefectKind::pinched_node, "pinched_node", "", "nodes where the boundary touches itself", "", false},
     {DefectKind::hanging_node, "hanging_node", "", "nodes that lie within an edge or a facet of another cell",
-     "split that cell at the node", true},
+     "split that cell at the node", true, "node hangs on a cell", "nodes hang on cells"},
     {DefectKind::near_nodes, "near_nodes", "", "pairs of boundary nodes that nearly coincide",
      "check --fix --merge-within DISTANCE merges them, if their cells should be neighbours", false},
     {DefectKind::crack, "crack", "", "pairs of boundary facets that merging these nodes would join", "", false},
@@ -244,6 +253,15 @@ struct CellMeasures {
     std::vector<double> max_angle;    ///< largest dihedral angle (2D: angle), degrees
 };
 
+/// Those that are numbers, under the names that files and reports have.
+inline constexpr std::array<std::pair<std::string_view, std::vector<double> CellMeasures::*>, 6> cell_measures{
+    {{"volume", &CellMeasures::volume},
+     {"condition", &CellMeasures::condition},
+     {"radius_edge", &CellMeasures::radius_edge},
+     {"aspect", &CellMeasures::aspect},
+     {"min_angle", &CellMeasures::min_angle},
+     {"max_angle", &CellMeasures::max_angle}}};
+
 /// Distribution of a measure over the cells where it is not NaN.
 struct Distribution {
     double min = 0, median = 0, max = 0;
@@ -252,8 +270,8 @@ struct Distribution {
 
 Distribution distribution(const std::vector<double>& values);
 
-/// Measures and defects of cells as fields, under the names that files have: orientation, volume, condition,
-/// radius_edge, aspect, min_angle, max_angle; and problems, the sum of the bits of DefectSet.
+/// Measures and defects of cells as fields: orientation, those of cell_measures, and problems, the sum of the bits of
+/// DefectSet.
 std::vector<Field> measure_fields(const CellMeasures& measures);
 
 /// A point that two cells share, rounded; if `exact`, the rounded point is itself shared. `fraction`: the exact point

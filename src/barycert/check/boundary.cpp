@@ -45,15 +45,10 @@ std::vector<FacetRidge> ridges_of(int d, const std::vector<BoundaryFacet>& facet
 
 class BoundaryChecker {
 public:
-    BoundaryChecker(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, DefectList& defects)
-        : mesh_(mesh),
-          d_(mesh.dimension),
-          facets_(facets),
-          defects_(defects),
-          piece_(facets.size()),
-          fans_(facets.size() * 3) {}
+    explicit BoundaryChecker(Checked& c)
+        : c_(c), d_(c.mesh.dimension), facets_(c.boundary), piece_(facets_.size()), fans_(facets_.size() * 3) {}
 
-    BoundaryPieces run(const ExactVolumes& volumes) {
+    std::vector<std::uint32_t> run() {
         const std::vector<FacetRidge> ridges = ridges_of(d_, facets_);
         std::size_t distinct = 0;
         for (std::size_t i = 0; i < ridges.size(); ++distinct) {
@@ -63,17 +58,18 @@ public:
             i = next;
         }
         const std::size_t fans = d_ == 3 ? find_pinched_nodes() : distinct;
-        out_.summary.facets = facets_.size();
-        gather_pieces(volumes);
-        const bool counted = out_.summary.closed && defects_.count(DefectKind::pinched_ridge) == 0;
-        if (counted) out_.summary.cavities = cavities_;
+        summary_.facets = facets_.size();
+        std::vector<std::uint32_t> pieces = gather_pieces();
+        summary_.pieces = pieces.size();
+        const bool counted = summary_.closed && c_.defects.count(DefectKind::pinched_ridge) == 0;
+        if (counted) summary_.cavities = cavities_;
         // Vertices - edges + faces is 2 - 2 tunnels, summed over closed surfaces.
         if (d_ == 3 && counted) {
             const auto euler = static_cast<std::int64_t>(fans) - static_cast<std::int64_t>(distinct) +
                                static_cast<std::int64_t>(facets_.size());
-            out_.summary.tunnels = static_cast<std::int64_t>(out_.summary.pieces) - euler / 2;
+            summary_.tunnels = static_cast<std::int64_t>(pieces.size()) - euler / 2;
         }
-        return std::move(out_);
+        return pieces;
     }
 
 private:
@@ -87,12 +83,12 @@ private:
         const DefectPlace place{.cells = {cell(same.front()), cell(same.back())},
                                 .nodes = {same[0].low, d_ == 2 ? -1 : same[0].high, -1}};
         if (oriented ? 2 * forward != same.size() : same.size() % 2 != 0) {
-            out_.summary.closed = false;
-            defects_.add(DefectKind::open_boundary, place);
+            summary_.closed = false;
+            c_.defects.add(DefectKind::open_boundary, place);
         }
         if (same.size() > 2) {
-            out_.summary.manifold = false;
-            defects_.add(DefectKind::pinched_ridge, place);
+            summary_.manifold = false;
+            c_.defects.add(DefectKind::pinched_ridge, place);
         }
         if (same.size() == 2) piece_.join(same[0].facet, same[1].facet);
         if (d_ == 3) {
@@ -116,7 +112,7 @@ private:
 
     /// A node with more than one fan of boundary facets. Returns the number of all fans.
     std::size_t find_pinched_nodes() {
-        std::vector<std::uint8_t> fans_at(mesh_.point_count(), 0);
+        std::vector<std::uint8_t> fans_at(c_.mesh.point_count(), 0);
         std::size_t count = 0;
         for (std::size_t i = 0; i < facets_.size() * 3; ++i) {
             if (fans_.find(i) != i) continue;
@@ -124,33 +120,38 @@ private:
             const Mesh::Index node = facets_[i / 3].nodes[i % 3];
             std::uint8_t& fans = fans_at[static_cast<std::size_t>(node)];
             if (fans == 1) {
-                out_.summary.manifold = false;
-                defects_.add(DefectKind::pinched_node, {.cells = {facets_[i / 3].cell, -1}, .nodes = {node, -1, -1}});
+                summary_.manifold = false;
+                c_.defects.add(DefectKind::pinched_node, {.cells = {facets_[i / 3].cell, -1}, .nodes = {node, -1, -1}});
             }
             if (fans < 2) ++fans;
         }
         return count;
     }
 
-    /// Facets piece by piece, the volume each piece encloses, and their sum.
-    void gather_pieces(const ExactVolumes& volumes) {
+    /// A facet of each piece; the volume each encloses, and their sum.
+    std::vector<std::uint32_t> gather_pieces() {
         std::vector<std::uint32_t> order(facets_.size());
         std::iota(order.begin(), order.end(), 0U);
         std::vector<std::uint32_t> root(facets_.size());
         for (std::size_t f = 0; f < facets_.size(); ++f) root[f] = piece_.find(f);
         std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return root[a] < root[b]; });
+        std::vector<std::uint32_t> pieces;
+        Integer all;
         for (std::size_t i = 0; i < order.size();) {
             const std::size_t begin = i;
             const std::uint32_t first = order[i];
             Integer enclosed;
-            for (; i < order.size() && root[order[i]] == root[first]; ++i)
-                enclosed = enclosed + cone(order[i], volumes);
-            out_.facets.push_back(first);
+            for (; i < order.size() && root[order[i]] == root[first]; ++i) {
+                const PlacedFacet f = placed(c_.mesh, facets_[order[i]]);
+                enclosed = enclosed + c_.volumes.cone(f.at.data());
+            }
+            pieces.push_back(first);
             cavities_ += enclosed.sign() < 0 ? 1 : 0;
-            if (enclosed.sign() < 0 && i - begin == mesh_.corners()) add_missing_cell(order[begin], order[begin + 1]);
-            out_.enclosed = out_.enclosed + enclosed;
+            if (enclosed.sign() < 0 && i - begin == c_.mesh.corners()) add_missing_cell(first, order[begin + 1]);
+            all = all + enclosed;
         }
-        out_.summary.pieces = out_.facets.size();
+        c_.report.volume = {c_.volumes.rounded(c_.total), c_.volumes.rounded(all), (c_.total - all).sign() == 0};
+        return pieces;
     }
 
     /// As many facets as a cell has, closed: its nodes are those of one and the one of another that the first has not.
@@ -162,30 +163,22 @@ private:
         if (fourth == others.end()) return;
         DefectPlace place{.cells = {facets_[f].cell, facets_[g].cell}, .nodes = nodes};
         (d_ == 2 ? place.nodes[2] : place.other_nodes[0]) = *fourth;
-        defects_.add(DefectKind::missing_cell, place);
+        c_.defects.add(DefectKind::missing_cell, place);
     }
 
-    Integer cone(std::uint32_t facet, const ExactVolumes& volumes) const {
-        const double* p[3]{};
-        for (std::size_t i = 0; i < static_cast<std::size_t>(d_); ++i) p[i] = node_at(mesh_, facets_[facet].nodes[i]);
-        return volumes.cone(p);
-    }
-
-    const Mesh& mesh_;
+    Checked& c_;
     int d_;
     const std::vector<BoundaryFacet>& facets_;
-    DefectList& defects_;
+    BoundaryReport& summary_ = c_.report.boundary;
     base::DisjointSets piece_;
     base::DisjointSets fans_;
     std::uint64_t cavities_ = 0;
-    BoundaryPieces out_;
 };
 
 }  // namespace
 
-BoundaryPieces check_boundary(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
-                              DefectList& defects) {
-    return BoundaryChecker(mesh, facets, defects).run(volumes);
+std::vector<std::uint32_t> check_boundary(Checked& c) {
+    return BoundaryChecker(c).run();
 }
 
 }  // namespace barycert::check

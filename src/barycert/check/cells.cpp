@@ -182,31 +182,25 @@ Shape shape_of(int d, const double* const* p, double volume, const Integer& exac
     return shape(d, wide, std::scalbn(near_one, d * (scale - wide_exponent)));
 }
 
-/// The measures that are computed for shapes alone.
-std::array<std::vector<double>*, 6> shape_measures(CellMeasures& m) {
-    return {&m.volume, &m.condition, &m.radius_edge, &m.aspect, &m.min_angle, &m.max_angle};
-}
-
 struct CellPart {
     DefectList defects;
-    Cells cells;  ///< without `usable`, which is one for all
+    Integer total = {};
+    std::uint64_t positive = 0, negative = 0, degenerate = 0;
 };
 
 struct CellChecker {
-    const Mesh& mesh;
-    const std::vector<std::uint8_t>& finite;
-    const ExactVolumes& volumes;
-    CellMeasures& m;
+    Checked& c;
+    CellMeasures& m = c.report.measures;
 
     bool usable(std::size_t cell, CellPart& part) const {
-        const std::span nodes = nodes_of(mesh, cell);
+        const std::span nodes = nodes_of(c.mesh, cell);
         bool is_finite = true, repeated = false;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
-            if (nodes[i] < 0 || static_cast<std::size_t>(nodes[i]) >= finite.size()) {
+            if (nodes[i] < 0 || static_cast<std::size_t>(nodes[i]) >= c.finite.size()) {
                 note(DefectKind::index_out_of_range, cell, part);
                 return false;
             }
-            is_finite = is_finite && finite[static_cast<std::size_t>(nodes[i])] != 0;
+            is_finite = is_finite && c.finite[static_cast<std::size_t>(nodes[i])] != 0;
             for (std::size_t j = 0; j < i; ++j) repeated = repeated || nodes[i] == nodes[j];
         }
         if (!is_finite) m.defects[cell] |= defect_bit(DefectKind::not_finite);
@@ -215,24 +209,20 @@ struct CellChecker {
     }
 
     void measure(std::size_t cell, CellPart& part) const {
-        const auto corners = corner_points(mesh, cell);
+        const auto corners = corner_points(c.mesh, cell);
         const double* const* const p = corners.data();
-        const int d = mesh.dimension;
-        const Integer volume = volumes.cell(p);
+        const int d = c.mesh.dimension;
+        const Integer volume = c.volumes.cell(p);
         const int sign = volume.sign();
         m.orientation[cell] = static_cast<std::int8_t>(sign);
-        if (sign == 0) {
-            ++part.cells.degenerate;
-            note(DefectKind::degenerate_cell, cell, part, kind(d, p));
-        } else {
-            ++(sign > 0 ? part.cells.positive : part.cells.negative);
-            part.cells.total = sign > 0 ? part.cells.total + volume : part.cells.total - volume;
-        }
+        if (sign == 0) note(DefectKind::degenerate_cell, cell, part, kind(d, p));
+        ++(sign == 0 ? part.degenerate : sign > 0 ? part.positive : part.negative);
+        part.total = sign < 0 ? part.total - volume : part.total + volume;
         if (plain_sign(d, p) != sign) note(DefectKind::plain_sign_wrong, cell, part);
         if (m.volume.empty()) return;  // shapes are not asked for
 
-        m.volume[cell] = volumes.rounded(volume);
-        const Shape s = shape_of(d, p, m.volume[cell], volume, volumes);
+        m.volume[cell] = c.volumes.rounded(volume);
+        const Shape s = shape_of(d, p, m.volume[cell], volume, c.volumes);
         m.radius_edge[cell] = s.radius_edge;
         m.aspect[cell] = s.aspect;
         m.min_angle[cell] = s.min_angle;
@@ -249,51 +239,47 @@ struct CellChecker {
 };
 
 /// Cells in both orders: those of the rarer one are told.
-void find_mixed(const Cells& cells, CellMeasures& measures, DefectList& defects) {
-    if (cells.positive == 0 || cells.negative == 0) return;
-    const std::int8_t rarer = cells.negative <= cells.positive ? -1 : 1;
-    for (std::size_t cell = 0; cell < measures.orientation.size(); ++cell) {
-        if (measures.orientation[cell] != rarer) continue;
-        defects.add_marked(DefectKind::mixed_orientation, {.cells = {static_cast<Mesh::Index>(cell), -1}});
+void find_mixed(Checked& c) {
+    if (c.report.positive == 0 || c.report.negative == 0) return;
+    const std::int8_t rarer = c.report.negative <= c.report.positive ? -1 : 1;
+    for (std::size_t cell = 0; cell < c.orientation.size(); ++cell) {
+        if (c.orientation[cell] == rarer)
+            c.defects.add_marked(DefectKind::mixed_orientation, {.cells = {static_cast<Mesh::Index>(cell), -1}});
     }
 }
 
 }  // namespace
 
-Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes, bool shapes,
-                  CellMeasures& measures, DefectList& defects) {
-    const std::size_t count = mesh.cell_count();
-    Cells cells;
-    cells.usable.assign(count, 0);
+void check_cells(Checked& c) {
+    const std::size_t count = c.mesh.cell_count();
+    CellMeasures& measures = c.report.measures;
+    c.usable.assign(count, 0);
     measures.orientation.assign(count, 0);
     measures.defects.assign(count, 0);
-    for (auto* measure : shape_measures(measures)) barycert::base::resize_large(*measure, shapes ? count : 0);
-    const CellChecker check{mesh, finite, volumes, measures};
+    const bool shapes = !c.options.verdict_only;
+    for (const auto& [name, values] : cell_measures) barycert::base::resize_large(measures.*values, shapes ? count : 0);
+    const CellChecker check{c};
     in_blocks(
-        count, 8192,
-        [&] {
-            return CellPart{defects.part(), {}};
-        },
+        count, 8192, [&] { return CellPart{c.defects.part()}; },
         [&](std::size_t first, std::size_t last, CellPart& part) {
             for (std::size_t cell = first; cell < last; ++cell) {
                 if (check.usable(cell, part)) {
-                    cells.usable[cell] = 1;
+                    c.usable[cell] = 1;
                     check.measure(cell, part);
                 } else if (shapes) {
-                    for (auto* measure : shape_measures(measures))
-                        (*measure)[cell] = std::numeric_limits<double>::quiet_NaN();
+                    for (const auto& [name, values] : cell_measures)
+                        (measures.*values)[cell] = std::numeric_limits<double>::quiet_NaN();
                 }
             }
         },
         [&](const CellPart& part) {
-            defects.append(part.defects);
-            cells.total = cells.total + part.cells.total;
-            cells.positive += part.cells.positive;
-            cells.negative += part.cells.negative;
-            cells.degenerate += part.cells.degenerate;
+            c.defects.append(part.defects);
+            c.total = c.total + part.total;
+            c.report.positive += part.positive;
+            c.report.negative += part.negative;
+            c.report.degenerate += part.degenerate;
         });
-    find_mixed(cells, measures, defects);
-    return cells;
+    find_mixed(c);
 }
 
 }  // namespace barycert::check

@@ -20,38 +20,37 @@ bool all_set(const std::vector<std::uint8_t>& flags) {
 }
 
 /// Sets of usable cells connected over facets.
-std::uint64_t count_parts(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
-                          const std::vector<Mesh::Index>& neighbours) {
-    base::DisjointSets parts(usable.size());
-    for (std::size_t i = 0; i < neighbours.size(); ++i) {
-        const std::size_t cell = i / mesh.corners();
-        if (neighbours[i] > static_cast<Mesh::Index>(cell)) parts.join(cell, static_cast<std::size_t>(neighbours[i]));
+std::uint64_t count_parts(const Checked& c) {
+    base::DisjointSets parts(c.usable.size());
+    for (std::size_t i = 0; i < c.neighbours.size(); ++i) {
+        const std::size_t cell = i / c.mesh.corners();
+        if (const Mesh::Index other = c.neighbours[i]; other > static_cast<Mesh::Index>(cell))
+            parts.join(cell, static_cast<std::size_t>(other));
     }
     std::uint64_t count = 0;
-    for (std::size_t cell = 0; cell < usable.size(); ++cell) {
-        count += usable[cell] != 0 && parts.find(cell) == cell ? 1 : 0;
-    }
+    for (std::size_t cell = 0; cell < c.usable.size(); ++cell)
+        count += c.usable[cell] != 0 && parts.find(cell) == cell ? 1 : 0;
     return count;
 }
 
 /// Overlapping pairs first, then those whose boundary facets touch; each with a common point.
-std::vector<CellContact> contacts(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-                                  std::vector<CellPair> overlapping, std::vector<CellPair> touching,
-                                  std::size_t limit) {
+std::vector<CellContact> contacts(const Checked& c, std::vector<CellPair> overlapping, std::vector<CellPair> touching) {
     std::vector<CellPair> pairs;
     for (auto* list : {&overlapping, &touching}) {
         for (CellPair& p : *list) std::sort(p.begin(), p.end());
         std::sort(list->begin(), list->end());
         for (const CellPair& p : *list) {
-            if (std::find(pairs.begin(), pairs.end(), p) == pairs.end() && pairs.size() < limit) pairs.push_back(p);
+            if (std::find(pairs.begin(), pairs.end(), p) == pairs.end() && pairs.size() < c.options.contacts)
+                pairs.push_back(p);
         }
     }
     std::vector<CellContact> all;
     for (const CellPair& p : pairs) {
         const auto a = static_cast<std::size_t>(p[0]), b = static_cast<std::size_t>(p[1]);
-        if (orientation[a] == 0 || orientation[b] == 0) continue;
-        const CommonPart common = common_part(mesh.dimension, corner_points(mesh, a), corner_points(mesh, b));
-        all.push_back({p, common.dimension == mesh.dimension, common.dimension, common.point});
+        if (c.orientation[a] == 0 || c.orientation[b] == 0) continue;
+        const int d = c.mesh.dimension;
+        const CommonPart common = common_part(d, corner_points(c.mesh, a), corner_points(c.mesh, b));
+        all.push_back({p, common.dimension == d, common.dimension, common.point});
     }
     return all;
 }
@@ -85,17 +84,19 @@ CurvedCells note_curved_cells(const Mesh& mesh, CheckReport& report) {
 class Check {
 public:
     Check(const Mesh& mesh, const CheckOptions& options, CheckReport& report)
-        : mesh_(mesh), options_(options), report_(report), defects_(options.examples, report.measures.defects) {}
-
-    bool run() {
-        if (const char* fault = fault_of_sizes(mesh_); fault != nullptr) {
+        : options_(options), report_(report), defects_(options.examples, report.measures.defects) {
+        if (const char* fault = fault_of_sizes(mesh); fault != nullptr) {
             defects_.add(DefectKind::bad_structure, {.detail = fault});
         } else {
-            check_all();
+            Checked checked{mesh, options, report, defects_};
+            check_all(checked);
         }
-        report_.defects = std::move(defects_).list();
-        return std::none_of(report_.defects.begin(), report_.defects.end(), [](const Defect& f) { return f.breaks(); });
+        report.defects = std::move(defects_).list();
+        const bool whole = std::ranges::none_of(report.defects, &Defect::breaks);
+        verdict = whole ? Verdict::certified : Verdict::not_certified;
     }
+
+    Verdict verdict = Verdict::not_checked;
 
 private:
     void stage(const char* name) const {
@@ -104,80 +105,64 @@ private:
         ExactEnvironment::renew();
     }
 
-    void check_all() {
-        CheckReport& report = report_;
-        CellMeasures& measures = report.measures;
+    void check_all(Checked& c) {
         stage("nodes");
-        const std::vector<std::uint8_t> finite = check_nodes(mesh_, defects_);
+        check_nodes(c);
         stage("cells");
-        const ExactVolumes volumes(mesh_.dimension, mesh_.points);
-        const Cells cells = check_cells(mesh_, finite, volumes, !options_.verdict_only, measures, defects_);
-        report.positive = cells.positive;
-        report.negative = cells.negative;
-        report.degenerate = cells.degenerate;
+        check_cells(c);
         if (enough()) return;
         stage("facets");
-        const bool whole = report.degenerate == 0 && all_set(finite) && all_set(cells.usable);
-        std::optional<Facets> proved;
-        if (whole) proved = facets_of_partition(mesh_, measures.orientation);
         // Where the proof fails, what is wrong is found by the slower search.
-        const Facets facets =
-            proved ? std::move(*proved) : check_facets(mesh_, cells.usable, measures.orientation, defects_);
+        const bool proved =
+            report_.degenerate == 0 && all_set(c.finite) && all_set(c.usable) && find_facets_of_partition(c);
+        if (!proved) check_facets(c);
         if (enough()) return;
         // What one thread does alone is done beside the rest.
         tbb::task_group parts;
-        if (!options_.verdict_only)
-            parts.run([&] { report.parts = count_parts(mesh_, cells.usable, facets.neighbours); });
-        check_boundary_and_pairs(cells, facets, volumes, proved.has_value());
+        if (!options_.verdict_only) parts.run([&] { report_.parts = count_parts(c); });
+        check_boundary_and_pairs(c, proved);
         parts.wait();
         // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
-        if (const char* fault = mesh::inconsistency_of_extras(mesh_, mesh::FieldValues::any); fault != nullptr) {
+        if (const char* fault = mesh::inconsistency_of_extras(c.mesh, mesh::FieldValues::any); fault != nullptr)
             defects_.add(DefectKind::unfit_array, {.detail = fault});
-        }
         if (enough()) return;
         if (options_.delaunay) {
             stage("Delaunay");
-            report.delaunay = check_delaunay(mesh_, facets.neighbours, measures.orientation);
+            report_.delaunay = check_delaunay(c);
         }
-        if (options_.plc != nullptr && mesh_.dimension == 3) {
+        if (options_.plc != nullptr && c.mesh.dimension == 3) {
             stage("conformity");
-            report.conformity = check_conformity(mesh_, cells.usable, *options_.plc, options_.examples);
+            report_.conformity = check_conformity(c);
         }
     }
 
-    void check_boundary_and_pairs(const Cells& cells, const Facets& facets, const ExactVolumes& volumes, bool proved) {
-        CheckReport& report = report_;
-        const std::vector<std::int8_t>& orientation = report.measures.orientation;
+    void check_boundary_and_pairs(Checked& c, bool proved) {
         stage("boundary");
-        const BoundaryPieces pieces = check_boundary(mesh_, facets.boundary, volumes, defects_);
-        report.boundary = pieces.summary;
-        report.volume = {volumes.rounded(cells.total), volumes.rounded(pieces.enclosed),
-                         (cells.total - pieces.enclosed).sign() == 0};
+        const std::vector<std::uint32_t> pieces = check_boundary(c);
         if (enough()) return;
         BoundaryContacts touching;
         std::vector<CellPair> meeting;
         if (!proved) {
             stage("contacts of the boundary");
             const std::size_t limit = options_.verdict_only ? 1 : pair_limit;
-            touching = find_boundary_contacts(mesh_, facets.boundary, limit, defects_);
+            touching = find_boundary_contacts(c, limit);
             if (enough()) return;
-            meeting = find_nested_parts(mesh_, facets.boundary, pieces.facets, orientation, limit, defects_);
+            meeting = find_nested_parts(c, pieces, limit);
         }
-        check_files(mesh_, cells.usable, facets, defects_);
+        check_files(c);
         if (enough()) return;
         std::vector<CellPair> overlapping;
         if (may_overlap()) {
             stage("overlapping cells");
-            overlapping = find_overlapping_cells(mesh_, orientation, defects_);
+            overlapping = find_overlapping_cells(c);
         }
         if (!options_.verdict_only) {
             meeting.insert(meeting.end(), touching.cells.begin(), touching.cells.end());
             meeting.insert(meeting.end(), overlapping.begin(), overlapping.end());
-            find_cracks(mesh_, cells.usable, facets.boundary, volumes, options_.near, touching, meeting, defects_);
+            find_cracks(c, touching, meeting);
             tell_remedies();
         }
-        report.contacts =
-            contacts(mesh_, orientation, std::move(overlapping), std::move(touching.cells), options_.contacts);
+        report_.contacts = contacts(c, std::move(overlapping), std::move(touching.cells));
     }
 
     /// Where the cause of what breaks the certificate is known.
@@ -207,7 +192,6 @@ private:
         return defects_.has([](const DefectText& t) { return t.breaks && t.condition != "P5"; });
     }
 
-    const Mesh& mesh_;
     const CheckOptions& options_;
     CheckReport& report_;
     DefectList defects_;
@@ -216,7 +200,7 @@ private:
 }  // namespace
 
 const Defect* CheckReport::find(DefectKind problem) const {
-    const auto f = std::find_if(defects.begin(), defects.end(), [&](const Defect& g) { return g.kind == problem; });
+    const auto f = std::ranges::find(defects, problem, &Defect::kind);
     return f == defects.end() ? nullptr : &*f;
 }
 
@@ -227,10 +211,8 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
     report.dimension = mesh.dimension;
     report.threads = base::threads_of(options.threads);
     // Cells of a dimension that is none cannot be counted: their corners can.
-    base::in_arena(options.threads, mesh.cells.size(), [&] {
-        const bool whole = Check(mesh, options, report).run();
-        report.certificate = Certificate(whole ? Verdict::certified : Verdict::not_certified, mesh);
-    });
+    base::in_arena(options.threads, mesh.cells.size(),
+                   [&] { report.certificate = Certificate(Check(mesh, options, report).verdict, mesh); });
     if (mesh.dimension == 2 || mesh.dimension == 3) {
         report.nodes = mesh.point_count();
         report.cells = mesh.cell_count();

@@ -92,15 +92,14 @@ private:
 
 class ConformityChecker {
 public:
-    ConformityChecker(const Mesh& mesh, std::span<const std::uint8_t> usable, const Plc& plc)
-        : mesh_(mesh),
-          usable_(usable),
-          half_extent_(half_extent_of(plc)),
+    explicit ConformityChecker(const Checked& c)
+        : c_(c),
+          half_extent_(half_extent_of(*c.options.plc)),
           exponent_(half_extent_ > 0 ? std::ilogb(half_extent_) + 1 : 0) {
-        for (const PlcFacet& facet : plc.facets) regions_.emplace_back(plc, facet, exponent_);
+        for (const PlcFacet& facet : c.options.plc->facets) regions_.emplace_back(*c.options.plc, facet, exponent_);
     }
 
-    ConformityReport run(std::size_t examples) {
+    ConformityReport run() {
         missing_ = find_missing();
         const std::vector<Candidate> candidates = find_candidates();
         ConformityReport out;
@@ -109,7 +108,7 @@ public:
             const auto beside =
                 std::find_if(at, candidates.end(), [&](const Candidate& c) { return c.facet != i || c.beside; });
             const auto end = std::find_if(beside, candidates.end(), [&](const Candidate& c) { return c.facet != i; });
-            if (regions_[i].proper()) judge(i, {at, beside}, {beside, end}, examples, out);
+            if (regions_[i].proper()) judge(i, {at, beside}, {beside, end}, out);
             at = end;
         }
         out.max_distance = std::scalbn(out.relative_distance, exponent_);
@@ -131,7 +130,7 @@ private:
             numbers.push_back(static_cast<std::uint32_t>(i));
         }
         const BoxTree tree(std::move(boxes));
-        const mesh::FacetTable table(mesh_, usable_);
+        const mesh::FacetTable table(c_.mesh, c_.usable);
         std::vector<Candidate> all;
         in_blocks(
             table.node_count(), 4096, [] { return std::vector<Candidate>(); },
@@ -157,7 +156,7 @@ private:
         std::array<const double*, 3> nodes{};
         for (std::size_t i = 0, n = 0; i < 4; ++i) {
             if (static_cast<std::int32_t>(i) != f.corner)
-                nodes[n++] = node_at(mesh_, mesh_.cells[static_cast<std::size_t>(f.cell) * 4 + i]);
+                nodes[n++] = node_at(c_.mesh, c_.mesh.cells[static_cast<std::size_t>(f.cell) * 4 + i]);
         }
         return nodes;
     }
@@ -175,7 +174,7 @@ private:
         return c;
     }
 
-    void judge(std::size_t i, std::span<const Candidate> faces, std::span<const Candidate> beside, std::size_t examples,
+    void judge(std::size_t i, std::span<const Candidate> faces, std::span<const Candidate> beside,
                ConformityReport& out) const {
         const PlcRegion& region = regions_[i];
         const Areas areas(region, faces);
@@ -199,7 +198,7 @@ private:
             out.relative_distance = std::max(out.relative_distance, farthest);
         } else {
             ++out.violated;
-            if (out.examples.size() >= examples) return;
+            if (out.examples.size() >= c_.options.examples) return;
             double covered = 0;
             for (const auto list : {faces, beside}) {
                 for (const Candidate& face : list) covered += region.covered_by(face.nodes);
@@ -224,9 +223,8 @@ private:
     /// Vertices of polygons that are no node, bit for bit (0 and -0 are the same); sorted.
     std::vector<Point> find_missing() const {
         std::vector<Point> nodes, vertices, missing;
-        for (std::size_t i = 0; i < mesh_.point_count(); ++i) {
-            const Point p = point(&mesh_.points[3 * i]);
-            if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) nodes.push_back(p);
+        for (std::size_t i = 0; i < c_.finite.size(); ++i) {
+            if (c_.finite[i] != 0) nodes.push_back(point(&c_.mesh.points[3 * i]));
         }
         for (const PlcRegion& region : regions_) {
             for (const PlcRegion::Ring& ring : region.rings()) {
@@ -241,8 +239,7 @@ private:
         return missing;
     }
 
-    const Mesh& mesh_;
-    std::span<const std::uint8_t> usable_;
+    const Checked& c_;
     double half_extent_;
     int exponent_;  ///< of the unit of the regions, the largest power of two in the extent
     std::vector<PlcRegion> regions_;
@@ -251,10 +248,9 @@ private:
 
 }  // namespace
 
-ConformityReport check_conformity(const Mesh& mesh, std::span<const std::uint8_t> usable, const Plc& plc,
-                                  std::size_t examples) {
+ConformityReport check_conformity(const Checked& c) {
     const ExactEnvironment environment;
-    return ConformityChecker(mesh, usable, plc).run(examples);
+    return ConformityChecker(c).run();
 }
 
 }  // namespace barycert::check

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"
@@ -12,25 +11,22 @@ namespace {
 /// The nodes of the boundary, those to be merged as one.
 class Cracks {
 public:
-    Cracks(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, double near)
-        : mesh_(mesh),
-          d_(static_cast<std::size_t>(mesh.dimension)),
-          facets_(facets),
-          near_(near),
-          same_(mesh.point_count()),
-          shortest_(mesh.point_count(), no_edge),
-          merged_(mesh.point_count(), 0) {
-        for (const BoundaryFacet& f : facets) {
-            for (std::size_t i = 0; i + 1 < d_; ++i) {
+    explicit Cracks(const Checked& c)
+        : c_(c),
+          d_(static_cast<std::size_t>(c.mesh.dimension)),
+          same_(c.mesh.point_count()),
+          shortest_(c.mesh.point_count(), no_edge),
+          merged_(c.mesh.point_count(), 0) {
+        std::vector<Mesh::Index> nodes;
+        for (const BoundaryFacet& f : c.boundary) {
+            for (std::size_t i = 0; i < d_; ++i) {
+                nodes.push_back(f.nodes[i]);
                 for (std::size_t j = i + 1; j < d_; ++j) add_edge(f.nodes[i], f.nodes[j]);
             }
         }
-        std::vector<Mesh::Index> nodes;
-        for (const BoundaryFacet& f : facets)
-            nodes.insert(nodes.end(), f.nodes.begin(), f.nodes.begin() + mesh.dimension);
         std::sort(nodes.begin(), nodes.end());
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        for (const auto& [first, second] : coincident_nodes(mesh, nodes)) {
+        for (const auto& [first, second] : coincident_nodes(c.mesh, nodes)) {
             double& kept = shortest_[index(first)];
             kept = std::min(kept, shortest_[index(second)]);
             merge(first, second);
@@ -41,27 +37,24 @@ public:
     }
 
     /// The near ones, of no common cell: merging would make it collapse.
-    Found<NearPair> find_near(const std::vector<std::uint8_t>& usable) {
+    Found<NearPair> find_near() {
         std::vector<double> radius;
         radius.reserve(places_.size());
-        for (const Mesh::Index node : places_) radius.push_back(reach(node, near_));
+        for (const Mesh::Index node : places_) radius.push_back(reach(node, c_.options.near));
         Found<NearPair> found;
         std::vector<NearPair>& pairs = found.list;
-        found.complete = for_each_near(mesh_, places_, radius, 100 * pair_limit, [&](const NearPair& p) {
+        found.complete = for_each_near(c_.mesh, places_, radius, 100 * pair_limit, [&](const NearPair& p) {
             pairs.push_back({std::min(p.first, p.second), std::max(p.first, p.second), p.distance});
         });
-        const auto nodes_of_pair = [](const NearPair& p) { return std::tuple(p.first, p.second); };
-        std::sort(pairs.begin(), pairs.end(),
-                  [&](const NearPair& p, const NearPair& q) { return nodes_of_pair(p) < nodes_of_pair(q); });
+        const auto nodes_of_pair = [](const NearPair& p) { return std::pair(p.first, p.second); };
+        std::ranges::sort(pairs, {}, nodes_of_pair);
         constexpr double of_one_cell = -1;
-        for (std::size_t cell = 0; !pairs.empty() && cell < usable.size(); ++cell) {
-            const std::span nodes = nodes_of(mesh_, cell);
-            for (std::size_t i = 0; usable[cell] != 0 && i < nodes.size(); ++i) {
+        for (std::size_t cell = 0; !pairs.empty() && cell < c_.usable.size(); ++cell) {
+            const std::span nodes = nodes_of(c_.mesh, cell);
+            for (std::size_t i = 0; c_.usable[cell] != 0 && i < nodes.size(); ++i) {
                 for (std::size_t j = i + 1; j < nodes.size(); ++j) {
-                    const std::tuple<Mesh::Index, Mesh::Index> two = std::minmax({of(nodes[i]), of(nodes[j])});
-                    const auto pair =
-                        std::lower_bound(pairs.begin(), pairs.end(), two,
-                                         [&](const NearPair& p, const auto& q) { return nodes_of_pair(p) < q; });
+                    const std::pair<Mesh::Index, Mesh::Index> two = std::minmax({of(nodes[i]), of(nodes[j])});
+                    const auto pair = std::ranges::lower_bound(pairs, two, {}, nodes_of_pair);
                     if (pair != pairs.end() && nodes_of_pair(*pair) == two) pair->distance = of_one_cell;
                 }
             }
@@ -78,9 +71,9 @@ public:
     /// The same for edges and facets; of each node. Farther than a part of an edge away, most nodes of a boundary have
     /// the edges of their neighbours.
     std::vector<double> reach_of_faces() const {
-        std::vector<double> reaches(mesh_.point_count());
+        std::vector<double> reaches(c_.mesh.point_count());
         for (std::size_t n = 0; n < reaches.size(); ++n)
-            reaches[n] = reach(static_cast<Mesh::Index>(n), std::min(near_, 0x1p-4));
+            reaches[n] = reach(static_cast<Mesh::Index>(n), std::min(c_.options.near, 0x1p-4));
         return reaches;
     }
     double shortest_edge(Mesh::Index a, Mesh::Index b) const {
@@ -102,8 +95,8 @@ public:
     template <class F>
     void for_each_crack(F&& found) {
         std::vector<std::pair<std::array<Mesh::Index, 3>, std::size_t>> keys;
-        for (std::size_t f = 0; f < facets_.size(); ++f) {
-            std::array<Mesh::Index, 3> key = facets_[f].nodes;
+        for (std::size_t f = 0; f < c_.boundary.size(); ++f) {
+            std::array<Mesh::Index, 3> key = c_.boundary[f].nodes;
             bool some = false;
             for (std::size_t i = 0; i < d_; ++i) {
                 some = some || merged_[index(key[i])] != 0;
@@ -114,7 +107,7 @@ public:
         }
         std::sort(keys.begin(), keys.end());
         for (std::size_t i = 1; i < keys.size(); ++i) {
-            if (keys[i - 1].first == keys[i].first) found(facets_[keys[i - 1].second], facets_[keys[i].second]);
+            if (keys[i - 1].first == keys[i].first) found(c_.boundary[keys[i - 1].second], c_.boundary[keys[i].second]);
         }
     }
 
@@ -124,15 +117,13 @@ private:
     static std::size_t index(Mesh::Index node) { return static_cast<std::size_t>(node); }
 
     void add_edge(Mesh::Index a, Mesh::Index b) {
-        const double length = node_distance(mesh_, a, b);
+        const double length = node_distance(c_.mesh, a, b);
         if (length == 0) return;
         for (const Mesh::Index n : {a, b}) shortest_[index(n)] = std::min(shortest_[index(n)], length);
     }
 
-    const Mesh& mesh_;
+    const Checked& c_;
     std::size_t d_;
-    const std::vector<BoundaryFacet>& facets_;
-    double near_;
     base::DisjointSets same_;
     std::vector<double> shortest_;  ///< of the boundary's edges at each node
     std::vector<std::uint8_t> merged_;
@@ -141,12 +132,12 @@ private:
 
 }  // namespace
 
-void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const std::vector<BoundaryFacet>& facets,
-                 const ExactVolumes& volumes, double near, const BoundaryContacts& touching,
-                 const std::vector<CellPair>& meeting, DefectList& defects) {
-    Cracks cracks(mesh, facets, near);
-    if (near > 0) {
-        const Found<NearPair> found = cracks.find_near(usable);
+void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector<CellPair>& meeting) {
+    const Mesh& mesh = c.mesh;
+    DefectList& defects = c.defects;
+    Cracks cracks(c);
+    if (c.options.near > 0) {
+        const Found<NearPair> found = cracks.find_near();
         for (const NearPair& p : found.list) {
             defects.add(DefectKind::near_nodes, {.nodes = {p.first, p.second, -1},
                                                  .distance = p.distance,
@@ -168,8 +159,8 @@ void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, cons
     };
     for (const HangingNode& h : hanging) tell(h, DefectKind::hanging_node);
     if (!touching.complete) defects.add_at_least(DefectKind::hanging_node);
-    if (near > 0) {
-        auto found = nearly_hanging(mesh, usable, facets, volumes, cracks.reach_of_faces(), 10 * pair_limit);
+    if (c.options.near > 0) {
+        auto found = nearly_hanging(c, cracks.reach_of_faces(), 10 * pair_limit);
         nearly = std::move(found.list);
         std::erase_if(nearly, [&](const HangingNode& h) {
             return cracks.nearly_coincides(h) ||
@@ -189,8 +180,7 @@ void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, cons
                 if (node_distance(mesh, a, b) != 0) defects.cause(DefectKind::near_nodes);
             }
             const auto has = [&](Mesh::Index n) { return n < 0 || std::count(others.begin(), others.end(), n) != 0; };
-            auto h = std::lower_bound(nearly.begin(), nearly.end(), a,
-                                      [](const HangingNode& x, Mesh::Index n) { return x.node < n; });
+            auto h = std::ranges::lower_bound(nearly, a, {}, &HangingNode::node);
             for (; h != nearly.end() && h->node == a; ++h) {
                 if (std::all_of(h->face.begin(), h->face.end(), has)) defects.cause(DefectKind::near_hanging);
             }
@@ -200,8 +190,7 @@ void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, cons
     const auto is_twin = [&](Mesh::Index n) { return n >= 0 && twin[static_cast<std::size_t>(n)] != 0; };
     cracks.for_each_crack([&](const BoundaryFacet& f, const BoundaryFacet& g) {
         defects.add_marked(DefectKind::crack, {.cells = {f.cell, g.cell}, .nodes = f.nodes, .other_nodes = g.nodes});
-        if (std::any_of(f.nodes.begin(), f.nodes.end(), is_twin) ||
-            std::any_of(g.nodes.begin(), g.nodes.end(), is_twin))
+        if (std::ranges::any_of(f.nodes, is_twin) || std::ranges::any_of(g.nodes, is_twin))
             defects.cause(DefectKind::crack);
     });
 }

@@ -105,12 +105,11 @@ struct FacetTester {
 
 }  // namespace
 
-DelaunayReport check_delaunay(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
-                              const std::vector<std::int8_t>& orientation) {
+DelaunayReport check_delaunay(const Checked& c) {
     DelaunayReport all;
-    const FacetTester test{mesh, neighbours, orientation};
+    const FacetTester test{c.mesh, c.neighbours, c.orientation};
     in_blocks(
-        mesh.cell_count(), 8192, [] { return DelaunayReport(); },
+        c.mesh.cell_count(), 8192, [] { return DelaunayReport(); },
         [&](std::size_t first, std::size_t last, DelaunayReport& part) {
             for (std::size_t cell = first; cell < last; ++cell) test(cell, part);
         },

@@ -7,24 +7,22 @@
 #include "barycert/check/stages.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/mesh/adjacency.hpp"
+#include "barycert/mesh/consistency.hpp"
 
 namespace barycert::check {
 namespace {
 
-/// The nodes of the facet opposite to `corner`, in the order that turns its normal outward if the cell's orientation is
-/// not negative; `orientation` is that of the cell. 2D: two of them.
-std::array<Mesh::Index, 3> outward_nodes(const Mesh& mesh, std::size_t cell, std::size_t corner, int orientation) {
+/// The nodes of the facet opposite to `corner`, in the order that turns its normal outward, if the cell is not
+/// degenerate. 2D: two of them.
+std::array<Mesh::Index, 3> outward_nodes(const Checked& c, Mesh::Index cell, std::int32_t corner) {
     // Seen from outside a positive cell these turn counter-clockwise.
-    static constexpr std::array<std::array<std::size_t, 3>, 4> faces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-    static constexpr std::array<std::array<std::size_t, 2>, 3> edges{{{1, 2}, {2, 0}, {0, 1}}};
-    const Mesh::Index* const nodes = &mesh.cells[cell * mesh.corners()];
+    static constexpr std::size_t faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    static constexpr std::size_t edges[3][3] = {{1, 2}, {2, 0}, {0, 1}};
+    const std::span nodes = nodes_of(c.mesh, static_cast<std::size_t>(cell));
+    const auto& order = (c.mesh.dimension == 2 ? edges : faces)[corner];
     std::array<Mesh::Index, 3> out{-1, -1, -1};
-    if (mesh.dimension == 2) {
-        for (std::size_t i = 0; i < 2; ++i) out[i] = nodes[edges[corner][i]];
-    } else {
-        for (std::size_t i = 0; i < 3; ++i) out[i] = nodes[faces[corner][i]];
-    }
-    if (orientation < 0) std::swap(out[0], out[1]);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) out[i] = nodes[order[i]];
+    if (c.orientation[static_cast<std::size_t>(cell)] < 0) std::swap(out[0], out[1]);
     return out;
 }
 
@@ -42,9 +40,7 @@ struct FacetPart {
 
 /// Looks at equal facets, those of the same nodes.
 struct FacetChecker {
-    const Mesh& mesh;
-    const std::vector<std::int8_t>& orientations;
-    std::vector<Mesh::Index>& neighbours;
+    Checked& c;
 
     void operator()(std::span<const mesh::CellFacet> equal, FacetPart& part) const {
         const mesh::CellFacet &f = equal.front(), &g = equal.back();
@@ -52,7 +48,7 @@ struct FacetChecker {
             part.boundary.push_back({f.cell, f.corner, outward(f), orientation(f) != 0});
             return;
         }
-        mesh::pair_facets(equal, mesh.corners(), neighbours);
+        mesh::pair_facets(equal, c.mesh.corners(), c.neighbours);
         if (equal.size() > 2 || apex(f) == apex(g)) find_duplicates(equal, part);
         if (equal.size() == 2 && side(f) * side(g) <= 0) return;
         const DefectKind kind = equal.size() > 2 ? DefectKind::overfull_facet : DefectKind::same_side;
@@ -60,18 +56,15 @@ struct FacetChecker {
         part.defects.add(kind, {.cells = {f.cell, equal[1].cell}, .nodes = outward(f)});
     }
 
-    std::int8_t orientation(const mesh::CellFacet& f) const { return orientations[static_cast<std::size_t>(f.cell)]; }
+    std::int8_t orientation(const mesh::CellFacet& f) const { return c.orientation[static_cast<std::size_t>(f.cell)]; }
 
-    std::array<Mesh::Index, 3> outward(const mesh::CellFacet& f) const {
-        return outward_nodes(mesh, static_cast<std::size_t>(f.cell), static_cast<std::size_t>(f.corner),
-                             orientation(f));
-    }
+    std::array<Mesh::Index, 3> outward(const mesh::CellFacet& f) const { return outward_nodes(c, f.cell, f.corner); }
 
     /// On which side of the facet, taken with its nodes ascending, the cell lies: -1 or 1; 0 if it is degenerate.
-    int side(const mesh::CellFacet& f) const { return orientation(f) == 0 ? 0 : parity(mesh.dimension, outward(f)); }
+    int side(const mesh::CellFacet& f) const { return orientation(f) == 0 ? 0 : parity(c.mesh.dimension, outward(f)); }
 
     Mesh::Index apex(const mesh::CellFacet& f) const {
-        return nodes_of(mesh, static_cast<std::size_t>(f.cell))[static_cast<std::size_t>(f.corner)];
+        return nodes_of(c.mesh, static_cast<std::size_t>(f.cell))[static_cast<std::size_t>(f.corner)];
     }
 
     /// Two cells with a common facet and apex are the same. They share every facet: it is told at the one opposite to
@@ -114,50 +107,126 @@ std::array<Mesh::Index, 3> ascending(const BoundaryFacet& facet) {
     return n;
 }
 
+using Triple = std::array<Mesh::Index, 3>;
+
+Triple nodes_of_face(const Mesh& mesh, std::size_t f) {
+    return {mesh.faces[3 * f], mesh.faces[3 * f + 1], mesh.faces[3 * f + 2]};
+}
+
+bool has_nodes(const Mesh& mesh, const Triple& face) {
+    return std::all_of(face.begin(), face.end(),
+                       [&](Mesh::Index n) { return n >= 0 && static_cast<std::size_t>(n) < mesh.point_count(); });
+}
+
+void check_neighbours(Checked& c) {
+    const std::vector<Mesh::Index>& given = c.mesh.neighbours;
+    if (given.empty()) return;
+    if (given.size() != c.mesh.cells.size())
+        return c.defects.add(DefectKind::wrong_neighbour, {.detail = "not one for each facet of each cell"});
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        if (given[i] == c.neighbours[i]) continue;
+        const auto cell = static_cast<Mesh::Index>(i / c.mesh.corners());
+        c.defects.add(DefectKind::wrong_neighbour, {.cells = {cell, given[i]}});
+    }
+}
+
+void check_faces(Checked& c) {
+    const auto wrong = [&](const DefectPlace& place) { c.defects.add(DefectKind::wrong_face, place); };
+    if (c.mesh.faces.empty()) return;
+    if (c.mesh.dimension == 2) return wrong({.detail = mesh::faces_of_triangles});
+    if (c.mesh.faces.size() % 3 != 0) wrong({.detail = "the last one is not whole"});
+    for (std::size_t f = 0; f < c.mesh.face_count(); ++f) {
+        const Triple nodes = nodes_of_face(c.mesh, f);
+        if (!has_nodes(c.mesh, nodes)) wrong({.nodes = nodes, .detail = "a corner is no node"});
+    }
+    const std::vector<std::uint8_t> found = faces_of_cells(c.mesh, c.usable);
+    for (std::size_t f = 0; f < found.size(); ++f) {
+        const Triple nodes = nodes_of_face(c.mesh, f);
+        if (found[f] == 0 && has_nodes(c.mesh, nodes)) wrong({.nodes = nodes});
+    }
+}
+
 }  // namespace
 
-Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
-                    const std::vector<std::int8_t>& orientation, DefectList& defects) {
-    Facets facets;
-    base::resize_large(facets.neighbours, mesh.cells.size());
-    std::fill(facets.neighbours.begin(), facets.neighbours.end(), -1);
-    const mesh::FacetTable table(mesh, usable);
-    const FacetChecker check{mesh, orientation, facets.neighbours};
+void check_facets(Checked& c) {
+    base::resize_large(c.neighbours, c.mesh.cells.size());
+    std::fill(c.neighbours.begin(), c.neighbours.end(), -1);
+    const mesh::FacetTable table(c.mesh, c.usable);
+    const FacetChecker check{c};
     in_blocks(
         table.node_count(), 4096,
         [&] {
-            return FacetPart{defects.part(), {}};
+            return FacetPart{c.defects.part(), {}};
         },
         [&](std::size_t first, std::size_t last, FacetPart& part) {
             table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) { check(equal, part); });
         },
         [&](const FacetPart& part) {
-            defects.append(part.defects);
-            facets.boundary.insert(facets.boundary.end(), part.boundary.begin(), part.boundary.end());
+            c.defects.append(part.defects);
+            c.boundary.insert(c.boundary.end(), part.boundary.begin(), part.boundary.end());
         });
-    return facets;
 }
 
-std::optional<Facets> facets_of_partition(const Mesh& mesh, const std::vector<std::int8_t>& orientation) {
-    index::CellIndex index = index::make_cell_index(mesh);
+bool find_facets_of_partition(Checked& c) {
+    index::CellIndex index = index::make_cell_index(c.mesh);
     const index::FacetLinks links = index::link_facets(index);
     std::optional<index::CellTree> tree;
     const auto tree_of_cells = [&]() -> const index::CellTree& {
         return tree ? *tree : tree.emplace(index::make_cell_tree(index));
     };
-    if (!index::is_partition(index, links, tree_of_cells)) return std::nullopt;
-    Facets facets;
-    facets.neighbours = neighbours_of(mesh, index);
-    facets.boundary.reserve(links.open.size());
+    if (!index::is_partition(index, links, tree_of_cells)) return false;
+    c.neighbours = neighbours_of(c.mesh, index);
+    c.boundary.reserve(links.open.size());
     for (const index::CellFacet& open : links.open) {
-        const auto cell = static_cast<std::size_t>(index.original[static_cast<std::size_t>(open.cell)]);
-        facets.boundary.push_back({static_cast<Mesh::Index>(cell), open.corner,
-                                   outward_nodes(mesh, cell, static_cast<std::size_t>(open.corner), orientation[cell]),
-                                   true});
+        const Mesh::Index cell = index.original[static_cast<std::size_t>(open.cell)];
+        c.boundary.push_back({cell, open.corner, outward_nodes(c, cell, open.corner), true});
     }
-    tbb::parallel_sort(facets.boundary.begin(), facets.boundary.end(),
+    tbb::parallel_sort(c.boundary.begin(), c.boundary.end(),
                        [](const BoundaryFacet& a, const BoundaryFacet& b) { return ascending(a) < ascending(b); });
-    return facets;
+    return true;
+}
+
+std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std::uint8_t>& usable) {
+    struct Face {
+        Triple nodes;
+        std::size_t index;
+    };
+    // Sorted, and where those of each lowest node begin.
+    std::vector<Face> faces;
+    std::vector<std::size_t> begin(mesh.point_count() + 1, 0);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        Face face{nodes_of_face(mesh, f), f};
+        if (!has_nodes(mesh, face.nodes)) continue;
+        std::sort(face.nodes.begin(), face.nodes.end());
+        ++begin[static_cast<std::size_t>(face.nodes[0]) + 1];
+        faces.push_back(face);
+    }
+    for (std::size_t n = 1; n < begin.size(); ++n) begin[n] += begin[n - 1];
+    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.nodes < b.nodes; });
+    std::vector<std::uint8_t> found(mesh.face_count(), 0);
+    const auto meet = [&](const Triple& sorted) {
+        const auto node = static_cast<std::size_t>(sorted[0]);
+        for (std::size_t i = begin[node]; i < begin[node + 1]; ++i) {
+            if (faces[i].nodes == sorted) std::atomic_ref(found[faces[i].index]).store(1, std::memory_order_relaxed);
+        }
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 4096), [&](const auto& range) {
+        for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+            if (usable[cell] == 0) continue;
+            std::array<Mesh::Index, 4> n{};
+            std::copy_n(&mesh.cells[4 * cell], 4, n.begin());
+            std::sort(n.begin(), n.end());
+            for (const Triple& facet :
+                 {Triple{n[0], n[1], n[2]}, {n[0], n[1], n[3]}, {n[0], n[2], n[3]}, {n[1], n[2], n[3]}})
+                meet(facet);
+        }
+    });
+    return found;
+}
+
+void check_files(Checked& c) {
+    check_neighbours(c);
+    check_faces(c);
 }
 
 }  // namespace barycert::check

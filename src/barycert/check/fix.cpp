@@ -190,11 +190,8 @@ private:
     }
 
     bool has_merged_node(std::size_t cell) {
-        const std::span nodes = check::nodes_of(old_, cell);
-        return std::any_of(nodes.begin(), nodes.end(), [&](Index n) {
-            const auto found = std::lower_bound(report_.merged.begin(), report_.merged.end(), n,
-                                                [](const MergedNode& m, Index node) { return m.node < node; });
-            return found != report_.merged.end() && found->node == n;
+        return std::ranges::any_of(check::nodes_of(old_, cell), [&](Index n) {
+            return std::ranges::binary_search(report_.merged, n, {}, &MergedNode::node);
         });
     }
 
@@ -226,8 +223,7 @@ private:
         }
         if (report_.dropped.empty()) return;
         std::sort(kept.begin(), kept.end());
-        std::sort(report_.dropped.begin(), report_.dropped.end(),
-                  [](const DroppedCell& a, const DroppedCell& b) { return a.cell < b.cell; });
+        std::ranges::sort(report_.dropped, {}, &DroppedCell::cell);
         keep(mesh_.cells, mesh_.corners(), kept);
         keep(mesh_.mid_nodes, mesh::edges_of(mesh_.dimension).size(), kept);
         for (Field& f : mesh_.cell_fields) keep(f.data, at(f.components), kept);

@@ -40,8 +40,8 @@ double length(const Vector& u) {
 
 class NearFaces {
 public:
-    NearFaces(const Mesh& mesh, const ExactVolumes& volumes, const std::vector<double>& radius)
-        : mesh_(mesh), d_(static_cast<std::size_t>(mesh.dimension)), volumes_(volumes), radius_(radius) {}
+    NearFaces(const Checked& c, const std::vector<double>& radius)
+        : mesh_(c.mesh), d_(static_cast<std::size_t>(mesh_.dimension)), volumes_(c.volumes), radius_(radius) {}
 
     /// The edge of the facet, or all of it, that the node nearly lies within; a face without nodes if there is none.
     HangingNode face_at(Index node, const BoundaryFacet& f) const {
@@ -146,16 +146,14 @@ private:
 /// Without those of a cell that has the node, too: it is a thin cell, not one that was not split. And without those
 /// behind a facet and in no cell at the edge or facet: there are other cells in between, as in thin plates, whose two
 /// sides are near each other and right.
-void leave_out_right_ones(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const NearFaces& faces,
-                          std::vector<HangingNode>& all) {
-    std::sort(all.begin(), all.end(), [](const HangingNode& a, const HangingNode& b) { return a.face < b.face; });
-    for (std::size_t cell = 0; cell < usable.size() && !all.empty(); ++cell) {
-        const std::span nodes = nodes_of(mesh, cell);
+void leave_out_right_ones(const Checked& c, const NearFaces& faces, std::vector<HangingNode>& all) {
+    std::ranges::sort(all, {}, &HangingNode::face);
+    for (std::size_t cell = 0; cell < c.usable.size() && !all.empty(); ++cell) {
+        const std::span nodes = nodes_of(c.mesh, cell);
         const auto has = [&](Index n) { return n < 0 || std::find(nodes.begin(), nodes.end(), n) != nodes.end(); };
         for (const Index node : nodes) {
-            if (usable[cell] == 0) break;
-            auto h = std::lower_bound(all.begin(), all.end(), node,
-                                      [](const HangingNode& a, Index n) { return a.face[0] < n; });
+            if (c.usable[cell] == 0) break;
+            auto h = std::ranges::lower_bound(all, node, {}, [](const HangingNode& a) { return a.face[0]; });
             for (; h != all.end() && h->face[0] == node; ++h) {
                 if (h->node < 0 || !std::all_of(h->face.begin(), h->face.end(), has)) continue;
                 if (has(h->node))
@@ -170,30 +168,29 @@ void leave_out_right_ones(const Mesh& mesh, const std::vector<std::uint8_t>& usa
 
 }  // namespace
 
-Found<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
-                                  const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
-                                  const std::vector<double>& radius, std::size_t limit) {
+Found<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit) {
+    const int d = c.mesh.dimension;
     std::vector<Box> boxes;
-    for (const BoundaryFacet& f : facets)
-        boxes.push_back(box_of(mesh.dimension, placed(mesh, f).at.data(), mesh.dimension));
+    for (const BoundaryFacet& f : c.boundary) boxes.push_back(box_of(d, placed(c.mesh, f).at.data(), d));
     const BoxTree tree(std::move(boxes));
-    const NearFaces faces(mesh, volumes, radius);
+    const NearFaces faces(c, radius);
     auto all = up_to<HangingNode>(limit, radius.size(), 1024, [&](std::size_t first, std::size_t last, auto& part) {
         for (std::size_t n = first; n < last && part.size() <= limit; ++n) {
             const auto node = static_cast<Index>(n);
             if (radius[n] == 0) continue;
-            tree.for_each(box_around(mesh, node, radius[n]), [&](std::uint32_t f) {
+            tree.for_each(box_around(c.mesh, node, radius[n]), [&](std::uint32_t f) {
+                const BoundaryFacet& facet = c.boundary[f];
                 // A degenerate cell is told as such.
-                if (!facets[f].oriented || faces.is_far(node, facets[f])) return true;
-                HangingNode h = faces.face_at(node, facets[f]);
-                if (h.face[1] < 0 || faces.is_on(node, facets[f])) return true;
-                if (!faces.is_beyond(node, facets[f])) h.cell = -1;
+                if (!facet.oriented || faces.is_far(node, facet)) return true;
+                HangingNode h = faces.face_at(node, facet);
+                if (h.face[1] < 0 || faces.is_on(node, facet)) return true;
+                if (!faces.is_beyond(node, facet)) h.cell = -1;
                 part.push_back(h);
                 return part.size() <= limit;
             });
         }
     });
-    leave_out_right_ones(mesh, usable, faces, all.list);
+    leave_out_right_ones(c, faces, all.list);
     sort_hanging(all.list);
     return all;
 }

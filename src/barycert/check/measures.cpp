@@ -29,14 +29,10 @@ Distribution distribution(const std::vector<double>& values) {
 }
 
 std::vector<Field> measure_fields(const CellMeasures& measures) {
-    return {{"orientation", 1, {measures.orientation.begin(), measures.orientation.end()}},
-            {"volume", 1, measures.volume},
-            {"condition", 1, measures.condition},
-            {"radius_edge", 1, measures.radius_edge},
-            {"aspect", 1, measures.aspect},
-            {"min_angle", 1, measures.min_angle},
-            {"max_angle", 1, measures.max_angle},
-            {"problems", 1, {measures.defects.begin(), measures.defects.end()}}};
+    std::vector<Field> all{{"orientation", 1, {measures.orientation.begin(), measures.orientation.end()}}};
+    for (const auto& [name, values] : cell_measures) all.push_back({std::string(name), 1, measures.*values});
+    all.push_back({"problems", 1, {measures.defects.begin(), measures.defects.end()}});
+    return all;
 }
 
 void count_not_finite(const Field& field, bool of_cells, std::vector<NotFinite>& to) {

@@ -17,17 +17,16 @@ std::array<double, 3> node_place(const Mesh& mesh, Mesh::Index node) {
 
 /// Nodes at the place of another one. Two that cells have for vertices are why these cells do not meet in a common
 /// face.
-void find_coincident(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const std::vector<std::uint8_t>& vertex,
-                     DefectList& defects) {
+void find_coincident(Checked& c, const std::vector<std::uint8_t>& vertex) {
     std::vector<Mesh::Index> nodes;
-    nodes.reserve(finite.size());
-    for (std::size_t i = 0; i < finite.size(); ++i) {
-        if (finite[i] != 0) nodes.push_back(static_cast<Mesh::Index>(i));
+    nodes.reserve(c.finite.size());
+    for (std::size_t i = 0; i < c.finite.size(); ++i) {
+        if (c.finite[i] != 0) nodes.push_back(static_cast<Mesh::Index>(i));
     }
-    for (const auto& [first, second] : coincident_nodes(mesh, nodes)) {
-        defects.add(DefectKind::coincident_nodes, {.nodes = {first, second, -1}});
+    for (const auto& [first, second] : coincident_nodes(c.mesh, nodes)) {
+        c.defects.add(DefectKind::coincident_nodes, {.nodes = {first, second, -1}});
         if (vertex[static_cast<std::size_t>(first)] != 0 && vertex[static_cast<std::size_t>(second)] != 0)
-            defects.cause(DefectKind::coincident_nodes);
+            c.defects.cause(DefectKind::coincident_nodes);
     }
 }
 
@@ -39,23 +38,23 @@ void mark_used(const std::vector<Mesh::Index>& indices, std::vector<std::uint8_t
 
 }  // namespace
 
-std::vector<std::uint8_t> check_nodes(const Mesh& mesh, DefectList& defects) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    const std::size_t count = mesh.point_count();
-    std::vector<std::uint8_t> finite(count, 1), used(count, 0);
+void check_nodes(Checked& c) {
+    const auto d = static_cast<std::size_t>(c.mesh.dimension);
+    const std::size_t count = c.mesh.point_count();
+    std::vector<std::uint8_t> used(count, 0);
+    c.finite.assign(count, 1);
     for (std::size_t i = 0; i < count * d; ++i) {
-        if (!std::isfinite(mesh.points[i])) finite[i / d] = 0;
+        if (!std::isfinite(c.mesh.points[i])) c.finite[i / d] = 0;
     }
-    mark_used(mesh.cells, used);
+    mark_used(c.mesh.cells, used);
     const std::vector<std::uint8_t> vertex = used;
-    mark_used(mesh.mid_nodes, used);
+    mark_used(c.mesh.mid_nodes, used);
     for (std::size_t i = 0; i < count; ++i) {
         const DefectPlace place{.nodes = {static_cast<Mesh::Index>(i), -1, -1}};
-        if (finite[i] == 0) defects.add(DefectKind::not_finite, place);
-        if (used[i] == 0) defects.add(DefectKind::unused_node, place);
+        if (c.finite[i] == 0) c.defects.add(DefectKind::not_finite, place);
+        if (used[i] == 0) c.defects.add(DefectKind::unused_node, place);
     }
-    find_coincident(mesh, finite, vertex, defects);
-    return finite;
+    find_coincident(c, vertex);
 }
 
 Box box_around(const Mesh& mesh, Mesh::Index node, double radius) {

@@ -35,8 +35,7 @@ Found<Pair> conflicts(int d, const std::vector<Item>& items, Conflict conflict, 
                 if (j > i && conflict(i, j)) part.push_back({static_cast<std::uint32_t>(i), j});
                 return part.size() <= limit;
             });
-            std::sort(part.begin() + static_cast<std::ptrdiff_t>(begin), part.end(),
-                      [](const Pair& a, const Pair& b) { return a.second < b.second; });
+            std::ranges::sort(std::span(part).subspan(begin), {}, &Pair::second);
         }
     });
 }
@@ -73,46 +72,44 @@ void sort_hanging(std::vector<HangingNode>& all) {
     all.erase(std::unique(all.begin(), all.end(), same), all.end());
 }
 
-BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, std::size_t limit,
-                                        DefectList& defects) {
+BoundaryContacts find_boundary_contacts(Checked& c, std::size_t limit) {
+    const int d = c.mesh.dimension;
     std::vector<PlacedFacet> proper_facets;
     std::vector<Mesh::Index> cells;
     std::vector<Item> items;
-    for (const BoundaryFacet& facet : facets) {
-        const PlacedFacet f = placed(mesh, facet);
-        if (!proper(mesh.dimension, f)) continue;  // its cell is degenerate, and told
+    for (const BoundaryFacet& facet : c.boundary) {
+        const PlacedFacet f = placed(c.mesh, facet);
+        if (!proper(d, f)) continue;  // its cell is degenerate, and told
         proper_facets.push_back(f);
         cells.push_back(facet.cell);
-        items.push_back(item_of(f, mesh.dimension));
+        items.push_back(item_of(f, d));
     }
     const auto conflict = [&](std::size_t i, std::size_t j) {
-        return facets_conflict(mesh.dimension, proper_facets[i], proper_facets[j]);
+        return facets_conflict(d, proper_facets[i], proper_facets[j]);
     };
     BoundaryContacts out;
-    const Found<Pair> found = conflicts(mesh.dimension, items, conflict, limit);
+    const Found<Pair> found = conflicts(d, items, conflict, limit);
     out.complete = found.complete;
     for (const Pair& p : found.list) {
         const PlacedFacet &f = proper_facets[p.first], &g = proper_facets[p.second];
         out.cells.push_back({cells[p.first], cells[p.second]});
-        defects.add_marked(DefectKind::boundary_contact,
-                           {.cells = out.cells.back(), .nodes = f.nodes, .other_nodes = g.nodes});
-        add_hanging(mesh.dimension, f, g, cells[p.second], out.hanging);
-        add_hanging(mesh.dimension, g, f, cells[p.first], out.hanging);
+        c.defects.add_marked(DefectKind::boundary_contact,
+                             {.cells = out.cells.back(), .nodes = f.nodes, .other_nodes = g.nodes});
+        add_hanging(d, f, g, cells[p.second], out.hanging);
+        add_hanging(d, g, f, cells[p.first], out.hanging);
     }
     sort_hanging(out.hanging);
-    if (!out.complete) defects.add_at_least(DefectKind::boundary_contact);
+    if (!out.complete) c.defects.add_at_least(DefectKind::boundary_contact);
     return out;
 }
 
-std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                        const std::vector<std::uint32_t>& pieces,
-                                        const std::vector<std::int8_t>& orientation, std::size_t limit,
-                                        DefectList& defects) {
+std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint32_t>& pieces, std::size_t limit) {
+    const Mesh& mesh = c.mesh;
     std::vector<std::size_t> inner;  // a cell at each piece
     std::vector<Item> items;
     for (const std::uint32_t piece : pieces) {
-        const auto cell = static_cast<std::size_t>(facets[piece].cell);
-        if (orientation[cell] == 0) continue;  // degenerate, and told
+        const auto cell = static_cast<std::size_t>(c.boundary[piece].cell);
+        if (c.orientation[cell] == 0) continue;  // degenerate, and told
         inner.push_back(cell);
         items.push_back(item_of(mesh, cell));
     }
@@ -139,7 +136,7 @@ std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<Boun
         mesh.cell_count(), 1024, [] { return Nothing(); },
         [&](std::size_t first, std::size_t last, Nothing&) {
             for (std::size_t cell = first; cell < last; ++cell) {
-                if (orientation[cell] == 0 || common_outcode(mesh, codes, cell) != 0) continue;
+                if (c.orientation[cell] == 0 || common_outcode(mesh, codes, cell) != 0) continue;
                 const Item item = item_of(mesh, cell);
                 candidates.for_each(item, [&](std::uint32_t i) {
                     ask(cell, i, item.at);
@@ -156,32 +153,30 @@ std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<Boun
     for (std::size_t i = 0; i < inner.size() && pairs.size() < limit; ++i) {
         if (lowest[i] == none) continue;
         const DefectPlace place{.cells = {static_cast<Mesh::Index>(inner[i]), static_cast<Mesh::Index>(lowest[i])}};
-        defects.add_marked(DefectKind::nested_part, place);
+        c.defects.add_marked(DefectKind::nested_part, place);
         pairs.push_back(place.cells);
     }
-    if (!complete) defects.add_at_least(DefectKind::nested_part);
+    if (!complete) c.defects.add_at_least(DefectKind::nested_part);
     return pairs;
 }
 
-std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-                                             DefectList& defects) {
+std::vector<CellPair> find_overlapping_cells(Checked& c) {
+    const int d = c.mesh.dimension;
     std::vector<Mesh::Index> cells;
     std::vector<Item> items;
-    for (std::size_t cell = 0; cell < mesh.cell_count(); ++cell) {
-        if (orientation[cell] == 0) continue;
+    for (std::size_t cell = 0; cell < c.mesh.cell_count(); ++cell) {
+        if (c.orientation[cell] == 0) continue;
         cells.push_back(static_cast<Mesh::Index>(cell));
-        items.push_back(item_of(mesh, cell));
+        items.push_back(item_of(c.mesh, cell));
     }
-    const auto conflict = [&](std::size_t i, std::size_t j) {
-        return interiors_meet(mesh.dimension, items[i].at, items[j].at);
-    };
+    const auto conflict = [&](std::size_t i, std::size_t j) { return interiors_meet(d, items[i].at, items[j].at); };
     std::vector<CellPair> pairs;
-    const Found<Pair> found = conflicts(mesh.dimension, items, conflict, pair_limit);
+    const Found<Pair> found = conflicts(d, items, conflict, pair_limit);
     for (const Pair& p : found.list) {
         pairs.push_back({cells[p.first], cells[p.second]});
-        defects.add_marked(DefectKind::overlapping_cells, {.cells = pairs.back()});
+        c.defects.add_marked(DefectKind::overlapping_cells, {.cells = pairs.back()});
     }
-    if (!found.complete) defects.add_at_least(DefectKind::overlapping_cells);
+    if (!found.complete) c.defects.add_at_least(DefectKind::overlapping_cells);
     return pairs;
 }
 

@@ -1,6 +1,10 @@
 /// A facet of a PLC as a region of its plane.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
+#include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
 
 namespace barycert::check {
@@ -22,7 +26,17 @@ public:
         int counts = 0;   ///< +1 its area is part of the region, -1 it is taken off, 0 another ring's has it
     };
 
-    PlcRegion(const Plc& plc, const PlcFacet& facet, int exponent);
+    PlcRegion(const Plc& plc, const PlcFacet& facet, int exponent) : exponent_(exponent) {
+        for (const auto& polygon : facet.polygons) {
+            if (polygon.size() < 3) continue;
+            Ring ring;
+            for (const auto node : polygon) ring.points.push_back(&plc.points[static_cast<std::size_t>(node) * 3]);
+            rings_.push_back(std::move(ring));
+        }
+        if (rings_.empty()) return;
+        set_plane();
+        if (proper_) set_holes(facet);
+    }
 
     /// It has an area.
     bool proper() const { return proper_; }
@@ -32,34 +46,213 @@ public:
     std::array<std::size_t, 2> axes() const { return {(axis_ + 1) % 3, (axis_ + 2) % 3}; }
 
     /// Distance of a point from the plane, in the unit; and whether it is exactly zero.
-    double distance(const double* p) const;
-    bool in_plane(const double* p) const;
+    double distance(const double* p) const {
+        return std::fabs(base::dot(normal_, base::minus(relative(p), relative(plane_[0]))));
+    }
+    bool in_plane(const double* p) const { return orient3d(plane_[0], plane_[1], plane_[2], p) == Sign::zero; }
 
     /// A place, relative and projected, lies in the region.
-    PlcPosition place(const double* p) const;
-    bool holds(const PlcPosition& p) const;
+    PlcPosition place(const double* p) const {
+        const Vector v = relative(p);
+        return {v[axes()[0]], v[axes()[1]]};
+    }
+    bool holds(const PlcPosition& p) const {
+        const Ring* const ring = innermost(p, nullptr);
+        return ring != nullptr && !ring->hole;
+    }
 
     /// How a side of a face passes the sides of the rings: properly across none, across one within `slack` of an end of
     /// either, or else deeply. The first is exact.
     enum class Crossing : unsigned char { none, shallow, deep };
-    Crossing crossing(const double* a, const double* b, double slack) const;
+    Crossing crossing(const double* a, const double* b, double slack) const {
+        const auto [x, y] = axes();
+        const auto projected = [x = x, y = y](const double* p) { return std::array<double, 2>{p[x], p[y]}; };
+        const auto pa = projected(a), pb = projected(b);
+        Crossing worst = Crossing::none;
+        for (const Ring& ring : rings_) {
+            for (std::size_t i = 0, j = ring.points.size() - 1; i < ring.points.size(); j = i++) {
+                const double *const c = ring.points[i], *const d = ring.points[j];
+                const auto pc = projected(c), pd = projected(d);
+                if (std::max(pa[0], pb[0]) < std::min(pc[0], pd[0]) || std::min(pa[0], pb[0]) > std::max(pc[0], pd[0]))
+                    continue;
+                const auto turn = [](const auto& u, const auto& v, const auto& w) {
+                    return orient2d(u.data(), v.data(), w.data());
+                };
+                if (turn(pa, pb, pc) * turn(pa, pb, pd) != Sign::negative ||
+                    turn(pc, pd, pa) * turn(pc, pd, pb) != Sign::negative)
+                    continue;
+                const PlcPosition u = place(a), v = place(b), &w = ring.at[i], &z = ring.at[j];
+                const double nearest = std::min(
+                    {distance_from(u, w, z), distance_from(v, w, z), distance_from(w, u, v), distance_from(z, u, v)});
+                if (nearest > slack) return Crossing::deep;
+                worst = Crossing::shallow;
+            }
+        }
+        return worst;
+    }
 
     /// The part of the region's area that the triangle has in common with it, in plain double.
-    double covered_by(const std::array<const double*, 3>& triangle) const;
+    double covered_by(const std::array<const double*, 3>& triangle) const {
+        const std::vector<PlcPosition> face{place(triangle[0]), place(triangle[1]), place(triangle[2])};
+        double common = 0, whole = 0;
+        for (const Ring& ring : rings_) {
+            // A ring is a fan of triangles, those that turn the other way taken off.
+            double twice = 0;
+            for (std::size_t i = 2; i < ring.at.size() && ring.counts != 0; ++i)
+                twice += common_area(face, {ring.at.front(), ring.at[i - 1], ring.at[i]});
+            common += ring.counts * std::fabs(twice) / 2;
+            whole += ring.counts * ring.area;
+        }
+        return common / whole;
+    }
 
-    Box box(double margin) const;
+    Box box(double margin) const {
+        const double* const o = rings_.front().points.front();
+        Box box{{o[0], o[1], o[2]}, {o[0], o[1], o[2]}};
+        for (const Ring& ring : rings_) {
+            for (const double* p : ring.points) box.add({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
+        }
+        for (double& x : box.low) x -= margin;
+        for (double& x : box.high) x += margin;
+        return box;
+    }
 
 private:
-    std::array<double, 3> relative(const double* p) const;
-    bool in_ring(const Ring& ring, const PlcPosition& p) const;
-    const Ring* innermost(const PlcPosition& p, const Ring* but) const;
-    PlcPosition inner_place(const Ring& ring) const;
-    void set_plane();
-    void set_holes(const PlcFacet& facet);
+    using Vector = base::Vector3<double>;
+
+    static double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
+    static double twice_area(const PlcPosition& o, const PlcPosition& a, const PlcPosition& b) {
+        return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+    }
+
+    /// Distance of p from the segment ab.
+    static double distance_from(const PlcPosition& p, const PlcPosition& a, const PlcPosition& b) {
+        const double x = b[0] - a[0], y = b[1] - a[1], square = x * x + y * y;
+        const double t = square > 0 ? std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0) : 0;
+        return std::hypot(a[0] + t * x - p[0], a[1] + t * y - p[1]);
+    }
+
+    /// Twice the area that a convex polygon has in common with a triangle; negative if this one turns clockwise. Sides
+    /// of the triangle cut it, one after the other.
+    static double common_area(std::vector<PlcPosition> polygon, const std::array<PlcPosition, 3>& t) {
+        const double turn = twice_area(t[0], t[1], t[2]) < 0 ? -1 : 1;
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::vector<PlcPosition> left;
+            for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+                const PlcPosition &p = polygon[j], &q = polygon[i];
+                const double from = turn * twice_area(t[k], t[(k + 1) % 3], p),
+                             to = turn * twice_area(t[k], t[(k + 1) % 3], q);
+                const double s = from / (from - to);
+                if ((from > 0) != (to > 0)) left.push_back({p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1])});
+                if (to > 0) left.push_back(q);
+            }
+            polygon = std::move(left);
+        }
+        double twice = 0;
+        for (std::size_t i = 2; i < polygon.size(); ++i) twice += twice_area(polygon[0], polygon[i - 1], polygon[i]);
+        return turn * std::fabs(twice);
+    }
+
+    /// Less the first vertex. Halved first: a difference may overflow.
+    Vector relative(const double* p) const {
+        const double* const o = rings_.front().points.front();
+        Vector v{};
+        for (std::size_t k = 0; k < 3; ++k) v[k] = std::scalbn(p[k] / 2 - o[k] / 2, 1 - exponent_);
+        return v;
+    }
+
+    /// The plane through the widest triangle, at the first vertex of a ring, of all rings.
+    void set_plane() {
+        double widest = 0;
+        for (const Ring& ring : rings_) {
+            const Vector o = relative(ring.points.front());
+            const auto from = [&](const double* p) { return base::minus(relative(p), o); };
+            const double* const a =
+                *std::max_element(ring.points.begin(), ring.points.end(),
+                                  [&](const double* p, const double* q) { return length(from(p)) < length(from(q)); });
+            const double* const b =
+                *std::max_element(ring.points.begin(), ring.points.end(), [&](const double* p, const double* q) {
+                    return length(base::cross(from(a), from(p))) < length(base::cross(from(a), from(q)));
+                });
+            const Vector normal = base::cross(from(a), from(b));
+            if (length(normal) <= widest) continue;
+            widest = length(normal);
+            normal_ = normal;
+            plane_ = {ring.points.front(), a, b};
+        }
+        proper_ = widest > 0;
+        if (!proper_) return;
+        for (double& x : normal_) x /= widest;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (std::fabs(normal_[k]) > std::fabs(normal_[axis_])) axis_ = k;
+        }
+    }
+
+    void set_holes(const PlcFacet& facet) {
+        for (Ring& ring : rings_) {
+            for (const double* p : ring.points) ring.at.push_back(place(p));
+            double twice = 0;
+            for (std::size_t i = 0, j = ring.at.size() - 1; i < ring.at.size(); j = i++)
+                twice += twice_area(ring.at.front(), ring.at[j], ring.at[i]);
+            ring.area = std::fabs(twice) / 2;
+        }
+        for (std::size_t i = 0; i + 2 < facet.holes.size(); i += 3) {
+            const Ring* const ring = innermost(place(&facet.holes[i]), nullptr);
+            for (Ring& r : rings_) r.hole = r.hole || &r == ring;
+        }
+        for (Ring& ring : rings_) {
+            const Ring* const around = innermost(inner_place(ring), &ring);
+            const bool filled = around != nullptr && !around->hole;
+            ring.counts = ring.hole == filled ? (ring.hole ? -1 : 1) : 0;
+        }
+    }
+
+    /// Inside the ring: at its lowest corner, which is convex, between it and what of the ring lies deepest in the
+    /// triangle with its neighbours, or in the middle of that triangle.
+    PlcPosition inner_place(const Ring& ring) const {
+        const std::vector<PlcPosition>& at = ring.at;
+        const auto n = at.size();
+        const auto corner = static_cast<std::size_t>(std::min_element(at.begin(), at.end()) - at.begin());
+        const PlcPosition &v = at[corner], &a = at[(corner + n - 1) % n], &b = at[(corner + 1) % n];
+        const double turn = twice_area(a, v, b) < 0 ? -1 : 1;
+        const PlcPosition* deepest = nullptr;
+        double depth = 0;
+        for (const PlcPosition& p : at) {
+            if (turn * twice_area(a, v, p) <= 0 || turn * twice_area(v, b, p) <= 0 || turn * twice_area(b, a, p) <= 0)
+                continue;
+            if (turn * twice_area(b, a, p) <= depth) continue;
+            depth = turn * twice_area(b, a, p);
+            deepest = &p;
+        }
+        if (deepest != nullptr) return {(v[0] + (*deepest)[0]) / 2, (v[1] + (*deepest)[1]) / 2};
+        return {(a[0] + v[0] + b[0]) / 3, (a[1] + v[1] + b[1]) / 3};
+    }
+
+    bool in_ring(const Ring& ring, const PlcPosition& p) const {
+        bool inside = false;
+        for (std::size_t i = 0, j = ring.at.size() - 1; i < ring.at.size(); j = i++) {
+            const PlcPosition &a = ring.at[i], &b = ring.at[j];
+            // A ray along the first axis crosses the side ab.
+            if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1])) + a[0])
+                inside = !inside;
+        }
+        return inside;
+    }
+
+    const Ring* innermost(const PlcPosition& p, const Ring* but) const {
+        const Ring* found = nullptr;
+        for (const Ring& ring : rings_) {
+            if (&ring != but && (found == nullptr || ring.area < found->area) &&
+                (but == nullptr || ring.area > but->area || (ring.area == but->area && &ring < but)) &&
+                in_ring(ring, p))
+                found = &ring;
+        }
+        return found;
+    }
 
     std::vector<Ring> rings_;
     int exponent_;
-    std::array<double, 3> normal_{};        ///< of length 1
+    Vector normal_{};                       ///< of length 1
     std::array<const double*, 3> plane_{};  ///< three vertices that span it
     bool proper_ = false;
     std::size_t axis_ = 2;

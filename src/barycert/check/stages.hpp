@@ -1,5 +1,4 @@
-/// The stages of a check, in their order. Each adds what it finds to `defects`. `usable`, an entry a cell: 1 if it has
-/// d + 1 different nodes with finite coordinates.
+/// The stages of a check, in their order. Each reads what those before it have found of the mesh, and adds to it.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -160,10 +159,40 @@ inline int exact_sign(int d, const std::array<const double*, 4>& p) {
     return static_cast<int>(d == 2 ? orient2d(p[0], p[1], p[2]) : orient3d(p[0], p[1], p[2], p[3]));
 }
 
+/// A facet of exactly one cell.
+struct BoundaryFacet {
+    Mesh::Index cell = -1;
+    std::int32_t corner = 0;  ///< opposite to it
+    /// In the order that turns its normal outward (2D: two, the cell to their left).
+    std::array<Mesh::Index, 3> nodes{};
+    bool oriented = true;  ///< false if the cell is degenerate, and the order of the nodes by chance
+};
+
+inline PlacedFacet placed(const Mesh& mesh, const BoundaryFacet& facet) {
+    PlacedFacet f{facet.nodes, {}};
+    for (std::size_t i = 0; i < mesh.corners() - 1; ++i) f.at[i] = node_at(mesh, f.nodes[i]);
+    return f;
+}
+
+/// A mesh whose arrays make nodes and cells, and what is known of it.
+struct Checked {
+    const Mesh& mesh;
+    const CheckOptions& options;
+    CheckReport& report;
+    DefectList& defects;
+    const ExactVolumes volumes{mesh.dimension, mesh.points};
+    const std::vector<std::int8_t>& orientation = report.measures.orientation;
+    std::vector<std::uint8_t> finite = {};     ///< 1 for each node whose coordinates are all finite
+    std::vector<std::uint8_t> usable = {};     ///< 1 for each cell with d + 1 different nodes that are finite
+    Integer total = {};                        ///< d! times the sum of all |volume|, in the unit of `volumes`
+    std::vector<Mesh::Index> neighbours = {};  ///< as compute_neighbours gives them, of usable cells
+    std::vector<BoundaryFacet> boundary = {};  ///< ordered by their nodes
+};
+
 // Nodes by themselves (nodes.cpp).
 
-/// 1 for each node whose coordinates are all finite. Finds not_finite, coincident_nodes, unused_node.
-std::vector<std::uint8_t> check_nodes(const Mesh& mesh, DefectList& defects);
+/// Finds not_finite, coincident_nodes, unused_node.
+void check_nodes(Checked& c);
 
 /// Those of `nodes` at the place of another one, second, each with the lowest that is there, first; by the second. 0
 /// and -0 are one place. Precondition: their coordinates are finite.
@@ -188,59 +217,23 @@ bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, cons
 
 // Cells by themselves: exact orientation and volume, shape, condition (cells.cpp).
 
-struct Cells {
-    std::vector<std::uint8_t> usable;
-    Integer total;  ///< d! times the sum of all |volume|, in the unit of ExactVolumes
-    std::uint64_t positive = 0, negative = 0, degenerate = 0;  ///< of the usable ones
-};
-
-/// Fills `measures`, without `shapes` their orientations and defects alone. Finds index_out_of_range, repeated_node,
-/// degenerate_cell, plain_sign_wrong, mixed_orientation.
-Cells check_cells(const Mesh& mesh, const std::vector<std::uint8_t>& finite, const ExactVolumes& volumes, bool shapes,
-                  CellMeasures& measures, DefectList& defects);
+/// Fills the report's measures, without shapes if the verdict alone is asked for. Finds index_out_of_range,
+/// repeated_node, degenerate_cell, plain_sign_wrong, mixed_orientation.
+void check_cells(Checked& c);
 
 // How cells meet at their facets, and which facets are the boundary (facets.cpp).
 
-/// A facet of exactly one cell.
-struct BoundaryFacet {
-    Mesh::Index cell = -1;
-    std::int32_t corner = 0;  ///< opposite to it
-    /// In the order that turns its normal outward (2D: two, the cell to their left).
-    std::array<Mesh::Index, 3> nodes{};
-    bool oriented = true;  ///< false if the cell is degenerate, and the order of the nodes by chance
-};
-
-inline PlacedFacet placed(const Mesh& mesh, const BoundaryFacet& facet) {
-    PlacedFacet f{facet.nodes, {}};
-    for (std::size_t i = 0; i < mesh.corners() - 1; ++i) f.at[i] = node_at(mesh, f.nodes[i]);
-    return f;
-}
-
-struct Facets {
-    std::vector<Mesh::Index> neighbours;  ///< as compute_neighbours gives them, of usable cells
-    std::vector<BoundaryFacet> boundary;  ///< ordered by their nodes
-};
-
 /// Finds duplicate_cell, overfull_facet, same_side.
-Facets check_facets(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
-                    const std::vector<std::int8_t>& orientation, DefectList& defects);
+void check_facets(Checked& c);
 
-/// The facets of a mesh whose cells partition a domain, proved by the index (index/proof.hpp) in less time than
-/// check_facets takes; nothing if that is not proved. Preconditions: indices in range, coordinates finite;
-/// `orientation`: the exact sign of each cell.
-std::optional<Facets> facets_of_partition(const Mesh& mesh, const std::vector<std::int8_t>& orientation);
+/// The same of a mesh whose cells partition a domain, proved by the index (index/proof.hpp) in less time; false if that
+/// is not proved. Precondition: all cells are usable, none degenerate.
+bool find_facets_of_partition(Checked& c);
 
 // The boundary as a complex: ridges, pieces, cavities, tunnels (boundary.cpp).
 
-struct BoundaryPieces {
-    BoundaryReport summary;
-    std::vector<std::uint32_t> facets;  ///< for each piece one of its facets: an index into Facets::boundary
-    Integer enclosed;                   ///< d! times the volume that the boundary encloses, in the unit of ExactVolumes
-};
-
-/// Finds open_boundary, pinched_ridge, pinched_node, missing_cell.
-BoundaryPieces check_boundary(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
-                              DefectList& defects);
+/// One of the boundary facets of each piece. Finds open_boundary, pinched_ridge, pinched_node, missing_cell.
+std::vector<std::uint32_t> check_boundary(Checked& c);
 
 // Facets and cells that meet where they must not (pairs.cpp).
 
@@ -266,24 +259,19 @@ struct BoundaryContacts {
 };
 
 /// P3: finds boundary_contact, up to `limit` of them.
-BoundaryContacts find_boundary_contacts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, std::size_t limit,
-                                        DefectList& defects);
+BoundaryContacts find_boundary_contacts(Checked& c, std::size_t limit);
 
-/// P4: finds nested_part, up to `limit` of them, each with the lowest cell that overlaps. `pieces`: one of the `facets`
-/// of each piece of the boundary.
-std::vector<CellPair> find_nested_parts(const Mesh& mesh, const std::vector<BoundaryFacet>& facets,
-                                        const std::vector<std::uint32_t>& pieces,
-                                        const std::vector<std::int8_t>& orientation, std::size_t limit,
-                                        DefectList& defects);
+/// P4: finds nested_part, up to `limit` of them, each with the lowest cell that overlaps. `pieces` as check_boundary
+/// gives them.
+std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint32_t>& pieces, std::size_t limit);
 
 /// Finds overlapping_cells among all that are not degenerate.
-std::vector<CellPair> find_overlapping_cells(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-                                             DefectList& defects);
+std::vector<CellPair> find_overlapping_cells(Checked& c);
 
-// Neighbours and faces that came with the mesh (files.cpp).
+// Neighbours and faces that came with the mesh (facets.cpp).
 
 /// P5: finds wrong_neighbour and wrong_face. Nothing where the mesh has none.
-void check_files(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const Facets& facets, DefectList& defects);
+void check_files(Checked& c);
 
 /// 1 for each of Mesh::faces that a usable cell has.
 std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std::uint8_t>& usable);
@@ -292,16 +280,12 @@ std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std
 
 /// Finds near_nodes and near_hanging, as CheckOptions::near has them, crack, and of touching.hanging those that are no
 /// near nodes. `meeting`: cells that meet where they must not; what two of them have of these is the cause.
-void find_cracks(const Mesh& mesh, const std::vector<std::uint8_t>& usable, const std::vector<BoundaryFacet>& facets,
-                 const ExactVolumes& volumes, double near, const BoundaryContacts& touching,
-                 const std::vector<CellPair>& meeting, DefectList& defects);
+void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector<CellPair>& meeting);
 
 /// The nodes no farther from an edge or a facet than the radius of the node and of each node of the facet, and farther
 /// from these nodes; of no cell that has the node, too. `radius`: of each node, 0 of those that are not of the
 /// boundary. Ascending, up to `limit`.
-Found<HangingNode> nearly_hanging(const Mesh& mesh, const std::vector<std::uint8_t>& usable,
-                                  const std::vector<BoundaryFacet>& facets, const ExactVolumes& volumes,
-                                  const std::vector<double>& radius, std::size_t limit);
+Found<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit);
 
 // What else can be asked of a mesh (common_part.cpp, delaunay.cpp, conformity.cpp).
 
@@ -314,13 +298,10 @@ struct CommonPart {
 };
 CommonPart common_part(int d, const Corners& a, const Corners& b);
 
-/// `neighbours` as compute_neighbours gives them for the cells that have a place in space, `orientation` their exact
-/// signs, 0 for all others. On all threads of the calling arena.
-DelaunayReport check_delaunay(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours,
-                              const std::vector<std::int8_t>& orientation);
+/// On all threads of the calling arena.
+DelaunayReport check_delaunay(const Checked& c);
 
 /// Areas mean little where the mesh is not certified. Precondition: tetrahedra. On all threads of the calling arena.
-ConformityReport check_conformity(const Mesh& mesh, std::span<const std::uint8_t> usable, const Plc& plc,
-                                  std::size_t examples);
+ConformityReport check_conformity(const Checked& c);
 
 }  // namespace barycert::check

@@ -275,8 +275,7 @@ CiReport verify_outcomes(const VerifyReport& s, const Environment& environment) 
         const std::string rule(handle(verdict));
         // "3 of 7 rows: what such rows are. Worst: row 5: ...".
         const auto& examples = s.verdicts.examples;
-        const auto worst =
-            std::find_if(examples.begin(), examples.end(), [&](const WrongRow& row) { return row.verdict == verdict; });
+        const auto worst = std::ranges::find(examples, verdict, &WrongRow::verdict);
         std::string message = fmt::format("{} of {} rows: {}", kinds[k].count, s.verdicts.rows, kinds[k].what);
         if (worst != examples.end())
             message += fmt::format(". Worst: row {}, counted from 0: {}", worst->row, example_sentence(s, *worst));

@@ -1,4 +1,4 @@
-/// The error of one value, and where it is counted; the cell whose values are nearest to what is claimed.
+/// The error of one value, and where it is counted; the verdicts on a block of rows.
 #pragma once
 
 #include <algorithm>
@@ -43,8 +43,8 @@ inline double relative_error(double a, double b, double range) {
 inline ValueError compare(double claimed, double exact, double range) {
     const bool no_claim = std::isnan(claimed), no_value = std::isnan(exact);
     if (no_claim && no_value) return {Compared::both_nan};
-    if (no_claim) return {Compared::missing, 0, std::numeric_limits<double>::infinity()};
-    if (no_value) return {Compared::spurious, 0, std::numeric_limits<double>::infinity()};
+    if (no_claim || no_value)
+        return {no_claim ? Compared::missing : Compared::spurious, 0, std::numeric_limits<double>::infinity()};
     if (claimed == exact) return {Compared::identical};
     ValueError error{Compared::different};
     error.relative = relative_error(claimed, exact, range);
@@ -68,18 +68,9 @@ inline std::size_t bin_of_ulps(double ulps, std::size_t bins) {
 }
 
 inline void count(const ValueError& error, double claimed, const VerifyOptions& options, ValueErrors& to) {
-    switch (error.compared) {
-        case Compared::both_nan:
-            return;
-        case Compared::missing:
-            ++to.missing;
-            return;
-        case Compared::spurious:
-            ++to.spurious;
-            return;
-        default:
-            break;
-    }
+    if (error.compared == Compared::both_nan) return;
+    if (error.compared == Compared::missing) return void(++to.missing);
+    if (error.compared == Compared::spurious) return void(++to.spurious);
     ++to.values;
     to.floats += static_cast<double>(static_cast<float>(claimed)) == claimed ? 1 : 0;
     if (error.compared == Compared::identical) {
@@ -95,17 +86,7 @@ inline void count(const ValueError& error, double claimed, const VerifyOptions& 
     ++to.by_relative[base::decade_bin(error.relative)];
 }
 
-// Rows that are looked at again: every cell that contains the point may be the one that a tool took.
-
-/// The values of a row by the cell whose largest error is least.
-struct BestHolder {
-    std::vector<double> values;  ///< one a column
-    std::uint64_t cells = 0;     ///< how many contain the point
-    bool other = false;          ///< it is not the owner
-};
-
-/// For each of the rows `which` of `claimed`, all of them inside. `ranges`: one a column.
-Result<std::vector<BestHolder>> best_holders(const Sampler& sampler, const ClaimedRows& claimed,
-                                             std::span<const std::size_t> which, std::span<const double> ranges);
+/// One block of rows. Precondition: sizes fit.
+Result<Verdicts> verdicts_of(const Sampler& sampler, const Verifier& verifier, const ClaimedRows& claimed);
 
 }  // namespace barycert::verify

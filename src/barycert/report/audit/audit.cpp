@@ -26,6 +26,18 @@ svg .dot{fill:var(--bar);fill-opacity:.75}svg .dot.front{fill:var(--good);fill-o
 svg .front{stroke:var(--good);stroke-width:1.6px}svg text.front{fill:var(--good);stroke:none;font-size:11px}
 )";
 
+/// How many cases lie in each region, exactly: "12 interior, 3 boundary, ...".
+std::string regions_text(const AuditReport& report) {
+    return joined(all_regions, ", ",
+                  [&](Region r) { return fmt::format("{} {}", report.regions[static_cast<std::size_t>(r)], name(r)); });
+}
+
+/// What makes the same report again, and how long it took.
+std::string how_it_was_made(const AuditReport& report) {
+    return fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s", report.seed, report.count,
+                       report.threads, report.seconds);
+}
+
 /// What is known of a kernel, or of one of its families: a row of a table.
 struct Known {
     std::string name, tip;
@@ -144,8 +156,7 @@ void tell_families(Document& d, const AuditReport& r, For whom) {
         if (wrong.empty()) wrong.emplace_back(0, "not run");
         const std::uint64_t worst = wrong.front().first;
         const auto with = [&all = wrong](std::uint64_t n) {
-            return static_cast<std::size_t>(
-                std::count_if(all.begin(), all.end(), [&](const auto& w) { return w.first == n; }));
+            return static_cast<std::size_t>(std::ranges::count(all, n, &std::pair<std::uint64_t, std::string>::first));
         };
         const std::size_t clean = line.cases == 0 ? 0 : with(0);
         const std::string more = with(worst) > 1 ? fmt::format(" (+{} more)", with(worst) - 1) : "";
@@ -206,9 +217,7 @@ void tell_kernel(Document& d, const AuditReport& r, const TerminalStyle& style) 
     std::vector<Known> families;
     for (const FamilyResult& f : k.families)
         families.push_back({r.families[f.family].name, r.families[f.family].tests, &f.statistics});
-    std::stable_sort(families.begin(), families.end(), [](const Known& a, const Known& b) {
-        return a.statistics->wrong_cases > b.statistics->wrong_cases;
-    });
+    std::ranges::stable_sort(families, std::greater<>(), [](const Known& f) { return f.statistics->wrong_cases; });
     d.part("Families of cases");
     d.add(statistics_table(families, false));
     if (!style.wide) tell_legend(d, false);
@@ -226,6 +235,17 @@ void tell_kernels(Document& d, const AuditReport& r) {
     d.part("Kernels, worst first");
     d.add(statistics_table(kernels, true));
     tell_legend(d, true);
+}
+
+/// Wrong cases of the families that draw from meshes.
+Share wrong_on_meshes(const AuditReport& report, const KernelResult& k) {
+    Share share;
+    for (const FamilyResult& f : k.families) {
+        if (!report.families[f.family].needs_mesh) continue;
+        share.part += f.statistics.wrong_cases;
+        share.whole += f.statistics.cases;
+    }
+    return share;
 }
 
 /// All columns: wider than most terminals.
@@ -314,8 +334,7 @@ void tell_hints(Document& d, const AuditReport& r, const TerminalStyle& style) {
 }
 
 /// `page`: what is on it beside.
-Document audit_document(const AuditReport& r, const TerminalStyle& style, const AuditPage& page,
-                        const std::string& signs, const std::string& maps) {
+Document audit_document(const AuditReport& r, const TerminalStyle& style, const AuditPage& page) {
     Document d;
     d.title = "barycert audit: " + verdict_sentence(r);
     d.heading = "barycert audit: floating-point kernels for barycentric weights, held against exact arithmetic";
@@ -338,7 +357,7 @@ Document audit_document(const AuditReport& r, const TerminalStyle& style, const 
     d.part();
     tell_cases(d, r, style);
     if (!one) pictures([&r] { return pareto_figures(r); });
-    pictures([&signs, &maps, &r] { return signs + maps + error_histograms(r); });
+    pictures([&] { return sign_figures(page.signs) + map_figures(r, page.maps) + error_histograms(r); });
     if (!one) {
         tell_witnesses(d, r, style);
         tell_families(d, r, For::page);
@@ -364,18 +383,18 @@ Document audit_document(const AuditReport& r, const TerminalStyle& style, const 
 
 std::string audit_text(const AuditReport& report, const TerminalStyle& style) {
     const ExactEnvironment environment;
-    return terminal_text(audit_document(report, style, {}, {}, {}), style.colour);
+    return terminal_text(audit_document(report, style, {}), style.colour);
 }
 
 Result<std::string> audit_html(const AuditReport& report, const AuditPage& page) {
     const ExactEnvironment environment;
-    const Result<std::string> signs = sign_figures(page.signs);
-    if (!signs) return signs.error();
-    const Result<std::string> maps = map_figures(report, page.maps);
-    if (!maps) return maps.error();
     TerminalStyle style = page.style;
     style.wide = false;
-    return page_text(audit_document(report, style, page, *signs, *maps));
+    try {
+        return page_text(audit_document(report, style, page));
+    } catch (const Exception& e) {
+        return e.error();
+    }
 }
 
 }  // namespace barycert

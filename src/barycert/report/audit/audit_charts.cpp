@@ -16,9 +16,7 @@ double wrong_share(const KernelResult& k) {
 
 /// Those that no kernel beats in both: faster ones are wrong more often. By time.
 std::vector<const KernelResult*> front_of(std::vector<const KernelResult*> kernels) {
-    std::stable_sort(kernels.begin(), kernels.end(), [](const KernelResult* a, const KernelResult* b) {
-        return a->ns != b->ns ? a->ns < b->ns : wrong_share(*a) < wrong_share(*b);
-    });
+    std::ranges::stable_sort(kernels, {}, [](const auto* k) { return std::pair(k->ns, wrong_share(*k)); });
     std::vector<const KernelResult*> front;
     for (const KernelResult* k : kernels) {
         if (front.empty() || wrong_share(*k) < wrong_share(*front.back())) front.push_back(k);

@@ -29,7 +29,7 @@ constexpr std::array<SignColour, 4> sign_colours{{{{0xe6, 0x9f, 0x00}, "negative
                                                   {{0x20, 0x20, 0x20}, "no answer"}}};
 
 /// PNG; y grows upwards.
-Result<std::string> png_of(const SignPicture& p) {
+std::string png_of(const SignPicture& p) {
     constexpr std::size_t side = SignPicture::side;
     std::vector<std::uint8_t> pixels(side * side);
     for (std::size_t row = 0; row < side; ++row) {
@@ -37,8 +37,8 @@ Result<std::string> png_of(const SignPicture& p) {
             pixels[row * side + i] = static_cast<std::uint8_t>(p.signs[(side - 1 - row) * side + i] + 1);
     }
     std::array<io::Colour, sign_colours.size()> colours{};
-    std::transform(sign_colours.begin(), sign_colours.end(), colours.begin(), [](const auto& c) { return c.colour; });
-    return io::indexed_png(side, pixels, colours);
+    std::ranges::transform(sign_colours, colours.begin(), &SignColour::colour);
+    return io::indexed_png(side, pixels, colours).value();
 }
 
 /// Pictures that are the same, in the order of the first.
@@ -50,17 +50,14 @@ struct SameSigns {
 std::vector<SameSigns> grouped_pictures(const std::vector<const SignPicture*>& pictures) {
     std::vector<SameSigns> groups;
     for (const SignPicture* p : pictures) {
-        auto same = std::find_if(groups.begin(), groups.end(),
-                                 [&](const SameSigns& g) { return g.picture->signs == p->signs; });
+        auto same = std::ranges::find_if(groups, [&](const SameSigns& g) { return g.picture->signs == p->signs; });
         if (same == groups.end()) same = groups.insert(groups.end(), {p, {}});
         if (!p->kernel.empty()) same->kernels.push_back(p->kernel);
     }
     return groups;
 }
 
-Result<std::string> figure_of_signs(const SameSigns& group) {
-    const Result<std::string> png = png_of(*group.picture);
-    if (!png) return png.error();
+std::string figure_of_signs(const SameSigns& group) {
     const bool exact = group.picture->kernel.empty();
     const std::string names = html_escaped(fmt::format("{}", fmt::join(group.kernels, ", ")));
     const auto all = static_cast<std::uint64_t>(SignPicture::side) * SignPicture::side;
@@ -71,7 +68,7 @@ Result<std::string> figure_of_signs(const SameSigns& group) {
         "<figure{}><img alt=\"Signs on the grid: {}, {} of {} points wrong\" src=\"{}\" width=\"256\" "
         "height=\"256\"/><figcaption>{}</figcaption></figure>\n",
         exact ? " class=\"exact\"" : "", exact ? "exact" : names, group.picture->wrong, all,
-        data_uri("image/png", *png), caption);
+        data_uri("image/png", png_of(*group.picture)), caption);
 }
 
 /// Colours by the power of ten of an error, the darker the larger; and those without.
@@ -117,12 +114,11 @@ private:
     int low_ = std::numeric_limits<int>::max(), high_ = std::numeric_limits<int>::min();
 };
 
-Result<std::string> map_figure(const MeshMap& map, const MeshMap::OfKernel& k, const MapScale& scale) {
+std::string map_figure(const MeshMap& map, const MeshMap::OfKernel& k, const MapScale& scale) {
     std::vector<std::uint8_t> pixels;
     for (const std::int32_t p : map.pixels)
         pixels.push_back(p < 0 ? MapScale::beside : scale.index_of(k.errors[static_cast<std::size_t>(p)]));
-    const Result<std::string> png = io::indexed_png(map.width, pixels, scale.colours());
-    if (!png) return png.error();
+    const std::string png = io::indexed_png(map.width, pixels, scale.colours()).value();
     const auto worst = static_cast<std::size_t>(std::max_element(k.errors.begin(), k.errors.end()) - k.errors.begin());
     const double largest = k.errors[worst];
     const std::string name = html_escaped(base::printable(k.kernel));
@@ -134,7 +130,7 @@ Result<std::string> map_figure(const MeshMap& map, const MeshMap::OfKernel& k, c
     return fmt::format(
         "<figure><img alt=\"Largest error of {} in each cell\" src=\"{}\" width=\"{}\" height=\"{}\"/>"
         "<figcaption>{}<br/>{}; {} % of the points wrong</figcaption></figure>\n",
-        name, data_uri("image/png", *png), map.width, map.height, name, error, percent(k.wrong, k.cases));
+        name, data_uri("image/png", png), map.width, map.height, name, error, percent(k.wrong, k.cases));
 }
 
 std::string what_is_seen(const MeshMap& map) {
@@ -150,8 +146,8 @@ std::string what_is_seen(const MeshMap& map) {
 
 }  // namespace
 
-Result<std::string> sign_figures(const std::vector<SignPicture>& pictures) {
-    if (pictures.empty()) return std::string();
+std::string sign_figures(const std::vector<SignPicture>& pictures) {
+    if (pictures.empty()) return "";
     std::string out =
         "<h2>Pictures of signs</h2>\n<p class=\"small\">What a kernel says of 256 × 256 neighbouring points beside a "
         "side on the diagonal: the sign of one weight, at points 2⁻⁵³ apart around (1/2, 1/2), the side from 12 to 24 "
@@ -166,23 +162,17 @@ Result<std::string> sign_figures(const std::vector<SignPicture>& pictures) {
         }
         out += fmt::format("<h3>{}{}</h3>\n<div class=\"signs\">\n", name(exact.simplex),
                            exact.perspective ? ", perspective" : "");
-        for (const SameSigns& group : grouped_pictures(kind)) {
-            const Result<std::string> figure = figure_of_signs(group);
-            if (!figure) return figure.error();
-            out += *figure;
-        }
-        out += "</div>\n";
+        out += joined(grouped_pictures(kind), "", figure_of_signs) + "</div>\n";
     }
     return out;
 }
 
-Result<std::string> map_figures(const AuditReport& r, const std::vector<MeshMap>& maps) {
-    if (maps.empty()) return std::string();
+std::string map_figures(const AuditReport& r, const std::vector<MeshMap>& maps) {
+    if (maps.empty()) return "";
     std::string out = fmt::format(
         "<h2>Maps of the {}</h2>\n<p class=\"small\">Cells by the largest error of a weight in them, at a point "
-        "inside, "
-        "at points computed on the facets, and at points an ulp beside these; relative to 1 or to the largest weight. "
-        "Grey: beside the mesh.{}</p>\n",
+        "inside, at points computed on the facets, and at points an ulp beside these; relative to 1 or to the largest "
+        "weight. Grey: beside the mesh.{}</p>\n",
         maps.size() == 1 ? "mesh" : "meshes",
         maps.size() < r.meshes.size()
             ? fmt::format(" Of {} of {} meshes: name others to see them.", maps.size(), r.meshes.size())
@@ -200,12 +190,7 @@ Result<std::string> map_figures(const AuditReport& r, const std::vector<MeshMap>
                               : fmt::format(" {} of {} kernels, worst first, without variants; others: --kernel NAME.",
                                             map.kernels.size(), map.kernels.size() + map.left_out),
             scale.key());
-        for (const MeshMap::OfKernel& k : map.kernels) {
-            const Result<std::string> figure = map_figure(map, k, scale);
-            if (!figure) return figure.error();
-            out += *figure;
-        }
-        out += "</div>\n";
+        out += joined(map.kernels, "", [&](const auto& k) { return map_figure(map, k, scale); }) + "</div>\n";
     }
     return out;
 }

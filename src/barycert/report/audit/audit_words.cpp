@@ -71,16 +71,6 @@ Share outside_called_inside(const KernelStatistics& s) {
     return {count_of(s, Finding::false_inside), exactly(s, Region::outside)};
 }
 
-Share wrong_on_meshes(const AuditReport& report, const KernelResult& k) {
-    Share share;
-    for (const FamilyResult& f : k.families) {
-        if (!report.families[f.family].needs_mesh) continue;
-        share.part += f.statistics.wrong_cases;
-        share.whole += f.statistics.cases;
-    }
-    return share;
-}
-
 bool perfect(const KernelStatistics& s) {
     return without_finding(s) && s.errors.worst.value <= 0;
 }
@@ -116,14 +106,12 @@ std::string incidents(const KernelStatistics& s) {
 }
 
 bool any_wrong(const AuditReport& report) {
-    return std::any_of(report.kernels.begin(), report.kernels.end(),
-                       [](const auto& k) { return !without_finding(k.total); });
+    return !std::ranges::all_of(report.kernels, without_finding, &KernelResult::total);
 }
 
 std::string verdict_sentence(const AuditReport& report) {
-    const auto all = std::ssize(report.kernels),
-               wrong = std::count_if(report.kernels.begin(), report.kernels.end(),
-                                     [](const auto&k) { return k.total.wrong_cases != 0; });
+    const auto is_wrong = [](const KernelResult& k) { return k.total.wrong_cases != 0; };
+    const auto all = std::ssize(report.kernels), wrong = std::ranges::count_if(report.kernels, is_wrong);
     if (all == 1) {
         const KernelResult& k = report.kernels.front();
         const std::string left_out = k.total.not_run == 0 ? "" : fmt::format(", {} not run", k.total.not_run);
@@ -163,16 +151,6 @@ std::vector<std::string> verdict_details(const AuditReport& report) {
     return lines;
 }
 
-std::string regions_text(const AuditReport& report) {
-    return joined(all_regions, ", ",
-                  [&](Region r) { return fmt::format("{} {}", report.regions[static_cast<std::size_t>(r)], name(r)); });
-}
-
-std::string how_it_was_made(const AuditReport& report) {
-    return fmt::format("seed {}, {} cases per family and simplex, {} threads, {:.1f} s", report.seed, report.count,
-                       report.threads, report.seconds);
-}
-
 std::string finding_sentence(const KernelResult& k, const Witness& w) {
     const auto finding = finding_named(w.reason);
     if (!finding)
@@ -207,8 +185,7 @@ std::string replay_command(const AuditReport& report, const KernelResult& k, con
     if (k.kernel.raised != nullptr) return {};  // no other program has the callable
     if (!style.witness_path.empty()) return replay_from_file(k.kernel.name, w.reason, style);
     std::string command = style.command + " replay" + kernel_words(style);
-    const auto family =
-        std::find_if(report.families.begin(), report.families.end(), [&](const auto& f) { return f.name == w.family; });
+    const auto family = std::ranges::find(report.families, w.family, &Family::name);
     if (family != report.families.end() && family->needs_mesh)
         command += joined(style.mesh_arguments, "", [](const auto& mesh) { return " --mesh " + shell_word(mesh); });
     command += fmt::format(" --kernel {} --family {} --case {} --seed {}", shell_word(k.kernel.name),

@@ -24,8 +24,6 @@ Cell number_cell(double x);
 /// on the boundary.
 Share inside_called_outside(const KernelStatistics& s);
 Share outside_called_inside(const KernelStatistics& s);
-/// Wrong cases of the families that draw from meshes.
-Share wrong_on_meshes(const AuditReport& report, const KernelResult& k);
 /// Cases without a finite answer, of those whose simplex is not degenerate.
 Share unanswered(const KernelStatistics& s);
 /// The largest error over the families that draw from meshes, of cases with a finite answer; -1 if there are none.
@@ -41,10 +39,6 @@ bool any_wrong(const AuditReport& report);
 std::string verdict_sentence(const AuditReport& report);
 /// Sentences below the verdict: the worst kernel, broken certificates, the kernels without a finding.
 std::vector<std::string> verdict_details(const AuditReport& report);
-/// How many cases lie in each region, exactly: "12 interior, 3 boundary, ...".
-std::string regions_text(const AuditReport& report);
-/// What makes the same report again, and how long it took: "seed 1, 100 cases per family and simplex, ...".
-std::string how_it_was_made(const AuditReport& report);
 /// What a kernel in a process of its own did besides answering; empty if nothing.
 std::string incidents(const KernelStatistics& s);
 
@@ -75,11 +69,11 @@ std::string pareto_figures(const AuditReport& report);
 /// A small histogram a kernel: cases by the size of the error.
 std::string error_histograms(const AuditReport& report);
 
-/// The exact picture of each kind of case, and beside it those of the kernels; the same pictures are shown once.
-/// Error: a picture cannot be made.
-Result<std::string> sign_figures(const std::vector<SignPicture>& pictures);
+/// The exact picture of each kind of case, and beside it those of the kernels; the same pictures are shown once. Throws
+/// Exception where a picture cannot be made, as does the next.
+std::string sign_figures(const std::vector<SignPicture>& pictures);
 
-/// In which cells of the meshes kernels err. Error: a picture cannot be made.
-Result<std::string> map_figures(const AuditReport& report, const std::vector<MeshMap>& maps);
+/// In which cells of the meshes kernels err.
+std::string map_figures(const AuditReport& report, const std::vector<MeshMap>& maps);
 
 }  // namespace barycert::report

@@ -90,9 +90,8 @@ std::vector<const KernelResult*> candidates(const AuditReport& report, Simplex s
         const bool off = std::any_of(bins.begin(), bins.end(), [](const auto& bin) { return bin.worst > 0.5; });
         if (k.kernel.simplex == simplex && off) list.push_back(&k);
     }
-    std::stable_sort(list.begin(), list.end(), [](const KernelResult* a, const KernelResult* b) {
-        return a->prediction.worst_factor() > b->prediction.worst_factor();
-    });
+    const auto worst = [](const KernelResult* k) { return k->prediction.worst_factor(); };
+    std::ranges::stable_sort(list, std::greater<>(), worst);
     return list;
 }
 

@@ -122,8 +122,7 @@ void tell_catches(Document& d, const MutantReport& r) {
         for (const MutantCatch& c : m.catches) by_family[c.family].push_back(&m);
     }
     std::vector<std::pair<std::string, std::vector<const MutantResult*>>> all(by_family.begin(), by_family.end());
-    std::stable_sort(all.begin(), all.end(),
-                     [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+    std::ranges::stable_sort(all, std::greater<>(), [](const auto& of) { return of.second.size(); });
     Listing table{.columns = {{"family", true, 24}, {"catches", false, 4}, {"", true, 0, 2}}};
     for (const auto& [family, caught] : all) {
         std::string alone = joined(caught, ", ", [](const MutantResult* m) {

@@ -1,7 +1,6 @@
 // What a check of a mesh found, for people.
 
 #include <algorithm>
-#include <array>
 
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
@@ -121,13 +120,9 @@ void tell_contacts(Document& d, const CheckReport& r) {
     bool cut = false;
     for (std::size_t i = 0; i < r.contacts.size(); ++i) {
         const CellContact& c = r.contacts[i];
-        static constexpr std::array<std::string_view, 3> extents{"touch in a point", "touch along a segment",
-                                                                 "touch in an area"};
         const auto cells = r.cell_number(c.cells);
-        Item item{.title = {},
-                  .text = fmt::format(
-                      "cells {} and {} {}:", cells[0], cells[1],
-                      c.overlap ? "overlap" : extents[static_cast<std::size_t>(std::clamp(c.dimension, 0, 2))])};
+        Item item{.text =
+                      fmt::format("cells {} and {} {}:", cells[0], cells[1], c.overlap ? "overlap" : touch_text(c))};
         const std::string point =
             fmt::format("({}){}", coordinates(c.common.point, r.dimension), c.common.exact ? "" : ", rounded");
         if (item.text.size() + 1 + point.size() <= 100)

@@ -179,8 +179,8 @@ std::string facts(const CheckReport& r, const Mesh& mesh, Mesh::Index cell, std:
     return out;
 }
 
-}  // namespace
-
+/// The cell from two sides, at the same scale, with the numbers of its nodes; what is known of it. `number` is the one
+/// it has in the map.
 std::string exhibit_card(const CheckReport& r, const Mesh& mesh, const Exhibit& e, std::size_t number) {
     const Scene scene = scene_of(mesh, e);
     const std::vector<Shown> views = views_of(mesh, scene);
@@ -199,11 +199,13 @@ std::string exhibit_card(const CheckReport& r, const Mesh& mesh, const Exhibit& 
     return out + "</figure>\n";
 }
 
+}  // namespace
+
 std::string exhibits(const CheckReport& r, const Mesh& mesh) {
     constexpr std::size_t max_drawn = 6;
-    const std::vector<Exhibit> worst = worst_cells(r, mesh, max_drawn), bad = defect_cells(r, mesh, max_drawn);
-    std::vector<Exhibit> all = bad;
-    all.insert(all.end(), worst.begin(), worst.end());
+    std::vector<Exhibit> all = defect_cells(r, mesh, max_drawn);
+    const std::size_t bad = all.size();
+    std::ranges::move(worst_cells(r, mesh, max_drawn), std::back_inserter(all));
     if (all.empty()) return "";
     std::string out = "<h2>Where the worst cells are</h2>\n" + exhibit_map(r, mesh, all);
     const auto cards = [&](std::string_view title, std::size_t first, std::size_t last) {
@@ -212,9 +214,9 @@ std::string exhibits(const CheckReport& r, const Mesh& mesh) {
         for (std::size_t i = first; i < last; ++i) out += exhibit_card(r, mesh, all[i], i + 1);
         out += "</div>\n";
     };
-    cards("Cells with defects", 0, bad.size());
-    cards(r.dimension == 2 ? "The cells with the smallest angles" : "The cells with the smallest dihedral angles",
-          bad.size(), all.size());
+    cards("Cells with defects", 0, bad);
+    cards(r.dimension == 2 ? "The cells with the smallest angles" : "The cells with the smallest dihedral angles", bad,
+          all.size());
     return out;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "barycert/report/check/check_pictures.hpp"
+#include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
@@ -33,10 +34,7 @@ Cells drawn_of(const Mesh& mesh, Cells cells) {
 
 Exhibit of_contact(const CellContact& c, const Cells& cells) {
     return {.cells = cells,
-            .what = c.overlap          ? "overlapping cells"
-                    : c.dimension <= 0 ? "cells that touch in a point where they must not"
-                    : c.dimension == 1 ? "cells that touch along a segment where they must not"
-                                       : "cells that touch in an area where they must not",
+            .what = c.overlap ? "overlapping cells" : fmt::format("cells that {} where they must not", touch_text(c)),
             .contact = &c,
             .defect = true};
 }
@@ -74,20 +72,14 @@ std::array<Vector, 2> sides_at(Points t, std::array<std::size_t, 2> edge) {
 
 std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t max) {
     const CellMeasures& m = report.measures;
-    std::vector<std::pair<double, Mesh::Index>> worst;  // a heap, the least bad on top
+    std::set<std::pair<double, Mesh::Index>> worst;
     for (std::size_t cell = 0; cell < m.min_angle.size(); ++cell) {
-        const double angle = m.min_angle[cell];
-        if (m.orientation[cell] == 0 || std::isnan(angle)) continue;
-        const std::pair entry(angle, static_cast<Mesh::Index>(cell));
-        if (worst.size() == max && !(entry < worst.front())) continue;
-        if (!drawable(mesh, cell)) continue;
-        worst.push_back(entry);
-        std::push_heap(worst.begin(), worst.end());
-        if (worst.size() <= max) continue;
-        std::pop_heap(worst.begin(), worst.end());
-        worst.pop_back();
+        const std::pair entry(m.min_angle[cell], static_cast<Mesh::Index>(cell));
+        if (m.orientation[cell] == 0 || std::isnan(entry.first)) continue;
+        if ((worst.size() == max && !(entry < *worst.rbegin())) || !drawable(mesh, cell)) continue;
+        worst.insert(entry);
+        if (worst.size() > max) worst.erase(std::prev(worst.end()));
     }
-    std::sort_heap(worst.begin(), worst.end());
     std::vector<Exhibit> exhibits;
     const char* const kind = mesh.dimension == 2 ? "" : "dihedral ";
     for (const auto& [angle, cell] : worst)
@@ -147,18 +139,15 @@ bool drawable(const Mesh& mesh, std::size_t cell) {
 }
 
 Normalised::Normalised(int d, const std::vector<const double*>& points) : d_(d) {
-    Vector high = Vector::Zero();
-    for (int k = 0; k < d && !points.empty(); ++k) {
-        low_[k] = high[k] = points[0][k];
-        for (const double* p : points) {
-            low_[k] = std::min(low_[k], p[k]);
-            high[k] = std::max(high[k], p[k]);
-        }
-        extent_ = std::max(extent_, high[k] / 2 - low_[k] / 2);  // halved, for a difference may overflow
-    }
+    Eigen::AlignedBox3d box;
+    for (const double* p : points) box.extend(Vector(p[0], p[1], d == 2 ? 0 : p[2]));
+    if (box.isEmpty()) return;
+    low_ = box.min();
+    const Vector half = box.max() / 2 - box.min() / 2;  // halved, for a difference may overflow
+    extent_ = half.maxCoeff();
     exponent_ = extent_ > 0 ? std::ilogb(extent_) : 0;
     extent_ = extent_ > 0 ? std::scalbn(extent_, -exponent_) : 1;
-    for (int k = 0; k < d; ++k) middle_[k] = std::scalbn(high[k] / 2 - low_[k] / 2, -exponent_) / 2;
+    for (int k = 0; k < d; ++k) middle_[k] = std::scalbn(half[k], -exponent_) / 2;
     for (const double* p : points) points_.push_back(place(p));
 }
 
@@ -208,12 +197,6 @@ View along_edge(Points t, std::array<std::size_t, 2> edge) {
     v.x = unit(open);
     v.y = v.z.cross(v.x);
     return v;
-}
-
-View oblique() {
-    constexpr double azimuth = -1.05, elevation = 0.42;  // about 60 and 24 degrees
-    const double ca = std::cos(azimuth), sa = std::sin(azimuth), ce = std::cos(elevation), se = std::sin(elevation);
-    return {{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
 }
 
 }  // namespace barycert::report

@@ -66,17 +66,17 @@ Json contact_json(const CheckReport& r, const CellContact& c) {
 }
 
 Json measures_json(const CheckReport& r) {
-    const CellMeasures& m = r.measures;
-    std::vector<double> size(m.volume);
-    for (double& x : size) x = std::fabs(x);
-    const auto of = [&](const std::vector<double>& values) {
+    Json all;
+    for (const auto& [name, of] : cell_measures) {
+        std::vector<double> values(r.measures.*of);
+        for (double& x : values) x = std::fabs(x);  // only volumes have a sign
         const Distribution d = distribution(values);
-        return d.min_cell < 0 ? Json()
-                              : record("least", d.min, "median", d.median, "most", d.max, "least_cell",
-                                       r.cell_number(d.min_cell), "most_cell", r.cell_number(d.max_cell));
-    };
-    return record("volume", of(size), "condition", of(m.condition), "radius_edge", of(m.radius_edge), "aspect",
-                  of(m.aspect), "min_angle", of(m.min_angle), "max_angle", of(m.max_angle));
+        put(all, name,
+            d.min_cell < 0 ? Json()
+                           : record("least", d.min, "median", d.median, "most", d.max, "least_cell",
+                                    r.cell_number(d.min_cell), "most_cell", r.cell_number(d.max_cell)));
+    }
+    return all;
 }
 
 Json fix_json(const FixedMesh& fixed) {

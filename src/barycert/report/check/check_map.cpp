@@ -19,6 +19,13 @@ namespace {
 constexpr double map_width = 640, tallest = 440, map_margin = 40;
 constexpr std::size_t max_marks = 3000;
 
+/// From somewhat above and aside, z upwards.
+View oblique() {
+    constexpr double azimuth = -1.05, elevation = 0.42;  // about 60 and 24 degrees
+    const double ca = std::cos(azimuth), sa = std::sin(azimuth), ce = std::cos(elevation), se = std::sin(elevation);
+    return {{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
+}
+
 /// The cells that have a boundary: others could not be asked for their facets.
 Mesh proper_cells(const Mesh& mesh) {
     Mesh proper;
@@ -229,30 +236,31 @@ std::vector<Pixel> problem_marks(const CheckReport& r, const Mesh& mesh, const M
     return marks;
 }
 
+std::string cells_of(const CheckReport& r, const Exhibit& e, std::string_view between) {
+    return joined(r.cell_number(e.cells), between, [](Mesh::Index c) { return c < 0 ? "" : std::to_string(c); });
+}
+
 /// The exhibits by their numbers, and the middle of the first cell of each.
 std::string legend(const CheckReport& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
     std::string out = "<table><tr><th></th><th>cells</th><th>middle of the first one</th></tr>\n";
     for (std::size_t i = 0; i < exhibits.size(); ++i) {
         const Exhibit& e = exhibits[i];
-        const auto cells = r.cell_number(e.cells);
         Vector middle = Vector::Zero();
         for (const Mesh::Index node : nodes_of(mesh, static_cast<std::size_t>(e.cells[0])))
             middle += point_at(mesh, node) / static_cast<double>(mesh.corners());
         const auto rounded = [](double x) { return fmt::format("{:.4g}", x + 0.0); };
-        const std::string place = coordinates(middle, mesh.dimension, rounded);
-        out += fmt::format("<tr><td><span class=\"badge{}\">{}</span></td><td>{}{}</td><td>({})</td></tr>\n",
-                           e.defect ? " problem" : "", i + 1, cells[0],
-                           cells[1] < 0 ? "" : fmt::format(", {}", cells[1]), place);
+        out += fmt::format("<tr><td><span class=\"badge{}\">{}</span></td><td>{}</td><td>({})</td></tr>\n",
+                           e.defect ? " problem" : "", i + 1, cells_of(r, e, ", "),
+                           coordinates(middle, mesh.dimension, rounded));
     }
     return out + "</table>\n";
 }
 
 std::string extent(const Eigen::AlignedBox3d& box, int d) {
-    std::string out;
-    for (int k = 0; k < d; ++k)
-        out += fmt::format("{}{} from {} to {}", k == 0 ? "" : ", ", "xyz"[k], base::shortest(box.min()[k]),
-                           base::shortest(box.max()[k]));
-    return out;
+    return joined(std::span("xyz").first(static_cast<std::size_t>(d)), ", ", [&](char axis) {
+        const auto k = axis - 'x';
+        return fmt::format("{} from {} to {}", axis, base::shortest(box.min()[k]), base::shortest(box.max()[k]));
+    });
 }
 
 }  // namespace
@@ -275,9 +283,7 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     for (std::size_t i = exhibits.size(); i-- > 0;) {  // the first on top
         const Exhibit& e = exhibits[i];
         const Pixel at = map.cell(e.cells[0]);
-        const auto cells = r.cell_number(e.cells);
-        svg.dot(at, 4, e.defect ? "spot problem" : "spot",
-                fmt::format("cell {}{}", cells[0], cells[1] < 0 ? "" : fmt::format(" and {}", cells[1])));
+        svg.dot(at, 4, e.defect ? "spot problem" : "spot", "cell " + cells_of(r, e, " and "));
         labels.push_back({at, std::to_string(i + 1), e.defect ? "number bad" : "number"});
     }
     std::reverse(labels.begin(), labels.end());

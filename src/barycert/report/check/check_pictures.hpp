@@ -27,10 +27,6 @@ std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, st
 /// of defects that name cells which can be drawn.
 std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t max);
 
-/// A card: the cell from two sides, at the same scale, with the numbers of its nodes; what is known of it. `number` is
-/// the one it has in the map.
-std::string exhibit_card(const CheckReport& report, const Mesh& mesh, const Exhibit& exhibit, std::size_t number);
-
 /// Where in the mesh they are: its boundary, thinned out to at most 3000 marks, and the exhibits by their numbers.
 std::string exhibit_map(const CheckReport& report, const Mesh& mesh, const std::vector<Exhibit>& exhibits);
 
@@ -83,9 +79,6 @@ std::array<std::size_t, 2> sharpest_edge(Points tetrahedron);
 
 /// Along an edge of a tetrahedron, which so is a point, and its angle opens to the right.
 View along_edge(Points tetrahedron, std::array<std::size_t, 2> edge);
-
-/// From somewhat above and aside, z upwards.
-View oblique();
 
 /// Of length 1; any such vector, if `a` is zero.
 Vector unit(const Vector& a);

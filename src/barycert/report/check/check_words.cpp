@@ -8,30 +8,6 @@
 namespace barycert::report {
 namespace {
 
-/// What a defect means for the verdict, after its count.
-struct Clause {
-    DefectKind kind;
-    std::string_view one, more;
-};
-constexpr std::array<Clause, 16> defect_clauses{{
-    {DefectKind::bad_structure, "array has a wrong size", "arrays have a wrong size"},
-    {DefectKind::index_out_of_range, "cell has an invalid index", "cells have an invalid index"},
-    {DefectKind::not_finite, "node is not finite", "nodes are not finite"},
-    {DefectKind::repeated_node, "cell has a node twice", "cells have a node twice"},
-    {DefectKind::degenerate_cell, "cell is degenerate", "cells are degenerate"},
-    {DefectKind::duplicate_cell, "cell is a duplicate", "cells are duplicates"},
-    {DefectKind::overfull_facet, "facet belongs to more than two cells", "facets belong to more than two cells"},
-    {DefectKind::same_side, "facet has both cells on the same side", "facets have both cells on the same side"},
-    {DefectKind::open_boundary, "ridge leaves the boundary open", "ridges leave the boundary open"},
-    {DefectKind::boundary_contact, "pair of boundary facets meets", "pairs of boundary facets meet"},
-    {DefectKind::nested_part, "piece of the boundary lies in cells", "pieces of the boundary lie in cells"},
-    {DefectKind::overlapping_cells, "pair of cells overlaps", "pairs of cells overlap"},
-    {DefectKind::wrong_neighbour, "entry of .neigh is wrong", "entries of .neigh are wrong"},
-    {DefectKind::wrong_face, "face in the files is not a facet", "faces in the files are not facets"},
-    {DefectKind::unfit_array, "array does not fit nodes and cells", "arrays do not fit nodes and cells"},
-    {DefectKind::hanging_node, "node hangs on a cell", "nodes hang on cells"},
-}};
-
 /// Those that are given, once each.
 std::vector<Mesh::Index> used(const auto& indices) {
     std::vector<Mesh::Index> list;
@@ -80,8 +56,14 @@ std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& 
 }
 
 std::string reason(const Defect& defect) {
-    const auto c = std::ranges::find(defect_clauses, defect.kind, &Clause::kind);
-    return (defect.at_least ? "at least " : "") + counted(defect.count, c->one, c->more);
+    const DefectText& text = defect_text(defect.kind);
+    return (defect.at_least ? "at least " : "") + counted(defect.count, text.one, text.more);
+}
+
+std::string_view touch_text(const CellContact& contact) {
+    return contact.dimension <= 0   ? "touch in a point"
+           : contact.dimension == 1 ? "touch along a segment"
+                                    : "touch in an area";
 }
 
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& p) {
@@ -165,8 +147,7 @@ std::vector<std::string> fix_sentences(const FixedMesh& fixed) {
         if (n != 0) all.push_back(counted(n, one, more) + std::string(text));
     };
     if (!done.merged.empty()) {
-        const auto far = std::max_element(done.merged.begin(), done.merged.end(),
-                                          [](const MergedNode& a, const MergedNode& b) { return a.moved < b.moved; });
+        const auto far = std::ranges::max_element(done.merged, {}, &MergedNode::moved);
         all.push_back(counted(done.merged.size(), "node") + " merged into the lowest at their place" +
                       (far->moved == 0 ? "; none moved"
                                        : fmt::format(", moved by at most {} (node {} to node {})",

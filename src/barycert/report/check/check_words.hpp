@@ -23,6 +23,8 @@ inline bool leaves_cells_out(const Defect& f) {
 
 /// "3 cells are degenerate".
 std::string reason(const Defect& defect);
+/// "touch along a segment": of cells that do not overlap.
+std::string_view touch_text(const CellContact& contact);
 /// "cells 3 and 17, nodes 4 5 6 (coplanar)".
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& place);
 /// Where a defect may come from: of one with curved cells.

@@ -30,25 +30,75 @@ enum class Mark : unsigned char { circle, square, diamond, up, down, cross };
 class Picture {
 public:
     /// `title` is what a reader is told who cannot see it. With a style of its own, on a white ground, it is a file.
-    Picture(double width, double height, std::string_view title, std::string_view style = {});
+    Picture(double width, double height, std::string_view title, std::string_view style = {})
+        : width_(width),
+          height_(height),
+          body_(
+              fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+                          "height=\"{1:.0f}\" role=\"img\">\n<title>{2}</title>\n",
+                          width, height, html_escaped(title))) {
+        if (!style.empty())
+            body_ += fmt::format("<style>{}</style>\n<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>\n", style,
+                                 width, height);
+    }
 
     void line(Pixel from, Pixel to, std::string_view style) { path({from, to}, style); }
-    void path(const std::vector<Pixel>& corners, std::string_view style, bool closed = false);
+    void path(const std::vector<Pixel>& corners, std::string_view style, bool closed = false) {
+        if (corners.size() < 2) return;
+        const auto more = [](const Pixel& p) { return fmt::format("{:.1f} {:.1f}", p.x, p.y); };
+        draw(style, "M" + joined(corners, "L", more) + (closed ? "Z" : ""));
+    }
     void polygon(const std::vector<Pixel>& corners, std::string_view style) { path(corners, style, true); }
-    void bar(Pixel corner, double width, double height, std::string_view style, std::string_view tip);
-    void dot(Pixel at, double radius, std::string_view style, std::string_view tip = {});
-    void mark(Pixel at, Mark mark, double radius, std::string_view style);
-    void dots(const std::vector<Pixel>& at, std::string_view style);                           ///< many, in one element
-    void lines(const std::vector<std::pair<Pixel, Pixel>>& segments, std::string_view style);  ///< likewise
+    void bar(Pixel corner, double width, double height, std::string_view style, std::string_view tip) {
+        body_ += fmt::format(
+            "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
+            "height=\"{:.1f}\"><title>{}</title></rect>\n",
+            style, corner.x, corner.y, width, height, html_escaped(tip));
+    }
+    void dot(Pixel at, double radius, std::string_view style, std::string_view tip = {}) {
+        body_ +=
+            fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\">", style, at.x, at.y, radius);
+        if (!tip.empty()) body_ += fmt::format("<title>{}</title>", html_escaped(tip));
+        body_ += "</circle>\n";
+    }
+    void mark(Pixel at, Mark mark, double r, std::string_view style) {
+        const auto [x, y] = at;
+        const std::string filled = std::string(style) + " mark";
+        if (mark == Mark::circle) dot(at, r, filled);
+        if (mark == Mark::cross) lines({{{x - r, y - r}, {x + r, y + r}}, {{x - r, y + r}, {x + r, y - r}}}, style);
+        if (mark == Mark::square) polygon({{x - r, y - r}, {x + r, y - r}, {x + r, y + r}, {x - r, y + r}}, filled);
+        if (mark == Mark::diamond) polygon({{x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}}, filled);
+        if (mark == Mark::up) polygon({{x - r, y + r}, {x, y - r}, {x + r, y + r}}, filled);
+        if (mark == Mark::down) polygon({{x - r, y - r}, {x, y + r}, {x + r, y - r}}, filled);
+    }
+    /// Many, in one element; and lines likewise.
+    void dots(const std::vector<Pixel>& at, std::string_view style) {
+        draw(style, joined(at, "", [](const Pixel& p) { return fmt::format("M{:.1f} {:.1f}h0", p.x, p.y); }));
+    }
+    void lines(const std::vector<std::pair<Pixel, Pixel>>& segments, std::string_view style) {
+        draw(style, joined(segments, "", [](const auto& s) {
+                 return fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", s.first.x, s.first.y, s.second.x, s.second.y);
+             }));
+    }
     /// `style` may be several classes; "m" and "e" are the anchors middle and end.
-    void text(Pixel at, std::string_view text, std::string_view style, bool upwards = false);
+    void text(Pixel at, std::string_view text, std::string_view style, bool upwards = false) {
+        body_ += fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\"{}>{}</text>\n", style, at.x, at.y,
+                             upwards ? fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", at.x, at.y) : "",
+                             html_escaped(text));
+    }
 
     double width() const { return width_; }
     double height() const { return height_; }
-    std::string finish() &&;
+    std::string finish() && {
+        body_ += "</svg>\n";
+        return std::move(body_);
+    }
 
 private:
-    void draw(std::string_view style, const std::string& path);  ///< nothing if there is no path
+    /// Nothing if there is no path.
+    void draw(std::string_view style, const std::string& path) {
+        if (!path.empty()) body_ += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, path);
+    }
 
     double width_, height_;
     std::string body_;
