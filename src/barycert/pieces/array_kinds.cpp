@@ -1,4 +1,4 @@
-#include "barycert/pieces/array_kinds.hpp"
+#include "barycert/pieces/distribution.hpp"
 
 #include <cstring>
 #include <type_traits>
