@@ -118,12 +118,6 @@ int call_kernel(const double* vertices, const double* point, double* weights) {
     return 0;
 }
 
-void be_tolerant(Kernel& kernel, std::optional<double> tolerance) {
-    if (!tolerance) return;
-    kernel.rule = RegionRule::tolerant;
-    kernel.tolerance = *tolerance;
-}
-
 Kernel kernel_of(Simplex simplex, const std::string& name, bool declares, std::optional<double> tolerance) {
     // How weights and nodal values make a value is the same for all kernels of a simplex.
     const auto same = std::find_if(catalogue().begin(), catalogue().end(), [&](const Kernel& k) {
@@ -137,27 +131,18 @@ Kernel kernel_of(Simplex simplex, const std::string& name, bool declares, std::o
     kernel.weights = call_kernel;
     kernel.raised = [] { return callable_kernel->raised; };
     kernel.value = same->value;
-    be_tolerant(kernel, tolerance);
+    kernel.rule = tolerance ? RegionRule::tolerant : RegionRule::sign;
+    kernel.tolerance = tolerance.value_or(0);
     return kernel;
 }
 
-/// Those that match one of the globs, each once.
+/// What was chosen by names, or an Error that says what lists them in Python.
 template <class T>
-std::vector<T> matching(const std::vector<std::string>& globs, std::vector<T> (*matching_one)(std::string_view),
-                        const std::string& what, const std::string& lists) {
-    std::vector<T> all;
-    for (const std::string& glob : globs) {
-        const std::vector<T> some = matching_one(glob);
-        if (some.empty())
-            throw Exception({.what = "no " + what + " of that name",
-                             .found = '"' + glob + '"',
-                             .remedy = "barycert." + lists + "() lists them"});
-        for (const T& one : some) {
-            if (std::none_of(all.begin(), all.end(), [&](const T& have) { return have.name == one.name; }))
-                all.push_back(one);
-        }
-    }
-    return all;
+T named(Result<T> chosen, const char* lists) {
+    if (chosen) return std::move(*chosen);
+    Error error = chosen.error();
+    error.remedy = lists;
+    throw Exception(std::move(error));
 }
 
 /// `function`: a callable, or None.
@@ -173,10 +158,9 @@ std::shared_ptr<AuditReport> audit(const py::object& function, Simplex simplex, 
     options.seed = seed;
     options.threads = threads;
     options.oracle = oracle;
-    options.families = matching(families, families_matching, "family", "families");
-    if (families.empty())
-        std::copy_if(all_families().begin(), all_families().end(), std::back_inserter(options.families),
-                     [&](const Family& f) { return !meshes.empty() || !f.needs_mesh; });
+    options.families = named(choose_families(families), "barycert.families() lists them");
+    if (families.empty() && meshes.empty())
+        std::erase_if(options.families, [](const Family& f) { return f.needs_mesh; });
     options.progress = [&](const AuditProgress& p) { progress.tell(p.family, p.cases_done, p.cases_total); };
     Callable callable;
     if (!function.is_none()) {
@@ -185,15 +169,13 @@ std::shared_ptr<AuditReport> audit(const py::object& function, Simplex simplex, 
         // Python runs one thread at a time; and in this one it sees Ctrl-C.
         options.threads = 1;
     }
-    for (const std::string& path : libraries) {
-        const py::gil_scoped_release unlocked;
-        Kernel& kernel =
-            options.kernels.emplace_back(take(contained ? load_contained_kernel(path) : load_kernel_library(path)));
-        if (kernel.rule == RegionRule::sign) be_tolerant(kernel, tolerance);
-    }
-    for (Kernel& kernel : matching(catalogue, kernels_matching, "kernel", "kernels"))
-        options.kernels.push_back(std::move(kernel));
     const py::gil_scoped_release unlocked;
+    const auto add = [&](const std::vector<Kernel>& some) {
+        options.kernels.insert(options.kernels.end(), some.begin(), some.end());
+    };
+    if (!libraries.empty())
+        add(take(choose_kernels({.libraries = libraries, .in_process = !contained, .class_tolerance = tolerance})));
+    if (!catalogue.empty()) add(named(choose_kernels({.names = catalogue}), "barycert.kernels() lists them"));
     MeshSource source;
     for (const auto& [label, mesh] : meshes) source.add(label, mesh->mesh());
     std::unique_lock<std::mutex> turn;

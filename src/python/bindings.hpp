@@ -26,11 +26,9 @@ namespace barycert::python {
 namespace py = pybind11;
 
 void bind_mesh(py::module_& module);
-void bind_locate(py::module_& module);
-void bind_sampler(py::module_& module);
+void bind_points(py::module_& module);
 void bind_check(py::module_& module);
 void bind_simplex(py::module_& module);
-void bind_verify(py::module_& module);
 void bind_audit(py::module_& module);
 
 // Errors: what is thrown as Exception becomes barycert.Error.

@@ -64,11 +64,9 @@ PYBIND11_MODULE(_core, module) {
     module.attr("version") = BARYCERT_VERSION;
     bind_errors(module);
     bind_mesh(module);
-    bind_locate(module);
-    bind_sampler(module);
+    bind_points(module);
     bind_check(module);
     bind_simplex(module);
-    bind_verify(module);
     module.attr("has_audit") = false;
 #ifdef BARYCERT_WITH_AUDIT
     bind_audit(module);

@@ -16,7 +16,6 @@
 #include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -25,7 +24,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "barycert/environment.hpp"
-#include "barycert/pieces/array_kinds.hpp"
 #include "barycert/pieces/distribution.hpp"
 #include "barycert/sampler.hpp"
 #include "vtk/exact_index.hpp"
@@ -36,18 +34,6 @@ namespace barycert::in_vtk {
 namespace {
 
 using pieces::ArrayKind;
-
-constexpr int tag = 0x62617279;
-
-template <class Bytes>
-auto chars(Bytes bytes) {
-    using Char = std::conditional_t<std::is_const_v<typename Bytes::element_type>, const char, char>;
-    return reinterpret_cast<Char*>(bytes.data());
-}
-
-vtkIdType count_of(std::span<const std::byte> bytes) {
-    return static_cast<vtkIdType>(bytes.size());
-}
 
 // Of a tuple, where it stands in one piece; 0 elsewhere.
 std::size_t width(vtkAbstractArray& array) {
@@ -104,58 +90,58 @@ vtkSmartPointer<vtkAbstractArray> make(const ArrayKind& kind, vtkIdType tuples, 
     return array;
 }
 
-// Of arrays whose values stand one after the other, of bits, and of texts.
+// Of arrays whose values stand one after the other, of bits, and of texts. Of a text its size goes first; a bit is a
+// byte.
 struct ArrayTuples : pieces::Tuples {
-    void put(std::size_t tuple, std::vector<char>& bytes) const override;
-    const char* take(std::size_t tuple, const char* bytes, bool set) override;
-
-    std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
-};
-
-// Of a text its size goes first; a bit is a byte.
-void ArrayTuples::put(std::size_t tuple, std::vector<char>& bytes) const {
-    const auto append = [&](const char* from, std::size_t count) { bytes.insert(bytes.end(), from, from + count); };
-    for (vtkAbstractArray* const array : arrays) {
-        const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
-        if (const std::size_t size = width(*array); size > 0) {
-            append(static_cast<const char*>(array->GetVoidPointer(0)) + size * tuple, size);
-            continue;
-        }
-        for (std::size_t at = components * tuple; at < components * (tuple + 1); ++at) {
+    void put(std::size_t tuple, std::vector<char>& bytes) const override {
+        const auto append = [&](const char* from, std::size_t count) { bytes.insert(bytes.end(), from, from + count); };
+        for_each(tuple, append, [&](vtkAbstractArray* array, vtkIdType at) {
             if (auto* const texts = vtkStringArray::SafeDownCast(array)) {
-                const std::string text = texts->GetValue(static_cast<vtkIdType>(at));
+                const std::string text = texts->GetValue(at);
                 const std::uint64_t size = text.size();
                 append(reinterpret_cast<const char*>(&size), sizeof size);
                 append(text.data(), text.size());
             } else {
-                bytes.push_back(vtkBitArray::SafeDownCast(array)->GetValue(static_cast<vtkIdType>(at)) != 0 ? 1 : 0);
+                bytes.push_back(vtkBitArray::SafeDownCast(array)->GetValue(at) != 0 ? 1 : 0);
             }
-        }
+        });
     }
-}
 
-const char* ArrayTuples::take(std::size_t tuple, const char* bytes, bool set) {
-    for (vtkAbstractArray* const array : arrays) {
-        const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
-        if (const std::size_t size = width(*array); size > 0) {
-            if (set) std::memcpy(static_cast<char*>(array->GetVoidPointer(0)) + size * tuple, bytes, size);
+    const char* take(std::size_t tuple, const char* bytes, bool set) override {
+        const auto copy = [&](char* to, std::size_t size) {
+            if (set) std::memcpy(to, bytes, size);
             bytes += size;
-            continue;
-        }
-        for (std::size_t at = components * tuple; at < components * (tuple + 1); ++at) {
+        };
+        for_each(tuple, copy, [&](vtkAbstractArray* array, vtkIdType at) {
             std::uint64_t size = 1;
             if (auto* const texts = vtkStringArray::SafeDownCast(array)) {
                 std::memcpy(&size, bytes, sizeof size);
                 bytes += sizeof size;
-                if (set) texts->SetValue(static_cast<vtkIdType>(at), vtkStdString(std::string(bytes, size)));
+                if (set) texts->SetValue(at, vtkStdString(std::string(bytes, size)));
             } else if (set) {
-                vtkBitArray::SafeDownCast(array)->SetValue(static_cast<vtkIdType>(at), *bytes);
+                vtkBitArray::SafeDownCast(array)->SetValue(at, *bytes);
             }
             bytes += size;
+        });
+        return bytes;
+    }
+
+    std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
+
+private:
+    // whole(memory, bytes) where the tuple stands in one piece, else item(array, index of a value).
+    template <class Whole, class Item>
+    void for_each(std::size_t tuple, const Whole& whole, const Item& item) const {
+        for (vtkAbstractArray* const array : arrays) {
+            const auto components = static_cast<vtkIdType>(array->GetNumberOfComponents());
+            if (const std::size_t size = width(*array); size > 0) {
+                whole(static_cast<char*>(array->GetVoidPointer(0)) + size * tuple, size);
+                continue;
+            }
+            for (vtkIdType c = 0; c < components; ++c) item(array, components * static_cast<vtkIdType>(tuple) + c);
         }
     }
-    return bytes;
-}
+};
 
 class Probe {
 public:
@@ -295,14 +281,6 @@ private:
 
 }  // namespace
 
-int Processes::rank() const {
-    return controller_ != nullptr ? controller_->GetLocalProcessId() : 0;
-}
-
-int Processes::size() const {
-    return controller_ != nullptr ? controller_->GetNumberOfProcesses() : 1;
-}
-
 void Processes::least(std::span<double> values) {
     // A place of its own, for memory may be lacking.
     std::array<double, 16> mine{};
@@ -311,22 +289,6 @@ void Processes::least(std::span<double> values) {
         std::copy_n(values.begin(), some, mine.begin());
         controller_->AllReduce(mine.data(), values.data(), static_cast<vtkIdType>(some), vtkCommunicator::MIN_OP);
     }
-}
-
-void Processes::gather(std::span<const std::byte> mine, std::span<std::byte> all) {
-    controller_->AllGather(chars(mine), chars(all), count_of(mine));
-}
-
-void Processes::broadcast(std::span<std::byte> bytes, int from) {
-    controller_->Broadcast(chars(bytes), count_of(bytes), from);
-}
-
-bool Processes::send(std::span<const std::byte> bytes, int to) {
-    return controller_->Send(chars(bytes), count_of(bytes), to, tag) != 0;
-}
-
-bool Processes::receive(std::span<std::byte> bytes, int from) {
-    return controller_->Receive(chars(bytes), count_of(bytes), from, tag) != 0;
 }
 
 Status probe_pieces(pieces::Exchange& exchange, const ProbeSettings& settings, const Status& ready, vtkDataSet* input,

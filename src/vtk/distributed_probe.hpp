@@ -6,12 +6,12 @@
 #include <vector>
 
 #include <vtkCharArray.h>
+#include <vtkMultiProcessController.h>
 #include <vtkSmartPointer.h>
 
 #include "barycert/pieces/exchange.hpp"
 
 class vtkDataSet;
-class vtkMultiProcessController;
 
 namespace barycert::in_vtk {
 
@@ -19,15 +19,28 @@ namespace barycert::in_vtk {
 class Processes : public pieces::Communicator {
 public:
     explicit Processes(vtkMultiProcessController* controller) : controller_(controller) {}
-    int rank() const override;
-    int size() const override;
+    int rank() const override { return controller_ != nullptr ? controller_->GetLocalProcessId() : 0; }
+    int size() const override { return controller_ != nullptr ? controller_->GetNumberOfProcesses() : 1; }
     void least(std::span<double> values) override;
-    void gather(std::span<const std::byte> mine, std::span<std::byte> all) override;
-    void broadcast(std::span<std::byte> bytes, int from) override;
-    bool send(std::span<const std::byte> bytes, int to) override;
-    bool receive(std::span<std::byte> bytes, int from) override;
+    void gather(std::span<const std::byte> mine, std::span<std::byte> all) override {
+        controller_->AllGather(chars(mine), chars(all), count_of(mine));
+    }
+    void broadcast(std::span<std::byte> bytes, int from) override {
+        controller_->Broadcast(chars(bytes), count_of(bytes), from);
+    }
+    bool send(std::span<const std::byte> bytes, int to) override {
+        return controller_->Send(chars(bytes), count_of(bytes), to, tag) != 0;
+    }
+    bool receive(std::span<std::byte> bytes, int from) override {
+        return controller_->Receive(chars(bytes), count_of(bytes), from, tag) != 0;
+    }
 
 private:
+    static constexpr int tag = 0x62617279;
+    static char* chars(std::span<std::byte> bytes) { return reinterpret_cast<char*>(bytes.data()); }
+    static const char* chars(std::span<const std::byte> bytes) { return reinterpret_cast<const char*>(bytes.data()); }
+    static vtkIdType count_of(std::span<const std::byte> bytes) { return static_cast<vtkIdType>(bytes.size()); }
+
     vtkMultiProcessController* controller_;
 };
 

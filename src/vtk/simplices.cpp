@@ -134,7 +134,7 @@ std::string read_simplices(vtkDataSet& data, ExactIndex& index, const pieces::Sh
 }
 
 pieces::Box box_of_triangles(vtkDataSet& data) {
-    pieces::Box all = pieces::no_box;
+    pieces::Box all = pieces::empty_box;
     const Cells cells(data);
     vtkPoints* const points = cells.points();
     if (points == nullptr) return all;

@@ -7,5 +7,5 @@ list(APPEND barycert_vtk_sources ${barycert_vtk_parts})
 list(TRANSFORM barycert_vtk_headers PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 list(TRANSFORM barycert_vtk_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
 # The class that needs VTK::ParallelCore besides.
-set(barycert_vtk_parallel_sources vtkPBarycertProbe.cpp distributed_probe.cpp failing_upstream.cpp)
+set(barycert_vtk_parallel_sources vtkPBarycertProbe.cpp distributed_probe.cpp)
 list(TRANSFORM barycert_vtk_parallel_sources PREPEND ${CMAKE_CURRENT_LIST_DIR}/)

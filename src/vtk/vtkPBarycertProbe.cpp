@@ -1,7 +1,15 @@
 #include "vtkPBarycertProbe.h"
 
+#include <algorithm>
+#include <exception>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <vtkAlgorithm.h>
+#include <vtkAlgorithmOutput.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCharArray.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataSet.h>
@@ -12,13 +20,147 @@
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "vtk/distributed_probe.hpp"
-#include "vtk/failing_upstream.hpp"
 
 using namespace barycert;
+
+namespace {
+
+// Whether an algorithm or one before it reports an error. Many readers do nothing else when a file is bad: they return
+// success, and an empty data set. Watches from its construction to its end. Errors are shown as if it did not.
+class ErrorWatch {
+public:
+    explicit ErrorWatch(vtkAlgorithm& last) {
+        command_->SetCallback(see);
+        command_->SetClientData(this);
+        add(last);
+    }
+    ~ErrorWatch() {
+        for (const Watched& one : watched_) one.algorithm->RemoveObserver(one.observer);
+    }
+    ErrorWatch(const ErrorWatch&) = delete;
+    ErrorWatch& operator=(const ErrorWatch&) = delete;
+
+    // Who reported the first error, or has an error code; empty if none does.
+    std::string error() const {
+        if (!first_.empty()) return first_;
+        for (const Watched& one : watched_) {
+            const unsigned long code = one.algorithm->GetErrorCode();
+            if (code != vtkErrorCode::NoError)
+                return one.algorithm->GetClassName() + std::string(": ") + vtkErrorCode::GetStringFromErrorCode(code);
+        }
+        return {};
+    }
+
+private:
+    struct Watched {
+        vtkSmartPointer<vtkAlgorithm> algorithm;
+        unsigned long observer;
+        bool shown;  // by another observer
+    };
+
+    // Those before it, too, each once.
+    void add(vtkAlgorithm& algorithm) {
+        const auto same = [&](const Watched& one) { return one.algorithm == &algorithm; };
+        if (std::any_of(watched_.begin(), watched_.end(), same)) return;
+        const bool shown = algorithm.HasObserver(vtkCommand::ErrorEvent) != 0;
+        watched_.push_back({&algorithm, algorithm.AddObserver(vtkCommand::ErrorEvent, command_), shown});
+        for (int port = 0; port < algorithm.GetNumberOfInputPorts(); ++port) {
+            for (int i = 0; i < algorithm.GetNumberOfInputConnections(port); ++i)
+                if (vtkAlgorithm* const before = algorithm.GetInputAlgorithm(port, i)) add(*before);
+        }
+    }
+
+    // An object that is observed does not show its errors itself.
+    static void see(vtkObject* who, unsigned long, void* self, void* text) {
+        auto& watch = *static_cast<ErrorWatch*>(self);
+        if (watch.first_.empty()) watch.first_ = who->GetClassName();
+        for (const Watched& one : watch.watched_)
+            if (one.algorithm == who && !one.shown && text != nullptr)
+                vtkOutputWindowDisplayErrorText(static_cast<const char*>(text));
+    }
+
+    vtkNew<vtkCallbackCommand> command_;
+    std::vector<Watched> watched_;
+    std::string first_;
+};
+
+// A pipeline that executes its algorithm although what comes before it has failed, so that the algorithm can tell
+// others.
+// Takes data sets alone: a composite one would make the algorithm run as often as it has parts, on each process
+// another number of times.
+class FailingUpstream : public vtkStreamingDemandDrivenPipeline {
+public:
+    static FailingUpstream* New();
+    vtkTypeMacro(FailingUpstream, vtkStreamingDemandDrivenPipeline)
+
+    // What failed before an input, and has not been modified since then: its output is not to be used, although VTK
+    // takes it for the result from then on. Empty if nothing failed. Readers tell their failures by GetErrorCode()
+    // alone.
+    std::string failure() const { return failures_.empty() ? std::string() : failures_.begin()->second.what; }
+
+protected:
+    int ForwardUpstream(vtkInformation* request) override;
+    // An execution that failed is repeated, on all processes.
+    int NeedToExecuteData(int port, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+    struct Failure {
+        vtkExecutive* of;
+        vtkMTimeType time;
+        std::string what;
+    };
+    void forward(int port, int connection, vtkInformation* request);
+
+    std::map<std::pair<int, int>, Failure> failures_;  //< by port and connection
+};
+
+vtkStandardNewMacro(FailingUpstream);
+
+void FailingUpstream::forward(int port, int connection, vtkInformation* request) {
+    const std::pair place(port, connection);
+    auto* const before = vtkDemandDrivenPipeline::SafeDownCast(GetInputExecutive(port, connection));
+    if (before == nullptr) {
+        failures_.erase(place);
+        return;
+    }
+    const int own = request->Get(FROM_OUTPUT_PORT());
+    request->Set(FROM_OUTPUT_PORT(), GetAlgorithm()->GetInputConnection(port, connection)->GetIndex());
+    std::string what;
+    const ErrorWatch watch(*before->GetAlgorithm());
+    try {
+        if (before->ProcessRequest(request, before->GetInputInformation(), before->GetOutputInformation()) == 0)
+            what = before->GetAlgorithm()->GetClassName();
+    } catch (const std::exception& e) {
+        what = before->GetAlgorithm()->GetClassName() + std::string(": ") + e.what();
+    }
+    if (std::string error = watch.error(); !error.empty()) what = std::move(error);
+    request->Set(FROM_OUTPUT_PORT(), own);
+    const vtkMTimeType time = before->GetPipelineMTime();
+    const auto earlier = failures_.find(place);
+    if (!what.empty())
+        failures_[place] = {before, time, std::move(what)};
+    else if (earlier != failures_.end() && (earlier->second.of != before || earlier->second.time != time))
+        failures_.erase(earlier);
+}
+
+int FailingUpstream::ForwardUpstream(vtkInformation* request) {
+    for (int port = 0; port < GetNumberOfInputPorts(); ++port)
+        for (int i = 0; i < GetAlgorithm()->GetNumberOfInputConnections(port); ++i) forward(port, i, request);
+    return 1;
+}
+
+int FailingUpstream::NeedToExecuteData(int port, vtkInformationVector** inputs, vtkInformationVector* outputs) {
+    if (GetAlgorithm()->GetErrorCode() != vtkErrorCode::NoError) return 1;
+    return Superclass::NeedToExecuteData(port, inputs, outputs);
+}
+
+}  // namespace
 
 vtkStandardNewMacro(vtkPBarycertProbe);
 vtkCxxSetObjectMacro(vtkPBarycertProbe, Controller, vtkMultiProcessController);
@@ -42,7 +184,7 @@ void vtkPBarycertProbe::PrintSelf(ostream& os, vtkIndent indent) {
 }
 
 vtkExecutive* vtkPBarycertProbe::CreateDefaultExecutive() {
-    return in_vtk::FailingUpstream::New();
+    return FailingUpstream::New();
 }
 
 // A process may have no piece. Composite data sets are refused here: an executive that knows them, as ParaView's, takes
@@ -89,7 +231,7 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
     GetValidPoints()->Reset();
     SetErrorCode(vtkErrorCode::NoError);
     Status ready = Done{};
-    const auto* const pipeline = dynamic_cast<in_vtk::FailingUpstream*>(GetExecutive());
+    const auto* const pipeline = dynamic_cast<FailingUpstream*>(GetExecutive());
     if (pipeline != nullptr && !pipeline->failure().empty())
         ready = Error{.what = "what comes before this filter failed: " + pipeline->failure()};
     else if (vtkCompositeDataSet::GetData(inputs[0]) != nullptr || vtkCompositeDataSet::GetData(inputs[1]) != nullptr)

@@ -61,7 +61,7 @@ SAMPLE = [
     ("points/near_piece.hpp", "std::max_element(of_corner", "std::min_element(of_corner", "a cell's least weight as the rest"),
 ]
 AUDIT = [
-    ("asking.cpp", "r.claimed == Region::interior || r.claimed == Region::boundary", "r.claimed == Region::interior", "boundary is inside"),
+    ("asking.hpp", "r == Region::interior || r == Region::boundary", "r == Region::interior", "boundary is inside"),
     ("asking.cpp", "std::max({error, e, smallest})", "std::max(error, e)", "an error that underflows is none"),
     ("asking.cpp", "std::isfinite(difference) ? difference / scale : std::fabs(weights[i] / 2 - to / 2) / (scale / 2)", "difference / scale",
      "a difference that overflows"),
@@ -79,7 +79,7 @@ AUDIT = [
     ("block.cpp", "(bound == worst.value && index > worst.index)", "bound == worst.value", "the first of the worst"),
     ("judge.hpp", "other->index < first->index", "true", "the first disagreement"),
     ("block.cpp", "return y < x ? std::nextafter(y, std::numeric_limits<double>::infinity()) : y;", "return y;", "a bound rounded down"),
-    ("signs.cpp", "p.kernel.empty() && p.simplex", "p.simplex", "a kernel's picture taken for the exact one"),
+    ("pictures.cpp", "p.kernel.empty() && p.simplex", "p.simplex", "a kernel's picture taken for the exact one"),
 ]
 
 
@@ -104,6 +104,5 @@ ROOMS = {
                          "SampleOrder.*", "ResampleCells.Slivers", "ResampleMeshes.AnyScale"]),
     # What decides whether a kernel is wrong, and by how much.
     "audit": Room("audit", 60, AUDIT, last=["contained.*", "gaps.*"],
-                  only=["asking.cpp", "block.cpp", "drift.cpp", "judge.cpp",
-                        "signs.cpp", "statistics.cpp", "thresholds.cpp"]),
+                  only=["asking.cpp", "block.cpp", "judge.cpp", "pictures.cpp", "statistics.cpp", "thresholds.cpp"]),
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "barycert/pieces/array_kinds.hpp"
+#include "barycert/pieces/distribution.hpp"
 #include "pieces/threads.hpp"
 
 namespace barycert::testing {

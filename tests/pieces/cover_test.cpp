@@ -1,6 +1,6 @@
 // Few boxes in place of many.
 
-#include "barycert/pieces/cover.hpp"
+#include "barycert/pieces/piece.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 using pieces::Box;
 
 Box random_box(base::Random& random, double unit) {
-    Box box = pieces::no_box;
+    Box box = pieces::empty_box;
     for (int corner = 0; corner < 2; ++corner) {
         std::array<double, 3> x{};
         // On a lattice, so that many sides coincide.
@@ -30,7 +30,7 @@ TEST(Cover, HoldsAllBoxesInAtMostSoMany) {
     for (const std::size_t most : {std::size_t{1}, std::size_t{3}, std::size_t{64}}) {
         // Also as large as doubles are.
         for (const double unit : {1.0, std::numeric_limits<double>::max() / 8}) {
-            Box around = pieces::no_box;
+            Box around = pieces::empty_box;
             std::vector<Box> boxes;
             for (int i = 0; i < 1000; ++i) {
                 boxes.push_back(random_box(random, unit));
@@ -52,13 +52,13 @@ TEST(Cover, HoldsAllBoxesInAtMostSoMany) {
 
 TEST(Cover, OfNothingIsNothing) {
     EXPECT_TRUE(pieces::cover(
-                    pieces::no_box, 0, [](std::size_t) { return pieces::no_box; }, 4)
+                    pieces::empty_box, 0, [](std::size_t) { return pieces::empty_box; }, 4)
                     .empty());
-    EXPECT_TRUE(pieces::empty(pieces::no_box));
+    EXPECT_TRUE(pieces::empty(pieces::empty_box));
     const Box point{{1, 1, 1}, {1, 1, 1}};
     EXPECT_FALSE(pieces::empty(point));
-    EXPECT_FALSE(pieces::no_box.meets(point));
-    EXPECT_FALSE(point.meets(pieces::no_box));
+    EXPECT_FALSE(pieces::empty_box.meets(point));
+    EXPECT_FALSE(point.meets(pieces::empty_box));
 }
 
 }  // namespace

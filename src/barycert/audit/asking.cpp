@@ -48,14 +48,14 @@ Asked ask_in_process(const Kernel& kernel, std::span<const Case> cases, std::spa
 }
 
 Asked ask_host(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {
-    std::array<kernels::Host::Reply, kernels::batch_size> replies;
-    using Host = kernels::Host;
+    using kernels::Host;
+    std::array<Host::Reply, kernels::batch_size> replies;
     const Host::Batch batch = kernel.host->run(cases, std::span(replies).first(cases.size()),
                                                timed ? Host::Asking::timed : Host::Asking::usual);
     const auto n = static_cast<std::size_t>(vertex_count(kernel.simplex));
     const bool interpolates = kernel.host->description().interpolates;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        const kernels::Host::Reply& reply = replies[i];
+        const Host::Reply& reply = replies[i];
         Statement& s = statements[i];
         s = {.ran = reply.ran,
              .answered = reply.answered,
@@ -106,17 +106,10 @@ void count(Comparison& r, Finding f) {
 }
 
 void count_incidents(Comparison& r, std::uint8_t incidents) {
-    using namespace kernels;
-    constexpr std::array<std::pair<Incident, Finding>, 7> all{{{incident_crashed, Finding::crashed},
-                                                               {incident_raised, Finding::raised},
-                                                               {incident_hung, Finding::hung},
-                                                               {incident_beside, Finding::out_of_bounds},
-                                                               {incident_forked, Finding::forked},
-                                                               {incident_environment, Finding::changed_environment},
-                                                               {incident_printed, Finding::printed}}};
-    for (const auto& [incident, finding] : all) {
-        if ((incidents & incident) != 0) count(r, finding);
-    }
+    static_assert(kernels::incident_crashed == 1 && kernels::incident_hung == 1 << static_cast<int>(Finding::hung) &&
+                  kernels::incident_printed == 1 << static_cast<int>(Finding::printed));
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(Finding::printed); ++i)
+        r.counts[i] = static_cast<std::uint8_t>(incidents >> i & 1);
 }
 
 /// It has a function of its own for values.
@@ -125,11 +118,10 @@ bool gives_values(const Kernel& kernel) {
 }
 
 void compare_regions(Comparison& r, Region exact) {
-    const bool inside = r.claimed == Region::interior || r.claimed == Region::boundary;
     if (exact == Region::degenerate) {
         if (r.claimed != Region::degenerate) count(r, Finding::missed_degenerate);
     } else if (exact == Region::outside) {
-        if (inside) count(r, Finding::false_inside);
+        if (is_inside(r.claimed)) count(r, Finding::false_inside);
     } else if (r.claimed == Region::outside) {
         count(r, Finding::false_outside);
     }

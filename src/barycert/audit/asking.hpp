@@ -1,10 +1,12 @@
 /// What a kernel says of cases, whether it runs in this process or in one of its own; that compared with the oracle's
-/// answer.
+/// answer; and the figures of many answers.
 #pragma once
 
 #include <limits>
 
 #include "barycert/audit.hpp"
+#include "barycert/base/workers.hpp"
+#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 
@@ -14,6 +16,11 @@ inline constexpr std::array<double, 4> unset_weights = [] {
     w.fill(std::numeric_limits<double>::quiet_NaN());
     return w;
 }();
+
+/// Interior or boundary.
+constexpr bool is_inside(Region r) {
+    return r == Region::interior || r == Region::boundary;
+}
 
 struct Statement {
     bool ran = true;       ///< false: the kernel has been given up, and was not asked
@@ -58,5 +65,26 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
 /// perspective, with the point in it or on its boundary, and no product of differences far out in the range of double.
 /// NaN elsewhere. `region` is the exact one.
 double predicting_condition(const Case& c, Region region);
+
+/// A figure of a kernel: of many answers.
+struct Figure {
+    std::string name;                                      ///< as in reports and rules
+    std::function<double(const KernelStatistics&)> value;  ///< -1 where there is no error to measure
+};
+
+/// wrong_cases, not_run, each class of finding; errors in ulps, residuals. Less is better of each.
+const std::vector<Figure>& figures();
+inline constexpr std::size_t first_finding = 2, first_error = first_finding + finding_count,
+                             first_residual = first_error + 4;
+
+/// work(i) for each i below `n`, on so many threads, in the exact environment.
+template <class Work>
+void on_threads(int threads, std::size_t n, const Work& work) {
+    base::share_work(threads, n, [&](std::size_t i) {
+        const ExactEnvironment environment;
+        work(i);
+        return true;
+    });
+}
 
 }  // namespace barycert::audit

@@ -1,7 +1,7 @@
 
 #include <set>
 
-#include "barycert/audit/figures.hpp"
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit/json_members.hpp"
 #include "barycert/audit/recipes.hpp"
 #include "barycert/environment.hpp"

@@ -19,17 +19,23 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
     return names;
 }
 
-/// Items of `all(glob)` for each glob, without repetition, in the order of the catalogue.
-template <class Item, class All>
-Result<std::vector<Item>> chosen(const std::vector<std::string>& globs, All all, const std::string& what,
-                                 const char* remedy) {
-    std::vector<Item> items = all("*");
+/// That `word` is none of these names.
+Error unknown(std::string what, std::string expected, const std::string& word, const std::vector<std::string>& names,
+              std::string_view lists = {}) {
+    return {.what = std::move(what),
+            .expected = std::move(expected),
+            .found = '"' + word + '"',
+            .remedy = base::did_you_mean(word, names, lists)};
+}
+
+/// Items that match one of the globs, in the order of the catalogue.
+template <class Item>
+Result<std::vector<Item>> chosen(const std::vector<std::string>& globs, std::vector<Item> items,
+                                 const std::string& what, std::string_view lists) {
     if (globs.empty()) return items;
     for (const std::string& glob : globs) {
-        if (all(glob).empty())
-            return Error{.what = "no " + what + " of that name",
-                         .found = '"' + glob + '"',
-                         .remedy = base::did_you_mean(glob, names_of(items), remedy)};
+        if (std::none_of(items.begin(), items.end(), [&](const Item& i) { return base::glob_match(glob, i.name); }))
+            return unknown("no " + what + " of that name", "", glob, names_of(items), lists);
     }
     std::erase_if(items, [&](const Item& item) {
         return std::none_of(globs.begin(), globs.end(),
@@ -88,8 +94,7 @@ Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice) {
     Result<std::vector<Kernel>> all = std::vector<Kernel>{};
     // With a library named and no glob, only the library's kernels are meant.
     if (!choice.names.empty() || choice.libraries.empty()) {
-        all = chosen<Kernel>(choice.names, kernels_matching, "kernel",
-                             "`barycert kernels` lists them; * and ? are wildcards");
+        all = chosen(choice.names, catalogue(), "kernel", "`barycert kernels` lists them; * and ? are wildcards");
         if (!all) return all;
     }
     for (const std::string& path : choice.libraries) {
@@ -123,17 +128,15 @@ Result<Kernel> choose_kernel(const KernelChoice& choice) {
     }
     const std::string& name = choice.names.front();
     const std::vector<Kernel> kernels = kernels_matching(name);
-    if (kernels.size() != 1)
-        return Error{
-            .what = "which kernel",
-            .expected = "the name of one kernel",
-            .found = kernels.empty() ? '"' + name + '"' : std::to_string(kernels.size()) + " of them",
-            .remedy = base::did_you_mean(name, names_of(kernels_matching("*")), "`barycert kernels` lists the names")};
-    return kernels.front();
+    if (kernels.size() == 1) return kernels.front();
+    Error error = unknown("which kernel", "the name of one kernel", name, names_of(catalogue()),
+                          "`barycert kernels` lists the names");
+    if (!kernels.empty()) error.found = std::to_string(kernels.size()) + " of them";
+    return error;
 }
 
 Result<std::vector<Family>> choose_families(const std::vector<std::string>& names) {
-    return chosen<Family>(names, families_matching, "family", "`barycert families` lists them; * and ? are wildcards");
+    return chosen(names, all_families(), "family", "`barycert families` lists them; * and ? are wildcards");
 }
 
 Result<PreparedAudit> prepare_audit(const AuditJob& job) try {
@@ -159,26 +162,17 @@ Result<PreparedAudit> prepare_audit(const AuditJob& job) try {
 
 Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels) try {
     if (!job.reason.empty() && !finding_named(job.reason))
-        return Error{.what = "job.reason of a case that is generated",
-                     .expected = "a class of finding",
-                     .found = '"' + job.reason + '"',
-                     .remedy = "leave it out to see the answer whatever it is"};
+        return unknown("job.reason of a case that is generated", "a class of finding", job.reason, {},
+                       "leave it out to see the answer whatever it is");
     const std::vector<Family> families = choose_families({job.family}).value();
     if (families.size() != 1 || families.front().name != job.family)
-        return Error{
-            .what = "job.family must name one family",
-            .found = '"' + job.family + '"',
-            .remedy = base::did_you_mean(job.family, names_of(all_families()), "`barycert families` lists them")};
+        return unknown("job.family must name one family", "", job.family, names_of(all_families()),
+                       "`barycert families` lists them");
     const Family& family = families.front();
     std::optional<Simplex> simplex = simplex_named(job.simplex);
-    if (!job.simplex.empty() && !simplex) {
-        std::vector<std::string> names;
-        for (const Simplex s : all_simplices) names.emplace_back(name(s));
-        return Error{.what = "unknown simplex",
-                     .expected = "segment, triangle, triangle3d or tetrahedron",
-                     .found = '"' + job.simplex + '"',
-                     .remedy = base::did_you_mean(job.simplex, names)};
-    }
+    if (!job.simplex.empty() && !simplex)
+        return unknown("unknown simplex", "segment, triangle, triangle3d or tetrahedron", job.simplex,
+                       {"segment", "triangle", "triangle3d", "tetrahedron"});
     Witness w;
     if (!job.kernel.empty()) {
         const auto k = std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) {
@@ -186,10 +180,8 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
                    base::glob_match(job.kernel, x.name);
         });
         if (k == kernels.end())
-            return Error{.what = "no kernel of that name for the cases of that family",
-                         .found = '"' + job.kernel + '"',
-                         .remedy = base::did_you_mean(job.kernel, names_of(kernels_matching("*")),
-                                                      "`barycert kernels` lists them")};
+            return unknown("no kernel of that name for the cases of that family", "", job.kernel, names_of(catalogue()),
+                           "`barycert kernels` lists them");
         simplex = k->simplex;
         w.kernel = k->name;
     }

@@ -7,11 +7,6 @@
 namespace barycert::audit {
 namespace {
 
-void ordinary_inside(Case& c, base::Random& random, std::uint64_t = 0) {
-    ordinary(c, random);
-    c.point = random_point(c, random, vertex_count(c.simplex));
-}
-
 // The three grids of Kettner, Mehlhorn, Pion, Schirra and Yap: p, q and r nearly on a line, p over a grid of
 // neighbouring doubles.
 struct CoordinateGrid {
@@ -35,48 +30,6 @@ void ulp_grid(Case& c, base::Random& random, std::uint64_t index) {
     set_vertex(c, 2, {g.apex[0], g.apex[1], 0});
     const std::uint64_t column = cell % 256, row = cell / 256;
     c.point = {g.p[0] + static_cast<double>(column) * 0x1p-53, g.p[1] + static_cast<double>(row) * 0x1p-53, 0};
-    random_values(c, random);
-}
-
-// The diagonal x = y = z carries an edge and the point: the other weights are exactly zero.
-void diagonal(Case& c, base::Random& random, std::uint64_t) {
-    ordinary(c, random);
-    const int n = vertex_count(c.simplex);
-    const double t = 0.5 + 5e-14 * random.unit();
-    set_vertex(c, 0, {12, 12, 12});
-    set_vertex(c, 1, {24, 24, 24});
-    for (int i = 2; i < n; ++i) set_vertex(c, i, {random.uniform(0, 48), random.uniform(0, 48), random.uniform(0, 48)});
-    c.point = {t, t, space_dimension(c.simplex) == 3 ? t : 0.0};
-}
-
-// In the plane (on the line) of the first n - 1 vertices, not only between them.
-void coplanar(Case& c, base::Random& random, std::uint64_t) {
-    ordinary(c, random);
-    const int n = vertex_count(c.simplex);
-    const double s = random.uniform(-1, 2), t = n == 4 ? random.uniform(-1, 2) : 0;
-    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
-        const double a = c.vertex(0, axis);
-        double x = a + s * (c.vertex(1, axis) - a);
-        if (n == 4) x += t * (c.vertex(2, axis) - a);
-        c.point[static_cast<std::size_t>(axis)] = x;
-    }
-}
-
-// Four points of a plane (three of a line) through the origin whose coordinates span 40 binary orders of magnitude:
-// each product has a different size, so the sums cancel completely. The last vertex is anywhere.
-void anisotropic_plane(Case& c, base::Random& random, std::uint64_t) {
-    const std::array<double, 3> normal{random.uniform(0.5, 1), random.uniform(0.5, 1), random.uniform(0.5, 1)};
-    const auto scale = [&](int sign) { return sign > 0 ? random.scaled(-1, 1, 0, 19) : random.scaled(-1, 1, -19, 0); };
-    const auto point = [&] {
-        const double x = scale(1);
-        if (c.simplex == Simplex::triangle) return std::array<double, 3>{x, -(normal[0] * x) / normal[1], 0};
-        const double y = scale(-1);
-        return std::array<double, 3>{x, y, -(normal[0] * x + normal[1] * y) / normal[2]};
-    };
-    const int n = vertex_count(c.simplex);
-    for (int i = 0; i < n - 1; ++i) set_vertex(c, i, point());
-    set_vertex(c, n - 1, {scale(1), scale(-1), scale(1)});
-    c.point = point();
     random_values(c, random);
 }
 
@@ -107,7 +60,11 @@ void near_facet(Case& c, base::Random& random, std::uint64_t) {
 std::vector<Family> near_families() {
     return {
         {"random", "random simplices and points, for comparison", "all coordinates U[-1,1)", every, ordinary},
-        {"random.inside", "random simplices, points inside", "U[-1,1), point fl(sum w_i v_i)", every, ordinary_inside},
+        {"random.inside", "random simplices, points inside", "U[-1,1), point fl(sum w_i v_i)", every,
+         [](Case& c, base::Random& random, std::uint64_t) {
+             ordinary(c, random);
+             c.point = random_point(c, random, vertex_count(c.simplex));
+         }},
         {"ulp-grid.1", "points on a grid of one ulp around an edge",
          "p = (.5,.5) + 2^-53 (i,j), 256 x 256; edge (12,12)(24,24)", triangle_only, ulp_grid<1>},
         {"ulp-grid.2", "the same around a nearly diagonal edge",
@@ -117,10 +74,49 @@ std::vector<Family> near_families() {
         {"ulp-grid.3", "the same around an edge of rounded decimals",
          "p = (.5,.5) + 2^-53 (i,j); edge (8.8)^2 (12.1)^2", triangle_only, ulp_grid<3>},
         {"diagonal", "points on or near the diagonal through an edge",
-         "edge (12)^n (24)^n, others U[0,48), point (.5 + 5e-14 U)^n", solid, diagonal},
-        {"coplanar", "points computed in the plane of a facet", "a + s(b-a) + t(c-a), s,t U[-1,2)", solid, coplanar},
+         "edge (12)^n (24)^n, others U[0,48), point (.5 + 5e-14 U)^n", solid,
+         // On x = y = z: the other weights are exactly zero.
+         [](Case& c, base::Random& random, std::uint64_t) {
+             ordinary(c, random);
+             const double t = 0.5 + 5e-14 * random.unit();
+             set_vertex(c, 0, {12, 12, 12});
+             set_vertex(c, 1, {24, 24, 24});
+             for (int i = 2; i < vertex_count(c.simplex); ++i)
+                 set_vertex(c, i, {random.uniform(0, 48), random.uniform(0, 48), random.uniform(0, 48)});
+             c.point = {t, t, space_dimension(c.simplex) == 3 ? t : 0.0};
+         }},
+        {"coplanar", "points computed in the plane of a facet", "a + s(b-a) + t(c-a), s,t U[-1,2)", solid,
+         // In the plane (on the line) of the first n - 1 vertices, not only between them.
+         [](Case& c, base::Random& random, std::uint64_t) {
+             ordinary(c, random);
+             const bool plane = vertex_count(c.simplex) == 4;
+             const double s = random.uniform(-1, 2), t = plane ? random.uniform(-1, 2) : 0;
+             for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
+                 const double a = c.vertex(0, axis);
+                 double& x = c.point[static_cast<std::size_t>(axis)] = a + s * (c.vertex(1, axis) - a);
+                 if (plane) x += t * (c.vertex(2, axis) - a);
+             }
+         }},
         {"anisotropic-plane", "facet planes with products of very different magnitude",
-         "x = U 2^[0,20), y = U 2^-[0,20), z = -(n0 x + n1 y)/n2; in 2D y = -n0 x/n1", solid, anisotropic_plane},
+         "x = U 2^[0,20), y = U 2^-[0,20), z = -(n0 x + n1 y)/n2; in 2D y = -n0 x/n1", solid,
+         // Four points of a plane (three of a line) through the origin whose coordinates span 40 binary orders of
+         // magnitude: each product has a different size, so the sums cancel completely. The last vertex is anywhere.
+         [](Case& c, base::Random& random, std::uint64_t) {
+             const std::array<double, 3> n{random.uniform(0.5, 1), random.uniform(0.5, 1), random.uniform(0.5, 1)};
+             const auto large = [&] { return random.scaled(-1, 1, 0, 19); };
+             const auto small = [&] { return random.scaled(-1, 1, -19, 0); };
+             const auto point = [&] {
+                 const double x = large();
+                 if (c.simplex == Simplex::triangle) return std::array<double, 3>{x, -(n[0] * x) / n[1], 0};
+                 const double y = small();
+                 return std::array<double, 3>{x, y, -(n[0] * x + n[1] * y) / n[2]};
+             };
+             const int last = vertex_count(c.simplex) - 1;
+             for (int i = 0; i < last; ++i) set_vertex(c, i, point());
+             set_vertex(c, last, {large(), small(), large()});
+             c.point = point();
+             random_values(c, random);
+         }},
         {"offset.2^17", "cells far from the origin: absolute coordinates cancel", "2^17 + U[0,1)", every, offset<17>},
         {"offset.2^20", "the same, farther out", "2^20 + U[0,1)", every, offset<20>},
         {"on-facet", "points computed on a facet, in the unit cube", "U[0,1), fl(sum w_i v_i) over n-1 vertices", sided,

@@ -43,64 +43,46 @@ void set_edge_pixel(Case& c, base::Random& random, const double (&origin)[2], in
     }
 }
 
-void pixels(Case& c, base::Random& random, std::uint64_t) {
-    const int size = 1 << random.integer(2, 12);
-    const bool on_edge = random.coin();
-    set_pixel_case(c, random, size, on_edge);
-    random_values(c, random);
+int box_size(base::Random& random) {
+    return 1 << random.integer(2, 12);
 }
 
 // With a depth w at each vertex: what is left of a triangle in space after its projection.
 
 constexpr double window = 1024;
 
-void set_window_triangle(Case& c, base::Random& random) {
-    for (int i = 0; i < 3; ++i) {
-        for (int axis = 0; axis < 2; ++axis) c.vertex(i, axis) = random.uniform(0, window);
-    }
-}
-
 void set_depths(Case& c, base::Random& random) {
     for (int i = 0; i < 3; ++i) c.depth(i) = random.uniform(1, 10);
 }
 
-void perspective_ordinary(Case& c, base::Random& random, std::uint64_t) {
-    set_window_triangle(c, random);
-    set_depths(c, random);
-    c.point = random_point(c, random, 3);
-    random_values(c, random);
-}
-
-void depth_ratio(Case& c, base::Random& random, std::uint64_t) {
-    set_window_triangle(c, random);
+void set_ratios(Case& c, base::Random& random) {
     for (int i = 0; i < 3; ++i) c.depth(i) = random.scaled(1, 2, 0, 19);
+}
+
+void set_inner_point(Case& c, base::Random& random) {
     c.point = random_point(c, random, 3);
-    random_values(c, random);
 }
 
-void pixel_edges(Case& c, base::Random& random, std::uint64_t) {
-    const int size = 1 << random.integer(2, 12);
-    set_pixel_case(c, random, size, true);
-    set_depths(c, random);
-    random_values(c, random);
-}
-
-// The last vertex beside the middle part of the opposite side, at 2^-10 to 2^-40 of the window.
-void edge_on(Case& c, base::Random& random, std::uint64_t) {
-    set_window_triangle(c, random);
-    set_depths(c, random);
+/// The last vertex beside the middle part of the opposite side, at 2^-10 to 2^-40 of the window.
+void set_flat(Case& c, base::Random& random) {
     const auto foot = random_point(c, random, 2);
     const double height = random.scaled(window / 2, window, -40, -10);
     set_vertex(c, 2, lifted(c, random, foot, height));
-    c.point = random_point(c, random, 3);
-    random_values(c, random);
+    set_inner_point(c, random);
 }
 
-// Anywhere in a larger window: 1/Z is small or negative at some.
-void outside(Case& c, base::Random& random, std::uint64_t) {
-    set_window_triangle(c, random);
-    set_depths(c, random);
+/// Anywhere in a larger window: 1/Z is small or negative at some.
+void set_far_point(Case& c, base::Random& random) {
     for (std::size_t k = 0; k < 2; ++k) c.point[k] = random.uniform(-window, 2 * window);
+}
+
+/// A triangle of the window, step after step.
+template <void (*... steps)(Case&, base::Random&)>
+void in_window(Case& c, base::Random& random, std::uint64_t) {
+    for (int i = 0; i < 3; ++i) {
+        for (int axis = 0; axis < 2; ++axis) c.vertex(i, axis) = random.uniform(0, window);
+    }
+    (steps(c, random), ...);
     random_values(c, random);
 }
 
@@ -121,27 +103,32 @@ void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int w
     for (int axis = 0; axis < 2; ++axis) std::swap(c.vertex(last, axis), c.vertex(2, axis));
 }
 
-std::vector<Family> raster_families() {
+std::vector<Family> window_families() {
     return {
         {"triangle.pixels", "pixel centres in and on the edges of triangles of 4 to 4096 pixels: steps add up",
          "vertices k/256 in a box of 2^[2,12] pixels, point (i + 1/2, j + 1/2), half of them on an edge", triangle_only,
-         pixels},
-    };
-}
-
-std::vector<Family> perspective_families() {
-    return {
+         [](Case& c, base::Random& random, std::uint64_t) {
+             const int size = box_size(random);
+             set_pixel_case(c, random, size, random.coin());
+             random_values(c, random);
+         }},
         {"perspective.ordinary", "triangles of a window with depths of like size, points inside",
-         "x, y U[0,1024), w U[1,10), point fl(sum w_i v_i)", triangle_only, perspective_ordinary},
+         "x, y U[0,1024), w U[1,10), point fl(sum w_i v_i)", triangle_only, in_window<set_depths, set_inner_point>},
         {"perspective.depth-ratio", "depths up to 10^6 apart: a weight may be all but 0 or 1",
-         "x, y U[0,1024), w U[1,2) 2^[0,19], point fl(sum w_i v_i)", triangle_only, depth_ratio},
+         "x, y U[0,1024), w U[1,2) 2^[0,19], point fl(sum w_i v_i)", triangle_only,
+         in_window<set_ratios, set_inner_point>},
         {"perspective.pixel-edges", "pixel centres on edges: a weight is exactly zero, whatever the depths",
-         "triangle.pixels on an edge, w U[1,10)", triangle_only, pixel_edges},
+         "triangle.pixels on an edge, w U[1,10)", triangle_only,
+         [](Case& c, base::Random& random, std::uint64_t) {
+             set_pixel_case(c, random, box_size(random), true);
+             set_depths(c, random);
+             random_values(c, random);
+         }},
         {"perspective.edge-on", "triangles seen nearly edge-on: flat in the window, not in space",
          "x, y U[0,1024), the last vertex at 2^-[10,40] of the window from the opposite side, w U[1,10)", triangle_only,
-         edge_on},
+         in_window<set_depths, set_flat>},
         {"perspective.outside", "points outside: towards the horizon 1/Z goes through zero",
-         "x, y U[0,1024), w U[1,10), point U[-1024,2048)", triangle_only, outside},
+         "x, y U[0,1024), w U[1,10), point U[-1024,2048)", triangle_only, in_window<set_depths, set_far_point>},
     };
 }
 

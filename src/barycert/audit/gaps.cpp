@@ -5,10 +5,11 @@
 #include <cmath>
 #include <optional>
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/gap_points.hpp"
 #include "barycert/audit/judge.hpp"
-#include "barycert/audit/threads.hpp"
 #include "barycert/kernels/channel.hpp"
 
 namespace barycert {
@@ -65,12 +66,11 @@ public:
         for (const Mesh::Index cell : p.cells) {
             cases.push_back(points_.case_of(cell, p.point));
             answers.push_back(judge_.decide(cases.back(), index, found.oracles, found.disagreement));
-            holds.push_back(answers.back().region == Region::interior || answers.back().region == Region::boundary);
+            holds.push_back(is_inside(answers.back().region));
         }
         ClaimWitness witness{claim_features[feature], index, p.nodes, p.point, numbers(p.cells, holds), {}};
         std::vector<Statement> said(cases.size());
         const Kernel* asked = nullptr;
-        const auto n = mesh_.corners();
         for (std::size_t k = 0; k < claimants_.size(); ++k) {
             const Claimant& who = claimants_[k];
             if (who.kernel != nullptr && who.kernel != asked) {
@@ -78,22 +78,20 @@ public:
                 asked = who.kernel;
             }
             std::vector<bool> claimed;
-            std::uint64_t& unanswered = found.results[k].unanswered;
             for (std::size_t i = 0; i < cases.size(); ++i) {
-                if (who.kernel == nullptr) {
-                    // Of exact arithmetic signs are exact where rounded weights may be zero.
-                    claimed.push_back(who.rule == ClaimRule::strict  ? answers[i].region == Region::interior
-                                      : who.rule == ClaimRule::exact ? holds[i]
-                                                                     : claims(who.rule, options_.tolerance,
-                                                                              std::span(answers[i].weights).first(n)));
-                    continue;
-                }
+                const Region exact = answers[i].region;
                 const Statement& s = said[i];
-                if (!s.answered) ++unanswered;
-                claimed.push_back(s.answered && s.status == 0 &&
-                                  (who.rule == ClaimRule::own
-                                       ? s.claimed == Region::interior || s.claimed == Region::boundary
-                                       : claims(who.rule, options_.tolerance, std::span(s.weights).first(n))));
+                if (who.kernel != nullptr && !s.answered) ++found.results[k].unanswered;
+                const auto by_weights = [&](const std::array<double, 4>& weights) {
+                    return claims(who.rule, options_.tolerance, std::span(weights).first(mesh_.corners()));
+                };
+                // Of exact arithmetic signs are exact where rounded weights may be zero.
+                claimed.push_back(who.kernel != nullptr
+                                      ? s.answered && s.status == 0 &&
+                                            (who.rule == ClaimRule::own ? is_inside(s.claimed) : by_weights(s.weights))
+                                  : who.rule == ClaimRule::strict ? exact == Region::interior
+                                  : who.rule == ClaimRule::exact  ? is_inside(exact)
+                                                                  : by_weights(answers[i].weights));
             }
             witness.claimants = numbers(p.cells, claimed);
             judge(found.results[k], feature, holds, claimed, witness);
@@ -217,8 +215,7 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
     report.seed = options.seed;
     report.count = options.count;
     report.tolerance = options.tolerance;
-    Threads threads(options.threads);
-    report.threads = threads.count;
+    report.threads = base::threads_for(options.threads);
     for (const Claimant& c : *claimants)
         report.results.push_back({c.kernel == nullptr ? "" : c.kernel->name, c.rule, {}, 0, {}});
 
@@ -227,7 +224,7 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
     tbb::enumerable_thread_specific<Found> found([&] { return Found{report.results, {}, {}}; });
     const std::size_t first = mesh.dimension == 2 ? 1 : 0;  // in the plane no cells share a face
     for (std::size_t feature = first; feature < 3; ++feature)
-        threads.each(options.count, 64, [&](std::uint64_t i) { finder.run(feature, i, found.local()); });
+        on_threads(report.threads, options.count, [&](std::size_t i) { finder.run(feature, i, found.local()); });
     std::optional<Disagreement> disagreement;
     for (const Found& local : found) {
         report.oracles.add(local.oracles);

@@ -1,9 +1,9 @@
+#include <atomic>
 #include <iterator>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/recipes.hpp"
 #include "barycert/audit_pictures.hpp"
-#include "barycert/base/workers.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locator.hpp"
 
@@ -98,21 +98,14 @@ bool is_variant(const std::string& name) {
     return std::count(name.begin(), name.end(), '.') > 1;
 }
 
-/// One piece of the cells: as many as a kernel is asked for at once.
-struct Piece {
-    std::uint64_t cases = 0, wrong = 0;
-};
-
 void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::Index>& cells,
                  const std::vector<Kernel>& kernels, std::uint64_t seed, int threads) {
     const std::size_t cases_a_cell = 1 + 2 * m.mesh.corners(), cells_a_piece = 256 / cases_a_cell;
     const std::size_t count = (cells.size() + cells_a_piece - 1) / cells_a_piece;
-    std::vector<Piece> pieces(count * kernels.size());
     for (const Kernel& k : kernels)
         map.kernels.push_back(
             {.kernel = k.name, .errors = std::vector<double>(cells.size(), -1), .cases = 0, .wrong = 0});
-    base::share_work(threads, count, [&](std::size_t piece) {
-        const ExactEnvironment environment;
+    on_threads(threads, count, [&](std::size_t piece) {
         const std::size_t first = piece * cells_a_piece, last = std::min(first + cells_a_piece, cells.size());
         std::vector<Case> cases;
         for (std::size_t i = first; i < last; ++i) add_cases(m, cells[i], seed, cases);
@@ -121,22 +114,19 @@ void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::In
         std::vector<Statement> said(cases.size());
         for (std::size_t k = 0; k < kernels.size(); ++k) {
             ask_kernel(kernels[k], cases, said, false);
-            Piece& sums = pieces[piece * kernels.size() + k];
+            std::uint64_t asked = 0, wrong = 0;
             for (std::size_t i = 0; i < cases.size(); ++i) {
                 if (!said[i].ran) continue;
                 const Comparison r = compare(kernels[k], cases[i], answers[i], said[i]);
                 double& error = map.kernels[k].errors[first + i / cases_a_cell];
                 error = std::max(error, r.relative_error);
-                ++sums.cases;
-                sums.wrong += r.wrong() ? 1 : 0;
+                ++asked;
+                wrong += r.wrong() ? 1 : 0;
             }
+            std::atomic_ref(map.kernels[k].cases) += asked;
+            std::atomic_ref(map.kernels[k].wrong) += wrong;
         }
-        return true;
     });
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        map.kernels[i % kernels.size()].cases += pieces[i].cases;
-        map.kernels[i % kernels.size()].wrong += pieces[i].wrong;
-    }
 }
 
 void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& kernels, std::uint64_t seed,

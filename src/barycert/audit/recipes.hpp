@@ -126,8 +126,7 @@ inline std::array<double, 3> facet_normal(const Case& c, base::Random& random) {
 std::vector<Family> mesh_families();
 std::vector<Family> near_families();
 std::vector<Family> shape_families();
-std::vector<Family> raster_families();
-std::vector<Family> perspective_families();
+std::vector<Family> window_families();
 
 /// Every coordinate of every vertex, and of the point, from `make(axis)`.
 template <class Make>

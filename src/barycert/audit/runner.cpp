@@ -3,10 +3,11 @@
 #include <chrono>
 #include <mutex>
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/block.hpp"
 #include "barycert/audit/recipes.hpp"
-#include "barycert/audit/threads.hpp"
 
 namespace barycert {
 
@@ -96,8 +97,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     }
     report.seed = options.seed;
     report.count = options.count;
-    Threads threads(options.threads);
-    report.threads = threads.count;
+    report.threads = base::threads_for(options.threads);
     report.oracle = options.oracle;
     report.families = options.families;
     for (const auto& m : meshes.meshes()) {
@@ -125,11 +125,9 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
                       meshes, kernels,      Judge(options.oracle, core_may_decide, options.cgal)};
         tbb::enumerable_thread_specific<JobResult> results([&] { return JobResult(kernels.size()); });
         const std::uint64_t blocks = (options.count + block_size - 1) / block_size;
-        threads.each(blocks, 1, [&](std::uint64_t b) {
+        on_threads(report.threads, blocks, [&](std::size_t b) {
             const std::uint64_t first = b * block_size, last = std::min(first + block_size, options.count);
-            // A kernel that waits for tasks of its own must not begin another block meanwhile: a thread has room for
-            // one.
-            tbb::this_task_arena::isolate([&] { run_block(job, first, last, results.local()); });
+            run_block(job, first, last, results.local());
             const std::uint64_t now = done += last - first;
             const std::unique_lock turn(telling, std::try_to_lock);
             if (options.progress && turn) {

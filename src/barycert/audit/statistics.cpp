@@ -148,9 +148,9 @@ bool in_range(const Case& c) {
 }  // namespace
 
 double audit::predicting_condition(const Case& c, Region region) {
-    const bool inside = region == Region::interior || region == Region::boundary;
     const bool fills_space = c.simplex == Simplex::triangle || c.simplex == Simplex::tetrahedron;
-    if (!inside || !fills_space || c.perspective || !in_range(c)) return std::numeric_limits<double>::quiet_NaN();
+    if (!is_inside(region) || !fills_space || c.perspective || !in_range(c))
+        return std::numeric_limits<double>::quiet_NaN();
     return condition_number(c.simplex, c.vertices.data());
 }
 

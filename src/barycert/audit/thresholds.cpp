@@ -2,7 +2,7 @@
 #include <limits>
 #include <utility>
 
-#include "barycert/audit/figures.hpp"
+#include "barycert/audit/asking.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"

@@ -17,13 +17,6 @@ namespace {
 using Json = nlohmann::json;
 using Ordered = nlohmann::ordered_json;
 
-template <class Write>
-Ordered vector_of(int n, Write write) {
-    Ordered out = Ordered::array();
-    for (int i = 0; i < n; ++i) out.push_back(write(i));
-    return out;
-}
-
 /// A number in the wording of the file, with its place for the error message.
 double number(const Json& at, const std::string& where) {
     const std::optional<double> x = at.is_string()   ? base::parse_double(at.get<std::string>())
@@ -52,23 +45,10 @@ std::uint64_t count_or(const Json& object, const char* key, std::uint64_t otherw
                                                                        : otherwise;
 }
 
-/// A new member: without it, as in older files, there is none.
-bool is_perspective(const Json& j, Simplex simplex, const std::string& where) {
-    if (!j.contains("perspective")) return false;
-    const Json& member = j.at("perspective");
-    if (!member.is_boolean() || (member.get<bool>() && simplex != Simplex::triangle))
-        throw Exception({.what = where + ", perspective",
-                         .expected = "false, or true for a triangle",
-                         .found = found_json(member)});
-    return member.get<bool>();
-}
-
-template <class Witnesses>
-std::string text_of_witnesses(Witnesses each) {
+std::string text_of_witnesses(const std::vector<const Witness*>& witnesses) {
     const ExactEnvironment environment;
-    Ordered list = Ordered::array();
-    each([&](const Witness& w) { list.push_back(witness_json(w)); });
-    Ordered out;
+    Ordered list = Ordered::array(), out;
+    for (const Witness* const w : witnesses) list.push_back(witness_json(*w));
     out["schema"] = witness_schema;
     out["witnesses"] = std::move(list);
     return base::json_text(out, 1);
@@ -83,7 +63,13 @@ Witness witness_from(const Json& j, const std::string& where) {
                          .expected = "segment, triangle, triangle3d or tetrahedron as simplex",
                          .found = found_json(simplex)});
     w.c.simplex = *known;
-    w.c.perspective = is_perspective(j, *known, where);
+    // A new member: without it, as in older files, there is none.
+    const Json perspective = j.value("perspective", Json(false));
+    if (!perspective.is_boolean() || (perspective.get<bool>() && *known != Simplex::triangle))
+        throw Exception({.what = where + ", perspective",
+                         .expected = "false, or true for a triangle",
+                         .found = found_json(perspective)});
+    w.c.perspective = perspective.get<bool>();
     for (const auto& [key, text] : {std::pair("kernel", &Witness::kernel),
                                     {"reason", &Witness::reason},
                                     {"family", &Witness::family},
@@ -122,8 +108,17 @@ Witness witness_from(const Json& j, const std::string& where) {
 }  // namespace
 
 Ordered audit::witness_json(const Witness& w) {
-    const int n = vertex_count(w.c.simplex), d = space_dimension(w.c.simplex), stride = w.c.stride();
-    const auto hex = [](double x) { return Ordered(base::hexadecimal(x)); };
+    const auto list = [](const auto& numbers, int n, std::string (*text)(double)) {
+        Ordered out = Ordered::array();
+        for (int i = 0; i < n; ++i) out.push_back(text(numbers[static_cast<std::size_t>(i)]));
+        return out;
+    };
+    const auto put_places = [&](Ordered& to, std::string (*text)(double)) {
+        Ordered& vertices = to["vertices"] = Ordered::array();
+        for (int i = 0; i < vertex_count(w.c.simplex); ++i)
+            vertices.push_back(list(&w.c.vertices[static_cast<std::size_t>(i * w.c.stride())], w.c.stride(), text));
+        to["point"] = list(w.c.point, space_dimension(w.c.simplex), text);
+    };
     Ordered j;
     j["kernel"] = w.kernel;
     j["reason"] = w.reason;
@@ -138,27 +133,24 @@ Ordered audit::witness_json(const Witness& w) {
         j["cell"] = w.cell;
     }
     if (!w.detail.empty()) j["detail"] = w.detail;
-    j["vertices"] =
-        vector_of(n, [&](int i) { return vector_of(stride, [&](int k) { return hex(w.c.vertex(i, k)); }); });
-    j["point"] = vector_of(d, [&](int k) { return hex(w.c.point[static_cast<std::size_t>(k)]); });
-    j["values"] = vector_of(n, [&](int i) { return hex(w.c.values[static_cast<std::size_t>(i)]); });
-    j["decimal"]["vertices"] = vector_of(
-        n, [&](int i) { return vector_of(stride, [&](int k) { return Ordered(base::shortest(w.c.vertex(i, k))); }); });
-    j["decimal"]["point"] =
-        vector_of(d, [&](int k) { return Ordered(base::shortest(w.c.point[static_cast<std::size_t>(k)])); });
+    put_places(j, base::hexadecimal);
+    j["values"] = list(w.c.values, vertex_count(w.c.simplex), base::hexadecimal);
+    put_places(j["decimal"], base::shortest);
     return j;
 }
 
 std::string witnesses_json(const AuditReport& report) {
-    return text_of_witnesses([&](auto add) {
-        for (const KernelResult& k : report.kernels) std::for_each(k.witnesses.begin(), k.witnesses.end(), add);
-    });
+    std::vector<const Witness*> all;
+    for (const KernelResult& k : report.kernels) {
+        for (const Witness& w : k.witnesses) all.push_back(&w);
+    }
+    return text_of_witnesses(all);
 }
 
 std::string witnesses_json(const SearchReport& report) {
-    return text_of_witnesses([&](auto add) {
-        for (const SearchFind& f : report.finds) add(f.plain);
-    });
+    std::vector<const Witness*> all;
+    for (const SearchFind& f : report.finds) all.push_back(&f.plain);
+    return text_of_witnesses(all);
 }
 
 Result<std::vector<Witness>> read_witnesses(const std::string& path) {

@@ -1,4 +1,4 @@
-#include "barycert/base/begun_files.hpp"
+#include "barycert/base/output_file.hpp"
 
 #include <signal.h>
 #include <unistd.h>

@@ -7,9 +7,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <utility>
 
+#include "barycert/base/large_pages.hpp"
 #include "barycert/base/nearest_name.hpp"
+#include "barycert/base/workers.hpp"
+
 namespace barycert::base {
 namespace {
 
@@ -60,17 +64,23 @@ Error too_little_memory(std::string path) {
             .remedy = "free some memory, or check whether the file is damaged"};
 }
 
-Result<InputFile> InputFile::open(const std::string& path, const char* remedy, Text text) {
+Result<InputFile> InputFile::open(const std::string& path, const char* remedy, Text text, bool* pipe) {
     struct stat status {};
     Result<Descriptor> opened = open_without_waiting(path, status);
     if (!opened) return opened.error();
     InputFile file;
     file.file_ = std::move(*opened);
-    if (S_ISDIR(status.st_mode)) return unfit(path, "a regular file", "a folder", "name a file inside the folder");
-    if (!S_ISREG(status.st_mode)) return unfit(path, "a regular file", "a pipe or device", remedy);
+    const char* const expected = pipe != nullptr ? "a regular file or a pipe" : "a regular file";
+    const bool is_pipe = pipe != nullptr && S_ISFIFO(status.st_mode);
+    if (S_ISDIR(status.st_mode)) return unfit(path, expected, "a folder", "name a file inside the folder");
+    if (!is_pipe && !S_ISREG(status.st_mode))
+        return unfit(path, expected, pipe != nullptr ? "a device" : "a pipe or device", remedy);
+    // From now on a pipe waits for those who have it open, and has ended if nobody has.
+    if (is_pipe && ::fcntl(file.file_.number, F_SETFL, 0) != 0) return read_failure(path, errno);
     if (Status plain = unpack(file.file_.number, path, text); !plain) return plain.error();
     if (::fstat(file.file_.number, &status) != 0) return read_failure(path, errno);
     file.then_ = {static_cast<std::uint64_t>(status.st_size), status.st_mtim};
+    if (pipe != nullptr) *pipe = is_pipe;
     return file;
 }
 
@@ -161,32 +171,16 @@ Status InputFile::check(Text text, const std::string& path, const Header& header
 }
 
 Result<std::string> read_file(const std::string& path, std::size_t longest, Text text, const Header& header) {
-    struct stat status {};
-    Result<Descriptor> opened = open_without_waiting(path, status);
-    if (!opened) return opened.error();
-    InputFile file;
-    file.file_ = std::move(*opened);
-    const bool pipe = S_ISFIFO(status.st_mode);
-    if (S_ISDIR(status.st_mode))
-        return unfit(path, "a regular file or a pipe", "a folder", "name a file inside the folder");
-    if (!pipe && !S_ISREG(status.st_mode))
-        return unfit(path, "a regular file or a pipe", "a device", "save the data to a regular file first");
-    // From now on a pipe waits for those who have it open, and has ended if nobody has.
-    if (pipe && ::fcntl(file.file_.number, F_SETFL, 0) != 0) return read_failure(path, errno);
-
-    if (Status plain = unpack(file.file_.number, path, text); !plain) return plain.error();
-    if (::fstat(file.file_.number, &status) != 0) return read_failure(path, errno);
-
-    if (!pipe) {
-        file.then_.size = static_cast<std::uint64_t>(status.st_size);
-        if (Status begins = file.check(text, path, header); !begins) return begins.error();
-    }
+    bool pipe = false;
+    const Result<InputFile> file = InputFile::open(path, "save the data to a regular file first", text, &pipe);
+    if (!file) return file.error();
+    if (Status begins = pipe ? Status(Done{}) : file->check(text, path, header); !begins) return begins.error();
     // The size is a hint: files of the system tell 0, and a file may grow.
-    std::string bytes(pipe ? 0 : static_cast<std::size_t>(status.st_size) + 1, '\0');
+    std::string bytes(pipe ? 0 : static_cast<std::size_t>(file->size()) + 1, '\0');
     std::size_t have = 0;
     while (true) {
         if (have == bytes.size()) bytes.resize(have + std::max<std::size_t>(have / 2, std::size_t{1} << 16));
-        const ssize_t got = ::read(file.file_.number, bytes.data() + have, bytes.size() - have);
+        const ssize_t got = ::read(file->descriptor(), bytes.data() + have, bytes.size() - have);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return read_failure(path, errno);
         if (got == 0) break;
@@ -200,6 +194,38 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
                      "start its writer first, or name a regular file");
     bytes.resize(have);
     return bytes;
+}
+
+Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text text, const Header& header) {
+    const Result<InputFile> file = InputFile::open(path, "save the data to a regular file first", text);
+    if (!file) return file.error();
+    if (Status begins = file->check(text, path, header); !begins) return begins.error();
+    // What a thread reads at a time: a few large pages.
+    constexpr std::size_t block_size = 4 * large_page;
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    MappedFile result;
+    const auto size = static_cast<std::size_t>(file->size());
+    const std::size_t whole = (size + page - 1) / page * page + page;
+    result.memory_ = map_memory(whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS);
+    result.size_ = size;
+    char* const bytes = result.memory_.get();
+    if (bytes == nullptr) return read_failure(path, errno);
+    ask_for_large_pages(bytes, whole);
+
+    std::mutex mutex;
+    Status status = Done{};
+    share_work(threads, (size + block_size - 1) / block_size, [&](std::size_t block) {
+        const std::size_t from = block * block_size;
+        const std::span<char> part(bytes + from, std::min(block_size, size - from));
+        const Result<std::size_t> got = file->read_at(from, part, path);
+        if (got && *got == part.size()) return true;
+        const std::lock_guard lock(mutex);
+        if (!got) status = got.error();
+        return false;
+    });
+    if (status) status = file->unchanged(path);
+    if (!status) return status.error();
+    return result;
 }
 
 RunFiles::RunFiles() : outer_(run_of_thread) {

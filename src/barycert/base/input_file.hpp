@@ -60,8 +60,9 @@ class InputFile {
 public:
     /// Errors: missing, unreadable, a folder, a pipe or device (for which `remedy` says what to do), packed and not
     /// beginning as `text` says.
+    /// `pipe`, if given, lets it be a pipe, and is set if it is one.
     static Result<InputFile> open(const std::string& path, const char* remedy = "save the data to a regular file first",
-                                  Text text = Text::none);
+                                  Text text = Text::none, bool* pipe = nullptr);
 
     /// Its first bytes, as many as that or fewer where it ends: of a packed file these alone are unpacked.
     static Result<std::string> head(const std::string& path, std::size_t size);
@@ -83,8 +84,6 @@ public:
     Status unchanged(const std::string& path) const { return base::unchanged(file_.number, then_, path); }
 
 private:
-    friend Result<std::string> read_file(const std::string& path, std::size_t longest, Text text, const Header& header);
-
     Descriptor file_;
     FileState then_;
 };

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -14,7 +13,6 @@
 #include <system_error>
 #include <utility>
 
-#include "barycert/base/begun_files.hpp"
 #include "barycert/base/input_file.hpp"
 
 namespace barycert::base {

@@ -29,15 +29,15 @@ inline constexpr int min_loading_milliseconds = 10000;
 /// Cases in one batch.
 inline constexpr std::size_t batch_size = 256;
 
-/// What a kernel does besides answering, as bits.
+/// What a kernel does besides answering, as bits: bit i is the audit's finding i.
 enum Incident : std::uint8_t {
-    incident_crashed = 1,      ///< its process ended; there is no answer
-    incident_hung = 2,         ///< no answer in time; there is no answer
-    incident_beside = 4,       ///< touched memory beside its arrays, or wrote to its input
-    incident_environment = 8,  ///< came back with another rounding mode or flush-to-zero
-    incident_printed = 16,     ///< wrote to stdout or stderr
-    incident_forked = 32,      ///< left a process behind
-    incident_raised = 64,      ///< a callable raised an exception; there is no answer
+    incident_crashed = 1,       ///< its process ended; there is no answer
+    incident_raised = 2,        ///< a callable raised an exception; there is no answer
+    incident_hung = 4,          ///< no answer in time; there is no answer
+    incident_beside = 8,        ///< touched memory beside its arrays, or wrote to its input
+    incident_forked = 16,       ///< left a process behind
+    incident_environment = 32,  ///< came back with another rounding mode or flush-to-zero
+    incident_printed = 64,      ///< wrote to stdout or stderr
 };
 
 /// What a worker writes of one case. The program believes none of it: a kernel may have written there.

@@ -1,10 +1,8 @@
 #include <elf.h>
 #include <link.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -80,14 +78,9 @@ private:
     }
 
     Status read(std::uint64_t offset, void* to, std::size_t size) const {
-        for (std::size_t done = 0; done < size;) {
-            const ssize_t got = TEMP_FAILURE_RETRY(::pread(file_.descriptor(), static_cast<char*>(to) + done,
-                                                           size - done, static_cast<off_t>(offset + done)));
-            if (got < 0) return base::read_failure(path_, errno);
-            if (got == 0) return cut();
-            done += static_cast<std::size_t>(got);
-        }
-        return Done{};
+        const Result<std::size_t> got = file_.read_at(offset, {static_cast<char*>(to), size}, path_);
+        if (!got) return got.error();
+        return *got == size ? Status(Done{}) : cut();
     }
 
     Error foreign(const char* found) const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "barycert/base/vectors.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/locate/near_feature.hpp"
@@ -19,17 +20,8 @@ using Number =
                                       512, 0, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked,
                                       std::allocator<boost::multiprecision::limb_type>>,
                                   boost::multiprecision::et_off>;
-using Vector = std::array<Number, 3>;
-
-Vector minus(const Vector& x, const Vector& y) {
-    return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-}
-Number dot(const Vector& x, const Vector& y) {
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-Vector cross(const Vector& x, const Vector& y) {
-    return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
+using Vector = base::Vector3<Number>;
+using base::cross, base::dot, base::minus;
 
 /// Points as whole multiples of 2^(unit.exponent - 1074).
 class Lattice {

@@ -1,10 +1,11 @@
-#include "barycert/pieces/array_kinds.hpp"
+#include "barycert/pieces/distribution.hpp"
 
-#include <cstring>
-#include <type_traits>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace barycert::pieces {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ArrayKind, name, named, type, type_name, components, role, component_names)
 
 namespace {
 
@@ -27,48 +28,6 @@ std::string difference(const std::vector<ArrayKind>& mine, const std::vector<Arr
     return {};
 }
 
-// f of each member, of a kind that is read or written.
-template <class Kind, class F>
-void for_each_member(Kind& kind, F& f) {
-    f(kind.name), f(kind.type_name), f(kind.named), f(kind.type), f(kind.components), f(kind.role);
-    f(kind.component_names);
-}
-
-// Of numbers their bytes; of texts, and of lists, the count of their items first.
-struct Writer {
-    template <class T>
-    void operator()(const T& value) {
-        if constexpr (std::is_arithmetic_v<T>) {
-            const auto* const from = reinterpret_cast<const unsigned char*>(&value);
-            bytes.insert(bytes.end(), from, from + sizeof value);
-        } else {
-            (*this)(value.size());
-            for (const auto& item : value) (*this)(item);
-        }
-    }
-    void operator()(const ArrayKind& kind) { for_each_member(kind, *this); }
-
-    std::vector<unsigned char> bytes;
-};
-
-struct Reader {
-    template <class T>
-    void operator()(T& value) {
-        if constexpr (std::is_arithmetic_v<T>) {
-            std::memcpy(&value, at, sizeof value);
-            at += sizeof value;
-        } else {
-            auto count = value.size();
-            (*this)(count);
-            value.resize(count);
-            for (auto& item : value) (*this)(item);
-        }
-    }
-    void operator()(ArrayKind& kind) { for_each_member(kind, *this); }
-
-    const unsigned char* at;
-};
-
 }  // namespace
 
 std::string ArrayKind::text() const {
@@ -82,15 +41,12 @@ Status agree_on_arrays(Exchange& exchange, bool has_cells, std::vector<ArrayKind
     const int from = lowest < exchange.size() ? static_cast<int>(lowest) : 0;
     std::vector<unsigned char> bytes;
     Status read = exchange.everywhere([&] {
-        Writer write;
-        if (exchange.rank() == from) write(kinds);
-        bytes = std::move(write.bytes);
+        if (exchange.rank() == from) bytes = nlohmann::json::to_cbor(kinds);
     });
     if (!read) return read;
     if (Status done = exchange.broadcast(bytes, from); !done) return done;
     return exchange.everywhere([&]() -> Status {
-        std::vector<ArrayKind> theirs;
-        Reader{bytes.data()}(theirs);
+        auto theirs = exchange.size() == 1 ? kinds : nlohmann::json::from_cbor(bytes).get<std::vector<ArrayKind>>();
         if (std::string differs = has_cells ? difference(kinds, theirs) : std::string(); !differs.empty())
             return Error{.what =
                              "the source has other arrays than that of rank " + std::to_string(from) + ": " + differs};

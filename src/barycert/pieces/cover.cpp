@@ -1,4 +1,4 @@
-#include "barycert/pieces/cover.hpp"
+#include "barycert/pieces/piece.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ std::size_t bin_of(const Box& box, const Box& around) {
 // Each around as many of the boxes (but one): halves along the axis on which their middles spread most.
 void halve(std::vector<Box>::iterator begin, std::vector<Box>::iterator end, std::size_t most, std::vector<Box>& all) {
     if (begin == end) return;
-    Box around = no_box, middles = no_box;
+    Box around = empty_box, middles = empty_box;
     for (auto box = begin; box != end; ++box) {
         const std::array<double, 3> at{middle(*box, 0), middle(*box, 1), middle(*box, 2)};
         middles.add({at, at});
@@ -56,7 +56,7 @@ void halve(std::vector<Box>::iterator begin, std::vector<Box>::iterator end, std
 
 std::vector<Box> cover(const Box& around, std::size_t count, const std::function<Box(std::size_t)>& box_at,
                        std::size_t most) {
-    std::vector<Box> bins(side * side * side, no_box), all;
+    std::vector<Box> bins(side * side * side, empty_box), all;
     for (std::size_t i = 0; i < count; ++i) {
         const Box box = box_at(i);
         bins[bin_of(box, around)].add(box);

@@ -1,15 +1,122 @@
 #include "barycert/pieces/distribution.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
+#include <utility>
+
+#include "barycert/base/finite.hpp"
 
 namespace barycert::pieces {
 
+static constexpr std::size_t fine = 64;  ///< boxes of a piece that is asked much
+
+Box Distribution::box_at(std::size_t point) const {
+    std::array<double, 3> x{};
+    points_.at(point, x.data());
+    return base::all_finite(x) ? Box{x, x} : empty_box;
+}
+
+Status Distribution::gather() {
+    Part mine;
+    Status read = exchange_.everywhere([&] {
+        mine.cell_count = static_cast<double>(piece_.mesh.cell_count());
+        mine.point_count = static_cast<double>(points_.count);
+        for (std::size_t i = 0; i < piece_.mesh.cell_count(); ++i) mine.cells.add(piece_.box_of(i));
+        for (std::size_t i = 0; i < points_.count; ++i) mine.points.add(box_at(i));
+        parts_.resize(static_cast<std::size_t>(exchange_.size()));
+    });
+    if (!read) return read;
+    exchange_.gather(mine, parts_);
+    return exchange_.everywhere([&] {
+        std::vector<int> partners;
+        const int rank = exchange_.rank();
+        for (int other = 0; other < exchange_.size(); ++other) {
+            if (of(other).cell_count > 0) ++ranks_with_cells_;
+            if (other < rank) cells_before_ += static_cast<std::int64_t>(of(other).cell_count);
+            if (asks(rank, other) || asks(other, rank)) partners.push_back(other);
+        }
+        exchange_.set_partners(std::move(partners));
+    });
+}
+
+// Whether finer boxes are likely to keep more bytes than they have: both ranks answer alike.
+bool Distribution::asks_much(int who, int whom) const {
+    if (!asks(who, whom)) return false;
+    const Box &points = of(who).points, &cells = of(whom).cells;
+    double share = of(who).point_count;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double width = points.high[a] / 2 - points.low[a] / 2;
+        const double common = std::min(points.high[a], cells.high[a]) / 2 - std::max(points.low[a], cells.low[a]) / 2;
+        if (width > 0) share *= common / width;
+    }
+    return share * 3 * sizeof(double) > 2.0 * fine * sizeof(Box);
+}
+
+Status Distribution::refine() {
+    Parcels<Box> out;
+    Status room = exchange_.everywhere([&] {
+        const int rank = exchange_.rank();
+        std::vector<Box> mine;
+        for (const int other : exchange_.partners()) {
+            if (asks_much(other, rank)) {
+                if (mine.empty()) {
+                    mine = cover(
+                        of(rank).cells, piece_.mesh.cell_count(), [&](std::size_t i) { return piece_.box_of(i); },
+                        fine);
+                    mine.resize(fine, empty_box);
+                }
+                out.values.insert(out.values.end(), mine.begin(), mine.end());
+            }
+            out.close();
+            fine_boxes_.values.resize(fine_boxes_.values.size() + (asks_much(rank, other) ? fine : 0));
+            fine_boxes_.close();
+        }
+    });
+    if (!room) return room;
+    return exchange_.swap(out, fine_boxes_, true);
+}
+
+void Distribution::choose_points(Parcels<double>& coordinates) {
+    const std::size_t partners = exchange_.partners().size();
+    std::vector<Box> boxes;
+    std::vector<std::size_t> owners;
+    for (std::size_t k = 0; k < partners; ++k) {
+        const int other = exchange_.partners()[k];
+        if (!asks(exchange_.rank(), other)) continue;
+        const std::span<const Box> given = fine_boxes_.of(k);
+        std::copy_if(given.begin(), given.end(), std::back_inserter(boxes), [](const Box& box) { return !empty(box); });
+        if (given.empty()) boxes.push_back(of(other).cells);
+        owners.resize(boxes.size(), k);
+    }
+    const index::BoxTree tree(std::move(boxes));
+    std::vector<std::vector<std::size_t>> of_partner(partners);
+    for (std::size_t i = 0; i < points_.count; ++i) {
+        tree.for_each(box_at(i), [&](std::uint32_t box) {
+            std::vector<std::size_t>& some = of_partner[owners[box]];
+            if (some.empty() || some.back() != i) some.push_back(i);
+            return true;
+        });
+    }
+    for (std::vector<std::size_t>& some : of_partner) {
+        for (const std::size_t i : some) {
+            std::array<double, 3> x{};
+            points_.at(i, x.data());
+            coordinates.values.insert(coordinates.values.end(), x.begin(), x.end());
+        }
+        coordinates.close();
+        asked_.values.insert(asked_.values.end(), some.begin(), some.end());
+        asked_.close();
+        some = {};
+    }
+}
+
 Status Distribution::ask() {
-    if (Status done = map_.gather(piece_, points_); !done) return done;
-    if (Status done = map_.refine(piece_); !done) return done;
+    if (Status done = gather(); !done) return done;
+    if (Status done = refine(); !done) return done;
     Parcels<double> coordinates;
-    Status room = exchange_.everywhere([&] { map_.points_to_ask(points_, asked_, coordinates); });
+    Status room = exchange_.everywhere([&] { choose_points(coordinates); });
     if (!room) return room;
     sent_ = coordinates.values.size() / 3;
     return exchange_.swap(coordinates, received_);
@@ -18,7 +125,7 @@ Status Distribution::ask() {
 Status Distribution::swap_values(std::span<const Mesh::Index> owners, const std::vector<std::int64_t>& numbers,
                                  const Tuples& tuples) {
     const auto number = [&](Mesh::Index cell) {
-        return numbers.empty() ? map_.cells_before() + cell : numbers[static_cast<std::size_t>(cell)];
+        return numbers.empty() ? cells_before_ + cell : numbers[static_cast<std::size_t>(cell)];
     };
     Parcels<char> answers;
     std::vector<char>& bytes = answers.values;

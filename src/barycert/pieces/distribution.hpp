@@ -18,38 +18,6 @@ struct Points {
     std::function<void(std::size_t, double*)> at;  ///< sets the three coordinates of a point; they need not be finite
 };
 
-/// All ranks call `gather`, then `refine`, with their pieces.
-class PieceMap {
-public:
-    explicit PieceMap(Exchange& exchange) : exchange_(exchange) {}
-
-    /// The box of every piece and that of the points of every rank, to all. Sets the partners of the exchange.
-    Status gather(const Piece& piece, const Points& points);
-    /// Finer boxes of pieces that are asked much, to those who ask.
-    Status refine(const Piece& piece);
-
-    /// Which points each partner is to be asked for, and their coordinates, three each.
-    void points_to_ask(const Points& points, Parcels<std::size_t>& asked, Parcels<double>& coordinates) const;
-
-    int ranks_with_cells() const { return ranks_with_cells_; }
-    std::int64_t cells_before() const { return cells_before_; }  ///< of ranks below this one
-
-private:
-    struct Part {
-        Box cells = no_box, points = no_box;
-        double cell_count = 0, point_count = 0;
-    };
-    const Part& of(int rank) const { return parts_[static_cast<std::size_t>(rank)]; }
-    bool asks(int who, int whom) const { return who != whom && of(who).points.meets(of(whom).cells); }
-    bool asks_much(int who, int whom) const;
-
-    Exchange& exchange_;
-    std::vector<Part> parts_;  ///< of each rank
-    int ranks_with_cells_ = 0;
-    std::int64_t cells_before_ = 0;
-    Parcels<Box> fine_boxes_;
-};
-
 /// What an engine has of each point, as bytes: those of this rank's points first, then those of the points that it is
 /// asked for.
 class Tuples {
@@ -70,7 +38,7 @@ class Distribution {
 public:
     /// All stay as they are.
     Distribution(Exchange& exchange, const Piece& piece, Points points)
-        : exchange_(exchange), piece_(piece), points_(std::move(points)), map_(exchange) {}
+        : exchange_(exchange), piece_(piece), points_(std::move(points)) {}
 
     Status ask();
     /// Coordinates, three each, of the points that this rank is asked for; they are given away.
@@ -83,22 +51,59 @@ public:
     /// Sets tuples of this rank's points that others own, and valid[point] to 1. Of this rank alone.
     void merge(Tuples& tuples, char* valid);
 
-    int ranks_with_cells() const { return map_.ranks_with_cells(); }
+    int ranks_with_cells() const { return ranks_with_cells_; }
     std::uint64_t points_sent() const { return sent_; }
     std::uint64_t points_received() const { return received_.begin.back() / 3; }
 
 private:
     using Owner = std::pair<std::int64_t, int>;  ///< number and rank
+    struct Part {
+        Box cells = empty_box, points = empty_box;
+        double cell_count = 0, point_count = 0;
+    };
+    const Part& of(int rank) const { return parts_[static_cast<std::size_t>(rank)]; }
+    bool asks(int who, int whom) const { return who != whom && of(who).points.meets(of(whom).cells); }
+    bool asks_much(int who, int whom) const;
+    /// The box of one of this rank's points.
+    Box box_at(std::size_t point) const;
+
+    // The steps of `ask`: the box of every piece and that of the points of every rank, to all, which sets the partners
+    // of the exchange; finer boxes; which points each partner is to be asked for, and their coordinates, three each.
+    Status gather();
+    Status refine();
+    void choose_points(Parcels<double>& coordinates);
 
     Exchange& exchange_;
     const Piece& piece_;
     Points points_;
-    PieceMap map_;
+    std::vector<Part> parts_;  ///< of each rank
+    int ranks_with_cells_ = 0;
+    std::int64_t cells_before_ = 0;  ///< of ranks below this one
+    Parcels<Box> fine_boxes_;
     Parcels<std::size_t> asked_;  ///< which of this rank's points partners are asked for
     Parcels<double> received_;
     Parcels<char> answered_;
     std::vector<Owner> best_;  ///< of each of this rank's points
     std::uint64_t sent_ = 0;
 };
+
+// The arrays that ranks have at points, and what all of them have.
+
+struct ArrayKind {
+    std::string name;
+    bool named = true;
+    int type = 0;  ///< a number of the engine's
+    std::string type_name;
+    int components = 1;
+    int role = -1;  ///< a number of the engine's; -1: none
+    std::vector<std::string> component_names = {};
+
+    /// Name, number of components and type, for messages.
+    std::string text() const;
+};
+
+/// All call it. `kinds` become those of the lowest rank that has cells; ranks without cells need not have them. An
+/// Error if a rank that has cells has others, whatever their order.
+Status agree_on_arrays(Exchange& exchange, bool has_cells, std::vector<ArrayKind>& kinds);
 
 }  // namespace barycert::pieces

@@ -1,13 +1,22 @@
 #include "barycert/pieces/piece.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
+
+#include "barycert/base/finite.hpp"
+#include "barycert/base/held.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/grid.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::pieces {
 
 Box Piece::box_of(std::size_t cell) const {
-    Box box = no_box;
+    Box box = empty_box;
     for (std::size_t k = 0; k < mesh.corners(); ++k) {
         std::array<double, 3> x{};
         place(node(mesh.cells[mesh.corners() * cell + k]), x.data());
@@ -81,6 +90,106 @@ Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine) {
         if (facts[3 + a] == -facts[6 + a]) shape.normal = static_cast<int>(a);
     if (shape.normal < 0) return Error{.what = "its triangles do not lie in one plane across an axis"};
     return shape;
+}
+
+namespace {
+
+std::span<const Mesh::Index> corners_of(const IndexedPiece& piece, Mesh::Index cell) {
+    const std::size_t n = piece.mesh.corners();
+    return {piece.mesh.cells.data() + n * static_cast<std::size_t>(cell), n};
+}
+
+// Sets point and weights from the nodes whose hull has the nearest point in it.
+void project_on(const IndexedPiece& piece, const Nearest& nearest, const double* x, Closest& found) {
+    std::array<double, 9> vertices{};
+    int count = 0;
+    for (; count < 3 && nearest.nodes[static_cast<std::size_t>(count)] >= 0; ++count)
+        piece.place(piece.node(nearest.nodes[static_cast<std::size_t>(count)]), vertices.data() + 3 * count);
+    std::array<double, 4> weights{1};
+    std::copy_n(vertices.begin(), 3, found.point.begin());
+    if (count > 1) {
+        const Simplex simplex = count == 2 ? Simplex::segment : Simplex::triangle3d;
+        if (const Result<Weights> w = barycentric_weights(simplex, vertices.data(), x)) weights = w->weights;
+        std::array<double, 3> point{};
+        if (point_from_weights(simplex, vertices.data(), weights.data(), point.data())) found.point = point;
+    }
+    const std::span<const Mesh::Index> corners = corners_of(piece, found.cell);
+    for (int k = 0; k < count; ++k) {
+        const auto at = std::find(corners.begin(), corners.end(), nearest.nodes[static_cast<std::size_t>(k)]);
+        if (at != corners.end())
+            found.weights[static_cast<std::size_t>(at - corners.begin())] = weights[static_cast<std::size_t>(k)];
+    }
+}
+
+// The edge of a square or cube that would hold about 8 cells if they were spread over the box of the mesh.
+double size_of_some_cells(const Mesh& mesh) {
+    const Bounds3 box = bounds_of_cells(mesh);
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    double size = 8 / static_cast<double>(mesh.cell_count());
+    for (std::size_t a = 0; a < d; ++a) size *= box.high[a] - box.low[a];
+    return std::pow(size, 1.0 / mesh.dimension);
+}
+
+}  // namespace
+
+Status IndexedPiece::build() {
+    Result<Locator> made = Locator::build(mesh);
+    if (!made) return made.error();
+    locator = std::move(*made);
+    some_cells = size_of_some_cells(mesh);
+    return Done{};
+}
+
+Mesh::Index IndexedPiece::owner(const double* x) const {
+    std::array<double, 3> point{};
+    if (!locator || !base::all_finite({x, 3}) || !project(x, point.data())) return -1;
+    // Where points come one near the other, the last cell saves most of the search; elsewhere it lengthens it. The
+    // answer does not depend on it.
+    struct Last {
+        const IndexedPiece* piece = nullptr;
+        std::array<double, 3> point{};
+        Mesh::Index cell = -1;
+    };
+    thread_local Last last;
+    const auto count = static_cast<Mesh::Index>(mesh.cell_count());
+    bool near = last.piece == this && last.cell < count;
+    for (std::size_t a = 0; a < 3; ++a) near = near && std::abs(point[a] - last.point[a]) <= some_cells;
+    const Result<Location> location = locator->locate(point.data(), near ? last.cell : -1);
+    if (!location) return -1;
+    if (location->cell >= 0) last = {this, point, location->cell};
+    return location->cell;
+}
+
+std::array<double, 4> IndexedPiece::weights(Mesh::Index cell, const double* point) const {
+    std::array<double, 12> vertices{};
+    double* out = vertices.data();
+    for (const Mesh::Index vertex : corners_of(*this, cell)) out = std::copy_n(node(vertex), mesh.dimension, out);
+    const Result<Weights> its = barycentric_weights(simplex(), vertices.data(), point);
+    return its ? its->weights : std::array<double, 4>{};
+}
+
+Closest IndexedPiece::closest(const double* x, double limit) const {
+    const ExactEnvironment environment;
+    Closest found;
+    if (!locator || !base::all_finite({x, 3})) return found;
+    std::array<double, 3> point{};
+    const bool flat = mesh.dimension == 2;
+    const bool in_plane = project(x, point.data());
+    const Result<Nearest> nearest =
+        locator->nearest(point.data(), flat ? std::numeric_limits<double>::infinity() : limit);
+    if (!nearest || nearest->cell < 0) return found;
+    const double distance = in_plane ? nearest->distance : std::hypot(nearest->distance, base::held(x[normal]) - plane);
+    if (!(distance <= limit)) return found;
+    found.cell = nearest->cell;
+    found.distance = distance;
+    if (nearest->nodes[0] >= 0) {
+        project_on(*this, *nearest, x, found);
+        return found;
+    }
+    found.inside = in_plane;
+    found.weights = weights(found.cell, point.data());
+    place(point.data(), found.point.data());
+    return found;
 }
 
 }  // namespace barycert::pieces

@@ -3,16 +3,29 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "barycert/index/box_tree.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/pieces/cover.hpp"
 #include "barycert/pieces/exchange.hpp"
 #include "barycert/simplex.hpp"
 
 namespace barycert::pieces {
+
+using index::Box;
+using index::empty_box;
+
+inline bool empty(const Box& box) {
+    return !(box.low[0] <= box.high[0]);
+}
+
+/// At most `most` boxes, which together cover box_at(0), ..., box_at(count - 1); all of these lie in `around`. In
+/// little memory, whatever their number: those whose middles lie near each other become one.
+std::vector<Box> cover(const Box& around, std::size_t count, const std::function<Box(std::size_t)>& box_at,
+                       std::size_t most);
 
 /// Tetrahedra, or triangles in a plane across an axis.
 struct Piece {
@@ -82,9 +95,9 @@ struct Shape {
 
 /// What a rank knows before its piece is read.
 struct PieceFacts {
-    int dimension = -1;      ///< the highest of its cells; -1: it has none
-    bool numbered = false;   ///< its cells have numbers in the whole mesh
-    Box triangles = no_box;  ///< of their vertices
+    int dimension = -1;         ///< the highest of its cells; -1: it has none
+    bool numbered = false;      ///< its cells have numbers in the whole mesh
+    Box triangles = empty_box;  ///< of their vertices
 };
 
 /// All call it. The pieces have the highest dimension of any of them; triangles lie across one axis on all ranks, or

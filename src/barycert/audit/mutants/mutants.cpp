@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "barycert/audit/figures.hpp"
+#include "barycert/audit/asking.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {

@@ -44,12 +44,9 @@ std::size_t search_reason_named(std::string_view name) {
 }
 
 double badness(std::size_t reason, const Evaluation& e) {
-    if (reason == finding_count) return e.comparison.worst_weight_ulp();
-    if (reason == finding_count + 1) return e.comparison.value_ulp;
-    if (reason == witness_reasons) return std::isfinite(e.relative_error) ? e.relative_error : -1;
+    if (reason >= finding_count) return std::isfinite(magnitude(reason, e)) ? magnitude(reason, e) : -1;
     if (e.comparison.counts[reason] == 0) return -1;
-    if (is(reason, Finding::missed_degenerate)) return 0;
-    if (e.exact.region == Region::degenerate) return 0;
+    if (e.exact.region == Region::degenerate) return 0;  // as where the kernel misses that
     if (is_accident(reason) || is(reason, Finding::not_finite) || is(reason, Finding::false_declaration))
         return 1 / largest_weight(e.exact);
     return std::isfinite(e.relative_error) ? e.relative_error : 0;

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "barycert/audit/search/moves.hpp"
-#include "barycert/audit/threads.hpp"
 
 namespace barycert {
 
@@ -254,8 +253,7 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
     report.steps_asked = o.steps;
     report.min_exponent = o.min_exponent;
     report.max_exponent = o.max_exponent;
-    Threads threads(o.threads);
-    report.threads = threads.count;
+    report.threads = base::threads_for(o.threads);
 
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
@@ -265,7 +263,7 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
     // A round of tasks side by side, gathered in their order.
     const auto round = [&](std::size_t tasks, const auto& task) {
         std::vector<Harvest> harvests(tasks);
-        threads.each(tasks, 1, [&](std::size_t i) { harvests[i] = task(i); });
+        on_threads(report.threads, tasks, [&](std::size_t i) { harvests[i] = task(i); });
         for (const Harvest& h : harvests) all.take(h);
         const double ulps = all.worst[finding_count].empty() ? -1 : all.worst[finding_count].front().height.shown;
         const bool go_on = !o.progress || o.progress({all.steps, o.steps, ulps, all.wrong_cases});
@@ -298,7 +296,7 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
     }
     report.given_up = all.given_up;
     std::vector<Shown> finds(reasons.size());
-    threads.each(reasons.size(), 1, [&](std::size_t i) { finds[i] = shown(o, reasons[i], all); });
+    on_threads(report.threads, reasons.size(), [&](std::size_t i) { finds[i] = shown(o, reasons[i], all); });
     for (Shown& s : finds) {
         report.plain_steps += s.plain_steps;
         report.given_up = report.given_up || s.given_up;

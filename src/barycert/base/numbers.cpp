@@ -1,8 +1,10 @@
+// Arithmetic on doubles in an environment of its own: ulps, and random numbers.
 #include "barycert/base/ulp.hpp"
 
 #include <cmath>
 
 #include "barycert/base/held.hpp"
+#include "barycert/base/random.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 
@@ -21,6 +23,18 @@ double next_up(double x) {
 double next_down(double x) {
     const ExactEnvironment environment;
     return held(std::nextafter(held(x), -HUGE_VAL));
+}
+
+double Random::uniform(double lo, double hi) {
+    const ExactEnvironment environment;
+    lo = held(lo);
+    return held(lo + (held(hi) - lo) * unit());
+}
+
+double Random::scaled(double lo, double hi, int low, int high) {
+    const ExactEnvironment environment;
+    const double mantissa = uniform(lo, hi);
+    return held(std::ldexp(mantissa, integer(low, high)));
 }
 
 }  // namespace barycert::base
