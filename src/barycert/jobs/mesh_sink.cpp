@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/jobs/job_files.hpp"
 
 namespace barycert::jobs {
 namespace {

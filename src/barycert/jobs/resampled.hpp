@@ -1,20 +1,13 @@
 /// Where resampled values go: files of grids, files of the other mesh; and their integrals.
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "barycert/grid.hpp"
-#include "barycert/io.hpp"
-#include "barycert/jobs.hpp"
-#include "barycert/jobs/sampled_mesh.hpp"
-#include "barycert/result.hpp"
+#include "barycert/jobs/stream.hpp"
 
 namespace barycert::jobs {
+
+/// The point of that number; in 2D without a third coordinate.
+std::array<double, 3> point_of(const Grid& grid, std::uint64_t i);
 
 /// What is wrong with the output of a grid, as far as its name and the options tell.
 Status check_grid_output(const ResampleJob& job);

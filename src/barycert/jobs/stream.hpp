@@ -1,18 +1,10 @@
 /// Points through the sampler into rows, block by block: read, located and evaluated, written.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
-#include "barycert/io.hpp"
 #include "barycert/jobs/sampled_mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::jobs {
 
@@ -65,8 +57,31 @@ Result<std::unique_ptr<TableSink>> open_user_rows(SampledMesh& mesh, TableFormat
                                                   const std::vector<ColumnFormat>& carried, bool all,
                                                   const OpenFormat& open);
 
+/// A sink of two functions.
+template <class Write, class Commit>
+std::unique_ptr<TableSink> sink_of(Write write, Commit commit) {
+    class Sink final : public TableSink {
+    public:
+        Sink(Write w, Commit c) : write_(std::move(w)), commit_(std::move(c)) {}
+        Status write(const TableView& rows) override { return write_(rows); }
+        Status commit() override { return commit_(); }
+
+    private:
+        Write write_;
+        Commit commit_;
+    };
+    return std::make_unique<Sink>(std::move(write), std::move(commit));
+}
+
 /// Takes rows, lets change(rows) put others in their place, which it keeps, and gives these to the sink.
-std::unique_ptr<TableSink> changed(std::unique_ptr<TableSink> sink, std::function<void(TableView& rows)> change);
+template <class Change>
+std::unique_ptr<TableSink> changed(std::shared_ptr<TableSink> sink, Change change) {
+    const auto write = [sink, change](TableView rows) mutable {
+        change(rows);
+        return sink->write(rows);
+    };
+    return sink_of(write, [sink] { return sink->commit(); });
+}
 
 /// An output of rows; a terminal shows names and texts without control characters.
 Result<std::unique_ptr<TableSink>> open_rows(const std::string& path, const TableFormat& format);

@@ -4,38 +4,11 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/jobs/field_files.hpp"
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::jobs {
-namespace {
-
-class ChangedRows final : public TableSink {
-public:
-    ChangedRows(std::unique_ptr<TableSink> sink, std::function<void(TableView&)> change)
-        : sink_(std::move(sink)), change_(std::move(change)) {}
-
-    Status write(const TableView& rows) override {
-        TableView shown = rows;
-        change_(shown);
-        return sink_->write(shown);
-    }
-    Status commit() override { return sink_->commit(); }
-
-private:
-    std::unique_ptr<TableSink> sink_;
-    std::function<void(TableView&)> change_;
-};
-
-}  // namespace
-
-std::unique_ptr<TableSink> changed(std::unique_ptr<TableSink> sink, std::function<void(TableView&)> change) {
-    return std::make_unique<ChangedRows>(std::move(sink), std::move(change));
-}
-
 Result<std::unique_ptr<TableSink>> open_user_rows(SampledMesh& mesh, TableFormat format,
                                                   const std::vector<ColumnFormat>& carried, bool all,
                                                   const OpenFormat& open) {
