@@ -17,9 +17,6 @@
 #include "command.hpp"
 #include "options.hpp"
 #include "options/command_table.hpp"
-#include "options/completion.hpp"
-#include "options/man_page.hpp"
-#include "options/mistyped.hpp"
 #ifdef BARYCERT_WITH_AUDIT
 #include "barycert/audit_search.hpp"
 #endif

@@ -22,7 +22,6 @@
 #include "barycert/environment.hpp"
 #include "command.hpp"
 #include "options.hpp"
-#include "options/mistyped.hpp"
 #include "options/want_of_memory.hpp"
 #include "tetgen/option_table.hpp"
 

@@ -2,7 +2,7 @@
 // package bash-completion; for zsh it is a function for each command, of specifications for _arguments; for fish a line
 // for each option, with the command it belongs to as its condition.
 
-#include "options/completion.hpp"
+#include "options/command_table.hpp"
 
 #include <fmt/format.h>
 

@@ -18,7 +18,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "option_table.hpp"
-#include "options/mistyped.hpp"
+#include "options/parser.hpp"
 
 namespace barycert {
 namespace {

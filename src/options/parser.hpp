@@ -1,8 +1,9 @@
-/// Options of a few words.
+/// Around the parser of options: options of a few words, and what is told of those that do not exist.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,5 +29,15 @@ CLI::Option* choice_option(CLI::App& sub, const std::string& name, Value& value,
     };
     return sub.add_option_function<std::string>(name, set, help)->check(one_of(words))->type_name(joined(words));
 }
+
+/// What the parser's message says, with a remedy: `did you mean "--output"? ` before the rest for the first word that
+/// looks like an option and is none of the command it was given to; the rest alone if there is no such word, or no
+/// option near. An option that is given twice is told, and with the words of the command line one that has two values.
+/// A message that says what is expected of a value stands alone.
+std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,
+                        std::span<const char* const> words = {});
+
+/// The names of the commands below one.
+std::vector<std::string> command_names(const CLI::App& app);
 
 }  // namespace barycert::cli
