@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"

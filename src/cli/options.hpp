@@ -5,9 +5,7 @@
 
 #include <charconv>
 #include <concepts>
-#include <functional>
 #include <limits>
-#include <memory>
 
 #include "barycert/jobs.hpp"
 #include "options/parser.hpp"

@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <string_view>
 
 namespace barycert::cli {
 namespace {

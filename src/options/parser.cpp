@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

@@ -18,22 +18,15 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string list_of(const std::vector<std::string>& names, const char* if_empty = "none") {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + base::quoted(name);
-    return text.empty() ? if_empty : text;
-}
-
 Error no_column(const VerifyJob& job, const std::string& what, const std::string& name,
                 const std::vector<std::string>& there) {
-    return refusal(job.results, what + ": the results have no such column", list_of(there), base::quoted(name),
-                   base::did_you_mean(name, there, "name one of these"));
+    return refusal(job.results, what + ": the results have no such column", listed(there, base::quoted),
+                   base::quoted(name), base::did_you_mean(name, there, "name one of these"));
 }
 
 /// The columns that a choice has in rows.
 TableField columns_of(const Mesh& mesh, const FieldChoice& choice) {
-    return {choice.name.empty() ? choice.field->name : choice.name,
-            static_cast<int>(sample::shape_of(mesh, choice)->components)};
+    return {sample::name_of(choice), static_cast<int>(sample::shape_of(mesh, choice)->components)};
 }
 
 /// The column of component c of a field: what the job says, or one of the usual names; empty: none.
@@ -56,8 +49,8 @@ Status check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<Fie
     for (const auto& [value, column] : job.values) {
         if (!has(known, value))
             return refusal("", "job.values: the mesh has no such value",
-                           list_of(known, "no field at all: give one with job.field_files"), base::quoted(value),
-                           base::did_you_mean(value, known));
+                           listed(known, base::quoted, "no field at all: give one with job.field_files"),
+                           base::quoted(value), base::did_you_mean(value, known));
         if (!has(there, column)) return no_column(job, "job.values", column, there);
     }
     for (const auto& [member, column] :
@@ -157,8 +150,9 @@ Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, c
     for (const FieldChoice& choice : fields) names.push_back(choice.field->name);
     return refusal(
         job.results, "the results have no column to compare",
-        "columns named as fields of the mesh (" + list_of(names, "it has none") + "), `cell` or vtkValidPointMask",
-        list_of(there),
+        "columns named as fields of the mesh (" + listed(names, base::quoted, "it has none") +
+            "), `cell` or vtkValidPointMask",
+        listed(there, base::quoted),
         "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not in the mesh "
         "file: job.field_files NAME=FILE");
 }

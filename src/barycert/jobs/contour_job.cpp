@@ -8,9 +8,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"

@@ -11,11 +11,13 @@
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {
 namespace {
 
 using core::Integer;
+using sample::name_of;
 
 /// In the units of volumes and values.
 struct PartialIntegral {
@@ -86,10 +88,6 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
     return {core::round_quotient(whole.sum.sign() < 0, whole.sum.magnitude(), denominator,
                                  volumes.unit() + (whole.sum.sign() == 0 ? 0 : unit.exponent - 1074)),
             whole.left_out};
-}
-
-const std::string& name_of(const FieldChoice& choice) {
-    return choice.name.empty() ? choice.field->name : choice.name;
 }
 
 /// The columns of cell fields that are sampled as they are; their integrals over the mesh go into the report.

@@ -4,7 +4,6 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
-#include <string_view>
 
 #include "barycert/jobs/series.hpp"
 #include "barycert/locator.hpp"
@@ -49,6 +48,17 @@ Status into(To& to, Result<T> from) {
 inline Error refusal(std::string file, std::string what, std::string expected = {}, std::string found = {},
                      std::string remedy = {}) {
     return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
+}
+
+/// text(item) of each, with commas between them.
+template <class Items, class Text>
+std::string listed(const Items& items, Text text, const char* if_empty = "none") {
+    std::string all;
+    for (const auto& item : items) {
+        if (&item != &items.front()) all += ", ";
+        all += std::invoke(text, item);
+    }
+    return items.empty() ? if_empty : all;
 }
 
 /// Tells what the job is doing, and how much of it is done.

@@ -1,9 +1,6 @@
 /// Parts of pictures.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "barycert/jobs.hpp"
 #include "barycert/result.hpp"
 

@@ -52,8 +52,8 @@ Status check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
                        "bounds are for job.counts and job.spacing: leave them out");
     if (!job.weights.empty() && job.onto.empty())
         return refusal(job.weights, "job.weights needs job.onto here", "", "",
-                       "for the points of a grid, write them to a file first (job.output grid.csv), and use `barycert "
-                       "sample --points grid.csv --weights`");
+                       "for the points of a grid, write them to a file first (job.output grid.csv), and use "
+                       "`barycert sample --points grid.csv --weights`");
     if (job.onto.empty()) {
         if (Status known = jobs::check_grid_output(job); !known) return known;
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
@@ -68,10 +68,10 @@ void note_the_other(SampledMesh& mesh, const ResampleJob& job, const Mesh& other
     Notes& notes = mesh.report.notes;
     notes.insert(notes.end(), other.notes.begin(), other.notes.end());
     if (other.point_fields.empty()) return;
-    std::string text = other.point_fields.size() == 1 ? "field " : "fields ";
-    for (std::size_t i = 0; i < other.point_fields.size(); ++i)
-        text += (i == 0 ? "" : ", ") + other.point_fields[i].name;
-    notes.push_back({Note::Kind::left_out, text + " of its nodes", job.onto});
+    notes.push_back({Note::Kind::left_out,
+                     (other.point_fields.size() == 1 ? "field " : "fields ") +
+                         jobs::listed(other.point_fields, &Field::name) + " of its nodes",
+                     job.onto});
 }
 
 /// The fields as they are now, into the output of that name. Points of a new mesh are counted.

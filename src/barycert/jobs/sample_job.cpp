@@ -1,7 +1,6 @@
 // Fields at points.
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
 #include "barycert/base/finite.hpp"

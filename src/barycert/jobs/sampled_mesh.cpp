@@ -5,8 +5,6 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <array>
-#include <functional>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
@@ -258,10 +256,7 @@ Status SampledMesh::choose_fields() {
 }
 
 std::string SampledMesh::names_of_chosen() const {
-    std::string names;
-    for (const FieldChoice& choice : fields_)
-        names += (names.empty() ? "" : ", ") + base::quoted(choice.name.empty() ? choice.field->name : choice.name);
-    return names.empty() ? "none" : names;
+    return listed(fields_, [](const FieldChoice& choice) { return base::quoted(sample::name_of(choice)); });
 }
 
 TableFormat SampledMesh::format() const {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <span>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/jobs/field_files.hpp"

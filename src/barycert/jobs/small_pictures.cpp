@@ -1,9 +1,7 @@
 // Pictures that show what rasterising does.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 #include "barycert/jobs/pictures.hpp"
 #include "barycert/raster.hpp"

@@ -1,9 +1,6 @@
 /// Points through the sampler into rows, block by block: read, located and evaluated, written.
 #pragma once
 
-#include <functional>
-#include <memory>
-
 #include "barycert/jobs/sampled_mesh.hpp"
 
 namespace barycert::jobs {
