@@ -138,11 +138,20 @@ public:
             return x.has_value();
         });
     }
-    /// One of a few words.
+    /// One of a few words, each of which stands for a value, in the order of the help.
     template <class Value>
     CLI::Option* choice(const std::string& name, Value& value,
                         const std::vector<std::pair<std::string, Value>>& choices, const std::string& help) const {
-        return choice_option<Value>(*app_, name, value, choices, told(help));
+        std::vector<std::string> words;
+        for (const auto& choice : choices) words.push_back(choice.first);
+        const auto set = [&value, choices](const std::string& word) {
+            for (const auto& choice : choices) {
+                if (choice.first == word) value = choice.second;
+            }
+        };
+        return app_->add_option_function<std::string>(name, set, told(help))
+            ->check(one_of(words))
+            ->type_name(joined(words));
     }
 
     // Options that several subcommands have.

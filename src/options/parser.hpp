@@ -16,20 +16,6 @@ CLI::Validator one_of(const std::vector<std::string>& words);
 /// "a|b|c", the type of an option that takes these words: command_table() reads them there again.
 std::string joined(const std::vector<std::string>& words);
 
-/// An option of a few words, each of which stands for a value, in the order of the help.
-template <class Value>
-CLI::Option* choice_option(CLI::App& sub, const std::string& name, Value& value,
-                           const std::vector<std::pair<std::string, Value>>& choices, const std::string& help) {
-    std::vector<std::string> words;
-    for (const auto& choice : choices) words.push_back(choice.first);
-    const auto set = [&value, choices](const std::string& word) {
-        for (const auto& choice : choices) {
-            if (choice.first == word) value = choice.second;
-        }
-    };
-    return sub.add_option_function<std::string>(name, set, help)->check(one_of(words))->type_name(joined(words));
-}
-
 /// What the parser's message says, with a remedy: `did you mean "--output"? ` before the rest for the first word that
 /// looks like an option and is none of the command it was given to; the rest alone if there is no such word, or no
 /// option near. An option that is given twice is told, and with the words of the command line one that has two values.

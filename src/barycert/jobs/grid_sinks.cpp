@@ -23,7 +23,7 @@ Error no_place(const ColumnFormat& column, const std::string& path, const char* 
 }
 
 /// VTK's image data: an array for each field, and what VTK's own probes give besides.
-Result<std::unique_ptr<TableSink>> open_vti(const std::string& path, const TableFormat& format, const Grid& grid) {
+OpenedSink open_vti(const std::string& path, const TableFormat& format, const Grid& grid) {
     std::vector<io::ArrayFormat> arrays;
     std::vector<std::size_t> components;
     std::size_t columns = 0;
@@ -99,9 +99,8 @@ std::unique_ptr<TableSink> open_array(const std::string& path, const Grid& grid,
 }
 
 /// A picture of one column. It is kept in memory: its colours depend on all of it.
-Result<std::unique_ptr<TableSink>> open_picture(const ResampleJob& a, const std::string& path,
-                                                const std::vector<std::string>& columns, const Grid& grid,
-                                                std::optional<SliceCounts>& counts) {
+OpenedSink open_picture(const ResampleJob& a, const std::string& path, const std::vector<std::string>& columns,
+                        const Grid& grid, std::optional<SliceCounts>& counts) {
     // The two axes of a grid in a plane.
     std::vector<std::size_t> axes;
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
@@ -166,9 +165,8 @@ Status check_grid_output(const ResampleJob& job) {
     return unknown_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
 }
 
-Result<std::unique_ptr<TableSink>> open_grid_sink(const ResampleJob& job, const std::string& path,
-                                                  const TableFormat& format, const Grid& grid,
-                                                  std::optional<SliceCounts>& picture) {
+OpenedSink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
+                          std::optional<SliceCounts>& picture) {
     const std::vector<std::string> columns = format.columns();
     const bool png = io::has_suffix(path, ".png"), array = io::has_suffix(path, ".npy");
     if (!format.carried.empty() && (png || array))
@@ -180,7 +178,7 @@ Result<std::unique_ptr<TableSink>> open_grid_sink(const ResampleJob& job, const 
                        "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields");
     if (array) return open_array(path, grid, columns.size());
     if (io::has_suffix(path, ".vti")) return open_vti(path, format, grid);
-    Result<std::unique_ptr<TableSink>> rows = open_rows(path, format);
+    OpenedSink rows = open_rows(path, format);
     if (!rows) return rows;
     // With the points of the grid, as rows of points from a file have them.
     return changed(std::move(*rows), [grid, points = std::vector<double>()](TableView& block) mutable {

@@ -135,8 +135,8 @@ void note_cell_fields(SampledMesh& mesh, bool of_series) {
          mesh.job.mesh, true});
 }
 
-Result<std::unique_ptr<TableSink>> with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
-                                                  const std::function<Result<std::unique_ptr<TableSink>>()>& open) {
+OpenedSink with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
+                          const std::function<OpenedSink()>& open) {
     const std::vector<std::size_t> columns = integrate_source(mesh, format);
     if (columns.empty()) return open();
     struct Kept {

@@ -9,9 +9,8 @@
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::jobs {
-Result<std::unique_ptr<TableSink>> open_user_rows(SampledMesh& mesh, TableFormat format,
-                                                  const std::vector<ColumnFormat>& carried, bool all,
-                                                  const OpenFormat& open) {
+OpenedSink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
+                          const OpenFormat& open) {
     const std::vector<std::string> columns = format.columns();
     std::set<std::string> names(columns.begin(), columns.end());
     mesh.report.carried.clear();
@@ -68,13 +67,13 @@ Result<std::unique_ptr<TableSink>> open_user_rows(SampledMesh& mesh, TableFormat
     return changed(std::move(*sink), as_users_see_them);
 }
 
-Result<std::unique_ptr<TableSink>> open_rows(const std::string& path, const TableFormat& format) {
+OpenedSink open_rows(const std::string& path, const TableFormat& format) {
     if (path != "-" || isatty(STDOUT_FILENO) != 1) return open_table(path, format);
     // Texts on a terminal move no cursor.
     TableFormat shown = format;
     for (TableField& field : shown.fields) field.name = base::printable(field.name);
     for (ColumnFormat& column : shown.carried) column.name = base::printable(column.name);
-    Result<std::unique_ptr<TableSink>> sink = open_table(path, shown);
+    OpenedSink sink = open_table(path, shown);
     if (!sink || shown.carried.empty()) return sink;
     return changed(std::move(*sink), [carried = std::vector<Column>()](TableView& rows) mutable {
         carried.assign(rows.carried.begin(), rows.carried.end());
