@@ -98,13 +98,10 @@ std::string function_of(const CommandEntry& command) {
         cases += fmt::format("    {}) {} ;;\n", below.name, function_name(below.path));
     }
     // Operands of a command that has commands below it: where the first word is none of them.
-    std::string operands;
-    for (const OptionEntry& option : command.options) {
-        if (option.operand && option.files) operands = "_files";
-    }
-    std::string options;
+    std::string operands, options;
     for (const OptionEntry& option : command.options) {
         if (!option.operand) options += " \\\n   " + specification(option);
+        if (option.operand && option.files) operands = "_files";
     }
     text += "  local curcontext=$curcontext state line\n  local -a commands\n  typeset -A opt_args\n";
     text += "  commands=(" + names + "\n  )\n";
