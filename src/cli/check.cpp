@@ -66,7 +66,9 @@ void add_check(const Options& program) {
     o.curved(job.curved);
     o.threads(job.options.threads);
     a.reports.file(o, "--json", json_instead);
-    a.reports.file(o, "--html", "Write the report as an HTML page, with histograms and pictures of cells; - likewise");
+    a.reports.file(
+        o, "--html",
+        "Write the report as an HTML page with histograms and pictures of cells; - is stdout and suppresses the table");
     o.text("--vtu", job.measures, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
     auto* const all = o.text("--fix", job.fix,
                              "Write a copy with what has one right answer repaired, and check it: coincident nodes "

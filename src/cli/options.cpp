@@ -134,17 +134,8 @@ CLI::Option* Options::taken(const std::string& name, const std::string& type, co
     return app_->add_option_function<std::string>(name, read, told(help))->type_name(type);
 }
 
-CLI::Option* Options::mesh_job(MeshJob& job, int& thread_count, const std::string& either, bool* all_steps,
-                               std::vector<FieldFile>* series) const {
-    CLI::Option* const mesh =
-        text("MESH", job.mesh,
-             "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu "
-             ".vtm .pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz");
-    step(job.step, all_steps);
-    field_files(job.field_files, either, series);
-    curved(job.curved);
-    threads(thread_count);
-    return mesh->required();
+void Options::mesh(std::string& mesh) const {
+    text("MESH", mesh, mesh_help)->required();
 }
 
 void Options::threads(int& threads) const {
@@ -152,10 +143,9 @@ void Options::threads(int& threads) const {
 }
 
 void Options::curved(Curved& curved) const {
-    choice<Curved>(
-        "--curved", curved, {{"straight", Curved::straight}, {"refuse", Curved::refuse}},
-        "Sides of second-order cells that are curved: straight: take them as straight, and say so (default); "
-        "refuse: fail");
+    choice<Curved>("--curved", curved, {{"straight", Curved::straight}, {"refuse", Curved::refuse}},
+                   "Second-order cells with mid-edge nodes off the middle: straight: take their sides as straight, and "
+                   "say so (default); refuse: fail");
 }
 
 void Options::vtk_data(std::optional<VtkData>& data) const {
@@ -166,11 +156,10 @@ void Options::vtk_data(std::optional<VtkData>& data) const {
 }
 
 void Options::nonfinite(NonfinitePoints& points) const {
-    choice<NonfinitePoints>("--nonfinite-points", points,
-                            {{"error", NonfinitePoints::error}, {"nan", NonfinitePoints::nan}},
-                            "Points with a coordinate that is NaN, infinite or empty. error: the run ends (default); "
-                            "nan: they are outside, "
-                            "with NaN for values, and counted");
+    choice<NonfinitePoints>(
+        "--nonfinite-points", points, {{"error", NonfinitePoints::error}, {"nan", NonfinitePoints::nan}},
+        "Points with a coordinate that is NaN, infinite or an empty field. error: the run ends (default); nan: they "
+        "are outside, with NaN for values whatever points outside get, and counted");
 }
 
 void Options::rounding(Rounding& rounding, const char* help) const {

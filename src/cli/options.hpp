@@ -155,11 +155,7 @@ public:
     }
 
     // Options that several subcommands have.
-    /// MESH and what belongs to it: --step, --time, files of fields, --curved; and --threads. `either` names the option
-    /// whose rows may belong to nodes or to cells. `all_steps`, `series`: what --step all sets, and where fields with a
-    /// file for each step go; nullptr: there is no such thing. Returns MESH.
-    CLI::Option* mesh_job(MeshJob& job, int& threads, const std::string& either = "--field", bool* all_steps = nullptr,
-                          std::vector<FieldFile>* series = nullptr) const;
+    void mesh(std::string& mesh) const;
     void threads(int& threads) const;
     void curved(Curved& curved) const;
     void vtk_data(std::optional<VtkData>& data) const;
@@ -170,13 +166,16 @@ public:
     void range(std::optional<std::pair<double, double>>& range, const std::string& what) const;
     /// --step and --time, of a MESH that is a series. `all`: what --step all sets; nullptr: not allowed.
     void step(StepChoice& step, bool* all = nullptr) const;
+    /// Fields from files; `either` names the option whose rows may belong to nodes or to cells. `series`: where fields
+    /// with a file for each step go; nullptr: there are none.
+    void field_files(std::vector<FieldFile>& files, const std::string& either,
+                     std::vector<FieldFile>* series = nullptr) const;
     /// --size WxH.
     void size(RasterSize& size) const;
     /// Where the camera stands. `what`: as above.
     void camera(ViewOptions& view, const std::string& what) const;
 
 private:
-    void field_files(std::vector<FieldFile>& files, const std::string& either, std::vector<FieldFile>* series) const;
     static std::string told(const std::string& help);
     static CLI::Option* text_like(CLI::Option* option, const std::string& type, bool several);
     static CLI::Validator whole_number();
@@ -195,6 +194,11 @@ std::vector<std::string> given_options(const CLI::App& app);
 /// NAME and VALUE of NAME=VALUE, neither of them empty; else refuses the option.
 std::pair<std::string, std::string> assignment(const std::string& option, const std::string& expected,
                                                const std::string& text);
+
+/// What MESH may be.
+inline constexpr const char* mesh_help =
+    "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
+    ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";
 
 /// What the help ends with where there are no other exit codes.
 inline constexpr const char* done_or_error = "Exit codes: 0 done; 2 usage or input error.";

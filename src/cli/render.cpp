@@ -91,15 +91,19 @@ void add_mesh(const Options& render) {
         run_picture);
     RenderJob& job = a.job;
     job.picture = PictureKind::mesh;
+    o.mesh(job.mesh);
+    o.step(job.step);
     o.text("--field", job.field,
            "The field: A, point:A or cell:A; A.1 is its component 1; default: none, the mesh is grey", "NAME");
-    o.mesh_job(job, job.threads, "--field-file");
+    o.field_files(job.field_files, "--field-file");
     o.range(job.view.range, "");
     o.camera(job.view, "");
     o.negative("--no-bar", job.view.bar, "Draw no colour bar");
     add_outputs(o, a);
     o.size(job.view.size);
     add_methods(o, job.view);
+    o.curved(job.curved);
+    o.threads(job.threads);
 }
 
 }  // namespace

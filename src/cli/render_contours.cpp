@@ -21,10 +21,13 @@ struct ContourArguments {
 };
 
 /// What iso and slice share.
-void add_contour_options(const Options& o, ContourArguments& a, bool of_mesh) {
+void add_contour_options(const Options& o, ContourArguments& a) {
     a.app = &o.app();
-    o.mesh_job(a.job, a.job.threads, "--field-file")->required(of_mesh);
+    o.step(a.job.step);
+    o.field_files(a.job.field_files, "--field-file");
     o.text("--fields", a.job.fields, "Fields to carry along: A,B,...; default: all", "NAMES");
+    o.curved(a.job.curved);
+    o.threads(a.job.threads);
     o.vtk_data(a.job.vtk_data);
     a.reports.file(o, "--json", json_summary);
     a.reports.quiet(o, "Print no summary and no progress");
@@ -111,12 +114,13 @@ void add_iso(const Options& render) {
         "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.",
         run_iso);
     ContourJob& job = a.job;
+    o.text("MESH", job.mesh, mesh_help);
     o.text("--field", job.field,
            "The field of nodes, or what is made of it, as sample names it: NAME.x or NAME.0, |NAME| (at the nodes)",
            "NAME");
     o.parsed("--value", "V", "Its value", "a finite number", job.value, finite);
     o.text("--output", job.output, "The surface: .vtp .ply .off .png");
-    add_contour_options(o, a, false);
+    add_contour_options(o, a);
     o.text("--colours", job.colours,
            "Picture: the field of nodes or cells that colours the surface; default: none, it is grey", "NAME");
     o.range(job.range, "Picture: ");
@@ -152,6 +156,7 @@ void add_slice(const Options& render) {
         "Exit codes: 0 done; 2 usage or input error, a picture of nothing included.",
         run_contour);
     ContourJob& job = a.job;
+    o.mesh(job.mesh);
     o.parsed("--plane", "NX,NY,NZ,D", "All points with NX x + NY y + NZ z = D; or of one axis: x=D, y=D, z=D",
              "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers, a normal that is not zero, such as "
              "0,0,1,0.5",
@@ -164,7 +169,7 @@ void add_slice(const Options& render) {
     o.text("--output", job.output, "The section: .png .vtp .ply .off")->required();
     o.integer<std::int64_t>("--width", job.width, 1, 1000000, "Picture: pixels across the section", "PIXELS");
     o.range(job.range, "Picture: ");
-    add_contour_options(o, a, true);
+    add_contour_options(o, a);
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ OutsidePolicy policy_of(const std::string& text) {
 
 /// What both have.
 void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) {
-    o.mesh_job(job, job.options.threads, "--field", &job.all_steps, &job.series);
+    o.step(job.step, &job.all_steps);
+    o.field_files(job.field_files, "--field", &job.series);
     o.text("--fields", job.fields,
            "Fields to sample: A,B,...; columns have this order, fields of nodes before fields of cells, and these "
            "before lengths; cell:A is the cell field A if there is also a node field A; default: all. Of each, or of "
@@ -52,14 +53,16 @@ void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) 
            "data averaged to nodes by volume, then interpolated",
            "NAMES");
     o.text("--weights", job.weights,
-           "Write the correctly rounded weight of each node for each point, .npz: a matrix for scipy.sparse.load_npz, "
-           "to be multiplied with any field of the nodes");
+           "Write the correctly rounded weight of each node for each point, .npz: a sparse matrix for "
+           "scipy.sparse.load_npz, to be multiplied with any field of the nodes");
     o.rounding(job.options.rounding, "correct: the exact value, rounded once (default); plain: computed in double");
-    o.parsed("--outside", "nan|error|fill=V|nearest[=D]|extrapolate",
-             "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the "
-             "value at the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest "
-             "cell",
-             "", job.options.outside, [](const std::string& text) { return std::optional(policy_of(text)); });
+    o.parsed(
+        "--outside", "nan|error|fill=V|nearest[=D]|extrapolate",
+        "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the value at "
+        "the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest cell",
+        "", job.options.outside, [](const std::string& text) { return std::optional(policy_of(text)); });
+    o.curved(job.curved);
+    o.threads(job.options.threads);
     o.vtk_data(job.vtk_data);
     reports.file(o, "--json", json_summary);
     reports.quiet(o, "Print no summary, no notes and no progress");
@@ -77,17 +80,18 @@ int run_sampling(SamplingArguments<Job>& a) {
 void add_sample(const Options& program) {
     const auto& [o, a] = program.command(
         "sample", "Sample the fields of a mesh at points, correctly rounded",
-        "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...); then\n"
-        "with --outside nearest or extrapolate the distance to the mesh, then labels of cells named in --fields "
-        "(texts,\n"
-        "large integers), then columns of the points (--keep). cell: the number in the file, from 0, of the first "
-        "cell\n"
-        "that contains the point; -1 outside. feature: interior, face, edge, vertex or outside, exact. TetGen's node\n"
-        "attributes are named attribute0, attribute1, ... Rows are points again: --points takes the output of a run.\n"
-        "Files appear whole or not at all; rows already printed to stdout stay.\n"
-        "Exit codes: 0 done, 2 usage or input error.",
+        "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...): node\n"
+        "fields, cell fields, lengths; then with --outside nearest or extrapolate the distance to the mesh, then "
+        "labels of cells named\n"
+        "in --fields (texts, large integers), then columns of the points (--keep). cell: the number in the file, from\n"
+        "0, of the first cell that contains the point; -1 outside. feature: interior, face, edge, vertex or outside,\n"
+        "exact. TetGen's node attributes are named attribute0, attribute1, ... Rows are points again: --points takes\n"
+        "the output of another run.\n"
+        "Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input\n"
+        "error.",
         run_sampling<SampleJob, sample_files>);
     SampleJob& job = a.job;
+    o.mesh(job.mesh);
     o.text("--points", job.points,
            "Points: .csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV from "
            "stdin, and so is any pipe");
@@ -115,12 +119,15 @@ void add_resample(const Options& program) {
         "resample", "Sample the fields of a mesh on a regular grid, or onto another mesh, correctly rounded",
         "Grids go, by the suffix, to .vti (an array a field, and vtkValidPointMask and cell), .npy (an array of shape\n"
         "nz,ny,nx, or nz,ny,nx,columns), .csv (rows as of `barycert sample`; - is stdout), .png (one layer of one\n"
-        "column). With --onto to .vtu or .vtk (MESH2, its fields of nodes replaced by those sampled,\n"
-        "vtkValidPointMask and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's), .csv,\n"
-        ".npy. Values are those of `barycert sample` at the same points, bit for bit.\n"
-        "Exit codes: 0 done, 2 usage or input error.",
+        "column). With --onto to .vtu or .vtk (MESH2, its fields of nodes replaced by those sampled, "
+        "vtkValidPointMask\n"
+        "and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's, with attributes), .csv, "
+        ".npy.\n"
+        "Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input\n"
+        "error.",
         run_sampling<ResampleJob, resample_files>);
     ResampleJob& job = a.job;
+    o.mesh(job.mesh);
     o.parsed("--grid", "NXxNYxNZ", "Number of points along each axis, ends included; a single point lies in the middle",
              "numbers of points along the axes, min 1, such as 200x200x100", job.counts, numbers('x', count_of, 2, 3));
     o.parsed("--spacing", "H|HXxHYxHZ", "Distance of points along each axis, from the lower end of the bounds",

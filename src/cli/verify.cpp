@@ -49,17 +49,21 @@ int run_verify(VerifyArguments& a) {
 void add_verify(const Options& program) {
     const auto& [o, a] = program.command(
         "verify", "Compare results of any tool with the exact ones: cells, inside or outside, values",
-        "RESULTS: points with columns, as written by barycert sample, ParaView, pyvista, pandas or NumPy. A row is\n"
-        "inside or outside by vtkValidPointMask if there is one, else by the cell (negative: outside), else by the\n"
-        "values (all NaN: outside). Any cell that contains the point is a right cell. Errors of values are told in "
-        "ulps\n"
-        "and in parts of the range of the field (max - min).\n"
+        "RESULTS: points with columns, as written by barycert sample, ParaView, pyvista, pandas or NumPy. A row is "
+        "inside\n"
+        "or outside by vtkValidPointMask if there is one, else by the cell (negative: outside), else by the values "
+        "(all\n"
+        "NaN: outside). Any cell that contains "
+        "the\n"
+        "point is a right cell. Errors of values are told in ulps and in parts of the range of the field (max - min).\n"
         "Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or input error.",
         run_verify);
     VerifyJob& job = a.job;
+    o.mesh(job.mesh);
+    o.step(job.step);
     o.text("--results", job.results, "Points with results: .csv .txt .npy .vtu .vtp .vti .vtk; - is CSV from stdin")
         ->required();
-    o.mesh_job(job, job.options.threads);
+    o.field_files(job.field_files, "--field");
     o.text("--fields", job.fields,
            "Fields to compare, or what is made of them, as sample names it: A,B.x,|C|,...; default: those that the "
            "results have",
@@ -89,6 +93,8 @@ void add_verify(const Options& program) {
            "wrong_cell or wrong_value; several with commas, or repeated",
            "KIND[>NUMBER]")
         ->delimiter(',');
+    o.curved(job.curved);
+    o.threads(job.options.threads);
     a.reports.file(o, "--json", "Write the report as JSON; - is stdout");
     a.reports.file(o, "--html", "Write the report as an HTML page; - is stdout");
     a.reports.ci(o, "kinds of wrong rows (see --fail-on)");
