@@ -151,7 +151,4 @@ struct ViewCounts {
 /// that is none; a size that is refused or leaves no room beside the bar.
 Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& options = {}, ViewCounts* counts = nullptr);
 
-/// The scene that draw_surface draws, without the bar.
-Result<Scene> surface_scene(const SurfaceView& surface, const ViewOptions& options = {}, ViewCounts* counts = nullptr);
-
 }  // namespace barycert

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
@@ -20,6 +18,7 @@ struct AuditArguments {
     std::vector<std::string> meshes, fail_on, others;
     bool mutants = false, wide = false;
     Reports reports;
+    const CLI::App* app = nullptr;
 };
 
 /// What can be known of files before the work.
@@ -96,6 +95,7 @@ Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const Audit
 }
 
 int run_audit(AuditArguments& a) {
+    if (const Status ok = check_mutants_alone(*a.app); !ok) return fail(ok.error());
     const auto rules = parsed_all(a.fail_on, parse_threshold);
     if (!rules) return fail(rules.error());
     const auto meshes = meshes_or_own(a.meshes);
@@ -141,13 +141,14 @@ int run_audit(AuditArguments& a) {
 }  // namespace
 
 void add_audit(const Options& program) {
-    const Options o = program.below(
+    const auto& [o, a] = program.command(
         "audit", "Count how often each floating-point kernel is wrong, and by how much, against exact arithmetic",
         "Exit codes: 0 done; 1 a rule of --fail-on is broken, a figure is worse than in the baseline, or a mutant is\n"
-        "not caught; 2 usage or input error.");
-    const auto a = std::make_shared<AuditArguments>();
-    AuditJob& job = a->job;
-    o.text("MESH", a->meshes,
+        "not caught; 2 usage or input error.",
+        run_audit);
+    AuditJob& job = a.job;
+    a.app = &o.app();
+    o.text("MESH", a.meshes,
            "Meshes for the families mesh.*, in the formats of barycert sample; default: barycert's own")
         ->allow_extra_args(true);
     add_kernels(o, job.kernels, "Audit only kernels that match; may be repeated");
@@ -164,35 +165,31 @@ void add_audit(const Options& program) {
     add_seed(o, job.options.seed, "The same seed gives the same cases on every machine");
     o.curved(job.curved);
     o.threads(job.options.threads);
-    a->reports.file(o, "--json", json_instead);
-    a->reports.file(o, "--html",
-                    "Write the report as an HTML page with pictures, histograms and witnesses; - is stdout and "
-                    "suppresses the table");
-    o.text("--with", a->others,
+    a.reports.file(o, "--json", json_instead);
+    a.reports.file(o, "--html",
+                   "Write the report as an HTML page with pictures, histograms and witnesses; - is stdout and "
+                   "suppresses the table");
+    o.text("--with", a.others,
            "Also show on that page what `./run flags --json FILE` or `./run systems --json FILE` wrote");
-    a->reports.file(o, "--witnesses", "Write the worst cases as JSON, for `barycert replay`; - is stdout");
-    a->reports.file(o, "--plot",
-                    "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
+    a.reports.file(o, "--witnesses", "Write the worst cases as JSON, for `barycert replay`; - is stdout");
+    a.reports.file(o, "--plot",
+                   "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
     std::string names;
     for (const std::string& rule : threshold_names()) names += " " + rule;
-    o.text("--fail-on", a->fail_on,
+    o.text("--fail-on", a.fail_on,
            "Exit with 1 if this figure of a kernel exceeds NUMBER (0 if omitted); may be repeated. RULE is one of:" +
                names,
            "RULE[>NUMBER]");
     o.text("--baseline", job.baseline,
            "Compare with the --json report of an earlier audit of the same seed, count and meshes; exit with 1 if a "
            "figure got worse");
-    a->reports.ci(o, "broken rules and what got worse than the baseline");
-    o.flag("--mutants", a->mutants,
+    a.reports.ci(o, "broken rules and what got worse than the baseline");
+    o.flag("--mutants", a.mutants,
            "Audit kernels with seeded faults instead, and show which family catches which; exit with 1 if one is not "
            "caught");
-    o.flag("--wide", a->wide, "Print all counts, the families and a witness of each kernel: 160 columns");
+    o.flag("--wide", a.wide, "Print all counts, the families and a witness of each kernel: 160 columns");
     o.negative("--no-check", job.check, "Do not check whether the meshes are partitions (see `barycert check`)");
-    a->reports.quiet(o, "Print no table and no progress");
-    o.run([a, o] {
-        const Status ok = check_mutants_alone(o.app());
-        return ok ? run_audit(*a) : fail(ok.error());
-    });
+    a.reports.quiet(o, "Print no table and no progress");
 }
 
 }  // namespace barycert::cli

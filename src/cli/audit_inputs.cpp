@@ -111,10 +111,16 @@ std::string failures_of(const std::vector<Violation>& violations) {
 namespace {
 
 /// A list as a table, and JSON.
-template <class Items>
-int list(Reports& reports, const Result<Items>& items, std::string (*json)(const Items&),
-         std::string (*text)(const Items&)) {
-    return reports.end(items, [&](const Items& all) {
+template <class Chosen, class Items>
+struct ListArguments {
+    Chosen chosen;
+    Reports reports;
+};
+
+template <class Chosen, class Items, Result<Items> (*choose)(const Chosen&), std::string (*json)(const Items&),
+          std::string (*text)(const Items&)>
+int list(ListArguments<Chosen, Items>& a) {
+    return a.reports.end(choose(a.chosen), [&](const Items& all) {
         return Told{.files = {{"--json", [&] { return json(all); }}}, .text = [&](bool) { return text(all); }};
     });
 }
@@ -123,24 +129,19 @@ int list(Reports& reports, const Result<Items>& items, std::string (*json)(const
 
 // barycert kernels, barycert families: list and explain.
 void add_catalogue(const Options& program) {
-    struct Arguments {
-        KernelChoice kernels;
-        std::vector<std::string> families;
-        Reports of_kernels, of_families;
-    };
-    const auto a = std::make_shared<Arguments>();
+    using Names = std::vector<std::string>;
     constexpr const char* json_list = "Write the list as JSON; - is stdout";
-    const Options kernels =
-        program.below("kernels", "List the kernels: formula, source, known failures", done_or_error);
-    kernels.app().add_option("KERNEL|GLOB", a->kernels.names, "List only matching names");
-    kernels.text("--kernel-library", a->kernels.libraries, "Also list the kernel of this shared library");
-    a->of_kernels.file(kernels, "--json", json_list);
-    kernels.run([a] { return list(a->of_kernels, chosen_kernels(a->kernels), kernels_json, kernels_text); });
-    const Options families =
-        program.below("families", "List the families of cases: what each tests, and its recipe", done_or_error);
-    families.app().add_option("FAMILY|GLOB", a->families, "List only matching names");
-    a->of_families.file(families, "--json", json_list);
-    families.run([a] { return list(a->of_families, choose_families(a->families), families_json, families_text); });
+    const auto& [kernels, k] =
+        program.command("kernels", "List the kernels: formula, source, known failures", done_or_error,
+                        list<KernelChoice, std::vector<Kernel>, chosen_kernels, kernels_json, kernels_text>);
+    kernels.app().add_option("KERNEL|GLOB", k.chosen.names, "List only matching names");
+    kernels.text("--kernel-library", k.chosen.libraries, "Also list the kernel of this shared library");
+    k.reports.file(kernels, "--json", json_list);
+    const auto& [families, f] =
+        program.command("families", "List the families of cases: what each tests, and its recipe", done_or_error,
+                        list<Names, std::vector<Family>, choose_families, families_json, families_text>);
+    families.app().add_option("FAMILY|GLOB", f.chosen, "List only matching names");
+    f.reports.file(families, "--json", json_list);
 }
 
 }  // namespace barycert::cli

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "barycert/report/check/check_words.hpp"
 #include "reports.hpp"
 
@@ -45,14 +43,14 @@ int run_check(CheckArguments& a) {
 }  // namespace
 
 void add_check(const Options& program) {
-    const Options o = program.below(
+    const auto& [o, a] = program.command(
         "check", "Prove in exact arithmetic that a mesh is a partition of its domain, or report why it is not",
         "Exit codes: 0 certified, 1 not certified, 2 usage or input error; with --fix by the copy,\nwhile --junit, "
         "--sarif and --annotations tell of the mesh as it was.\nCertified: any two cells meet in a common face or not "
         "at all, and the files .neigh and .face, if present, agree with\nthe cells. Second-order cells are checked "
-        "with straight sides.");
-    const auto a = std::make_shared<CheckArguments>();
-    CheckJob& job = a->job;
+        "with straight sides.",
+        run_check);
+    CheckJob& job = a.job;
     o.text("MESH", job.mesh,
            "A mesh: TetGen's .node/.ele (with .face and .neigh if present) or Triangle's, Gmsh's .msh, Medit's .mesh "
            ".meshb, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series .vtp.series")
@@ -67,8 +65,8 @@ void add_check(const Options& program) {
                            "Max number of overlapping or touching pairs listed with a witness");
     o.curved(job.curved);
     o.threads(job.options.threads);
-    a->reports.file(o, "--json", json_instead);
-    a->reports.file(
+    a.reports.file(o, "--json", json_instead);
+    a.reports.file(
         o, "--html",
         "Write the report as an HTML page with histograms and pictures of cells; - is stdout and suppresses the table");
     o.text("--vtu", job.measures, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
@@ -84,9 +82,8 @@ void add_check(const Options& program) {
              "Tell boundary nodes at most RATIO times the shortest boundary edge at either apart; 0: none", "RATIO")
         ->capture_default_str();
     o.vtk_data(job.vtk_data);
-    a->reports.ci(o, "what breaks the certificate");
-    a->reports.quiet(o, "Print no table and no progress");
-    o.run([a] { return run_check(*a); });
+    a.reports.ci(o, "what breaks the certificate");
+    a.reports.quiet(o, "Print no table and no progress");
 }
 
 }  // namespace barycert::cli

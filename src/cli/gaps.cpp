@@ -60,33 +60,31 @@ int run_gaps(GapsArguments& a) {
 }  // namespace
 
 void add_gaps(const Options& program) {
-    const Options o = program.below(
+    const auto& [o, a] = program.command(
         "gaps",
         "Count points on shared faces, edges and vertices of a mesh that no cell claims, several, or a wrong one",
-        "Exit codes: 0 done; 1 a limit of --fail-on is exceeded; 2 usage or input error.");
-    const auto a = std::make_shared<GapsArguments>();
-    GapsOptions& options = a->job.options;
-    o.text("MESH", a->job.mesh, "A mesh, as for barycert sample")->required();
-    add_kernels(o, a->kernels, "Kernels that match, those for the cells of the mesh; may be repeated");
-    o.text("--kernel-library", a->kernels.libraries,
+        "Exit codes: 0 done; 1 a limit of --fail-on is exceeded; 2 usage or input error.", run_gaps);
+    GapsOptions& options = a.job.options;
+    o.text("MESH", a.job.mesh, "A mesh, as for barycert sample")->required();
+    add_kernels(o, a.kernels, "Kernels that match, those for the cells of the mesh; may be repeated");
+    o.text("--kernel-library", a.kernels.libraries,
            "A shared library with a kernel of yours (see barycert/kernel.h); alone unless --kernel is given");
-    o.text("--rule", a->rules, "Show only this rule; may be repeated", joined(names_of(all_claim_rules)))
+    o.text("--rule", a.rules, "Show only this rule; may be repeated", joined(names_of(all_claim_rules)))
         ->check(one_of(names_of(all_claim_rules)));
     o.number("--class-tolerance", options.tolerance, 0,
              "Of the rule tolerant: a cell claims a point if all weights are >= -X; 1e-10 unless given", "X");
-    add_containment(o, a->kernels);
+    add_containment(o, a.kernels);
     add_count(o, options.count, 40, "Points on faces, on edges and on vertices each");
     add_seed(o, options.seed, "The same seed gives the same points on every machine");
-    o.curved(a->job.curved);
+    o.curved(a.job.curved);
     o.threads(options.threads);
-    a->reports.file(o, "--json", json_instead);
-    o.text("--fail-on", a->fail_on,
+    a.reports.file(o, "--json", json_instead);
+    o.text("--fail-on", a.fail_on,
            "Exit with 1 if a kernel has more than NUMBER (0 if omitted) such points under a rule that is shown; FAULT "
            "is gaps, several, wrong, wrong_first or outside_claimed; may be repeated",
            "FAULT[>NUMBER]");
-    o.negative("--no-check", a->job.check, "Do not check whether the mesh is a partition (see `barycert check`)");
-    a->reports.quiet(o, "Print no table");
-    o.run([a] { return run_gaps(*a); });
+    o.negative("--no-check", a.job.check, "Do not check whether the mesh is a partition (see `barycert check`)");
+    a.reports.quiet(o, "Print no table");
 }
 
 }  // namespace barycert::cli

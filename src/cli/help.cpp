@@ -9,7 +9,6 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <memory>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
@@ -17,9 +16,6 @@
 #include "command.hpp"
 #include "options.hpp"
 #include "options/command_table.hpp"
-#include "options/completion.hpp"
-#include "options/man_page.hpp"
-#include "options/mistyped.hpp"
 #ifdef BARYCERT_WITH_AUDIT
 #include "barycert/audit_search.hpp"
 #endif

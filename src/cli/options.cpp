@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <system_error>
 
 #include "barycert/base/text.hpp"
 #include "command.hpp"
@@ -206,11 +205,7 @@ void Options::field_files(std::vector<FieldFile>& files, const std::string& eith
         const auto take = [=, &files](const std::vector<std::string>& all) {
             for (const std::string& text : all) {
                 const auto steps = series == nullptr ? std::nullopt : series_of(of, text);
-                if (steps) {
-                    series->push_back(*steps);
-                } else {
-                    files.push_back(field_file_of(name, of, text));
-                }
+                steps ? series->push_back(*steps) : files.push_back(field_file_of(name, of, text));
             }
         };
         app_->add_option_function<std::vector<std::string>>(name, take, help)

@@ -5,19 +5,10 @@
 
 #include <charconv>
 #include <concepts>
-#include <cstdint>
-#include <functional>
 #include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <system_error>
-#include <utility>
-#include <vector>
 
 #include "barycert/jobs.hpp"
-#include "barycert/result.hpp"
-#include "options/choice.hpp"
+#include "options/parser.hpp"
 
 namespace barycert::cli {
 
@@ -77,14 +68,25 @@ public:
     /// The options of a subcommand below this one. `footer`: what its help ends with.
     Options below(std::string_view name, const std::string& about, const std::string& footer) const;
 
+    /// The same with arguments of its own; work(arguments) does what the subcommand does, and returns the exit code.
+    template <class Arguments>
+    std::pair<Options, Arguments&> command(std::string_view name, const std::string& about, const std::string& footer,
+                                           int (*work)(Arguments&)) const {
+        const Options o = below(name, about, footer);
+        const auto a = std::make_shared<Arguments>();
+        o.run([a, work] { return work(*a); });
+        return {o, *a};
+    }
+
     CLI::App& app() const { return *app_; }
 
-    /// What the subcommand does; it returns the exit code.
-    template <class Run>
-    void run(Run run) const {
-        app_->callback([run, code = exit_code_] { *code = run(); });
+    /// What the subcommand does; it returns the exit code. A subcommand below it does its own work instead.
+    template <class Work>
+    void run(Work work) const {
+        app_->callback([work, app = app_, code = exit_code_] {
+            if (app->get_subcommands().empty()) *code = work();
+        });
     }
-    void exit_with(int code) const { *exit_code_ = code; }
 
     /// A text or, if the option may be repeated, texts. A file or mesh, by the type, is not the empty string.
     template <class Text>
@@ -136,11 +138,20 @@ public:
             return x.has_value();
         });
     }
-    /// One of a few words.
+    /// One of a few words, each of which stands for a value, in the order of the help.
     template <class Value>
     CLI::Option* choice(const std::string& name, Value& value,
                         const std::vector<std::pair<std::string, Value>>& choices, const std::string& help) const {
-        return choice_option<Value>(*app_, name, value, choices, told(help));
+        std::vector<std::string> words;
+        for (const auto& choice : choices) words.push_back(choice.first);
+        const auto set = [&value, choices](const std::string& word) {
+            for (const auto& choice : choices) {
+                if (choice.first == word) value = choice.second;
+            }
+        };
+        return app_->add_option_function<std::string>(name, set, told(help))
+            ->check(one_of(words))
+            ->type_name(joined(words));
     }
 
     // Options that several subcommands have.

@@ -1,10 +1,8 @@
 // barycert render: pictures of scenes and meshes; the rest of its subcommands have files of their own.
 
 #include <algorithm>
-#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
-#include "options/mistyped.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -15,18 +13,19 @@ constexpr const char* pictures_remedy = "`barycert render --help` lists the pict
 struct PictureArguments {
     RenderJob job;
     Reports reports{Reports::Text::summary};
+    std::vector<std::string> pictures;  ///< the names of all, beside those of a scene
 };
 
 int run_picture(PictureArguments& a) {
     return a.reports.summarise(a.job, render_files, render_json, render_text);
 }
 
-int run_scene_file(PictureArguments& a, const std::vector<std::string>& pictures) {
+int run_scene_file(PictureArguments& a) {
     if (a.job.scene.empty())
         return fail({.what = "nothing to draw",
                      .expected = "the name of a picture, or a scene (.json)",
                      .remedy = pictures_remedy});
-    if (const Status named = check_picture_name(a.job.scene, pictures); !named) return fail(named.error());
+    if (const Status named = check_picture_name(a.job.scene, a.pictures); !named) return fail(named.error());
     if (a.job.output.empty())
         return fail({.what = "--output is required", .remedy = "name the picture: --output FILE.png"});
     return run_picture(a);
@@ -49,17 +48,15 @@ void add_methods(const Options& o, ViewOptions& view) {
 }
 
 /// One of the small pictures; `more` declares what comes before the options that all have.
-template <class More>
-void add_picture(const Options& render, PictureKind picture, RasterSize size, const std::string& about, More more) {
-    const Options o = render.below(name(picture), about, done_or_error);
-    const auto a = std::make_shared<PictureArguments>();
-    a->job.picture = picture;
-    a->job.view.size = size;
-    more(o, a->job);
-    add_outputs(o, *a);
-    o.size(a->job.view.size);
-    if (picture != PictureKind::clip) add_methods(o, a->job.view);
-    o.run([a] { return run_picture(*a); });
+void add_picture(const Options& render, PictureKind picture, RasterSize size, const std::string& about,
+                 void (*more)(const Options&, RenderJob&) = nullptr) {
+    const auto& [o, a] = render.command(name(picture), about, done_or_error, run_picture);
+    a.job.picture = picture;
+    a.job.view.size = size;
+    if (more != nullptr) more(o, a.job);
+    add_outputs(o, a);
+    o.size(a.job.view.size);
+    if (picture != PictureKind::clip) add_methods(o, a.job.view);
 }
 
 void add_texture(const Options& o, RenderJob& job) {
@@ -86,13 +83,13 @@ void add_cube(const Options& o, RenderJob& job) {
 }
 
 void add_mesh(const Options& render) {
-    const Options o = render.below(
+    const auto& [o, a] = render.command(
         "mesh", "The boundary of a mesh, lit, in the colours of a field",
-        "Triangles in the plane are drawn from above. Colours go from dark violet (low) to light yellow (high); grey: "
-        "no\n"
-        "finite value. Second-order cells are drawn with straight sides.\nExit codes: 0 done; 2 usage or input error.");
-    const auto a = std::make_shared<PictureArguments>();
-    RenderJob& job = a->job;
+        "Triangles in the plane are drawn from above. Colours go from dark violet (low) to light yellow (high); grey:\n"
+        "no finite value. Second-order cells are drawn with straight sides.\n"
+        "Exit codes: 0 done; 2 usage or input error.",
+        run_picture);
+    RenderJob& job = a.job;
     job.picture = PictureKind::mesh;
     o.mesh(job.mesh);
     o.step(job.step);
@@ -102,12 +99,11 @@ void add_mesh(const Options& render) {
     o.range(job.view.range, "");
     o.camera(job.view, "");
     o.negative("--no-bar", job.view.bar, "Draw no colour bar");
-    add_outputs(o, *a);
+    add_outputs(o, a);
     o.size(job.view.size);
     add_methods(o, job.view);
     o.curved(job.curved);
     o.threads(job.threads);
-    o.run([a] { return run_picture(*a); });
 }
 
 }  // namespace
@@ -121,36 +117,31 @@ Status check_picture_name(const std::string& word, const std::vector<std::string
 }
 
 void add_render(const Options& program) {
-    const Options o = program.below(
-        "render", "Pictures of meshes and scenes, surfaces in meshes, and what the shortcuts of rasterisers cost", "");
-    const auto a = std::make_shared<PictureArguments>();
-    o.text("SCENE", a->job.scene, "A scene (.json)");
-    add_outputs(o, *a, false);
-    o.app().require_subcommand(0, 1);
-    const auto nothing = [](const Options&, RenderJob&) {};
-    add_picture(o, PictureKind::gradient, {400, 400}, "A triangle with a red, a green and a blue corner", nothing);
+    const auto& [o, a] = program.command(
+        "render", "Pictures of meshes and scenes, surfaces in meshes, and what the shortcuts of rasterisers cost", "",
+        run_scene_file);
+    o.text("SCENE", a.job.scene, "A scene (.json)");
+    add_outputs(o, a, false);
+    add_picture(o, PictureKind::gradient, {400, 400}, "A triangle with a red, a green and a blue corner");
     add_picture(o, PictureKind::texture, {400, 400}, "A picture on a square or a triangle", add_texture);
     add_picture(
         o, PictureKind::cube, {480, 400},
         "A checkerboard on the faces of a cube in perspective, and the largest error of its texture coordinates",
         add_cube);
     add_picture(o, PictureKind::clip, {640, 320},
-                "A triangle and segments with colours, before and after clipping by a box", nothing);
+                "A triangle and segments with colours, before and after clipping by a box");
     add_mesh(o);
     add_render_contours(o);
 #ifdef BARYCERT_WITH_AUDIT
     add_render_tables(o);
 #endif
+    a.pictures = command_names(o.app());
+    o.app().require_subcommand(0, 1);
     // After the pictures, which would take it over.
     o.app().footer(with_command_name(
-        "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage "
-        "is\n"
-        "exact: a pixel belongs to the triangle that holds its centre, and on a common side to exactly one of the "
-        "two.\n"
+        "`barycert render SCENE.json --output FILE.png` draws a scene; doc/rendering.md describes its file. Coverage\n"
+        "is exact: a pixel belongs to the triangle that holds its centre, and on a common side to one of the two.\n"
         "`barycert help render PICTURE` explains each picture. Exit codes: 0 done; 2 usage or input error."));
-    o.app().callback([a, o] {
-        if (o.app().get_subcommands().empty()) o.exit_with(run_scene_file(*a, command_names(o.app())));
-    });
 }
 
 }  // namespace barycert::cli

@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <optional>
-#include <string>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -20,10 +17,12 @@ struct ContourArguments {
     ContourJob job;
     Reports reports{Reports::Text::summary};
     std::vector<double> ends, values;  ///< of --segment, end after end, and --values
+    const CLI::App* app = nullptr;
 };
 
 /// What iso and slice share.
 void add_contour_options(const Options& o, ContourArguments& a) {
+    a.app = &o.app();
     o.step(a.job.step);
     o.field_files(a.job.field_files, "--field-file");
     o.text("--fields", a.job.fields, "Fields to carry along: A,B,...; default: all", "NAMES");
@@ -35,16 +34,17 @@ void add_contour_options(const Options& o, ContourArguments& a) {
 }
 
 /// Refuses options of pictures that were given, where the output is a surface.
-Status check_picture_only(const CLI::App& sub, const std::string& output, const std::vector<std::string>& options) {
-    for (const std::string& name : given_options(sub)) {
-        if (std::find(options.begin(), options.end(), name) != options.end() && !output.empty() &&
-            !io::has_suffix(output, ".png"))
+Status check_picture_only(const ContourArguments& a) {
+    for (const std::string& name : given_options(*a.app)) {
+        const bool picture = name == "--azimuth" || name == "--elevation" || name == "--size" || name == "--width";
+        if (picture && !a.job.output.empty() && !io::has_suffix(a.job.output, ".png"))
             return Error{.what = name + " is for pictures", .remedy = "leave it out, or name a .png file"};
     }
     return Done{};
 }
 
 int run_contour(ContourArguments& a) {
+    if (const Status ok = check_picture_only(a); !ok) return fail(ok.error());
     return a.reports.summarise(a.job, contour_files, contour_json, contour_text);
 }
 
@@ -88,11 +88,10 @@ int on_segment(const ContourArguments& a, const std::string& of_mesh) {
     return exit_of(write_output("-", text));
 }
 
-int run_iso(ContourArguments& a, const CLI::App& sub) {
-    if (const Status ok = check_picture_only(sub, a.job.output, {"--azimuth", "--elevation", "--size"}); !ok)
-        return fail(ok.error());
+int run_iso(ContourArguments& a) {
+    if (const Status ok = check_picture_only(a); !ok) return fail(ok.error());
     std::string of_mesh;
-    for (const std::string& name : given_options(sub)) {
+    for (const std::string& name : given_options(*a.app)) {
         const bool of_segment = name == "--segment" || name == "--values" || name == "--value";
         if (!of_segment && name.starts_with('-')) of_mesh = name;
     }
@@ -106,30 +105,28 @@ int run_iso(ContourArguments& a, const CLI::App& sub) {
 }
 
 void add_iso(const Options& render) {
-    const Options o = render.below(
+    const auto& [o, a] = render.command(
         "iso", "Where a field has a value: the iso-surface of a mesh, the iso-lines of a mesh of triangles",
         "The boundary of the set where the field is at least the value, exactly; watertight, normals towards lower\n"
         "values. Points are on edges of the mesh, their coordinates and the fields carried along correctly rounded.\n"
-        "Files, by the suffix: .vtp (all fields), .ply (all fields), .off (no fields, no lines), .png (the surface, "
-        "lit).\n"
+        "Files, by the suffix: .vtp, .ply (all fields), .off (no fields, no lines), .png (the surface, lit).\n"
         "--segment A:B --values FA,FB prints the parameter t of one segment (0 at A, 1 at B) and the point.\n"
-        "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.");
-    const auto a = std::make_shared<ContourArguments>();
-    ContourJob& job = a->job;
+        "Exit codes: 0 done, an empty surface included; 2 usage or input error, a picture of nothing included.",
+        run_iso);
+    ContourJob& job = a.job;
     o.text("MESH", job.mesh, mesh_help);
     o.text("--field", job.field,
            "The field of nodes, or what is made of it, as sample names it: NAME.x or NAME.0, |NAME| (at the nodes)",
            "NAME");
     o.parsed("--value", "V", "Its value", "a finite number", job.value, finite);
     o.text("--output", job.output, "The surface: .vtp .ply .off .png");
-    add_contour_options(o, *a);
+    add_contour_options(o, a);
     o.text("--colours", job.colours,
            "Picture: the field of nodes or cells that colours the surface; default: none, it is grey", "NAME");
     o.range(job.range, "Picture: ");
     o.camera(job.view, "Picture: ");
     o.size(job.view.size);
-    add_segment(o, *a);
-    o.run([a, o] { return run_iso(*a, o.app()); });
+    add_segment(o, a);
 }
 
 std::optional<Plane> plane_of(const std::string& given) {
@@ -150,15 +147,15 @@ std::optional<Plane> plane_of(const std::string& given) {
 }
 
 void add_slice(const Options& render) {
-    const Options o = render.below(
+    const auto& [o, a] = render.command(
         "slice", "Cut a mesh of tetrahedra by a plane: a picture of a field, or a surface",
         "Sides of nodes are exact, for the four numbers of the plane as they are read. By the suffix of the output:\n"
         ".png         the field in colours, with a colour bar and a scale of lengths; seen from where the normal\n"
         "             points to, z upwards. Values are exact at the pixels' middles, which are rounded to doubles.\n"
         ".vtp .ply    triangles with all fields, correctly rounded; .off: without fields. Normals along the plane's.\n"
-        "Exit codes: 0 done; 2 usage or input error, a picture of nothing included.");
-    const auto a = std::make_shared<ContourArguments>();
-    ContourJob& job = a->job;
+        "Exit codes: 0 done; 2 usage or input error, a picture of nothing included.",
+        run_contour);
+    ContourJob& job = a.job;
     o.mesh(job.mesh);
     o.parsed("--plane", "NX,NY,NZ,D", "All points with NX x + NY y + NZ z = D; or of one axis: x=D, y=D, z=D",
              "an axis and where, such as z=0.5, or NX,NY,NZ,D, finite numbers, a normal that is not zero, such as "
@@ -172,11 +169,7 @@ void add_slice(const Options& render) {
     o.text("--output", job.output, "The section: .png .vtp .ply .off")->required();
     o.integer<std::int64_t>("--width", job.width, 1, 1000000, "Picture: pixels across the section", "PIXELS");
     o.range(job.range, "Picture: ");
-    add_contour_options(o, *a);
-    o.run([a, o] {
-        const Status ok = check_picture_only(o.app(), a->job.output, {"--width"});
-        return ok ? run_contour(*a) : fail(ok.error());
-    });
+    add_contour_options(o, a);
 }
 
 }  // namespace

@@ -49,29 +49,26 @@ void add_count_and_seed(const Options& o, TableArguments& a, const char* what) {
 }  // namespace
 
 void add_render_tables(const Options& render) {
-    const auto a = std::make_shared<TableArguments>(), t = std::make_shared<TableArguments>();
-    const Options drift =
-        render.below("drift", "Measure how far values that are stepped from pixel to pixel drift from the exact ones",
-                     done_or_error);
-    a->count = 10000;
-    a->reports.file(drift, "--output", "Plot the errors over the size of the triangle, as SVG; - is stdout");
-    a->reports.file(drift, "--json", json_figures);
-    add_kernels(drift, a->kernels,
+    const auto& [drift, a] =
+        render.command("drift", "Measure how far values that are stepped from pixel to pixel drift from the exact ones",
+                       done_or_error, run_drift);
+    a.count = 10000;
+    a.reports.file(drift, "--output", "Plot the errors over the size of the triangle, as SVG; - is stdout");
+    a.reports.file(drift, "--json", json_figures);
+    add_kernels(drift, a.kernels,
                 "Kernels on triangles (not triangle.perspective-*); may be repeated; default: increments in float and "
                 "double, bilinear, signed-area, exact");
-    drift.text("--kernel-library", a->kernels.libraries,
+    drift.text("--kernel-library", a.kernels.libraries,
                "A shared library with a kernel of yours; alone without --kernel");
-    add_containment(drift, a->kernels);
-    add_count_and_seed(drift, *a, "Cases per size");
-    a->reports.quiet(drift, "Print no table");
-    drift.run([a] { return run_drift(*a); });
-    const Options texels = render.below(
+    add_containment(drift, a.kernels);
+    add_count_and_seed(drift, a, "Cases per size");
+    a.reports.quiet(drift, "Print no table");
+    const auto& [texels, t] = render.command(
         "texels", "Count how often rules for the texel of a texture coordinate are wrong or leave the texture",
-        done_or_error);
-    t->count = 100000;
-    t->reports.file(texels, "--json", json_figures);
-    add_count_and_seed(texels, *t, "Coordinates");
-    texels.run([t] { return run_texels(*t); });
+        done_or_error, run_texels);
+    t.count = 100000;
+    t.reports.file(texels, "--json", json_figures);
+    add_count_and_seed(texels, t, "Coordinates");
 }
 
 }  // namespace barycert::cli

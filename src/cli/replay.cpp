@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
@@ -22,7 +21,7 @@ struct ReplayArguments {
     KernelChoice kernels{.names = {"*"}};
     std::optional<std::uint64_t> index;
     bool all = false;
-    std::string of_generated;  ///< an option that was given and is for a generated case
+    const CLI::App* app = nullptr;
 };
 
 /// What to do where no witness of the file matches; with the nearest name if no witness has that of --kernel or
@@ -46,9 +45,11 @@ Status check_arguments(const ReplayArguments& a) {
         return Error{.what = a.file.empty() ? "no case to replay" : "a witness file and a case",
                      .expected = "either a witness file, or --family and --case"};
     if (!a.made.family.empty() && !a.index) return Error{.what = "--family needs --case"};
-    if (!a.file.empty() && !a.of_generated.empty())
-        return Error{.what = a.of_generated + " is for a case that is generated",
-                     .expected = "a witness file without it, or --family and --case"};
+    for (const std::string& name : given_options(*a.app)) {
+        if (!a.file.empty() && (name == "--case" || name == "--seed" || name == "--simplex"))
+            return Error{.what = name + " is for a case that is generated",
+                         .expected = "a witness file without it, or --family and --case"};
+    }
     if (std::error_code ignored; std::filesystem::is_directory(a.file, ignored))
         return Error{.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"};
     return Done{};
@@ -96,29 +97,24 @@ int run_replay(ReplayArguments& a) {
 }  // namespace
 
 void add_replay(const Options& program) {
-    const Options o = program.below("replay", "Show witnesses: a kernel's weights beside the exact ones",
-                                    "Exit codes: 0 done; 1 a finding is not reproduced; 2 usage or input error.");
-    const auto a = std::make_shared<ReplayArguments>();
-    o.text("FILE", a->file, "Witnesses from `barycert audit` or `search`: --witnesses FILE or --json FILE");
-    o.text("--kernel", a->made.kernel, "Show only witnesses of matching kernels; with --case, mark this kernel",
+    const auto& [o, a] =
+        program.command("replay", "Show witnesses: a kernel's weights beside the exact ones",
+                        "Exit codes: 0 done; 1 a finding is not reproduced; 2 usage or input error.", run_replay);
+    o.text("FILE", a.file, "Witnesses from `barycert audit` or `search`: --witnesses FILE or --json FILE");
+    o.text("--kernel", a.made.kernel, "Show only witnesses of matching kernels; with --case, mark this kernel",
            "KERNEL|GLOB");
-    o.text("--reason", a->made.reason,
+    o.text("--reason", a.made.reason,
            "Show only witnesses of this kind of finding; with --case, the finding it must show", "REASON|GLOB");
-    o.text("--family", a->made.family, "Generate a case instead of reading it: its family", "FAMILY");
-    o.whole("--case", a->index, "Number of the case to generate", "N");
-    add_seed(o, a->made.seed, "Seed of the case to generate");
-    o.text("--simplex", a->made.simplex, "Simplex of the case, if family and kernel do not determine it",
+    o.text("--family", a.made.family, "Generate a case instead of reading it: its family", "FAMILY");
+    o.whole("--case", a.index, "Number of the case to generate", "N");
+    add_seed(o, a.made.seed, "Seed of the case to generate");
+    o.text("--simplex", a.made.simplex, "Simplex of the case, if family and kernel do not determine it",
            joined(names_of(all_simplices)));
-    o.text("--mesh", a->meshes, "Meshes of the case, in the order given to the audit; default: barycert's own", "MESH");
-    o.text("--kernel-library", a->kernels.libraries, "Also show the kernel of this library");
-    o.flag("--all", a->all, "Show the answers of all kernels, not only of the one in question");
-    add_kernel_rules(o, a->kernels);
-    o.run([a, o] {
-        for (const std::string& name : given_options(o.app())) {
-            if (name == "--case" || name == "--seed" || name == "--simplex") a->of_generated = name;
-        }
-        return run_replay(*a);
-    });
+    o.text("--mesh", a.meshes, "Meshes of the case, in the order given to the audit; default: barycert's own", "MESH");
+    o.text("--kernel-library", a.kernels.libraries, "Also show the kernel of this library");
+    o.flag("--all", a.all, "Show the answers of all kernels, not only of the one in question");
+    add_kernel_rules(o, a.kernels);
+    a.app = &o.app();
 }
 
 }  // namespace barycert::cli

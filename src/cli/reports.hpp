@@ -2,16 +2,8 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <deque>
-#include <functional>
-#include <map>
-#include <memory>
-#include <string>
-#include <string_view>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/named_file.hpp"
 #include "barycert/jobs.hpp"

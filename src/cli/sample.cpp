@@ -2,7 +2,6 @@
 // mesh.
 
 #include <cmath>
-#include <optional>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
@@ -70,30 +69,16 @@ void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) 
     reports.rows(job.output);
 }
 
-template <class Job>
-int run_sampling(SamplingArguments<Job>& a, Result<SampleReport> (*files)(const Job&)) {
+template <class Job, Result<SampleReport> (*files)(const Job&)>
+int run_sampling(SamplingArguments<Job>& a) {
     a.job.count_degenerate = !a.reports.is_quiet() || a.reports.any_file();
     return a.reports.summarise(a.job, files, sample_json, sample_text);
-}
-
-void add_targets(const Options& o, ResampleJob& job) {
-    o.parsed("--grid", "NXxNYxNZ", "Number of points along each axis, ends included; a single point lies in the middle",
-             "numbers of points along the axes, min 1, such as 200x200x100", job.counts, numbers('x', count_of, 2, 3));
-    o.parsed("--spacing", "H|HXxHYxHZ", "Distance of points along each axis, from the lower end of the bounds",
-             "a positive number, or one for each axis, such as 0.1x0.1x0.2", job.spacing, numbers('x', positive, 1, 3));
-    o.parsed("--bounds", "XMIN,XMAX,...", "Box of the grid; default: the box of the cells",
-             "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX (2D: the first four), finite numbers", job.bounds,
-             [](const std::string& text) {
-                 const auto bounds = numbers(',', finite, 4, 6)(text);
-                 return bounds && bounds->size() != 5 ? bounds : std::nullopt;
-             });
-    o.text("--onto", job.onto, "Sample at the nodes of this mesh", "MESH2");
 }
 
 }  // namespace
 
 void add_sample(const Options& program) {
-    const Options o = program.below(
+    const auto& [o, a] = program.command(
         "sample", "Sample the fields of a mesh at points, correctly rounded",
         "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...): node\n"
         "fields, cell fields, lengths; then with --outside nearest or extrapolate the distance to the mesh, then "
@@ -103,9 +88,9 @@ void add_sample(const Options& program) {
         "exact. TetGen's node attributes are named attribute0, attribute1, ... Rows are points again: --points takes\n"
         "the output of another run.\n"
         "Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input\n"
-        "error.");
-    const auto a = std::make_shared<SamplingArguments<SampleJob>>();
-    SampleJob& job = a->job;
+        "error.",
+        run_sampling<SampleJob, sample_files>);
+    SampleJob& job = a.job;
     o.mesh(job.mesh);
     o.text("--points", job.points,
            "Points: .csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, or the nodes of another mesh; - is CSV from "
@@ -119,7 +104,7 @@ void add_sample(const Options& program) {
            "and those that rows have anyway; NEW=NAME gives a column another name",
            "NAMES|all");
     o.text("--output", job.output, "Rows: .csv .npy .vtu; - is CSV on stdout");
-    add_sampling_options(o, job, a->reports);
+    add_sampling_options(o, job, a.reports);
     o.nonfinite(job.options.nonfinite_points);
     o.choice<std::optional<bool>>(
         "--on-boundary", job.all, {{"lowest", false}, {"all", true}},
@@ -127,11 +112,10 @@ void add_sample(const Options& program) {
     o.text("--save-map", job.save_map, "Write the cell of each point to a file for --map");
     o.text("--map", job.map,
            "Instead of --points: take points and cells from this map; for other fields on the same mesh");
-    o.run([a] { return run_sampling(*a, sample_files); });
 }
 
 void add_resample(const Options& program) {
-    const Options o = program.below(
+    const auto& [o, a] = program.command(
         "resample", "Sample the fields of a mesh on a regular grid, or onto another mesh, correctly rounded",
         "Grids go, by the suffix, to .vti (an array a field, and vtkValidPointMask and cell), .npy (an array of shape\n"
         "nz,ny,nx, or nz,ny,nx,columns), .csv (rows as of `barycert sample`; - is stdout), .png (one layer of one\n"
@@ -140,16 +124,25 @@ void add_resample(const Options& program) {
         "and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's, with attributes), .csv, "
         ".npy.\n"
         "Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input\n"
-        "error.");
-    const auto a = std::make_shared<SamplingArguments<ResampleJob>>();
-    ResampleJob& job = a->job;
+        "error.",
+        run_sampling<ResampleJob, resample_files>);
+    ResampleJob& job = a.job;
     o.mesh(job.mesh);
-    add_targets(o, job);
+    o.parsed("--grid", "NXxNYxNZ", "Number of points along each axis, ends included; a single point lies in the middle",
+             "numbers of points along the axes, min 1, such as 200x200x100", job.counts, numbers('x', count_of, 2, 3));
+    o.parsed("--spacing", "H|HXxHYxHZ", "Distance of points along each axis, from the lower end of the bounds",
+             "a positive number, or one for each axis, such as 0.1x0.1x0.2", job.spacing, numbers('x', positive, 1, 3));
+    o.parsed("--bounds", "XMIN,XMAX,...", "Box of the grid; default: the box of the cells",
+             "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX (2D: the first four), finite numbers", job.bounds,
+             [](const std::string& text) {
+                 const auto bounds = numbers(',', finite, 4, 6)(text);
+                 return bounds && bounds->size() != 5 ? bounds : std::nullopt;
+             });
+    o.text("--onto", job.onto, "Sample at the nodes of this mesh", "MESH2");
     o.text("--output", job.output, "Grids: .vti .npy .csv .png; with --onto: .vtu .vtk .msh .node .csv .npy")
         ->required();
     o.range(job.range, "Picture: ");
-    add_sampling_options(o, job, a->reports);
-    o.run([a] { return run_sampling(*a, resample_files); });
+    add_sampling_options(o, job, a.reports);
 }
 
 }  // namespace barycert::cli

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <chrono>
 #include <tuple>
-#include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
@@ -107,14 +105,13 @@ int run_search(SearchArguments& a) {
 }  // namespace
 
 void add_search(const Options& program) {
-    const Options o =
-        program.below("search", "Search for the worst cases of one kernel, and the plainest that show them",
-                      "Exit codes: 0 done; 1 a rule of --fail-on is broken; 2 usage or input error.");
-    const auto a = std::make_shared<SearchArguments>();
-    SearchOptions& options = a->options;
-    o.app().add_option("KERNEL", a->name, with_command_name("The kernel, as `barycert kernels` lists it"));
-    o.text("--kernel-library", a->library, "Instead: a shared library with a kernel of yours (see barycert/kernel.h)");
-    add_containment(o, a->kernel);
+    const auto& [o, a] =
+        program.command("search", "Search for the worst cases of one kernel, and the plainest that show them",
+                        "Exit codes: 0 done; 1 a rule of --fail-on is broken; 2 usage or input error.", run_search);
+    SearchOptions& options = a.options;
+    o.app().add_option("KERNEL", a.name, with_command_name("The kernel, as `barycert kernels` lists it"));
+    o.text("--kernel-library", a.library, "Instead: a shared library with a kernel of yours (see barycert/kernel.h)");
+    add_containment(o, a.kernel);
     o.integer("--steps", options.steps, std::uint64_t{1}, std::uint64_t{1} << 48, "Cases to make");
     o.number("--seconds", options.seconds, 0, "End after this time at the latest; then a repetition may find otherwise",
              "S", true);
@@ -126,16 +123,15 @@ void add_search(const Options& program) {
                 if (ends) std::tie(options.min_exponent, options.max_exponent) = std::pair((*ends)[0], (*ends)[1]);
                 return ends.has_value();
             });
-    o.text("--family", a->families, "Start from families that match; may be repeated; default: all", "FAMILY|GLOB");
+    o.text("--family", a.families, "Start from families that match; may be repeated; default: all", "FAMILY|GLOB");
     o.threads(options.threads);
-    a->reports.file(o, "--json", json_instead);
-    a->reports.file(o, "--witnesses", "Write the plainest cases as JSON, for `barycert replay`; - is stdout");
-    o.text("--fail-on", a->fail_on,
+    a.reports.file(o, "--json", json_instead);
+    a.reports.file(o, "--witnesses", "Write the plainest cases as JSON, for `barycert replay`; - is stdout");
+    o.text("--fail-on", a.fail_on,
            "Exit with 1 if RULE exceeds NUMBER (0 if omitted): any, a class of finding (cases), worst_weight_ulp, "
            "worst_value_ulp; may be repeated",
            "RULE[>NUMBER]");
-    a->reports.quiet(o, "Print no table and no progress");
-    o.run([a] { return run_search(*a); });
+    a.reports.quiet(o, "Print no table and no progress");
 }
 
 }  // namespace barycert::cli

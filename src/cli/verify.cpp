@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "barycert/base/text.hpp"
 #include "reports.hpp"
 
@@ -12,14 +10,20 @@ namespace {
 
 struct VerifyArguments {
     VerifyJob job;
-    std::vector<std::string> fail_on;
+    std::vector<std::string> values, fail_on;
     Reports reports;
+    CLI::Option* tolerance = nullptr;
 };
 
 int run_verify(VerifyArguments& a) {
     auto limits = parsed_all(a.fail_on, parse_verify_limit);
     if (!limits) return fail(limits.error());
     a.job.limits = *limits;
+    a.job.tolerance_given = a.tolerance->count() != 0;
+    for (const std::string& text : a.values) {
+        const auto [field, column] = assignment("--value", "FIELD=COLUMN", text);
+        a.job.values[field] = column;
+    }
     a.reports.begin(a.job);
     return a.reports.end(verify_files(a.job), [&](const VerifyReport& r) {
         const Environment environment = measure_environment();
@@ -43,7 +47,7 @@ int run_verify(VerifyArguments& a) {
 }  // namespace
 
 void add_verify(const Options& program) {
-    const Options o = program.below(
+    const auto& [o, a] = program.command(
         "verify", "Compare results of any tool with the exact ones: cells, inside or outside, values",
         "RESULTS: points with columns, as written by barycert sample, ParaView, pyvista, pandas or NumPy. A row is "
         "inside\n"
@@ -52,9 +56,9 @@ void add_verify(const Options& program) {
         "NaN: outside). Any cell that contains "
         "the\n"
         "point is a right cell. Errors of values are told in ulps and in parts of the range of the field (max - min).\n"
-        "Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or input error.");
-    const auto a = std::make_shared<VerifyArguments>();
-    VerifyJob& job = a->job;
+        "Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or input error.",
+        run_verify);
+    VerifyJob& job = a.job;
     o.mesh(job.mesh);
     o.step(job.step);
     o.text("--results", job.results, "Points with results: .csv .txt .npy .vtu .vtp .vti .vtk; - is CSV from stdin")
@@ -64,17 +68,7 @@ void add_verify(const Options& program) {
            "Fields to compare, or what is made of them, as sample names it: A,B.x,|C|,...; default: those that the "
            "results have",
            "NAMES");
-    const auto add_values = [&job](const std::vector<std::string>& all) {
-        for (const std::string& text : all) {
-            const auto [field, column] = assignment("--value", "FIELD=COLUMN", text);
-            job.values[field] = column;
-        }
-    };
-    o.app()
-        .add_option_function<std::vector<std::string>>(
-            "--value", add_values, "The column of the results for a value of the mesh (T, v.0, ...)")
-        ->allow_extra_args(false)
-        ->type_name("FIELD=COLUMN");
+    o.text("--value", a.values, "The column of the results for a value of the mesh (T, v.0, ...)", "FIELD=COLUMN");
     o.text("--columns", job.columns, "Columns of the coordinates: names, or numbers from 1; default: x,y,z", "A,B,C");
     o.text("--cell-column", job.cell_column, "Column with the cell of each point; default: cell; none: none", "NAME");
     o.integer("--cell-base", job.cell_base, 0, 1, "Number of the first cell in that column", "0|1");
@@ -85,32 +79,26 @@ void add_verify(const Options& program) {
                     "A row whose values are all this number is outside (tools that turn outside into 0)")
         ->type_name("NUMBER");
     o.nonfinite(job.options.nonfinite_points);
-    auto* const tolerance =
+    a.tolerance =
         o.number("--tolerance", job.options.tolerance, 0,
                  "Largest error of a right value, in parts of the range of its field (where that is 0 of the "
                  "magnitude, and of 1 where the field is 0); default: 1e-9, or 1e-6 where all values are single "
                  "precision",
                  "T");
     o.flag("--exact", job.options.exact, "Right is only the exact value, rounded once, to the last bit")
-        ->excludes(tolerance);
+        ->excludes(a.tolerance);
     o.integer<std::size_t>("--examples", job.options.examples, 0, 100000, "Number of rows shown of each kind of error");
-    o.app()
-        .add_option("--fail-on", a->fail_on,
-                    "Exit with 1 only if there are more than NUMBER (0 if omitted) such rows; KIND is missed, "
-                    "invented, wrong_cell or wrong_value; several with commas, or repeated")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("KIND[>NUMBER]");
+    o.text("--fail-on", a.fail_on,
+           "Exit with 1 only if there are more than NUMBER (0 if omitted) such rows; KIND is missed, invented, "
+           "wrong_cell or wrong_value; several with commas, or repeated",
+           "KIND[>NUMBER]")
+        ->delimiter(',');
     o.curved(job.curved);
     o.threads(job.options.threads);
-    a->reports.file(o, "--json", "Write the report as JSON; - is stdout");
-    a->reports.file(o, "--html", "Write the report as an HTML page; - is stdout");
-    a->reports.ci(o, "kinds of wrong rows (see --fail-on)");
-    a->reports.quiet(o, "Print no report and no progress");
-    o.run([a, tolerance] {
-        a->job.tolerance_given = tolerance->count() != 0;
-        return run_verify(*a);
-    });
+    a.reports.file(o, "--json", "Write the report as JSON; - is stdout");
+    a.reports.file(o, "--html", "Write the report as an HTML page; - is stdout");
+    a.reports.ci(o, "kinds of wrong rows (see --fail-on)");
+    a.reports.quiet(o, "Print no report and no progress");
 }
 
 }  // namespace barycert::cli

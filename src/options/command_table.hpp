@@ -1,5 +1,5 @@
-/// All commands and options of a program in plain words, read from its parser: what --help shows, manual pages and
-/// completions are made of.
+/// All commands and options of a program in plain words, read from its parser: what --help shows; and what is made of
+/// them, manual pages and completions.
 #pragma once
 
 #include <map>
@@ -57,5 +57,29 @@ void for_commands(const CommandEntry& command, const Visit& visit) {
     visit(command);
     for (const CommandEntry& below : command.commands) for_commands(below, visit);
 }
+
+// Manual pages.
+
+struct ManPage {
+    std::string file;  ///< "barycert-render-iso.1"
+    std::string text;  ///< roff, with the macros of man(7)
+};
+
+/// A variable of the environment.
+struct Variable {
+    std::string name, text;
+};
+
+/// A page for the program and one for each command below it. `version`: "barycert 0.1.0". `environment`: what the
+/// page of the program says of each variable. `date`: as YYYY-MM-DD, or empty.
+std::vector<ManPage> man_pages(const CommandEntry& program, std::string_view version,
+                               const std::vector<Variable>& environment, std::string_view date);
+
+// Completions for shells: commands, options, and their values where these are a few words or files.
+
+/// Each is a script for its shell, of one program.
+std::string bash_completion(const CommandEntry& program);
+std::string zsh_completion(const CommandEntry& program);
+std::string fish_completion(const CommandEntry& program);
 
 }  // namespace barycert::cli

@@ -2,14 +2,12 @@
 // package bash-completion; for zsh it is a function for each command, of specifications for _arguments; for fish a line
 // for each option, with the command it belongs to as its condition.
 
-#include "options/completion.hpp"
+#include "options/command_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <string_view>
 
 namespace barycert::cli {
 namespace {
@@ -100,13 +98,10 @@ std::string function_of(const CommandEntry& command) {
         cases += fmt::format("    {}) {} ;;\n", below.name, function_name(below.path));
     }
     // Operands of a command that has commands below it: where the first word is none of them.
-    std::string operands;
-    for (const OptionEntry& option : command.options) {
-        if (option.operand && option.files) operands = "_files";
-    }
-    std::string options;
+    std::string operands, options;
     for (const OptionEntry& option : command.options) {
         if (!option.operand) options += " \\\n   " + specification(option);
+        if (option.operand && option.files) operands = "_files";
     }
     text += "  local curcontext=$curcontext state line\n  local -a commands\n  typeset -A opt_args\n";
     text += "  commands=(" + names + "\n  )\n";

@@ -1,4 +1,4 @@
-#include "options/man_page.hpp"
+#include "options/command_table.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,6 @@ std::string roff(std::string_view text) {
 std::string bold(std::string_view text) {
     return "\\fB" + roff(text) + "\\fR";
 }
-
 std::string italic(std::string_view text) {
     return "\\fI" + roff(text) + "\\fR";
 }
@@ -123,14 +122,14 @@ std::pair<std::string, std::string> split_notes(const std::string& notes) {
     return {rest, codes};
 }
 
-std::string link_to(const std::string& name) {
-    return bold(name) + "(1)";
+std::string link_to(const CommandEntry& command) {
+    return bold(page_name(command)) + "(1)";
 }
 
 std::string see_also(const CommandEntry& command, const CommandEntry& program) {
     std::vector<std::string> links;
-    if (&command != &program) links.push_back(link_to(page_name(program)));
-    for (const CommandEntry& other : command.commands) links.push_back(link_to(page_name(other)));
+    if (&command != &program) links.push_back(link_to(program));
+    for (const CommandEntry& other : command.commands) links.push_back(link_to(other));
     return links.empty() ? "" : fmt::format(".SH SEE ALSO\n{}\n", fmt::join(links, ",\n"));
 }
 
@@ -149,7 +148,7 @@ std::string page(const CommandEntry& command, const CommandEntry& program, std::
     text += entries(command, true, "OPERANDS") + entries(command, false, "OPTIONS");
     if (!command.commands.empty()) text += ".SH SUBCOMMANDS\n";
     for (const CommandEntry& below : command.commands)
-        text += ".TP\n" + bold(below.name) + '\n' + roff(below.text) + ". See " + link_to(page_name(below)) + ".\n";
+        text += ".TP\n" + bold(below.name) + '\n' + roff(below.text) + ". See " + link_to(below) + ".\n";
     if (!codes.empty()) text += ".SH EXIT STATUS\n" + roff(codes) + '\n';
     if (&command == &program && !environment.empty()) {
         text += ".SH ENVIRONMENT\n";

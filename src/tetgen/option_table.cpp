@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "options/choice.hpp"
+#include "options/parser.hpp"
 
 namespace barycert {
 

@@ -17,7 +17,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "options/mistyped.hpp"
+#include "options/parser.hpp"
 
 namespace barycert {
 namespace {

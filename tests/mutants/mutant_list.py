@@ -213,7 +213,7 @@ EXPLICIT = [
      "points that are not finite"),
     ("lane_loop-inl.hpp", "run(hn::CappedTag<double, 1>());", 0, "", "the rest of a batch"),
     ("lane_loop-inl.hpp", "numbers[count] = static_cast<std::uint32_t>(at + i);", 0, "numbers[count] = static_cast<std::uint32_t>(i);", "numbers within the vector"),
-    ("lane_loop-inl.hpp", "(bits[0] >> i & 1) == 0 ? 1 : 0", 0, "(bits[0] >> i & 1) == 0 && i + 1 < used ? 1 : 0", "the last lane's indecision"),
+    ("lane_loop-inl.hpp", "(bits >> i & 1) == 0 ? 1 : 0", 0, "(bits >> i & 1) == 0 && i + 1 < used ? 1 : 0", "the last lane's indecision"),
     ("lanes.cpp", "out + at * stride + static_cast<std::size_t>(c), stride", 0, "out + at * stride, stride", "all components to the first"),
     ("lanes.cpp", "f[n * c + i] + at", 0, "f[i] + at", "all components from the first"),
     ("inverse.cpp", "if (w.degenerate()) {", 0, "if (false) {", "undetermined values"),

@@ -25,6 +25,15 @@ namespace barycert::core::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// A bit a lane, that of lane 0 the lowest.
+template <class D, class M>
+HWY_INLINE std::uint32_t mask_bits(D tag, M mask) {
+    static_assert(hn::MaxLanes(D()) <= 8);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, mask, bits);
+    return bits[0];
+}
+
 /// Numbers of undecided cases, ascending.
 struct UndecidedList {
     std::uint32_t* numbers;  ///< room for all cases
@@ -33,13 +42,11 @@ struct UndecidedList {
     /// Adds those of cases at ... at + used - 1, one a lane, that are not decided.
     template <class D>
     HWY_INLINE void add(D tag, hn::Mask<D> decided, std::size_t at, std::size_t used) {
-        static_assert(hn::MaxLanes(D()) <= 8);
         if (HWY_LIKELY(hn::AllTrue(tag, decided))) return;
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(tag, decided, bits);
+        const std::uint32_t bits = mask_bits(tag, decided);
         for (std::size_t i = 0; i < used; ++i) {
             numbers[count] = static_cast<std::uint32_t>(at + i);
-            count += (bits[0] >> i & 1) == 0 ? 1 : 0;
+            count += (bits >> i & 1) == 0 ? 1 : 0;
         }
     }
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
-#include <utility>
 
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"

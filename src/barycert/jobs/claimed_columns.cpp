@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <set>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
@@ -16,32 +14,19 @@ namespace {
 
 constexpr const char* none = "none";
 
-std::vector<std::string> names_in(const std::vector<ColumnFormat>& there) {
-    std::vector<std::string> names;
-    for (const ColumnFormat& c : there) names.push_back(c.name);
-    return names;
-}
-
 bool has(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string list_of(const std::vector<std::string>& names, const char* if_empty = "none") {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + base::quoted(name);
-    return text.empty() ? if_empty : text;
-}
-
 Error no_column(const VerifyJob& job, const std::string& what, const std::string& name,
                 const std::vector<std::string>& there) {
-    return refusal(job.results, what + ": the results have no such column", list_of(there), base::quoted(name),
-                   base::did_you_mean(name, there, "name one of these"));
+    return refusal(job.results, what + ": the results have no such column", listed(there, base::quoted),
+                   base::quoted(name), base::did_you_mean(name, there, "name one of these"));
 }
 
 /// The columns that a choice has in rows.
 TableField columns_of(const Mesh& mesh, const FieldChoice& choice) {
-    return {choice.name.empty() ? choice.field->name : choice.name,
-            static_cast<int>(sample::shape_of(mesh, choice)->components)};
+    return {sample::name_of(choice), static_cast<int>(sample::shape_of(mesh, choice)->components)};
 }
 
 /// The column of component c of a field: what the job says, or one of the usual names; empty: none.
@@ -64,8 +49,8 @@ Status check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<Fie
     for (const auto& [value, column] : job.values) {
         if (!has(known, value))
             return refusal("", "job.values: the mesh has no such value",
-                           list_of(known, "no field at all: give one with job.field_files"), base::quoted(value),
-                           base::did_you_mean(value, known));
+                           listed(known, base::quoted, "no field at all: give one with job.field_files"),
+                           base::quoted(value), base::did_you_mean(value, known));
         if (!has(there, column)) return no_column(job, "job.values", column, there);
     }
     for (const auto& [member, column] :
@@ -81,12 +66,12 @@ std::string chosen(const std::string& asked, const std::string& usual, const std
     return has(there, usual) ? usual : "";
 }
 
-const Column& column_named(const std::vector<Column>& columns, const std::string& name) {
-    return *std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
-}
-
-/// As doubles; NaN for an empty text.
-Result<std::vector<double>> numbers_of(const Column& column, const VerifyJob& job, std::uint64_t first_row) {
+/// As doubles; NaN for an empty text. Of a mask the bytes 0 and 1 are these numbers, as vtkDelimitedTextWriter writes
+/// them.
+Result<std::vector<double>> numbers_of(const std::vector<Column>& columns, const std::string& name,
+                                       const VerifyJob& job, std::uint64_t first_row, bool mask = false) {
+    const Column& column =
+        *std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == name; });
     if (const auto* const numbers = std::get_if<std::vector<double>>(&column.values)) return *numbers;
     std::vector<double> out;
     out.reserve(column.size());
@@ -97,6 +82,7 @@ Result<std::vector<double>> numbers_of(const Column& column, const VerifyJob& jo
     for (const std::string& text : std::get<std::vector<std::string>>(column.values)) {
         std::optional<double> x = base::parse_double(text);
         if (text.empty()) x = std::numeric_limits<double>::quiet_NaN();
+        if (mask && text.size() == 1 && (text[0] == '\0' || text[0] == '\1')) x = text[0];
         if (!x)
             return refusal(
                 job.results,
@@ -106,17 +92,6 @@ Result<std::vector<double>> numbers_of(const Column& column, const VerifyJob& jo
         out.push_back(*x);
     }
     return out;
-}
-
-/// A mask as numbers. vtkDelimitedTextWriter writes the characters 0 and 1 as such bytes.
-Result<std::vector<double>> mask_of(const Column& column, const VerifyJob& job, std::uint64_t first_row) {
-    const auto* const texts = std::get_if<std::vector<std::string>>(&column.values);
-    if (texts == nullptr) return numbers_of(column, job, first_row);
-    Column digits{column.name, *texts};
-    for (std::string& text : std::get<std::vector<std::string>>(digits.values)) {
-        if (text.size() == 1 && (text[0] == '\0' || text[0] == '\1')) text[0] = static_cast<char>('0' + text[0]);
-    }
-    return numbers_of(digits, job, first_row);
 }
 
 /// Index in the mesh; beyond the last cell where the mesh has no such number.
@@ -141,7 +116,8 @@ std::vector<std::string> ClaimedColumns::names() const {
 
 Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                                        const std::vector<ColumnFormat>& formats, Notes& notes) {
-    const std::vector<std::string> there = names_in(formats);
+    std::vector<std::string> there;
+    for (const ColumnFormat& column : formats) there.push_back(column.name);
     if (Status ok = check_named(job, mesh, fields, there); !ok) return ok.error();
     ClaimedColumns out;
     for (const FieldChoice& choice : fields) {
@@ -174,8 +150,9 @@ Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, c
     for (const FieldChoice& choice : fields) names.push_back(choice.field->name);
     return refusal(
         job.results, "the results have no column to compare",
-        "columns named as fields of the mesh (" + list_of(names, "it has none") + "), `cell` or vtkValidPointMask",
-        list_of(there),
+        "columns named as fields of the mesh (" + listed(names, base::quoted, "it has none") +
+            "), `cell` or vtkValidPointMask",
+        listed(there, base::quoted),
         "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not in the mesh "
         "file: job.field_files NAME=FILE");
 }
@@ -185,7 +162,7 @@ Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>&
     Claims out;
     std::vector<std::vector<double>> values;
     for (const std::string& name : which.values) {
-        auto numbers = numbers_of(column_named(columns, name), job, first_row);
+        auto numbers = numbers_of(columns, name, job, first_row);
         if (!numbers) return numbers.error();
         values.push_back(std::move(*numbers));
     }
@@ -195,7 +172,7 @@ Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>&
         for (std::size_t i = 0; i < rows; ++i) out.values[values.size() * i + c] = values[c][i];
     }
     if (!which.cell.empty()) {
-        const auto numbers = numbers_of(column_named(columns, which.cell), job, first_row);
+        const auto numbers = numbers_of(columns, which.cell, job, first_row);
         if (!numbers) return numbers.error();
         for (std::size_t i = 0; i < rows; ++i) {
             const double x = (*numbers)[i];
@@ -208,7 +185,7 @@ Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>&
         }
     }
     if (!which.mask.empty()) {
-        const auto numbers = mask_of(column_named(columns, which.mask), job, first_row);
+        const auto numbers = numbers_of(columns, which.mask, job, first_row, true);
         if (!numbers) return numbers.error();
         for (const double x : *numbers) out.inside.push_back(x != 0 && !std::isnan(x) ? 1 : 0);
     }

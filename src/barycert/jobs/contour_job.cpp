@@ -8,9 +8,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
@@ -129,21 +126,26 @@ private:
     }
 
     Result<Cut> cut_with_fields() {
+        CutOptions options;
+        options.threads = job_.threads;
+        const auto carry = [&](const FieldChoice& c, const std::string& name) {
+            (c.of_cells ? options.cell_fields : options.point_fields).push_back(c.field);
+            report_.fields.push_back(name);
+        };
         // To carry along, a field need not be one number.
         auto chosen =
             sample::quantities_named(mesh_, job_.plane && !job_.field.empty() ? std::vector{job_.field} : job_.fields);
         if (!chosen) return chosen.error();
         if (Status made = sample::make_all_fields(mesh_, *chosen, made_, report_.notes); !made) return made.error();
-        CutOptions options;
-        options.threads = job_.threads;
-        for (const FieldChoice& c : *chosen) {
-            (c.of_cells ? options.cell_fields : options.point_fields).push_back(c.field);
-            report_.fields.push_back(c.field->name);
+        // A picture of an iso-surface needs the field that colours it, and no other.
+        if (!is_picture(job_)) {
+            for (const FieldChoice& c : *chosen) carry(c, c.field->name);
+        } else if (!job_.colours.empty()) {
+            const Result<FieldChoice> colours = jobs::field_of_numbers(mesh_, job_.colours, made_, report_.notes);
+            if (!colours) return colours.error();
+            carry(*colours, job_.colours);
         }
         if (job_.plane) return cut_plane(std::move(options));
-        if (is_picture(job_)) {
-            if (Status good = choose_colours(options); !good) return good.error();
-        }
         const Result<FieldChoice> column = jobs::field_of_numbers(mesh_, job_.field, made_, report_.notes);
         if (!column) return column.error();
         const Field& field = *column->field;
@@ -227,19 +229,6 @@ private:
         return written;
     }
 
-    /// A picture of an iso-surface needs the field that colours it, and no other.
-    Status choose_colours(CutOptions& options) {
-        options.point_fields.clear();
-        options.cell_fields.clear();
-        report_.fields.clear();
-        if (job_.colours.empty()) return Done{};
-        const Result<FieldChoice> column = jobs::field_of_numbers(mesh_, job_.colours, made_, report_.notes);
-        if (!column) return column.error();
-        (column->of_cells ? options.cell_fields : options.point_fields).push_back(column->field);
-        report_.fields = {job_.colours};
-        return Done{};
-    }
-
     Status draw_view(const Surface& surface) {
         if (surface.cells.empty())
             return refusal(job_.output, "the iso-surface is empty",
@@ -247,13 +236,9 @@ private:
                            shortest(*job_.value), "choose another value");
         Stopwatch watch;
         tell_stage(job_, "drawing");
-        SurfaceView view{.points = surface.points, .triangles = surface.cells};
-        const bool of_points = !surface.point_fields.empty();
-        if (of_points) view.point_values = surface.point_fields.front().data;
-        if (!of_points && !surface.cell_fields.empty()) view.triangle_values = surface.cell_fields.front().data;
         ViewOptions options = job_.view;
         if (job_.range) options.range = job_.range;
-        const Result<Image> image = draw_surface(view, options, &report_.drawn);
+        const Result<Image> image = draw_surface(jobs::view_of(surface), options, &report_.drawn);
         if (!image) return image.error();
         report_.view = options.size;
         report_.colours = job_.colours;

@@ -1,11 +1,7 @@
 #include "barycert/jobs/field_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <string_view>
-#include <system_error>
-#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
@@ -44,9 +40,7 @@ Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& me
 }
 
 std::string names_of(const std::vector<Field>& fields) {
-    std::string text;
-    for (const Field& field : fields) text += (text.empty() ? "" : ", ") + base::quoted(field.name);
-    return text.empty() ? "none" : text;
+    return listed(fields, [](const Field& field) { return base::quoted(field.name); });
 }
 
 /// The points of a VTK file that has no cells, such as rows of `sample`, with their arrays.
@@ -257,9 +251,9 @@ Result<std::vector<const Column*>> take_labels(const Mesh& mesh, std::vector<std
 
 void note_labels(const Mesh& mesh, const std::vector<std::string>& names, Notes& notes) {
     if (mesh.cell_labels.empty() || !names.empty()) return;
-    std::string text = mesh.cell_labels.size() == 1 ? "label of cells " : "labels of cells ";
-    for (std::size_t i = 0; i < mesh.cell_labels.size(); ++i) text += (i == 0 ? "" : ", ") + mesh.cell_labels[i].name;
-    notes.push_back({Note::Kind::left_out, text + "; name fields and labels in job.fields to have them"});
+    notes.push_back({Note::Kind::left_out, (mesh.cell_labels.size() == 1 ? "label of cells " : "labels of cells ") +
+                                               listed(mesh.cell_labels, &Column::name) +
+                                               "; name fields and labels in job.fields to have them"});
 }
 
 }  // namespace barycert::jobs

@@ -4,22 +4,20 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/text.hpp"
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {
 namespace {
 
 using core::Integer;
+using sample::name_of;
 
 /// In the units of volumes and values.
 struct PartialIntegral {
@@ -92,42 +90,6 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
             whole.left_out};
 }
 
-const std::string& name_of(const FieldChoice& choice) {
-    return choice.name.empty() ? choice.field->name : choice.name;
-}
-
-/// Keeps the values of some columns, one a node.
-class IntegralSink final : public TableSink {
-public:
-    IntegralSink(SampledMesh& of, Mesh mesh, std::vector<std::size_t> columns, std::unique_ptr<TableSink> sink)
-        : of_(of), mesh_(std::move(mesh)), columns_(std::move(columns)), sink_(std::move(sink)) {
-        values_.resize(columns_.size());
-    }
-
-    Status write(const TableView& rows) override {
-        const std::size_t all = rows.row_count() == 0 ? 0 : rows.values.size() / rows.row_count();
-        for (std::size_t i = 0; i < rows.row_count(); ++i) {
-            for (std::size_t k = 0; k < columns_.size(); ++k) values_[k].push_back(rows.values[all * i + columns_[k]]);
-        }
-        return sink_->write(rows);
-    }
-
-    Status commit() override {
-        for (std::size_t k = 0; k < columns_.size(); ++k) {
-            FieldIntegral& of = of_.report.integrals[k];
-            std::tie(of.target, of.target_left_out) = integral(mesh_, values_[k], rule_of_nodes(mesh_));
-        }
-        return sink_->commit();
-    }
-
-private:
-    SampledMesh& of_;
-    Mesh mesh_;
-    std::vector<std::size_t> columns_;
-    std::vector<std::vector<double>> values_;
-    std::unique_ptr<TableSink> sink_;
-};
-
 /// The columns of cell fields that are sampled as they are; their integrals over the mesh go into the report.
 std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& format) {
     std::vector<std::size_t> columns;
@@ -173,19 +135,38 @@ void note_cell_fields(SampledMesh& mesh, bool of_series) {
          mesh.job.mesh, true});
 }
 
-Result<std::unique_ptr<TableSink>> with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
-                                                  const std::function<Result<std::unique_ptr<TableSink>>()>& open) {
+OpenedSink with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
+                          const std::function<OpenedSink()>& open) {
     const std::vector<std::size_t> columns = integrate_source(mesh, format);
     if (columns.empty()) return open();
-    Mesh geometry;
-    geometry.dimension = other.dimension;
-    geometry.points = other.points;
-    geometry.cells = other.cells;
-    geometry.mid_nodes = other.mid_nodes;
-    auto sink = open();
-    if (!sink) return sink;
-    return std::unique_ptr<TableSink>(
-        std::make_unique<IntegralSink>(mesh, std::move(geometry), columns, std::move(*sink)));
+    struct Kept {
+        Mesh geometry;
+        std::vector<std::vector<double>> values;  ///< of these columns, one a node
+        std::unique_ptr<TableSink> sink;
+    };
+    const auto kept = std::make_shared<Kept>();
+    kept->geometry.dimension = other.dimension;
+    kept->geometry.points = other.points;
+    kept->geometry.cells = other.cells;
+    kept->geometry.mid_nodes = other.mid_nodes;
+    kept->values.resize(columns.size());
+    if (Status opened = into(kept->sink, open()); !opened) return opened.error();
+    const auto write = [kept, columns](const TableView& rows) {
+        const std::size_t all = rows.row_count() == 0 ? 0 : rows.values.size() / rows.row_count();
+        for (std::size_t i = 0; i < rows.row_count(); ++i) {
+            for (std::size_t k = 0; k < columns.size(); ++k)
+                kept->values[k].push_back(rows.values[all * i + columns[k]]);
+        }
+        return kept->sink->write(rows);
+    };
+    return sink_of(write, [kept, &report = mesh.report] {
+        for (std::size_t k = 0; k < kept->values.size(); ++k) {
+            FieldIntegral& of = report.integrals[k];
+            std::tie(of.target, of.target_left_out) =
+                integral(kept->geometry, kept->values[k], rule_of_nodes(kept->geometry));
+        }
+        return kept->sink->commit();
+    });
 }
 
 }  // namespace barycert::jobs

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 #include <thread>
-#include <utility>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
@@ -34,20 +33,7 @@ void add_fields_to(std::vector<base::NamedFile>& inputs, const std::vector<Field
     for (const FieldFile& f : files) add_input(inputs, "field " + f.name, f.path);
 }
 
-/// The reader of meshes has hints at what may be meant: it tells of those that cannot be read.
-Status check(const MeshJob& job, const std::vector<base::NamedFile>& inputs, std::vector<base::NamedFile> to_read,
-             std::vector<base::NamedFile> outputs) {
-    std::erase_if(to_read, [](const base::NamedFile& f) { return f.what.starts_with("the mesh"); });
-    for (const FieldFile& f : job.field_files) to_read.push_back({"field " + f.name, f.path});
-    if (Status readable = base::check_inputs(to_read); !readable) return readable;
-    return check_outputs(job, inputs, std::move(outputs));
-}
-
 }  // namespace
-
-int thread_count(int threads) {
-    return threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
 
 void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done) {
     if (job.progress) job.progress({.stage = what, .done = done});
@@ -65,9 +51,7 @@ Result<Mesh> open_mesh(const MeshJob& job, int threads, const StepChoice& step, 
 }
 
 Status open_mesh_with_fields(const MeshJob& job, int threads, Mesh& mesh, MeshReport& report) {
-    Result<Mesh> opened = open_mesh(job, threads, job.step, report.curved);
-    if (!opened) return opened.error();
-    mesh = std::move(*opened);
+    if (Status opened = into(mesh, open_mesh(job, threads, job.step, report.curved)); !opened) return opened;
     if (Status added = add_fields(job.field_files, mesh); !added) return added;
     report_mesh(job, mesh, threads, report);
     return Done{};
@@ -79,7 +63,7 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
     report.cells = mesh.cell_count();
     report.dimension = mesh.dimension;
     report.notes = mesh.notes;
-    report.threads = thread_count(threads);
+    report.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 Result<Locator> build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove) {
@@ -103,21 +87,29 @@ Status check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inp
     return base::check_outputs(inputs, std::move(outputs));
 }
 
-Status check_files(const MeshJob& job, const std::vector<base::NamedFile>& more_inputs,
-                   std::vector<base::NamedFile> outputs) {
-    return check(job, input_files(job, more_inputs), more_inputs, std::move(outputs));
+Status check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
+                   const std::vector<base::NamedFile>& unread) {
+    std::vector<base::NamedFile> inputs = input_files(job, more_inputs);
+    inputs.insert(inputs.end(), unread.begin(), unread.end());
+    // The reader of meshes has hints at what may be meant: it tells of those that cannot be read.
+    std::erase_if(more_inputs, [](const base::NamedFile& f) { return f.what.starts_with("the mesh"); });
+    for (const FieldFile& f : job.field_files) more_inputs.push_back({"field " + f.name, f.path});
+    if (Status readable = base::check_inputs(more_inputs); !readable) return readable;
+    return check_outputs(job, inputs, std::move(outputs));
 }
 
-Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
-                   const std::vector<base::NamedFile>& more_inputs, std::vector<base::NamedFile> outputs) {
+Status check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
+                   std::vector<base::NamedFile> outputs) {
     if (!job.weights.empty() && !io::has_suffix(job.weights, ".npz"))
         return refusal(job.weights, "unknown suffix of job.weights", ".npz", "", "choose another name");
     if (Status data = check_vtk_data(job.vtk_data, job.output); !data) return data;
-    std::vector<base::NamedFile> inputs = input_files(job, more_inputs);
-    add_fields_to(inputs, job.series);
+    std::vector<base::NamedFile> of_steps;
+    add_fields_to(of_steps, job.series);
+    for (const Step& step : steps) add_fields_to(of_steps, step.files);
     if (!steps.empty()) {
         if (Status few = check_steps(job, steps); !few) return few;
-        for (const Step& step : steps) add_fields_to(inputs, step.files);
+        std::vector<base::NamedFile> inputs = input_files(job, more_inputs);
+        inputs.insert(inputs.end(), of_steps.begin(), of_steps.end());
         for (base::NamedFile& output : outputs) {
             if (output.what != "job.output" || !has_step_place(output.path)) continue;
             if (Status distinct = check_step_outputs(inputs, output.path, steps); !distinct) return distinct;
@@ -125,7 +117,7 @@ Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
         }
     }
     outputs.push_back({"job.weights", job.weights});
-    return check(job, inputs, more_inputs, std::move(outputs));
+    return check_files(job, std::move(more_inputs), std::move(outputs), of_steps);
 }
 
 bool has_suffix_of(const std::string& path, std::string_view suffixes) {

@@ -4,19 +4,9 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
-#include "barycert/base/named_file.hpp"
-#include "barycert/io.hpp"
-#include "barycert/jobs.hpp"
 #include "barycert/jobs/series.hpp"
 #include "barycert/locator.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::jobs {
 
@@ -46,13 +36,29 @@ private:
     std::optional<tbb::global_control> limit_;
 };
 
-/// How many threads that is.
-int thread_count(int threads);
+/// The value goes to `to`; or the Error comes back.
+template <class To, class T>
+Status into(To& to, Result<T> from) {
+    if (!from) return from.error();
+    to = std::move(*from);
+    return Done{};
+}
 
 /// In the order of the message; empty parts are left out.
 inline Error refusal(std::string file, std::string what, std::string expected = {}, std::string found = {},
                      std::string remedy = {}) {
     return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
+}
+
+/// text(item) of each, with commas between them.
+template <class Items, class Text>
+std::string listed(const Items& items, Text text, const char* if_empty = "none") {
+    std::string all;
+    for (const auto& item : items) {
+        if (&item != &items.front()) all += ", ";
+        all += std::invoke(text, item);
+    }
+    return items.empty() ? if_empty : all;
 }
 
 /// Tells what the job is doing, and how much of it is done.
@@ -78,14 +84,15 @@ Status check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inp
                      std::vector<base::NamedFile> outputs);
 
 /// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
-/// inputs. Error: an output is an input or another output, or cannot be written; an input cannot be read.
-Status check_files(const MeshJob& job, const std::vector<base::NamedFile>& more_inputs,
-                   std::vector<base::NamedFile> outputs);
+/// inputs; `unread`: inputs, too, but who reads them tells what is wrong. Error: an output is an input or another
+/// output, or cannot be written; an input cannot be read.
+Status check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
+                   const std::vector<base::NamedFile>& unread = {});
 
 /// The same of a job of sampling. Outputs that are called job.output are one for each step, where they have a place for
 /// it. Error also: more steps than can be columns.
-Status check_files(const SamplingJob& job, const std::vector<Step>& steps,
-                   const std::vector<base::NamedFile>& more_inputs, std::vector<base::NamedFile> outputs);
+Status check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
+                   std::vector<base::NamedFile> outputs);
 
 /// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
 Status check_vtk_data(std::optional<VtkData> data, const std::string& path);

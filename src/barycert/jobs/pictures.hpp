@@ -1,19 +1,16 @@
 /// Parts of pictures.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "barycert/jobs.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::jobs {
 
-/// A triangle and segments with colours, before and after they are clipped by a box.
-Result<Scene> clip_scene(RasterSize size);
+/// What the job draws where that is no file: a triangle, a texture, a cube, or shapes that are clipped by a box.
+Result<Scene> small_picture(const RenderJob& job);
 
-/// The picture of a mesh: what of its report is its own.
-Result<RenderReport> draw_mesh(const RenderJob& job);
+/// A surface in the colours of its first field, if it has one. It must stay.
+SurfaceView view_of(const Surface& surface);
 
 /// Pixels over the box of these points (3 coordinates each) of a section by the plane. Error: a box without area, or a
 /// picture that is too large.

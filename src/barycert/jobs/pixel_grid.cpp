@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/base/vectors.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/jobs/job_files.hpp"
 
@@ -27,15 +27,12 @@ namespace barycert::jobs {
 namespace {
 
 using Vector = std::array<double, 3>;
+using base::cross, base::dot;
 
 constexpr std::int64_t max_pixels = std::int64_t{1} << 27;
 
-double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+double largest(const Vector& a) {
+    return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
 }
 
 Vector times(double s, const Vector& a) {
@@ -44,7 +41,7 @@ Vector times(double s, const Vector& a) {
 
 /// Of length 1 up to rounding. Precondition: not zero. Scaled first, so that squares neither over- nor underflow.
 Vector normalised(const Vector& a) {
-    const double max = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+    const double max = largest(a);
     const Vector b{a[0] / max, a[1] / max, a[2] / max};
     return times(1 / std::sqrt(dot(b, b)), b);
 }
@@ -61,8 +58,7 @@ struct Frame {
         up = normalised({vertical[0] - along * n[0], vertical[1] - along * n[1], vertical[2] - along * n[2]});
         right = cross(up, n);
         // offset / |normal|, without squares of the normal as it is.
-        const double max =
-            std::max({std::fabs(plane.normal[0]), std::fabs(plane.normal[1]), std::fabs(plane.normal[2])});
+        const double max = largest(plane.normal);
         const Vector scaled = times(1 / max, plane.normal);
         foot = times(plane.offset / max / std::sqrt(dot(scaled, scaled)), n);
         for (Vector* const v : {&right, &up, &foot}) {

@@ -2,16 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <optional>
-#include <utility>
-#include <vector>
 
-#include "barycert/grid.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/resampled.hpp"
-#include "barycert/jobs/stream.hpp"
 
 namespace barycert {
 namespace {
@@ -48,15 +41,6 @@ Result<Grid> grid_of(const ResampleJob& a, const Mesh& mesh) {
     return grid_spaced(mesh.dimension, spacing, box.low, box.high);
 }
 
-std::vector<double> point_of(const Grid& grid, std::uint64_t i) {
-    const auto nx = static_cast<std::uint64_t>(grid.counts[0]), ny = static_cast<std::uint64_t>(grid.counts[1]);
-    const std::array<std::uint64_t, 3> at{i % nx, i / nx % ny, i / (nx * ny)};
-    std::vector<double> point;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k)
-        point.push_back(grid.coordinate(k, static_cast<std::int64_t>(at[k])));
-    return point;
-}
-
 Status check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     const int targets = (job.counts.empty() ? 0 : 1) + (job.spacing.empty() ? 0 : 1) + (job.onto.empty() ? 0 : 1);
     if (targets != 1)
@@ -84,10 +68,10 @@ void note_the_other(SampledMesh& mesh, const ResampleJob& job, const Mesh& other
     Notes& notes = mesh.report.notes;
     notes.insert(notes.end(), other.notes.begin(), other.notes.end());
     if (other.point_fields.empty()) return;
-    std::string text = other.point_fields.size() == 1 ? "field " : "fields ";
-    for (std::size_t i = 0; i < other.point_fields.size(); ++i)
-        text += (i == 0 ? "" : ", ") + other.point_fields[i].name;
-    notes.push_back({Note::Kind::left_out, text + " of its nodes", job.onto});
+    notes.push_back({Note::Kind::left_out,
+                     (other.point_fields.size() == 1 ? "field " : "fields ") +
+                         jobs::listed(other.point_fields, &Field::name) + " of its nodes",
+                     job.onto});
 }
 
 /// The fields as they are now, into the output of that name. Points of a new mesh are counted.
@@ -107,7 +91,9 @@ Status onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& p
         if (outside != rows.cells.end()) {
             const std::uint64_t i =
                 rows.first_row + static_cast<std::uint64_t>(std::distance(rows.cells.begin(), outside));
-            return jobs::outside_error("point " + std::to_string(i) + " of the grid", point_of(grid, i), "");
+            const std::array<double, 3> at = jobs::point_of(grid, i);
+            return jobs::outside_error("point " + std::to_string(i) + " of the grid",
+                                       std::span(at).first(static_cast<std::size_t>(grid.dimension)), "");
         }
         report.nan_values += jobs::count_nan(rows);
         within.lap();
@@ -116,43 +102,36 @@ Status onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& p
         mesh.tell(what, rows.first_row + rows.row_count());
         return written;
     };
-    Result<SampleCounts> counts = resample(mesh.sampler(), grid, jobs::without_refusal(job.options), sink);
-    if (!counts) return counts.error();
+    SampleCounts counts;
+    Status done = jobs::into(counts, resample(mesh.sampler(), grid, jobs::without_refusal(job.options), sink));
+    if (!done) return done;
     if (new_mesh) {
-        report.counts.add(*counts);
+        report.counts.add(counts);
         report.rows += grid.point_count();
     }
     report.seconds.sample += watch.lap() - writing;
-    Status committed = (*output)->commit();
+    done = (*output)->commit();
     report.seconds.write += writing + watch.lap();
-    return committed;
+    return done;
 }
 
 Status onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
-    Result<Grid> grid = grid_of(job, mesh.mesh());
-    if (!grid) return grid.error();
-    if (io::has_suffix(job.output, ".vti")) *grid = as_in_vti(*grid);
+    Grid& grid = mesh.report.grid.emplace();
+    if (Status made = jobs::into(grid, grid_of(job, mesh.mesh())); !made) return made;
+    if (io::has_suffix(job.output, ".vti")) grid = as_in_vti(grid);
     mesh.report.from = PointsFrom::grid;
-    mesh.report.grid = *grid;
-    for (std::size_t i = 0; i == 0 || (mesh.step_by_step() && i < mesh.steps.size()); ++i) {
-        if (i != 0) {
-            mesh.tell("steps", i);
-            if (Status ready = mesh.go_to(mesh.steps[i]); !ready) return ready;
-        }
-        const bool new_mesh = i == 0 || mesh.is_another_mesh();
-        if (new_mesh) {
+    return mesh.for_outputs([&](const std::string& path, bool, bool anew) -> Status {
+        if (anew) {
             Status ready = mesh.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds");
             if (!ready) return ready;
         }
-        if (new_mesh && mesh.report.meshes == 2 && job.bounds.empty())
+        if (anew && mesh.report.meshes == 2 && job.bounds.empty())
             mesh.report.notes.push_back(
                 {Note::Kind::guessed,
                  "the grid of all steps lies in the box of the mesh of the first one: job.bounds names another box",
                  job.mesh, true});
-        const std::string path = mesh.step_by_step() ? output_of_step(job.output, mesh.steps[i]) : job.output;
-        if (Status done = onto_grid(mesh, job, path, new_mesh); !done) return done;
-    }
-    return Done{};
+        return onto_grid(mesh, job, path, anew);
+    });
 }
 
 Status onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
@@ -167,10 +146,9 @@ Status onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
         return refusal(job.onto, "the meshes have different dimensions", fmt::format("{}, as {} has", d, job.mesh),
                        std::to_string(other->dimension),
                        "resample between meshes of triangles, or between meshes of tetrahedra");
-    const auto curved = take_as_straight(*other, job.onto, job.curved);
-    if (!curved) return curved.error();
     SampleReport& report = mesh.report;
-    report.onto_curved = *curved;
+    Status straight = jobs::into(report.onto_curved, take_as_straight(*other, job.onto, job.curved));
+    if (!straight) return straight;
     report.from = PointsFrom::mesh;
     report.points = job.onto;
     const bool further = mesh.step_by_step() && mesh.steps.size() > 1;

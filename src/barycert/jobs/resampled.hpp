@@ -1,20 +1,13 @@
 /// Where resampled values go: files of grids, files of the other mesh; and their integrals.
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "barycert/grid.hpp"
-#include "barycert/io.hpp"
-#include "barycert/jobs.hpp"
-#include "barycert/jobs/sampled_mesh.hpp"
-#include "barycert/result.hpp"
+#include "barycert/jobs/stream.hpp"
 
 namespace barycert::jobs {
+
+/// The point of that number; in 2D without a third coordinate.
+std::array<double, 3> point_of(const Grid& grid, std::uint64_t i);
 
 /// What is wrong with the output of a grid, as far as its name and the options tell.
 Status check_grid_output(const ResampleJob& job);
@@ -22,9 +15,8 @@ Status check_grid_output(const ResampleJob& job);
 /// A sink of the blocks of a grid, in order, whose views have no points: the output `path` of the job, by its suffix.
 /// `picture` gets what became of the values of a picture, with the commit. Errors: a format that cannot hold these
 /// fields or that grid; a path that cannot be written.
-Result<std::unique_ptr<TableSink>> open_grid_sink(const ResampleJob& job, const std::string& path,
-                                                  const TableFormat& format, const Grid& grid,
-                                                  std::optional<SliceCounts>& picture);
+OpenedSink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
+                          std::optional<SliceCounts>& picture);
 
 /// The files that such an output has; what is wrong with it, as far as its name tells.
 std::vector<std::string> files_of_mesh_output(const ResampleJob& job);
@@ -36,16 +28,15 @@ bool is_rows_output(const std::string& path);
 /// Takes one row a node, and writes the mesh when all is there: VTK's files, or TetGen's by their stem. Error: columns
 /// that are carried through, for which meshes have no place. `notes` gets the names that a .node file cannot hold,
 /// once.
-Result<std::unique_ptr<TableSink>> mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format,
-                                             Notes& notes);
+OpenedSink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes);
 
 // What becomes of cell fields that are sampled at the nodes of another mesh.
 
 /// Gives the rows of all nodes of `other` to the sink that is opened. Integrals of cell fields that are sampled as they
 /// are go into the report: over the mesh, which is prepared, and with the commit over the other one. `other` is not
 /// read any more when the sink is opened.
-Result<std::unique_ptr<TableSink>> with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
-                                                  const std::function<Result<std::unique_ptr<TableSink>>()>& open);
+OpenedSink with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
+                          const std::function<OpenedSink()>& open);
 
 /// That cell fields become values at nodes, if there are some, and of which there are no integrals: a note of the
 /// report.

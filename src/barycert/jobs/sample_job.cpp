@@ -1,15 +1,9 @@
 // Fields at points.
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <memory>
-#include <system_error>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/stream.hpp"
 #include "barycert/map.hpp"
@@ -60,10 +54,7 @@ public:
         const auto read = [this](std::size_t most, jobs::Block& block) { return this->read(most, block); };
         // The reader tells that the map is of another mesh.
         const auto again = [this](const SampledMesh& mesh) -> Status {
-            auto map = MapReader::open(mesh.report.points, mesh.mesh());
-            if (!map) return map.error();
-            map_ = std::move(*map);
-            return Done{};
+            return jobs::into(map_, MapReader::open(mesh.report.points, mesh.mesh()));
         };
         return {.located = true, .count = map_.rows(), .read = read, .begin_again = again};
     }
@@ -126,10 +117,7 @@ Status at_points(SampledMesh& mesh, const SampleJob& job) {
         if (job.points == "-" || std::filesystem::is_fifo(job.points, ignored))
             return refusal(job.points, "the mesh changes from step to step, and points of a pipe can be read once", "",
                            "", "save the points to a file, or choose one step: job.step N");
-        auto again = open();
-        if (!again) return again.error();
-        *points = std::move(*again);
-        return Done{};
+        return jobs::into(*points, open());
     };
     return sample_rows(mesh, rows, outputs_of(mesh, job, (*points)->carried()), job.save_map);
 }

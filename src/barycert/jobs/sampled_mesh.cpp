@@ -5,16 +5,11 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <array>
-#include <functional>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io.hpp"
-#include "barycert/locate/batch.hpp"
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/predicates.hpp"
@@ -82,21 +77,15 @@ SampledMesh::SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std
 
 Status SampledMesh::open() {
     Stopwatch watch;
-    Result<Mesh> mesh = read(steps.empty() ? nullptr : &steps.front());
-    if (!mesh) return mesh.error();
-    mesh_ = std::move(*mesh);
-    if (Status added = add_fields_of_job(); !added) return added;
-    if (Status chosen = choose_fields(); !chosen) return chosen;
+    Status done = into(mesh_, read(steps.empty() ? nullptr : &steps.front()));
+    if (done) done = add_fields_of_job();
+    if (done) done = choose_fields();
+    if (!done) return done;
     names_of_first_ = names_of_chosen();
     report_mesh(job, mesh_, job.options.threads, report);
     note_labels(mesh_, job.fields, report.notes);
     report.seconds.mesh = watch.lap();
     return Done{};
-}
-
-SampleReport SampledMesh::finish() {
-    report.seconds.total = whole_.lap();
-    return std::move(report);
 }
 
 /// That of the step, where it has one, or the one that the job asks for.
@@ -110,9 +99,8 @@ Status SampledMesh::add_fields_of_job() {
     for (const Step& step : steps) {
         for (FieldFile file : step.files) {
             if (!step_by_step()) file.name = name_of_step(file.name, step);
-            const Result<FieldPlace> place = add_field(file, mesh_, step_by_step());
-            if (!place) return place.error();
-            places_of_series_.push_back(*place);
+            FieldPlace& place = places_of_series_.emplace_back();
+            if (Status added = into(place, add_field(file, mesh_, step_by_step())); !added) return added;
         }
         if (step_by_step()) break;
     }
@@ -120,30 +108,27 @@ Status SampledMesh::add_fields_of_job() {
     return Done{};
 }
 
+/// Reads what another step has, and samples that from now on.
 Status SampledMesh::go_to(const Step& step) {
-    Status gone = go(step);
-    if (gone || !step.of_mesh) return gone;
-    Error error = gone.error();
-    error.what = "step " + step.label + ": " + error.what;
-    return error;
-}
-
-Status SampledMesh::go(const Step& step) {
     Stopwatch watch;
-    Status read = step.of_mesh ? go_to_mesh(step) : go_to_fields(step);
+    Status done = step.of_mesh ? read_mesh_of(step) : read_fields(step);
     report.seconds.mesh += watch.lap();
-    if (!read) return read;
-    sampler_.reset();
-    made_.clear();
-    if (Status chosen = choose_fields(); !chosen) return chosen;
-    if (const std::string names = names_of_chosen(); names != names_of_first_)
+    if (done) {
+        sampler_.reset();
+        made_.clear();
+        done = choose_fields();
+    }
+    if (const std::string names = done ? names_of_chosen() : names_of_first_; names != names_of_first_)
         tell_once({{Note::Kind::left_out,
                     fmt::format("in step {} the fields of the first step: there they are {}, here {}", step.label,
                                 names_of_first_, names),
                     job.mesh, true}});
-    Status built = another_mesh_ ? Status(Done{}) : build_sampler(part_ ? fields_of_part() : fields_);
+    if (done && !another_mesh_) done = build_sampler(part_ ? fields_of_part() : fields_);
     report.seconds.build += watch.lap();
-    return built;
+    if (done || !step.of_mesh) return done;
+    Error error = done.error();
+    error.what = "step " + step.label + ": " + error.what;
+    return error;
 }
 
 bool SampledMesh::is_another(const Mesh& mesh) const {
@@ -157,14 +142,13 @@ Status SampledMesh::check_one_mesh(const std::string& path, const char* member) 
         const Result<Mesh> mesh = read(&step);
         if (!mesh) return mesh.error();
         if (is_another(*mesh))
-            return refusal(path,
-                           "the mesh changes from step to step, and " + std::string(member) + " is of one mesh", "",
-                           "another mesh in step " + step.label, "choose one step: job.step N");
+            return refusal(path, "the mesh changes from step to step, and " + std::string(member) + " is of one mesh",
+                           "", "another mesh in step " + step.label, "choose one step: job.step N");
     }
     return Done{};
 }
 
-Status SampledMesh::go_to_mesh(const Step& step) {
+Status SampledMesh::read_mesh_of(const Step& step) {
     Result<Mesh> mesh = read(&step);
     if (!mesh) return mesh.error();
     if (mesh->dimension != mesh_.dimension)
@@ -188,7 +172,7 @@ Status SampledMesh::go_to_mesh(const Step& step) {
     return added;
 }
 
-Status SampledMesh::go_to_fields(const Step& step) {
+Status SampledMesh::read_fields(const Step& step) {
     Notes notes;
     for (std::size_t i = 0; i < step.files.size(); ++i) {
         const FieldPlace place = places_of_series_[i];
@@ -255,14 +239,10 @@ Status SampledMesh::choose_fields() {
     fields_.clear();
     if (job.output.empty() && !job.weights.empty()) return Done{};
     std::vector<std::string> names = names_of_fields();
-    Result<std::vector<const Column*>> of_cells = take_labels(mesh_, names);
-    if (!of_cells) return of_cells.error();
-    labels_ = std::move(*of_cells);
+    if (Status taken = into(labels_, take_labels(mesh_, names)); !taken) return taken;
     // No name at all means every field; labels alone mean none.
     if (!labels_.empty() && names.empty()) return Done{};
-    Result<std::vector<FieldChoice>> fields = sample::quantities_named(mesh_, names);
-    if (!fields) return fields.error();
-    fields_ = std::move(*fields);
+    if (Status chosen = into(fields_, sample::quantities_named(mesh_, names)); !chosen) return chosen;
     for (const FieldChoice& choice : fields_) count_not_finite(*choice.field, choice.of_cells, report.not_finite);
     // What depends on all cells is made before some of them are looked at.
     for (FieldChoice& choice : fields_) {
@@ -276,10 +256,7 @@ Status SampledMesh::choose_fields() {
 }
 
 std::string SampledMesh::names_of_chosen() const {
-    std::string names;
-    for (const FieldChoice& choice : fields_)
-        names += (names.empty() ? "" : ", ") + base::quoted(choice.name.empty() ? choice.field->name : choice.name);
-    return names.empty() ? "none" : names;
+    return listed(fields_, [](const FieldChoice& choice) { return base::quoted(sample::name_of(choice)); });
 }
 
 TableFormat SampledMesh::format() const {
@@ -290,19 +267,16 @@ TableFormat SampledMesh::format() const {
 
 Status SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove) {
     Stopwatch watch;
-    Result<Locator> locator = build_locator(job, mesh, job.options.threads, prove);
-    if (!locator) return locator.error();
-    locator_.emplace(std::move(*locator));
-    if (Status built = build_sampler(fields); !built) return built;
+    Status built = into(locator_, build_locator(job, mesh, job.options.threads, prove));
+    if (built) built = build_sampler(fields);
+    if (!built) return built;
     if (job.count_degenerate) report.degenerate_cells += prove ? locator_->degenerate_cells() : count_degenerate(mesh);
     report.seconds.build += watch.lap();
     return Done{};
 }
 
 Status SampledMesh::build_sampler(const std::vector<FieldChoice>& fields) {
-    Result<Sampler> sampler = Sampler::build(*locator_, fields);
-    if (!sampler) return sampler.error();
-    sampler_.emplace(std::move(*sampler));
+    if (Status built = into(sampler_, Sampler::build(*locator_, fields)); !built) return built;
     report.columns = sampler_->columns();
     return Done{};
 }

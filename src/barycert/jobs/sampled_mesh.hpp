@@ -1,23 +1,12 @@
 /// The mesh of a job of sampling with its fields, what finds points in it, and what samples the fields.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <deque>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/io.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
-#include "barycert/jobs/series.hpp"
 #include "barycert/mesh/part.hpp"
-#include "barycert/result.hpp"
-#include "barycert/sampler.hpp"
 
 namespace barycert::jobs {
 
@@ -49,7 +38,10 @@ public:
     Status open();
 
     /// The report, when all is done.
-    SampleReport finish();
+    SampleReport finish() {
+        report.seconds.total = whole_.lap();
+        return std::move(report);
+    }
 
     const Mesh& mesh() const { return mesh_; }
 
@@ -72,15 +64,23 @@ public:
     const Locator& locator() const { return *locator_; }
     const Sampler& sampler() const { return *sampler_; }
 
-    /// Reads the fields of another step of a job that goes step by step, and samples these from now on. Errors: a file
-    /// cannot be read, or has other numbers of rows or components than that of the first step. Precondition: prepared.
-    Status go_to(const Step& step);
+    /// Calls each(output, first, anew) for every step that has an output of its own, else once; `anew`: the mesh is
+    /// another than before, and is to be prepared. Errors: a file cannot be read, or has other numbers of rows or
+    /// components than that of the first step. Precondition: prepared, after the first call.
+    template <class Each>
+    Status for_outputs(Each each) {
+        if (!step_by_step()) return each(job.output, true, true);
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            if (i != 0) tell("steps", i);
+            if (Status ready = i == 0 ? Status(Done{}) : go_to(steps[i]); !ready) return ready;
+            Status done = each(output_of_step(job.output, steps[i]), i == 0, i == 0 || another_mesh_);
+            if (!done) return done;
+        }
+        return Done{};
+    }
 
     /// Reads the meshes of all steps. Error: one is another than the first, and `member`, the output `path`, is of one.
     Status check_one_mesh(const std::string& path, const char* member);
-
-    /// Whether the step that was gone to has another mesh than the one before it: then this is to be prepared.
-    bool is_another_mesh() const { return another_mesh_; }
 
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
     /// nearest cell or other steps follow, all but the values of cell fields, labels and numbers of cells.
@@ -105,11 +105,11 @@ public:
 private:
     Result<Mesh> read(const Step* step);
     bool is_another(const Mesh& mesh) const;
-    Status go(const Step& step);
     std::string names_of_chosen() const;
     Status add_fields_of_job();
-    Status go_to_fields(const Step& step);
-    Status go_to_mesh(const Step& step);
+    Status go_to(const Step& step);
+    Status read_fields(const Step& step);
+    Status read_mesh_of(const Step& step);
     void tell_once(Notes notes);
     Status choose_fields();
     std::vector<std::string> names_of_fields() const;
@@ -134,12 +134,13 @@ private:
 template <class Check, class Sample>
 Result<SampleReport> sample_mesh(const SamplingJob& job, const char* command, Check check, Sample sample) {
     const base::RunFiles files;
-    auto steps = find_steps(job);
-    if (!steps) return steps.error();
-    if (Status ok = check(*steps); !ok) return ok.error();
+    std::vector<Step> steps;
+    Status done = into(steps, find_steps(job));
+    if (done) done = check(steps);
+    if (!done) return done.error();
     const ThreadLimit limit(job.options.threads);
-    SampledMesh mesh(job, std::move(*steps), command);
-    Status done = mesh.open();
+    SampledMesh mesh(job, std::move(steps), command);
+    done = mesh.open();
     if (done) done = sample(mesh);
     if (!done) return done.error();
     return mesh.finish();

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "barycert/base/arena.hpp"
-#include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/npz/weights_file.hpp"
 #include "barycert/jobs/stages.hpp"
@@ -80,19 +77,12 @@ private:
     }
 
     Status open() {
-        auto sink = open_(mesh_.format(), targets_.path);
-        if (!sink) return sink.error();
-        sink_ = std::move(*sink);
-        if (!targets_.map.empty()) {
-            auto map = MapWriter::open(targets_.map, mesh_.mesh(), mesh_.report.all);
-            if (!map) return map.error();
-            map_.emplace(std::move(*map));
-        }
-        if (targets_.weights.empty()) return Done{};
-        auto weights = io::WeightsFile::open(targets_.weights, mesh_.mesh().point_count());
-        if (!weights) return weights.error();
-        weights_ = std::move(*weights);
-        return Done{};
+        Status opened = into(sink_, open_(mesh_.format(), targets_.path));
+        if (opened && !targets_.map.empty())
+            opened = into(map_, MapWriter::open(targets_.map, mesh_.mesh(), mesh_.report.all));
+        if (opened && !targets_.weights.empty())
+            opened = into(weights_, io::WeightsFile::open(targets_.weights, mesh_.mesh().point_count()));
+        return opened;
     }
 
     Status read(Block& block) {
@@ -121,9 +111,7 @@ private:
         if (block.locations) rows.counts.locations = *block.locations;
         if (targets_.known != nullptr) block.located = rows.cells;
         if (weights_) {
-            Result<NodeWeights> weights = mesh_.weights_of(rows.view());
-            if (!weights) return weights.error();
-            block.weights = std::move(*weights);
+            if (Status weighed = into(block.weights, mesh_.weights_of(rows.view())); !weighed) return weighed;
         }
         mesh_.name_cells(rows);
         if (!source_.located) look_outside(block);
@@ -227,27 +215,21 @@ RowSource rows_of_points(std::unique_ptr<PointSource>& points) {
 }
 
 Status sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& open, const std::string& map) {
-    const SamplingJob& job = mesh.job;
-    const bool by_step = mesh.step_by_step(), further = by_step && mesh.steps.size() > 1;
-    std::vector<Table> known;
-    Targets targets{by_step ? output_of_step(job.output, mesh.steps.front()) : job.output, map, job.weights,
-                    further ? &known : nullptr};
-    for (const auto& [member, path] : {std::pair("job.weights", job.weights), {"job.save_map", map}}) {
+    const bool further = mesh.step_by_step() && mesh.steps.size() > 1;
+    for (const auto& [member, path] : {std::pair("job.weights", mesh.job.weights), {"job.save_map", map}}) {
         if (!further || path.empty()) continue;
         if (Status same = mesh.check_one_mesh(path, member); !same) return same;
     }
-    if (Status done = RowStream(mesh, source, open, targets).go(); !done) return done;
-    for (std::size_t i = 1; further && i < mesh.steps.size(); ++i) {
-        mesh.tell("steps", i);
-        if (Status ready = mesh.go_to(mesh.steps[i]); !ready) return ready;
-        const bool anew = mesh.is_another_mesh();
+    std::vector<Table> known;
+    return mesh.for_outputs([&](const std::string& output, bool first, bool anew) -> Status {
+        Targets targets{output};
+        if (first) targets.map = map, targets.weights = mesh.job.weights;
+        if (anew && further) targets.known = &known;
         if (anew) known.clear();
-        if (Status ready = anew ? source.begin_again(mesh) : Status(Done{}); !ready) return ready;
-        targets = {output_of_step(job.output, mesh.steps[i]), "", "", anew ? &known : nullptr};
+        if (Status ready = anew && !first ? source.begin_again(mesh) : Status(Done{}); !ready) return ready;
         const RowSource again = rows_again(known);
-        if (Status done = RowStream(mesh, anew ? source : again, open, targets).go(); !done) return done;
-    }
-    return Done{};
+        return RowStream(mesh, anew ? source : again, open, targets).go();
+    });
 }
 
 SampleOptions without_refusal(SampleOptions options) {

@@ -1,18 +1,7 @@
 /// Points through the sampler into rows, block by block: read, located and evaluated, written.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "barycert/io.hpp"
 #include "barycert/jobs/sampled_mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::jobs {
 
@@ -43,8 +32,10 @@ struct RowSource {
 /// Points that are to be located, to be read once. They must stay.
 RowSource rows_of_points(std::unique_ptr<PointSource>& points);
 
+using OpenedSink = Result<std::unique_ptr<TableSink>>;
+
 /// Opens what takes rows of that format, into an output of that name; nullptr: they go nowhere.
-using OpenRows = std::function<Result<std::unique_ptr<TableSink>>(const TableFormat& format, const std::string& path)>;
+using OpenRows = std::function<OpenedSink(const TableFormat& format, const std::string& path)>;
 
 /// All rows of the source into the output, and into a map and a matrix of weights where these are named; of a job that
 /// goes step by step, those of all steps, each into an output of its own. Rows come in the order of the points. Adds to
@@ -54,22 +45,44 @@ Status sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& o
 
 // Rows as users know them.
 
-using OpenFormat = std::function<Result<std::unique_ptr<TableSink>>(const TableFormat& format)>;
+using OpenFormat = std::function<OpenedSink(const TableFormat& format)>;
 
 /// Opens an output by open(format of its rows) and returns what takes rows whose cells are those of the mesh, and gives
 /// it what users are to see: cells by the numbers that they have in their file, labels that the job asked for, and
 /// `carried` columns of the points. The report gets the names of these. The mesh must stay. A carried column that has
 /// the name of another one is an Error; with `all`, one that rows have anyway, as rows that another run wrote, is left
 /// out, and noted.
-Result<std::unique_ptr<TableSink>> open_user_rows(SampledMesh& mesh, TableFormat format,
-                                                  const std::vector<ColumnFormat>& carried, bool all,
-                                                  const OpenFormat& open);
+OpenedSink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
+                          const OpenFormat& open);
+
+/// A sink of two functions.
+template <class Write, class Commit>
+std::unique_ptr<TableSink> sink_of(Write write, Commit commit) {
+    class Sink final : public TableSink {
+    public:
+        Sink(Write w, Commit c) : write_(std::move(w)), commit_(std::move(c)) {}
+        Status write(const TableView& rows) override { return write_(rows); }
+        Status commit() override { return commit_(); }
+
+    private:
+        Write write_;
+        Commit commit_;
+    };
+    return std::make_unique<Sink>(std::move(write), std::move(commit));
+}
 
 /// Takes rows, lets change(rows) put others in their place, which it keeps, and gives these to the sink.
-std::unique_ptr<TableSink> changed(std::unique_ptr<TableSink> sink, std::function<void(TableView& rows)> change);
+template <class Change>
+std::unique_ptr<TableSink> changed(std::shared_ptr<TableSink> sink, Change change) {
+    const auto write = [sink, change](TableView rows) mutable {
+        change(rows);
+        return sink->write(rows);
+    };
+    return sink_of(write, [sink] { return sink->commit(); });
+}
 
 /// An output of rows; a terminal shows names and texts without control characters.
-Result<std::unique_ptr<TableSink>> open_rows(const std::string& path, const TableFormat& format);
+OpenedSink open_rows(const std::string& path, const TableFormat& format);
 
 /// The policy `error` is looked at where the point and its file are known: options without it.
 SampleOptions without_refusal(SampleOptions options);

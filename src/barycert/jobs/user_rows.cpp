@@ -4,41 +4,13 @@
 
 #include <algorithm>
 #include <set>
-#include <utility>
 
 #include "barycert/base/text.hpp"
-#include "barycert/jobs/field_files.hpp"
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::jobs {
-namespace {
-
-class ChangedRows final : public TableSink {
-public:
-    ChangedRows(std::unique_ptr<TableSink> sink, std::function<void(TableView&)> change)
-        : sink_(std::move(sink)), change_(std::move(change)) {}
-
-    Status write(const TableView& rows) override {
-        TableView shown = rows;
-        change_(shown);
-        return sink_->write(shown);
-    }
-    Status commit() override { return sink_->commit(); }
-
-private:
-    std::unique_ptr<TableSink> sink_;
-    std::function<void(TableView&)> change_;
-};
-
-}  // namespace
-
-std::unique_ptr<TableSink> changed(std::unique_ptr<TableSink> sink, std::function<void(TableView&)> change) {
-    return std::make_unique<ChangedRows>(std::move(sink), std::move(change));
-}
-
-Result<std::unique_ptr<TableSink>> open_user_rows(SampledMesh& mesh, TableFormat format,
-                                                  const std::vector<ColumnFormat>& carried, bool all,
-                                                  const OpenFormat& open) {
+OpenedSink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
+                          const OpenFormat& open) {
     const std::vector<std::string> columns = format.columns();
     std::set<std::string> names(columns.begin(), columns.end());
     mesh.report.carried.clear();
@@ -95,13 +67,13 @@ Result<std::unique_ptr<TableSink>> open_user_rows(SampledMesh& mesh, TableFormat
     return changed(std::move(*sink), as_users_see_them);
 }
 
-Result<std::unique_ptr<TableSink>> open_rows(const std::string& path, const TableFormat& format) {
+OpenedSink open_rows(const std::string& path, const TableFormat& format) {
     if (path != "-" || isatty(STDOUT_FILENO) != 1) return open_table(path, format);
     // Texts on a terminal move no cursor.
     TableFormat shown = format;
     for (TableField& field : shown.fields) field.name = base::printable(field.name);
     for (ColumnFormat& column : shown.carried) column.name = base::printable(column.name);
-    Result<std::unique_ptr<TableSink>> sink = open_table(path, shown);
+    OpenedSink sink = open_table(path, shown);
     if (!sink || shown.carried.empty()) return sink;
     return changed(std::move(*sink), [carried = std::vector<Column>()](TableView& rows) mutable {
         carried.assign(rows.carried.begin(), rows.carried.end());

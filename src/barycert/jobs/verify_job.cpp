@@ -3,26 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
-#include <optional>
-#include <utility>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/io.hpp"
-#include "barycert/jobs.hpp"
 #include "barycert/jobs/claimed_columns.hpp"
-#include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/stages.hpp"
-#include "barycert/locate/batch.hpp"
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 
@@ -92,9 +83,10 @@ public:
 
     Result<VerifyReport> run() {
         Stopwatch whole;
-        if (Status ok = read_all(); !ok) return ok.error();
-        if (Status ok = build(); !ok) return ok.error();
-        if (Status ok = compare(); !ok) return ok.error();
+        Status done = read_all();
+        if (done) done = build();
+        if (done) done = compare();
+        if (!done) return done.error();
         if (report_.verdicts.rows == 0)
             return refusal(job_.results == "-" ? "standard input" : job_.results, "there are no results to verify",
                            "a row for each point", "no row",
@@ -109,14 +101,6 @@ public:
     }
 
 private:
-    Result<std::unique_ptr<PointSource>> open_results(const std::vector<std::string>& keep) const {
-        PointOptions options;
-        options.columns = job_.columns;
-        options.keep = keep;
-        options.nonfinite_points = job_.options.nonfinite_points;
-        return open_points(job_.results, mesh_.dimension, options);
-    }
-
     Status read_all() {
         Stopwatch watch;
         if (Status opened = jobs::open_mesh_with_fields(job_, job_.options.threads, mesh_, report_); !opened)
@@ -126,29 +110,28 @@ private:
         report_.seconds.mesh = watch.lap();
         report_.results = job_.results;
         report_.program = job_.program;
-        auto source = open_results({"all"});
-        if (!source) return source.error();
-        auto columns = jobs::claimed_columns(job_, mesh_, *fields, (*source)->carried(), report_.notes);
-        if (!columns) return columns.error();
-        columns_ = std::move(*columns);
+        PointOptions options{
+            .columns = job_.columns, .keep = {"all"}, .nonfinite_points = job_.options.nonfinite_points};
+        const auto open = [&] { return jobs::into(source_, open_points(job_.results, mesh_.dimension, options)); };
+        Status opened = open();
+        if (opened)
+            opened =
+                jobs::into(columns_, jobs::claimed_columns(job_, mesh_, *fields, source_->carried(), report_.notes));
+        if (!opened) return opened;
         // Standard input and pipes cannot be read twice; others are read again with fewer columns.
         std::error_code ignored;
         const bool once = job_.results == "-" || (std::filesystem::exists(job_.results, ignored) &&
                                                   !std::filesystem::is_regular_file(job_.results, ignored));
-        if (!once) source = open_results(columns_.names());
-        if (!source) return source.error();
-        source_ = std::move(*source);
+        options.keep = columns_.names();
+        if (!once) return open();
         return Done{};
     }
 
     Status build() {
         Stopwatch watch;
-        Result<Locator> locator = jobs::build_locator(job_, mesh_, job_.options.threads);
-        if (!locator) return locator.error();
-        locator_.emplace(std::move(*locator));
-        Result<Sampler> sampler = Sampler::build(*locator_, columns_.fields);
-        if (!sampler) return sampler.error();
-        sampler_.emplace(std::move(*sampler));
+        Status built = jobs::into(locator_, jobs::build_locator(job_, mesh_, job_.options.threads));
+        if (built) built = jobs::into(sampler_, Sampler::build(*locator_, columns_.fields));
+        if (!built) return built;
         report_.certified = locator_->certified();
         report_.contested_cells = locator_->contested_cells();
         report_.columns = sampler_->columns();
@@ -176,27 +159,10 @@ private:
         block.points.clear();
         block.columns.clear();
         block.first = taken_;
-        const Result<std::size_t> count = source_->read(size_, block.points);
-        if (!count) return count.error();
+        if (Status done = jobs::into(block.size, source_->read(size_, block.points)); !done) return done;
         source_->take_carried(block.columns);
-        taken_ += *count;
-        block.size = *count;
+        taken_ += block.size;
         report_.seconds.read += watch.lap();
-        return Done{};
-    }
-
-    Status work(ResultBlock& block, const Verifier& verifier) const {
-        const auto claims = jobs::claims_of(columns_, block.columns, mesh_, job_, block.first);
-        if (!claims) return claims.error();
-        auto found = verifier.verify({block.points, claims->cells, claims->inside, claims->values, block.first});
-        if (!found) return found.error();
-        block.found = std::move(*found);
-        return Done{};
-    }
-
-    Status write(const ResultBlock& block) {
-        report_.verdicts.add(block.found, job_.options.examples);
-        jobs::tell_stage(job_, "rows", block.first + block.size);
         return Done{};
     }
 
@@ -237,9 +203,19 @@ private:
         report_.verdicts.columns.resize(report_.columns.size());
         base::in_arena(threads, locator_->mesh().cell_count(),
                        [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
+        const auto work = [&](ResultBlock& block) -> Status {
+            const auto claims = jobs::claims_of(columns_, block.columns, mesh_, job_, block.first);
+            if (!claims) return claims.error();
+            return jobs::into(block.found, verifier.verify({block.points, claims->cells, claims->inside, claims->values,
+                                                            block.first}));
+        };
+        const auto write = [&](const ResultBlock& block) -> Status {
+            report_.verdicts.add(block.found, job_.options.examples);
+            jobs::tell_stage(job_, "rows", block.first + block.size);
+            return Done{};
+        };
         Status done = jobs::in_stages<ResultBlock>(
-            threads, std::move(first), [&](ResultBlock& block) { return read(block); },
-            [&](ResultBlock& block) { return work(block, verifier); }, [&](ResultBlock& block) { return write(block); },
+            threads, std::move(first), [&](ResultBlock& block) { return read(block); }, work, write,
             report_.seconds.sample);
         Stopwatch watch;
         if (done) done = Verifier(*sampler_, job_.options).measure(report_.verdicts);

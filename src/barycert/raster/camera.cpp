@@ -2,12 +2,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/base/vectors.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
@@ -16,20 +16,14 @@
 namespace barycert {
 namespace {
 
+using base::cross, base::dot;
+
 Error no_camera(const std::string& what, const std::string& expected, const std::string& found) {
     return {.what = what, .expected = expected, .found = found, .remedy = "choose other numbers"};
 }
 
 std::string text_of(const Vector3& v) {
     return base::shortest(v[0]) + ", " + base::shortest(v[1]) + ", " + base::shortest(v[2]);
-}
-
-double dot(const Vector3& a, const Vector3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 /// The direction of v with length 1, whatever its length was; nothing if it is zero or not finite.

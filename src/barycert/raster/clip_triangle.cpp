@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"

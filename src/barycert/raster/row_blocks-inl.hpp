@@ -14,7 +14,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cstdint>
 
 #include "barycert/raster/edge.hpp"
 

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <string>
 #include <type_traits>
 
 #include "barycert/environment.hpp"

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/base/vectors.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/png/colour_map.hpp"
 #include "barycert/io/png/panels.hpp"
@@ -156,10 +156,16 @@ ViewAxes view_axes(double azimuth, double elevation) {
     return {{-sa, ca, 0}, {-se * ca, -se * sa, ce}, {ce * ca, ce * sa, se}};
 }
 
-/// Points moved and scaled so that the middle of their box is the origin and its longest side 2, with three coordinates
-/// each. Precondition: finite.
-std::vector<double> normalised_points(std::span<const double> points, int dimension) {
-    const auto d = static_cast<std::size_t>(dimension);
+/// The corners of triangles moved and scaled so that the middle of their box is the origin and its longest side 2, with
+/// three coordinates each.
+std::vector<double> normalised_corners(const SurfaceView& s) {
+    const auto d = static_cast<std::size_t>(s.dimension);
+    std::vector<double> points;
+    points.reserve(s.triangles.size() * d);
+    for (const std::int32_t i : s.triangles) {
+        const double* const p = s.points.data() + d * static_cast<std::size_t>(i);
+        points.insert(points.end(), p, p + d);
+    }
     Range box[3];
     for (std::size_t i = 0; i < points.size(); ++i) box[i % d].add(points[i]);
     double half = 0;
@@ -225,7 +231,7 @@ double brightness(const double* a, const double* b, const double* c, const Vecto
         u[k] = b[k] - a[k];
         v[k] = c[k] - a[k];
     }
-    const Vector3 n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const Vector3 n = base::cross(u, v);
     const double length = std::sqrt(dot(n, n.data()));
     if (!(length > 0)) return 1;
     return ambient + (1 - ambient) * std::min(1.0, std::abs(dot(n, light.data())) / length);
@@ -240,34 +246,12 @@ Vector3 light_of(const ViewAxes& axes) {
     return light;
 }
 
-/// The number with four digits, for the bar: all digits of a computed number would take half the picture.
-double four_digits(double x) {
-    return base::parse_double(fmt::format("{:.4g}", x)).value_or(x);
-}
-
-/// The bar with its range in few digits, if they still tell its ends apart.
+/// The bar with its range in four digits, if they still tell its ends apart: all those of a computed number would take
+/// half the picture.
 io::ColourBar short_bar(double low, double high, std::size_t height) {
+    const auto four_digits = [](double x) { return base::parse_double(fmt::format("{:.4g}", x)).value_or(x); };
     const double short_low = four_digits(low), short_high = four_digits(high);
     return short_low == short_high ? io::ColourBar(low, high, height) : io::ColourBar(short_low, short_high, height);
-}
-
-Result<Matrix4> camera_of(const std::vector<double>& points, const SurfaceView& s, const ViewOptions& o,
-                          std::int32_t width) {
-    const double aspect = 1.0 * width / o.size.height;
-    return s.dimension == 2 ? fitting_map(points, aspect)
-                            : fitting_camera(points, view_axes(o.azimuth, o.elevation), aspect);
-}
-
-/// The points that triangles use: the others are no part of the picture.
-std::vector<double> used_points(const SurfaceView& s) {
-    const auto d = static_cast<std::size_t>(s.dimension);
-    std::vector<double> used;
-    used.reserve(s.triangles.size() * d);
-    for (const std::int32_t i : s.triangles) {
-        const double* const p = s.points.data() + d * static_cast<std::size_t>(i);
-        used.insert(used.end(), p, p + d);
-    }
-    return used;
 }
 
 /// The scene in a window that is `width` pixels wide.
@@ -279,11 +263,14 @@ Result<Scene> scene_of(const SurfaceView& s, const ViewOptions& o, std::int32_t 
     scene.method = o.method;
     scene.rounding = o.rounding;
     // Three vertices of its own for each triangle, for each has its own light.
-    const std::vector<double> points = normalised_points(used_points(s), s.dimension);
-    const Result<Matrix4> camera = camera_of(points, s, o, width);
+    const std::vector<double> points = normalised_corners(s);
+    const ViewAxes axes = view_axes(o.azimuth, o.elevation);
+    const double aspect = 1.0 * width / o.size.height;
+    const Result<Matrix4> camera =
+        s.dimension == 2 ? fitting_map(points, aspect) : fitting_camera(points, axes, aspect);
     if (!camera) return camera.error();
     scene.to_clip = *camera;
-    const Vector3 light = light_of(view_axes(o.azimuth, o.elevation));
+    const Vector3 light = light_of(axes);
     const bool values = has_values(s);
     if (values) scene.texture = colour_texture();
     for (std::size_t t = 0; t < s.triangles.size(); t += 3) {
@@ -307,16 +294,6 @@ Result<Scene> scene_of(const SurfaceView& s, const ViewOptions& o, std::int32_t 
 
 }  // namespace
 }  // namespace raster
-
-Result<Scene> surface_scene(const SurfaceView& surface, const ViewOptions& options, ViewCounts* counts) {
-    const ExactEnvironment environment;
-    if (Status good = raster::check(surface, options); !good) return good.error();
-    const raster::ValueScale scale(surface, options);
-    std::uint64_t without_value = 0;
-    Result<Scene> scene = raster::scene_of(surface, options, options.size.width, scale, without_value);
-    if (scene && counts != nullptr) *counts = {{}, scale.low, scale.high, without_value};
-    return scene;
-}
 
 Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& options, ViewCounts* counts) {
     const ExactEnvironment environment;

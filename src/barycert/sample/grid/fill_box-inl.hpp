@@ -19,9 +19,6 @@
 #endif
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <vector>
 
 #include "barycert/core/gradient-inl.hpp"
 #include "barycert/core/lane_loop-inl.hpp"
@@ -208,10 +205,7 @@ HWY_INLINE std::uint32_t set_boxes(D tag, const Raster& raster, const CellBlock<
     }
     error = error + hn::Set(tag, 3) * w.error;
     hn::Store(hn::DemoteTo(single, error), single, out.error);
-    small = hn::And(small, hn::Le(error, hn::Set(tag, 0x1p-7)));
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, small, bits);
-    return bits[0];
+    return mask_bits(tag, hn::And(small, hn::Le(error, hn::Set(tag, 0x1p-7))));
 }
 
 /// Points of a box at most.

@@ -10,7 +10,6 @@
 #endif
 
 #include <algorithm>
-#include <array>
 
 #include "barycert/index/records-inl.hpp"
 #include "barycert/sample/grid/fill_values-inl.hpp"
@@ -80,9 +79,7 @@ HWY_INLINE void set_block(D tag, const Filling<d>& to, FillBlock<Values, d>& b, 
     extents(m.edge, extent);
     CellWeights<d, D> weights;
     set_weights<d>(tag, m, extent, weights);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, weights.valid, bits);
-    b.valid = bits[0];
+    b.valid = mask_bits(tag, weights.valid);
     b.box = set_boxes<d>(tag, source.raster, b.cells, weights, b.boxes) & b.valid;
     if (b.box != (1U << hn::MaxLanes(D())) - 1) set_planes<d>(tag, source.raster, b.cells, weights, extent[0], rows);
 

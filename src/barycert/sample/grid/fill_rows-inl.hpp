@@ -116,11 +116,8 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, const RowsBlock<
     hn::Store(hn::DemoteTo(whole, last), whole, out.last);
     hn::Store(hn::DemoteTo(whole, inner_first), whole, out.inner_first);
     hn::Store(hn::DemoteTo(whole, inner_last), whole, out.inner_last);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, hn::Lt(inner_first, inner_last), bits);
-    out.with_points = bits[0];
-    hn::StoreMaskBits(tag, hn::Or(hn::Ne(first, inner_first), hn::Ne(last, inner_last)), bits);
-    out.undecided = bits[0];
+    out.with_points = mask_bits(tag, hn::Lt(inner_first, inner_last));
+    out.undecided = mask_bits(tag, hn::Or(hn::Ne(first, inner_first), hn::Ne(last, inner_last)));
 }
 
 }  // namespace barycert::sample::HWY_NAMESPACE

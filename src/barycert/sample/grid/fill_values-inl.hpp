@@ -75,9 +75,7 @@ struct CorrectValues {
             hn::And(hn::Le(size, hn::Set(tag, 0x1p900)), hn::Or(nothing, hn::Ge(error, hn::Set(tag, 0x1p-960)))));
         hn::Store(f[d], tag, out.at_origin);
         hn::Store(error, tag, out.error);
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(tag, valid, bits);
-        out.valid = bits[0];
+        out.valid = mask_bits(tag, valid);
     }
 
     /// What axis k contributes to component `b` of cell l at places `at`; that of the second one with f_o.
@@ -96,9 +94,7 @@ struct CorrectValues {
     static HWY_INLINE V rounded(D tag, const Block& b, std::size_t l, const Partial<V>& sum, std::uint32_t& certain) {
         auto mask = hn::FirstN(tag, hn::MaxLanes(D()));
         const V out = rounded_if_certain<D>(sum.sum, sum.rest, hn::Set(tag, b.error[l]), mask) + hn::Zero(tag);
-        std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(tag, mask, bits);
-        certain = (b.valid >> l & 1) != 0 ? bits[0] : 0;
+        certain = (b.valid >> l & 1) != 0 ? mask_bits(tag, mask) : 0;
         return out;
     }
 

@@ -1,9 +1,7 @@
 #include "barycert/map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <utility>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <bit>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"

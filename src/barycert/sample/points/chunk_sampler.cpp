@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/core/blocks.hpp"

@@ -2,10 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <utility>
-#include <vector>
 
 #include "barycert/locate/near_feature.hpp"
 #include "barycert/locator.hpp"

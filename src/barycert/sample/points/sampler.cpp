@@ -1,9 +1,6 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
@@ -95,8 +92,7 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
         if (!shape) return shape.error();
         FieldChoice choice = asked;
         if (Status made = sample::make_fields(mesh, choice, choice.steps.size(), data.made); !made) return made;
-        const TableField column{asked.name.empty() ? asked.field->name : asked.name,
-                                static_cast<int>(shape->components)};
+        const TableField column{sample::name_of(asked), static_cast<int>(shape->components)};
         if (shape->at_points) {
             late.push_back(column);
             data.at_points.push_back(at_points(mesh, choice));

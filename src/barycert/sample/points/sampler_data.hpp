@@ -2,9 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/sample/points/value_lanes.hpp"

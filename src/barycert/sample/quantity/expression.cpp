@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
 
@@ -12,11 +9,6 @@ namespace barycert::sample {
 namespace {
 
 using Kind = QuantityStep::Kind;
-
-/// Of the columns.
-const std::string& name_of(const FieldChoice& choice) {
-    return choice.name.empty() ? choice.field->name : choice.name;
-}
 
 /// Of nodes, or of cells; and what may stand before their names.
 const std::vector<Field>& fields_of(const Mesh& mesh, bool cells) {

@@ -1,10 +1,7 @@
 /// Means over the cells of many nodes at once, on SIMD lanes: correctly rounded where that is certain.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "barycert/mesh.hpp"
 

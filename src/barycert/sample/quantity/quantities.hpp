@@ -2,13 +2,7 @@
 /// sampler.hpp.
 #pragma once
 
-#include <cstddef>
 #include <deque>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
@@ -37,6 +31,11 @@ bool for_names(std::string_view text, Visit visit) {
         if (comma == std::string_view::npos) return true;
         text.remove_prefix(comma + 1);
     }
+}
+
+/// Of the columns.
+inline const std::string& name_of(const FieldChoice& choice) {
+    return choice.name.empty() ? choice.field->name : choice.name;
 }
 
 /// What the steps of a choice give.

@@ -1,12 +1,8 @@
 #include "barycert/sampler.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
-#include <optional>
-#include <string>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"

@@ -1,17 +1,22 @@
-#include "options/mistyped.hpp"
+#include "options/parser.hpp"
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert::cli {
 namespace {
+
+/// "a, b or c".
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    return text;
+}
 
 /// The first word that was left over and is near an option, and that option.
 std::optional<std::pair<std::string, std::string>> mistyped_option(const CLI::App& app) {
@@ -60,6 +65,20 @@ std::string one_value(const CLI::App& app, std::span<const char* const> words, c
 }
 
 }  // namespace
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+    return {[words](std::string& text) {
+                if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+                const std::string meant = base::did_you_mean(text, words);
+                return fmt::format("expected {}, found \"{}\"{}{}", listed(words), text, meant.empty() ? "" : "; ",
+                                   meant);
+            },
+            ""};
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, "|"));
+}
 
 std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,
                         std::span<const char* const> words) {

@@ -1,16 +1,20 @@
-/// Options that do not exist, and those that were meant.
+/// Around the parser of options: options of a few words, and what is told of those that do not exist.
 #pragma once
 
-#include <exception>
+#include <CLI/CLI.hpp>
+
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-namespace CLI {
-class App;
-}  // namespace CLI
-
 namespace barycert::cli {
+
+/// Takes these words alone; of any other it tells them, and the nearest.
+CLI::Validator one_of(const std::vector<std::string>& words);
+
+/// "a|b|c", the type of an option that takes these words: command_table() reads them there again.
+std::string joined(const std::vector<std::string>& words);
 
 /// What the parser's message says, with a remedy: `did you mean "--output"? ` before the rest for the first word that
 /// looks like an option and is none of the command it was given to; the rest alone if there is no such word, or no

@@ -1,0 +1,169 @@
+// Pictures that show what rasterising does.
+
+#include <algorithm>
+#include <cmath>
+
+#include "barycert/jobs/pictures.hpp"
+#include "barycert/raster.hpp"
+
+namespace barycert::jobs {
+namespace {
+
+Status set_texture(const RenderJob& job, Scene& scene) {
+    scene.texture = Texture{four_colours(), job.wrap, job.filter};
+    if (!job.image.empty()) {
+        Result<Image> image = read_png(job.image);
+        if (!image) return image.error();
+        scene.texture->image = std::move(*image);
+    }
+    const auto [low, high] = job.coordinates;
+    if (job.triangle) {
+        scene.positions = {-1, -1, 0, 1, 1, -1, 0, 1, 0, 1, 0, 1};
+        scene.texture_coordinates = {low, low, high, low, 0.5 * low + 0.5 * high, high};
+        scene.triangles = {0, 1, 2};
+    } else {
+        scene.positions = {-1, -1, 0, 1, 1, -1, 0, 1, 1, 1, 0, 1, -1, 1, 0, 1};
+        scene.texture_coordinates = {low, low, high, low, high, high, low, high};
+        scene.triangles = {0, 1, 2, 0, 2, 3};
+    }
+    return Done{};
+}
+
+Status set_cube(const RenderJob& job, Scene& scene) {
+    scene.interpolation = job.interpolation;
+    Result<Image> board = checkerboard(8, 8);
+    if (!board) return board.error();
+    scene.texture = Texture{std::move(*board), Wrap::clamp, Filter::nearest};
+    // Faces of the cube from -1 to 1: their middles, and two axes on which u and v go from 0 to 1.
+    constexpr Vector3 faces[6][3] = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},  {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+                                     {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}}, {{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}},
+                                     {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}}, {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+    constexpr double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (const auto& [middle, u, v] : faces) {
+        const auto first = static_cast<std::int32_t>(scene.positions.size() / 4);
+        for (const auto& c : corners) {
+            for (std::size_t k = 0; k < 3; ++k) scene.positions.push_back(middle[k] + c[0] * u[k] + c[1] * v[k]);
+            scene.positions.push_back(1);
+            for (const double x : c) scene.texture_coordinates.push_back(x > 0 ? 1 : 0);
+        }
+        for (const std::int32_t k : {0, 1, 2, 0, 2, 3}) scene.triangles.push_back(first + k);
+    }
+    const auto view = look_at({1.6, 1.5, 2.4}, {0, -0.1, 0.13}, {0, 1, 0});
+    if (!view) return view.error();
+    const auto projection = perspective(62, 1.0 * scene.size.width / scene.size.height, 0.5, 10);
+    if (!projection) return projection.error();
+    scene.to_clip = *projection * *view;
+    return Done{};
+}
+
+/// x, y, red, green, blue.
+using ColouredPoint = std::array<double, 5>;
+
+constexpr std::array<ColouredPoint, 3> triangle{{{-1.5, -0.9, 1, 0, 0}, {1.35, -1.4, 0, 1, 0}, {0.35, 1.6, 0, 0, 1}}};
+constexpr std::array<std::array<ColouredPoint, 2>, 4> segments{{
+    {{{-1.7, 0.2, 1, 0.6, 0}, {-0.1, 1.7, 0.5, 0, 0.8}}},   // cuts a corner
+    {{{-1.6, -1.3, 1, 0.6, 0}, {1.7, 1.25, 0.5, 0, 0.8}}},  // goes through
+    {{{0.6, -0.7, 1, 0.6, 0}, {0.85, 0.5, 0.5, 0, 0.8}}},   // inside
+    {{{1.2, 1.7, 1, 0.6, 0}, {1.75, -0.4, 0.5, 0, 0.8}}},   // outside
+}};
+
+/// Draws into two square panels beside each other, as large as they fit; later triangles in front.
+class ClipScene {
+public:
+    explicit ClipScene(Scene& scene) : scene_(scene) {
+        const double aspect = 1.0 * scene.size.width / scene.size.height;
+        const double half = std::max(2 * half_panel / aspect, half_panel);
+        scene.to_clip = scaling({1 / (half * aspect), 1 / half, 1});
+        pixel_ = 2 * half / scene.size.height;
+    }
+
+    void begin_panel(bool right) {
+        left_ = right ? half_panel : -half_panel;
+        z_ = 0.9;
+    }
+
+    void add_triangle(const ColouredPoint& a, const ColouredPoint& b, const ColouredPoint& c) {
+        for (const ColouredPoint* p : {&a, &b, &c}) {
+            scene_.positions.insert(scene_.positions.end(), {left_ + (*p)[0], (*p)[1], z_, 1});
+            scene_.colours.insert(scene_.colours.end(), p->begin() + 2, p->end());
+            scene_.triangles.push_back(static_cast<std::int32_t>(scene_.triangles.size()));
+        }
+        z_ -= 0x1p-8;
+    }
+
+    /// A line some pixels wide.
+    void add_line(const ColouredPoint& a, const ColouredPoint& b, double pixels) {
+        const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
+        if (!(length > 0)) return;
+        const double part = 0.5 * pixels * pixel_ / length;
+        const auto moved = [&](ColouredPoint p, double side) {
+            p[0] -= side * part * dy;
+            p[1] += side * part * dx;
+            return p;
+        };
+        add_triangle(moved(a, 1), moved(a, -1), moved(b, -1));
+        add_triangle(moved(a, 1), moved(b, -1), moved(b, 1));
+    }
+
+    void end_panel() {
+        constexpr ColouredPoint box[5] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+        for (std::size_t i = 0; i < 4; ++i) add_line(box[i], box[i + 1], 2);
+    }
+
+private:
+    static constexpr double half_panel = 1.9;  ///< half the side of a panel
+    Scene& scene_;
+    double left_ = 0, z_ = 0, pixel_ = 0;
+};
+
+/// The shapes as they are, and beside them what is left in the box: that of the clip volume with w = 1.
+Status set_clip(Scene& scene) {
+    ClipScene s(scene);
+    s.begin_panel(false);
+    s.add_triangle(triangle[0], triangle[1], triangle[2]);
+    for (const auto& [a, b] : segments) s.add_line(a, b, 4);
+    s.end_panel();
+    s.begin_panel(true);
+    std::vector<double> rows, polygon;
+    for (const ColouredPoint& p : triangle) rows.insert(rows.end(), {p[0], p[1], 0, 1, p[2], p[3], p[4]});
+    if (const Result<Clip> clip = clip_triangle(rows, polygon); !clip) return clip.error();
+    const auto corner = [&](std::size_t i) {
+        const double* const row = polygon.data() + 7 * i;
+        return ColouredPoint{row[0], row[1], row[4], row[5], row[6]};
+    };
+    for (std::size_t i = 1; i + 1 < polygon.size() / 7; ++i) s.add_triangle(corner(0), corner(i), corner(i + 1));
+    for (const auto& [a, b] : segments) {
+        const Result<ClippedSegment> part = clip_segment(2, a, b, ClipBox{{-1, -1, 0}, {1, 1, 0}});
+        if (!part) return part.error();
+        const auto end = [](const std::vector<double>& row) {
+            return ColouredPoint{row[0], row[1], row[2], row[3], row[4]};
+        };
+        if (!part->empty) s.add_line(end(part->a), end(part->b), 4);
+    }
+    s.end_panel();
+    return Done{};
+}
+
+}  // namespace
+
+Result<Scene> small_picture(const RenderJob& job) {
+    Scene scene;
+    scene.size = job.view.size;
+    if (job.picture != PictureKind::clip) {
+        scene.method = job.view.method;
+        scene.rounding = job.view.rounding;
+    }
+    Status done = Done{};
+    if (job.picture == PictureKind::clip) done = set_clip(scene);
+    if (job.picture == PictureKind::texture) done = set_texture(job, scene);
+    if (job.picture == PictureKind::cube) done = set_cube(job, scene);
+    if (job.picture == PictureKind::gradient) {
+        scene.positions = {-0.9, -0.8, 0, 1, 0.9, -0.8, 0, 1, 0, 0.9, 0, 1};
+        scene.colours = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+        scene.triangles = {0, 1, 2};
+    }
+    if (!done) return done.error();
+    return scene;
+}
+
+}  // namespace barycert::jobs
