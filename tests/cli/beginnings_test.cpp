@@ -91,6 +91,24 @@ TEST_P(Beginnings, decide) {
     }
 }
 
+/// Of a file that began well: nothing was written after that.
+TEST(GoodBeginnings, of_zeros_are_told_at_once) {
+    const Scratch scratch;
+    const How here{.folder = scratch.folder()};
+    for (const auto& [name, text] :
+         {std::pair("a.vtu", "<?xml version=\"1.0\"?>\\n<VTKFile type=\"UnstructuredGrid\">\\n"),
+          {"a.msh", "$MeshFormat\\n2.2 0 8\\n$EndMeshFormat\\n$Nodes\\n3\\n1 0 0 0\\n"},
+          {"a.mesh", "MeshVersionFormatted 2\\nDimension 3\\nVertices\\n3\\n0 0 0 0\\n"},
+          {"a.node", "4 3 0 0\\n0 0 0 0\\n"}}) {
+        const std::string file(name);
+        const Ended done = run_shell("printf '" + std::string(text) + "' > " + file + "; truncate -s 2G " + file +
+                                         "; ulimit -v 1500000; barycert check " + file + "; rm " + file,
+                                     here);
+        EXPECT_TRUE(contains(done.err, file + ": the file does not begin as text: expected words, found NUL bytes"))
+            << done.err;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(files_of, Beginnings, ::testing::ValuesIn(fillings),
                          [](const auto& tested) { return std::string(tested.param.name); });
 

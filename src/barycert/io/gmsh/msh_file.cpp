@@ -160,7 +160,8 @@ void MshFile::check_sections() const {
 MshFile::MshFile(const std::string& path, int threads) : path_(path), threads_(threads) {
     const auto format_in = [&](std::string_view block, std::uint64_t) {
         bytes_ = block;
-        return status_of([&] { read_format(); });
+        Status format = status_of([&] { read_format(); });
+        return format && !binary_ ? base::check_beginning(block, base::Text::all, path) : format;
     };
     data_ = base::MappedFile::open(path, threads, base::Text::head, format_in).value();
     bytes_ = data_.bytes();

@@ -160,7 +160,7 @@ MeditFile::MeditFile(const std::string& path) : path_(path) {
                     "\"MeshVersionFormatted\", or in a binary file the numbers 1, 1 to 4, 3",
                     head.empty() ? "an empty file" : base::quoted(word),
                     "check the path: other programs have files of this suffix, too");
-    data_ = base::MappedFile::open(path).value();
+    data_ = base::MappedFile::open(path, 1, binary_ ? base::Text::none : base::Text::all).value();
     bytes_ = data_.bytes();
     if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.remove_prefix(3);
     binary_ ? list_binary() : list_text();

@@ -134,7 +134,10 @@ Result<VtkFile> open_vtk(const std::string& path) {
         const Kind kind = kind_of(block);
         if (kind == Kind::legacy) return check_legacy_head(block, path);
         const bool other = kind == Kind::xml ? block.find("<VTKFile") == std::string_view::npos : kind == Kind::other;
-        return other ? Status(not_of_vtk(path)) : Done{};
+        if (other) return not_of_vtk(path);
+        // Data may follow as they are.
+        const bool text = kind == Kind::xml && block.find("<AppendedData") == std::string_view::npos;
+        return base::check_beginning(block, text ? base::Text::all : base::Text::head, path);
     };
     Result<base::MappedFile> mapped = base::MappedFile::open(path, 1, base::Text::head, check);
     if (!mapped) return mapped.error();
