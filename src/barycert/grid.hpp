@@ -31,9 +31,9 @@ struct Grid {
     std::uint64_t point_count() const { return layer_size() * static_cast<std::uint64_t>(counts[2]); }
 };
 
-/// The grid from low to high, ends included. An axis of one point has it in the middle. In 2D third entries are ignored.
-/// Error: another dimension than 2 or 3; a count below 1 or above max_on_axis, more than 2^62 points; bounds that are
-/// not finite and ascending (low < high where there are several points).
+/// The grid from low to high, ends included. An axis of one point has it in the middle. In 2D third entries are
+/// ignored. Error: another dimension than 2 or 3; a count below 1 or above max_on_axis, more than 2^62 points; bounds
+/// that are not finite and ascending (low < high where there are several points).
 Result<Grid> grid_over(int dimension, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
                        const std::array<double, 3>& high);
 

@@ -108,8 +108,8 @@ public:
     Result<Location> locate(const double* point, Mesh::Index hint = -1) const;
 
     /// Locates many points: sets cells[i] and features[i] for point i. `threads`: 0 for as many as the machine has.
-    /// Error, and the output unspecified: sizes that do not fit; a coordinate that is not finite, unless such points are
-    /// to be outside.
+    /// Error, and the output unspecified: sizes that do not fit; a coordinate that is not finite, unless such points
+    /// are to be outside.
     Status locate(std::span<const double> points, std::span<Mesh::Index> cells, std::span<Feature> features,
                   LocationCounts* counts = nullptr, int threads = 0,
                   NonfinitePoints nonfinite = NonfinitePoints::error) const;

@@ -42,8 +42,8 @@ public:
     ~MapWriter();
 
     /// Appends the points, cells and features of the rows. Errors: sizes that do not fit together; a row that no map
-    /// can hold (a coordinate that is not finite, a cell that is not in the mesh, a feature that it does not have); disk
-    /// full and the like. After an error, and after commit(), nothing can be written, and each call tells so.
+    /// can hold (a coordinate that is not finite, a cell that is not in the mesh, a feature that it does not have);
+    /// disk full and the like. After an error, and after commit(), nothing can be written, and each call tells so.
     Status write(const TableView& rows);
 
     /// Makes the file appear, unless something failed.
@@ -70,8 +70,8 @@ public:
     std::uint64_t rows() const;  ///< in the whole file
 
     /// Replaces points, cells and features of `rows` by the next rows, at most `max_rows` >= 1, and returns how many:
-    /// fewer only at the end, 0 after it. Errors: the file cannot be read, was cut off or changed; a row that no map can
-    /// hold. `rows` is empty then, and every later call returns the same error.
+    /// fewer only at the end, 0 after it. Errors: the file cannot be read, was cut off or changed; a row that no map
+    /// can hold. `rows` is empty then, and every later call returns the same error.
     Result<std::size_t> read(std::size_t max_rows, Table& rows);
 
 private:

@@ -57,8 +57,8 @@ Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::in
 /// Returns the gradient at `point` of the quadratic field with these values (as for interpolate_quadratic). Each
 /// component is the exact one rounded once, to nearest, ties to even, subnormal results and infinity included; an exact
 /// zero is +0. NaN in a degenerate cell, and in a component where a nodal value is not finite, unless the derivative of
-/// its factor is exactly zero there. Always in integers, a microsecond or more; Rounding::plain evaluates the formula in
-/// double, and promises nothing else. Returns an Error if a coordinate is not finite, or for other simplices.
+/// its factor is exactly zero there. Always in integers, a microsecond or more; Rounding::plain evaluates the formula
+/// in double, and promises nothing else. Returns an Error if a coordinate is not finite, or for other simplices.
 Result<Gradient> quadratic_gradient(Simplex simplex, const double* vertices, const double* point, const double* values,
                                     Rounding rounding = Rounding::correct);
 

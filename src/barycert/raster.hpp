@@ -160,8 +160,8 @@ Rgba texel(const Texture& texture, double u, double v);
 /// A picture of 2 by 2 texels: below red and green, above blue and yellow.
 Image four_colours();
 
-/// A chequered picture of cells * cells squares, each of texels * texels texels, dark at the lower left. Error: a number
-/// below 1, or too many pixels.
+/// A chequered picture of cells * cells squares, each of texels * texels texels, dark at the lower left. Error: a
+/// number below 1, or too many pixels.
 Result<Image> checkerboard(std::int32_t cells, std::int32_t texels);
 
 // Many textured triangles, fast: exact coverage, texture coordinates on SIMD lanes, one texel a pixel. No depth, no
@@ -221,8 +221,8 @@ struct ClippedSegment {
 };
 
 /// Clips the segment from a to b, each a row of `dimension` coordinates (1 to 3) and any attributes. What lies on a
-/// bound is inside. Error: rows that differ in length or are too short; a number that is not finite (bounds of a box may
-/// be infinite).
+/// bound is inside. Error: rows that differ in length or are too short; a number that is not finite (bounds of a box
+/// may be infinite).
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound);
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,

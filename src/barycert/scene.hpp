@@ -100,10 +100,10 @@ struct RenderCounts {
     friend bool operator==(const RenderCounts&, const RenderCounts&) = default;
 };
 
-/// Draws the scene; without triangles it is its background. `counts`: if given, set. `attributes`: if given, set to what
-/// colours were made of: at each pixel red, green, blue (if the scene has colours), then u, v (if it has texture
-/// coordinates); NaN where no triangle is. A NaN in a colour, which only projected_z gives, is drawn as 0. Error: a size
-/// that is refused (also: more than max_image_pixels); arrays or choices that do not fit together; an index out of
+/// Draws the scene; without triangles it is its background. `counts`: if given, set. `attributes`: if given, set to
+/// what colours were made of: at each pixel red, green, blue (if the scene has colours), then u, v (if it has texture
+/// coordinates); NaN where no triangle is. A NaN in a colour, which only projected_z gives, is drawn as 0. Error: a
+/// size that is refused (also: more than max_image_pixels); arrays or choices that do not fit together; an index out of
 /// range; a number that is not finite, or not in clip space.
 Result<Image> render(const Scene& scene, RenderCounts* counts = nullptr, PixelValues* attributes = nullptr);
 
@@ -116,8 +116,9 @@ std::vector<std::string> scene_files(const std::string& path);
 
 // A picture of a surface: lit, coloured by values, from a camera that fits it, with a colour bar.
 //
-// Colours are those of colour_map.hpp, 256 equal parts of the range, looked up at each pixel with the value interpolated
-// there, times 0.35 to 1: light falls from the upper left behind the viewer, on both sides of a triangle (Lambert).
+// Colours are those of colour_map.hpp, 256 equal parts of the range, looked up at each pixel with the value
+// interpolated there, times 0.35 to 1: light falls from the upper left behind the viewer, on both sides of a triangle
+// (Lambert).
 
 /// Triangles, by their points: in space, or in the plane (then they are drawn from above, without light).
 struct SurfaceView {

@@ -93,8 +93,9 @@ TEST(CsvErrors, headers) {
     expect_csv_refused(
         "x,y\n1,2\n", 3,
         {1, unnamed, "columns x, y, z (or Points:0, Points:1, Points:2)", "\"x\", \"y\"", "use these column names"});
-    expect_csv_refused("\n#\nlon,lat,h\n1,2,3\n", 3,
-                       {3, unnamed, nullptr, "\"lon\", \"lat\", \"h\"", "options.columns lon,lat,h, or use these names"});
+    expect_csv_refused(
+        "\n#\nlon,lat,h\n1,2,3\n", 3,
+        {3, unnamed, nullptr, "\"lon\", \"lat\", \"h\"", "options.columns lon,lat,h, or use these names"});
     expect_csv_refused("a,b,c,d,e,f,g,h,i\n", 2,
                        {1, unnamed, "columns x, y (or Points:0, Points:1)",
                         "\"a\", \"b\", \"c\", \"d\", \"e\", \"f\", \"g\", \"h\", ...", nullptr});

@@ -27,8 +27,9 @@ TEST(PointColumns, without_names_nothing_is_guessed) {
                    {1, what, "2 columns, or names for them", "3 columns without names", "options.columns 1,2, or"});
     expect_refused("p.csv", "1,2,3,4,5,6,7\n", 3, none, {1, what, nullptr, nullptr, "options.columns 5,6,7"});
     expect_refused("p.csv", "1,2,3,a\n", 3, none, {1, what, nullptr, nullptr, "options.columns 1,2,3"});
-    expect_refused("p.csv", "1,2,3,\n4,5,6,7\n", 3, none,
-                   {2, "a value behind the last separator", "none, as in the first line", "\"7\"", "options.columns 1,2,3"});
+    expect_refused(
+        "p.csv", "1,2,3,\n4,5,6,7\n", 3, none,
+        {2, "a value behind the last separator", "none, as in the first line", "\"7\"", "options.columns 1,2,3"});
     EXPECT_EQ(points_of("1,2,3,\n4,5,6,\n", 3, none), (std::vector<double>{1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(points_of("1;2;3; ;\n4;5;6;;\"\"\n", 3, none), (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }
@@ -44,11 +45,12 @@ TEST(PointColumns, by_number_and_by_name) {
     EXPECT_EQ(points_of("x,y,z\n1,2,3\n", 3, {.columns = {"z,y,x"}}), (std::vector<double>{3, 2, 1}));
     EXPECT_EQ(points_of("x,y,z\n1,2,3\n", 2, {.columns = {"x,y"}}), (std::vector<double>{1, 2}));
     const std::string header = "lon,lat,h\n1,2,3\n";
+    expect_refused("p.csv", header, 3, none,
+                   {1, "the header does not name the coordinates", nullptr, "\"lon\", \"lat\", \"h\"",
+                    "options.columns lon,lat,h"});
     expect_refused(
-        "p.csv", header, 3, none,
-        {1, "the header does not name the coordinates", nullptr, "\"lon\", \"lat\", \"h\"", "options.columns lon,lat,h"});
-    expect_refused("p.csv", header, 3, {.columns = {"lon,lat"}},
-                   {1, "options.columns does not fit the mesh", "3 columns, for the mesh is 3-dimensional", "2", nullptr});
+        "p.csv", header, 3, {.columns = {"lon,lat"}},
+        {1, "options.columns does not fit the mesh", "3 columns, for the mesh is 3-dimensional", "2", nullptr});
     expect_refused("p.csv", header, 3, {.columns = {"lon,lat,alt"}},
                    {1, "no such column", "\"alt\"", "\"lon\", \"lat\", \"h\"", "name columns that are there"});
     expect_refused("p.csv", header, 3, {.columns = {"1,2,4"}}, {1, "no such column", "\"4\"", nullptr, nullptr});
@@ -68,7 +70,8 @@ TEST(PointColumns, in_the_plane_z_is_zero_or_left_out) {
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->points, (std::vector<double>{1, 2, 3, 4}));
     EXPECT_EQ(read->note_texts(), "left out: column z, which must be 0 throughout, for the mesh is 2D\n");
-    const Expected off{3, "a point off the plane z = 0", "z = 0, for the mesh is 2D", "\"5e-324\"", "options.columns x,y"};
+    const Expected off{3, "a point off the plane z = 0", "z = 0, for the mesh is 2D", "\"5e-324\"",
+                       "options.columns x,y"};
     expect_refused("p.csv", "x,y,z\n1,2,0\n3,4,5e-324\n", 2, none, off);
     expect_refused("p.csv", "x y z n\n1 2 0 a\n3 4 5e-324 b\n", 2, {.columns = {}, .keep = {"n"}}, off);
     expect_refused("p.csv", "x,y,z\n1,2,a\n", 2, none, {2, "bad coordinate z", nullptr, nullptr, nullptr});
@@ -93,7 +96,8 @@ TEST(PointColumns, columns_are_carried_through_as_they_stand) {
     EXPECT_EQ(some->text(1), "number:t 007|-0|9|12");
     EXPECT_EQ(some->note_texts(), "left out: column name; options.keep name carries it through\n");
     Result<CarriedPoints> nothing = read_carried_bytes("p.csv", text, 3, none);
-    EXPECT_EQ(nothing.value().note_texts(), "left out: columns id, name, t; options.keep id,name,t carries them through\n");
+    EXPECT_EQ(nothing.value().note_texts(),
+              "left out: columns id, name, t; options.keep id,name,t carries them through\n");
     Result<CarriedPoints> unnamed =
         read_carried_bytes("p.csv", "5;1;2;3\n", 3, {.columns = {"2,3,4"}, .keep = {"column1"}});
     EXPECT_EQ(unnamed.value().text(0), "column1:t 5");

@@ -63,7 +63,7 @@ void take_entities(const MshFile& file, const MshSection& section, bool parts, M
     Walk walk(file, section);
     if (parts) {
         walk.size("the number of partitions");
-        for (std::int64_t ghosts = walk.size("the number of ghost entities"); ghosts > 0; --ghosts)
+        for (std::int64_t ghosts = walk.size("the number of ghost entities"); ghosts-- > 0;)
             walk.integer("the tag of an entity"), walk.integer("a partition");
         groups.partitioned = true;
     }

@@ -226,7 +226,7 @@ void MeditFile::add(std::string name, const MeditKeyword* keyword, std::string_v
         section.count = static_cast<std::size_t>(take_count(body, integer_bytes(), "the number of rows", 0, max_rows));
     }
     if (kind == solution) {
-        for (std::int64_t left = take_count(body, 4, "the number of fields", 1, max_fields); left > 0; --left)
+        for (std::int64_t left = take_count(body, 4, "the number of fields", 1, max_fields); left-- > 0;)
             section.types.push_back(take_count(body, 4, "the type of a field", 1, 4));
     }
     section.body = body;
