@@ -96,8 +96,11 @@ bool take_literal(std::string_view& rest, Literal& out, int depth = 0) {
 bool list_ends(std::string_view text) {
     int depth = 0;
     char quote = '\0';
-    for (const char c : text) {
-        if (quote == '\0' && (c == '\'' || c == '"')) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quote != '\0' && c == '\\') {
+            ++i;
+        } else if (quote == '\0' && (c == '\'' || c == '"')) {
             quote = c;
         } else if (quote == c) {
             quote = '\0';
@@ -221,7 +224,7 @@ NpyHeader parse_npy_text(std::string_view text, bool latin1, const std::string& 
         skip_blanks(rest);
         const std::string_view from = rest;
         const bool whole = good && take_literal(rest, value);
-        if (key.text == "descr" && value.kind == '[' && list_ends(from)) {
+        if (key.text == "descr" && value.kind == '[' && (whole || list_ends(from))) {
             header.structured = true;
             if (!whole || !take_fields(value, header.fields, header.item_size, 0) || header.item_size == 0 ||
                 header.item_size > longest_npy_text << 10)
