@@ -15,7 +15,6 @@
 #include "barycert/audit.hpp"
 #include "barycert/audit_pictures.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/base/descriptor.hpp"
 #include "barycert/kernels.hpp"
 #include "mesh_object.hpp"
 
@@ -48,31 +47,33 @@ struct Call {
     Call() {
         static const int told_of_forks = ::pthread_atfork(
             [] {
-                int ends[2];
-                if (now == nullptr || now->there || ::pipe2(ends, O_CLOEXEC) != 0) return;
-                now->here.number = ends[0];
-                now->there.number = ends[1];
+                if (now != nullptr && now->ends[0] < 0 && ::pipe2(now->ends, O_CLOEXEC) != 0) now->ends[0] = -1;
             },
             nullptr, nullptr);
         static_cast<void>(told_of_forks);
         now = this;
     }
-    ~Call() { now = nullptr; }
+    ~Call() {
+        now = nullptr;
+        for (const int end : ends) {
+            if (end >= 0) ::close(end);
+        }
+    }
     Call(const Call&) = delete;
     Call& operator=(const Call&) = delete;
 
     /// True if a process is left that it has forked. Ends this one if that is it.
     bool left_a_process() {
         if (::getpid() != caller) ::_exit(1);
-        if (!there) return false;
-        there = base::Descriptor();
-        pollfd waited{.fd = here.number, .events = POLLIN, .revents = 0};
+        if (ends[0] < 0) return false;
+        ::close(std::exchange(ends[1], -1));
+        pollfd waited{.fd = ends[0], .events = POLLIN, .revents = 0};
         return ::poll(&waited, 1, 0) != 1;  // else the last of them has ended
     }
 
     static thread_local Call* now;
     pid_t caller = ::getpid();
-    base::Descriptor here, there;
+    int ends[2] = {-1, -1};  ///< to read and to write, once it has forked
 };
 thread_local Call* Call::now = nullptr;
 

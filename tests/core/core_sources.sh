@@ -3,7 +3,7 @@
 # core_sources SOURCE_DIR BUILD_DIR     writes a file that joins most of them, for they share their headers, and prints
 # the paths of all that is to be compiled
 core_sources() {
-    for name in base/result base/exact_environment base/random base/text core/environment core/exact_weights \
+    for name in base/exact_environment base/numbers base/text core/environment core/exact_weights \
         core/inverse core/predicates core/quotient core/weight_signs; do
         echo "#include \"barycert/$name.cpp\""
     done >"$2/joined.cpp"
