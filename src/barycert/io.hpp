@@ -148,8 +148,8 @@ struct SeriesStep {
     std::vector<std::string> files;  ///< as they can be opened
 };
 
-/// The steps of a series (.pvd, or ParaView's .vtu.series) in the order of the file: entries of one time that follow
-/// each other are one step. Error: no such file, or no series; an entry without a file; a time that is not finite.
+/// The steps of a series in the order of the file. In a .pvd file entries of one time that follow each other are one
+/// step. Error: no such file; no series; an entry without a file; a time not finite, or in a .series file not its own.
 Result<std::vector<SeriesStep>> read_series(const std::string& path);
 
 /// Writes the mesh as its path ends: .vtu as write_vtu does; .vtk in the legacy format, binary (`data` raw) or as text

@@ -414,7 +414,7 @@ TEST(check, one_place_for_two_files_is_refused) {
     const How here{.folder = scratch.folder()};
     const std::vector<std::pair<Words, std::string>> refusals{
         {{"--json", "r", "--fix-orientation", "c", "--vtu", "-"}, "--vtu cannot write to stdout"},
-        {{"--json", "c.ele", "--fix-orientation", "./c"}, "--json and --fix-orientation name the same output"},
+        {{"--json", "c.ele", "--fix-orientation", "./c"}, "--fix-orientation and --json name the same output"},
         {{"--json", "-", "--html", "-"}, "--json and --html name the same output"},
         {{"--json", "r", "--html", "./r"}, "--json and --html name the same output"},
         {{"--json", "m.node"}, "--json would overwrite the mesh"},

@@ -407,9 +407,9 @@ TEST_F(SeriesOfMeshes, what_cannot_be_meant_is_refused) {
     const Ended pipe = run_shell("barycert sample run.pvd --points - --output 'r{step}.csv' < p.csv", here);
     EXPECT_EQ(pipe.code, 2);
     EXPECT_TRUE(contains(pipe.err, "points of a pipe can be read once")) << pipe.err;
-    expect_error(plus(sample, {"--output", "r{step}.csv", "--weights", "w.npz"}), "--weights is of one mesh", here);
-    expect_error(plus(sample, {"--output", "r{step}.csv", "--save-map", "m.npz"}), "another mesh in step 2", here);
-    for (const char* const none : {"r0.csv", "w.npz", "m.npz"})
+    expect_error(plus(sample, {"--output", "q{step}.csv", "--weights", "w.npz"}), "--weights is of one mesh", here);
+    expect_error(plus(sample, {"--output", "q{step}.csv", "--save-map", "m.npz"}), "another mesh in step 2", here);
+    for (const char* const none : {"q0.csv", "w.npz", "m.npz"})
         EXPECT_FALSE(std::filesystem::exists(scratch.path(none))) << none;
     expect_error(plus(sample, {"--output", "s{step}.vtu"}), "would overwrite", here);
 }

@@ -133,7 +133,7 @@ TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
         {{"render", "slice", bracket, "--palne=0,0,1,0"}, "\"--palne\" is no option, did you mean \"--plane\"?"},
         {{"render", "gradient", "--ouput", "x.png"}, "did you mean \"--output\"?"},
         {{"audit", "--oracle", "cgla"},
-         "--oracle: expected integers, cgal or both, found \"cgla\"; did you mean \"cgal\"? "},
+         "--oracle: expected integers, cgal or both, found \"cgla\"; did you mean \"cgal\"?\n"},
         {{"audit", "--kernel", "triangle.signed-aera"},
          "did you mean \"triangle.signed-area\"? `barycert kernels` lists"},
         {{"audit", "--kernel", "cramer"}, "did you mean \"tetrahedron.cramer\"?"},

@@ -113,21 +113,20 @@ TEST(VtkCollections, blocks_and_series) {
     EXPECT_EQ(first->cell_count(), 2U);
     EXPECT_EQ(notes_of(*first), (Texts{"all steps but the first of a series of 2: read is the time 0.5"}));
     EXPECT_TRUE(first->notes[0].important);
-    // The same series as ParaView writes it.
+    // A series as ParaView writes it has one file a step.
     put(folder / "m.vtu.series",
         "{\n  \"file-series-version\" : \"1.0\",\n  \"files\" : [\n    { \"name\" : \"0.vtu\", \"time\" : 0.5 },\n"
-        "    { \"name\" : \"1.vtu\", \"time\" : 0.5 },\n    { \"name\" : \"/x/y.vtu\", \"time\" : 10 }\n  ]\n}\n");
+        "    { \"name\" : \"1.vtu\", \"time\" : 0.75 },\n    { \"name\" : \"/x/y.vtu\", \"time\" : 10 }\n  ]\n}\n");
     const Result<std::vector<SeriesStep>> same = read_series(folder / "m.vtu.series");
     ASSERT_TRUE(same) << same.error().message();
-    ASSERT_EQ(same->size(), 2U);
-    for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ((*same)[i].time, (*steps)[i].time);
-        EXPECT_EQ((*same)[i].files, (*steps)[i].files);
-    }
+    ASSERT_EQ(same->size(), 3U);
+    EXPECT_EQ((*same)[1].time, 0.75);
+    EXPECT_EQ((*same)[1].files, (Texts{folder / "1.vtu"}));
+    EXPECT_EQ((*same)[2].files, (Texts{"/x/y.vtu"}));
     const Result<Mesh> too = read_mesh(folder / "m.vtu.series");
     ASSERT_TRUE(too) << too.error().message();
-    EXPECT_EQ(too->points, first->points);
-    EXPECT_EQ(notes_of(*too), (Texts{"all steps but the first of a series of 2: read is the time 0.5"}));
+    EXPECT_EQ(too->cell_count(), 1U);
+    EXPECT_EQ(notes_of(*too), (Texts{"all steps but the first of a series of 3: read is the time 0.5"}));
     EXPECT_EQ(mesh_files(folder / "m.vtu.series"),
               (Texts{folder / "m.vtu.series", folder / "0.vtu", folder / "1.vtu", "/x/y.vtu"}));
     EXPECT_FALSE(read_series(folder / "m.vtm"));
