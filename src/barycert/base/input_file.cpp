@@ -85,8 +85,11 @@ Result<InputFile> InputFile::open(const std::string& path, const char* remedy, T
 }
 
 Result<std::string> InputFile::head(const std::string& path, std::size_t size) {
+    // A pipe is opened once: its writer would lose a reader who closes it.
     struct stat status {};
-    if (const Result<Descriptor> opened = open_without_waiting(path, status); opened && S_ISREG(status.st_mode)) {
+    if (::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+        const Result<Descriptor> opened = open_without_waiting(path, status);
+        if (!opened) return opened.error();
         if (std::optional<std::string> head = unpacked_head(opened->number, size)) return *std::move(head);
     }
     const Result<InputFile> file = open(path);

@@ -9,6 +9,7 @@
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/npy/npy.hpp"
 #include "barycert/io/vti/vti.hpp"
 
 namespace barycert::jobs {
@@ -78,18 +79,10 @@ OpenedSink open_vti(const std::string& path, const TableFormat& format, const Gr
 
 /// One array of float64, z slowest: its bytes are the values as they come.
 std::unique_ptr<TableSink> open_array(const std::string& path, const Grid& grid, std::size_t columns) {
-    std::vector<std::int64_t> sizes(grid.counts.rend() - grid.dimension, grid.counts.rend());
-    if (columns > 1) sizes.push_back(static_cast<std::int64_t>(columns));
-    std::string text =
-        fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}", fmt::join(sizes, ", "));
-    // Magic, version 1.0, the length of the text in two bytes; the array begins at a multiple of 64.
-    constexpr std::size_t head = 10;
-    text.resize((head + text.size() + 1 + 63) / 64 * 64 - head, ' ');
-    text.back() = '\n';
-    std::string header = "\x93NUMPY";
-    header += {'\1', '\0', static_cast<char>(text.size() % 256), static_cast<char>(text.size() / 256)};
+    std::vector<std::uint64_t> shape(grid.counts.rend() - grid.dimension, grid.counts.rend());
+    if (columns > 1) shape.push_back(columns);
     const auto file = std::make_shared<base::OutputFile>(path);
-    file->write(header + text);
+    file->write(io::npy_header_of("'<f8'", shape));
     const auto write = [file](const TableView& rows) {
         const auto bytes = std::as_bytes(rows.values);
         file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

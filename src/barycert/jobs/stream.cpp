@@ -216,14 +216,16 @@ RowSource rows_of_points(std::unique_ptr<PointSource>& points) {
 
 Status sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& open, const std::string& map) {
     const bool further = mesh.step_by_step() && mesh.steps.size() > 1;
-    for (const auto& [member, path] : {std::pair("job.weights", mesh.job.weights), {"job.save_map", map}}) {
-        if (!further || path.empty()) continue;
-        if (Status same = mesh.check_one_mesh(path, member); !same) return same;
+    const std::string& weights = mesh.job.weights;
+    if (further && !(weights.empty() && map.empty())) {
+        Status same =
+            weights.empty() ? mesh.check_one_mesh(map, "job.save_map") : mesh.check_one_mesh(weights, "job.weights");
+        if (!same) return same;
     }
     std::vector<Table> known;
     return mesh.for_outputs([&](const std::string& output, bool first, bool anew) -> Status {
         Targets targets{output};
-        if (first) targets.map = map, targets.weights = mesh.job.weights;
+        if (first) targets.map = map, targets.weights = weights;
         if (anew && further) targets.known = &known;
         if (anew) known.clear();
         if (Status ready = anew && !first ? source.begin_again(mesh) : Status(Done{}); !ready) return ready;

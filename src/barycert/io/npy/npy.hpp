@@ -57,8 +57,8 @@ inline constexpr std::size_t longest_npy_text = std::size_t{1} << 20;
 /// As Python writes it: (5, 3), (5,), ().
 std::string as_tuple(const std::vector<std::uint64_t>& shape);
 
-/// The dictionary of a header, without its end.
-std::string npy_dictionary(const std::string& descr, const std::vector<std::uint64_t>& shape);
+/// The header of an array, padded to `size` bytes; 0: to the next multiple of 64.
+std::string npy_header_of(const std::string& descr, const std::vector<std::uint64_t>& shape, std::size_t size = 0);
 
 /// Value i of a column stands at first + i * step, in bytes from the end of the header.
 struct NpyColumn {

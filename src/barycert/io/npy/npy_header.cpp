@@ -275,8 +275,21 @@ std::string as_tuple(const std::vector<std::uint64_t>& shape) {
     return text + (shape.size() == 1 ? ",)" : ")");
 }
 
-std::string npy_dictionary(const std::string& descr, const std::vector<std::uint64_t>& shape) {
-    return "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + as_tuple(shape) + ", }";
+std::string npy_header_of(const std::string& descr, const std::vector<std::uint64_t>& shape, std::size_t size) {
+    std::string text = "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + as_tuple(shape) + ", }";
+    const auto aligned = [&](std::size_t before) { return (before + text.size() + 1 + 63) / 64 * 64; };
+    // Version 1 has 2 bytes for the length of the text and is in Latin-1, version 2 has 4, version 3 is in UTF-8.
+    const bool ascii =
+        std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
+    const char version = !ascii ? 3 : std::max(size, aligned(12)) > UINT16_MAX ? 2 : 1;
+    const std::size_t before = version == 1 ? 10 : 12;
+    if (size == 0) size = aligned(before);
+    text.resize(size - before - 1, ' ');
+    text += '\n';
+    std::string head(npy_magic);
+    head += {version, '\0'};
+    for (std::size_t i = 8; i < before; ++i) head += static_cast<char>(text.size() >> 8 * (i - 8) & 0xFFU);
+    return head + text;
 }
 
 }  // namespace barycert::io

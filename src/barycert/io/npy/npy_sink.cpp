@@ -18,7 +18,6 @@ namespace barycert::io {
 namespace {
 
 /// NumPy aligns the numbers of a file so.
-constexpr std::size_t alignment = 64;
 
 constexpr std::size_t feature_count = static_cast<std::size_t>(Feature::degenerate) + 1;
 
@@ -99,7 +98,7 @@ class NpySink final : public RowSink {
 public:
     NpySink(const std::string& path, const TableFormat& format);
     Status commit() override {
-        file_.replace(head_size_, padded_header(count_));
+        file_.replace(0, npy_header_of(types_, {count_}, head_size_));
         return RowSink::commit();
     }
     Status write(const TableView& rows) override {
@@ -110,12 +109,6 @@ public:
 
 private:
     void settle_types();
-    std::string header(std::uint64_t count) const { return npy_dictionary(types_, {count}); }
-    std::string padded_header(std::uint64_t count) const {
-        std::string text = header(count);
-        text.resize(text_size_ - 1, ' ');
-        return text + '\n';
-    }
     Status check(const TableView& rows) const override;
     std::size_t longest_row(const TableView&) const override { return row_size_; }
     char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override {
@@ -137,9 +130,7 @@ private:
     }
 
     std::string types_;          // the descr of the header
-    std::size_t text_size_ = 0;  // of the header, with room for any count
-    std::size_t head_size_ = 0;
-    char version_ = 1;
+    std::size_t head_size_ = 0;  // with room for any count
     std::size_t row_size_ = 0;
     std::vector<std::size_t> carried_;  // bytes of each carried column
     std::uint64_t count_ = 0;
@@ -188,24 +179,12 @@ NpySink::NpySink(const std::string& path, const TableFormat& format) : RowSink(p
         std::memcpy(&features_[f], text.data(), text.size());
     }
 
-    // Version 1 has 2 bytes for the length and is in Latin-1, version 2 has 4, version 3 is in UTF-8.
-    const bool ascii =
-        std::none_of(types_.begin(), types_.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
-    const std::size_t longest = header(UINT64_MAX).size() + alignment;
-    if (longest > UINT16_MAX) version_ = 2;
-    if (!ascii) version_ = 3;
-    head_size_ = version_ == 1 ? 10 : 12;
-    const std::size_t whole = (head_size_ + header(UINT64_MAX).size() + 1 + alignment - 1) / alignment * alignment;
-    text_size_ = whole - head_size_;
-    if (text_size_ > longest_npy_text)
+    head_size_ = npy_header_of(types_, {UINT64_MAX}).size();
+    if (head_size_ > longest_npy_text)
         refuse_file(path_, "too many columns for an NPY file",
-                    "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(text_size_),
+                    "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(head_size_),
                     "choose fewer fields, or write CSV");
-    std::string head(npy_magic);
-    head += {version_, '\0'};
-    for (std::size_t i = 8; i < head_size_; ++i) head += static_cast<char>(text_size_ >> 8 * (i - 8) & 0xFFU);
-    file_.write(head);
-    file_.write(padded_header(0));
+    file_.write(npy_header_of(types_, {0}, head_size_));
     file_.status().value();
 }
 

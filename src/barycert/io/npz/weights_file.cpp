@@ -53,14 +53,6 @@ std::uint64_t or_limit(std::uint64_t x) {
     return x < zip_limit ? x : zip_limit;
 }
 
-std::string npy_header_of(const std::string& descr, const std::vector<std::uint64_t>& shape) {
-    std::string text = npy_dictionary("'" + descr + "'", shape);
-    constexpr std::size_t head = 10;
-    text.resize(npz_npy_header - head - 1, ' ');
-    text += '\n';
-    return Bytes().text(npy_magic).text({"\1\0", 2}).two(text.size()).text(text).all();
-}
-
 static_assert(std::endian::native == std::endian::little, "NPY files are written as numbers stand in memory");
 
 template <class T>
@@ -88,7 +80,7 @@ public:
     void begin(const std::string& name, const std::string& descr) {
         members_.push_back({name + ".npy", descr, size_});
         put(local_header(members_.back()));
-        put(npy_header_of(descr, {}));
+        put(npy_header_of("'" + descr + "'", {}, npz_npy_header));
         numbers_ = 0;
     }
 
@@ -101,7 +93,7 @@ public:
     /// `shape`: as many numbers as were written.
     void end(const std::vector<std::uint64_t>& shape) {
         Member& m = members_.back();
-        const std::string header = npy_header_of(m.descr, shape);
+        const std::string header = npy_header_of("'" + m.descr + "'", shape, npz_npy_header);
         m.checksum = static_cast<std::uint32_t>(
             crc32_combine(libdeflate_crc32(0, header.data(), header.size()), numbers_, static_cast<z_off_t>(m.size)));
         m.size += header.size();
