@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"

@@ -1,6 +1,9 @@
 /// What an audit is made of: meshes, kernels and families, by the words of the user.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "barycert/audit.hpp"
 #include "barycert/base/named_file.hpp"
 #include "options.hpp"

@@ -1,6 +1,10 @@
 /// What all subcommands do around their job: exit codes, what is said on stderr, how the program is called.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "barycert/check.hpp"
 #include "barycert/result.hpp"
 

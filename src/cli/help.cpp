@@ -9,6 +9,7 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <memory>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <system_error>
 
 #include "barycert/base/text.hpp"
 #include "command.hpp"

@@ -5,7 +5,14 @@
 
 #include <charconv>
 #include <concepts>
+#include <cstdint>
+#include <functional>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "barycert/jobs.hpp"
 #include "options/parser.hpp"

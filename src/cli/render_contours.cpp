@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <optional>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"

@@ -3,7 +3,13 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "barycert/base/named_file.hpp"
 #include "barycert/jobs.hpp"

@@ -2,6 +2,7 @@
 // mesh.
 
 #include <cmath>
+#include <optional>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

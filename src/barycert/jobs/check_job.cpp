@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"

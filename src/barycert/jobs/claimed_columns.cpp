@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

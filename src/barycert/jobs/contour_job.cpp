@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"

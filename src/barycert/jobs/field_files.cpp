@@ -1,7 +1,11 @@
 #include "barycert/jobs/field_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

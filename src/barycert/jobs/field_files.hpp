@@ -2,7 +2,10 @@
 /// names.
 #pragma once
 
+#include <cstddef>
 #include <deque>
+#include <string>
+#include <vector>
 
 #include "barycert/jobs.hpp"
 #include "barycert/mesh.hpp"

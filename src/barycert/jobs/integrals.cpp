@@ -4,8 +4,12 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "barycert/base/text.hpp"
 #include "barycert/check/exact_volumes.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <thread>
+#include <utility>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"

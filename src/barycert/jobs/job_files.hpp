@@ -4,6 +4,9 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "barycert/jobs/series.hpp"
 #include "barycert/locator.hpp"

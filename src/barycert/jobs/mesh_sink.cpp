@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"

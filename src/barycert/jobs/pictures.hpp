@@ -1,6 +1,9 @@
 /// Parts of pictures.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "barycert/jobs.hpp"
 #include "barycert/result.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"

@@ -1,6 +1,9 @@
 /// Where resampled values go: files of grids, files of the other mesh; and their integrals.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "barycert/grid.hpp"
 #include "barycert/jobs/stream.hpp"
 

@@ -1,7 +1,12 @@
 // Fields at points.
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <memory>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"

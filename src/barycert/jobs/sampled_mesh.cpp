@@ -5,6 +5,9 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"

@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
+#include <system_error>
+#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

@@ -1,6 +1,11 @@
 /// Series: fields of which there is a file for each step.
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "barycert/base/named_file.hpp"
 #include "barycert/jobs.hpp"
 #include "barycert/result.hpp"

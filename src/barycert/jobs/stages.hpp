@@ -5,7 +5,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/npz/weights_file.hpp"

@@ -1,6 +1,14 @@
 /// Points through the sampler into rows, block by block: read, located and evaluated, written.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "barycert/jobs/sampled_mesh.hpp"
 
 namespace barycert::jobs {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/mesh/columns.hpp"

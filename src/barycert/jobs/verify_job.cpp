@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/held.hpp"

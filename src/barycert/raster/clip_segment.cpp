@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/core/scaled_double.hpp"

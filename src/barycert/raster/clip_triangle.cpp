@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"

@@ -1,6 +1,11 @@
 /// The pixels of one triangle: which of them are seen, the attributes there, colours.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "barycert/raster.hpp"
 #include "barycert/scene.hpp"
 

@@ -8,6 +8,7 @@
 /// vertices, that is less than 6302 bits, of 14704 that there are.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "barycert/core/integer.hpp"

@@ -4,6 +4,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "barycert/raster.hpp"
 #include "barycert/raster/edge.hpp"

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <string>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <string>
 #include <type_traits>
 
 #include "barycert/environment.hpp"

@@ -1,6 +1,10 @@
 /// Textured triangles on SIMD lanes: one vector of pixels of a row at a time.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 #include "barycert/raster.hpp"
 
 namespace barycert::raster {

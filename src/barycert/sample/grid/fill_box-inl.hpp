@@ -19,6 +19,9 @@
 #endif
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
 
 #include "barycert/core/gradient-inl.hpp"
 #include "barycert/core/lane_loop-inl.hpp"

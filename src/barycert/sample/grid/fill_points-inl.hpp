@@ -10,6 +10,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 
 #include "barycert/index/records-inl.hpp"
 #include "barycert/sample/grid/fill_values-inl.hpp"

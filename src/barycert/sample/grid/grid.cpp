@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/strict_math.hpp"

@@ -1,7 +1,9 @@
 #include "barycert/map.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <utility>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
 
 #include "barycert/base/random.hpp"
 #include "barycert/mesh.hpp"

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"

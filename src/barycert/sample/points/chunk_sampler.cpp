@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/core/blocks.hpp"

@@ -1,6 +1,11 @@
 /// Rows for a chunk of points whose owners are known.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
 #include "barycert/locate/finder.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
 
 #include "barycert/locate/near_feature.hpp"
 #include "barycert/locator.hpp"

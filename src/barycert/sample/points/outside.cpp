@@ -1,9 +1,11 @@
 #include "barycert/sample/points/chunk_sampler.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/locate/near_feature.hpp"

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <deque>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/sample/points/value_lanes.hpp"

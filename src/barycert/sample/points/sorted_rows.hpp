@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "barycert/locate/sorted_points.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"

@@ -8,6 +8,9 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"

@@ -1,8 +1,11 @@
 #include "barycert/sampler.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
