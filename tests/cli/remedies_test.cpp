@@ -103,6 +103,8 @@ const Remedy remedies[] = {
      "check c.cgns", "check c-simplices.vtu"},
     {"vtkhdf", "pvpython", vtkhdf, "check c.vtkhdf", "check c-simplices.vtu"},
     {"fluent", "pvpython", fluent_cas, "check c.cas", "check c-simplices.vtu"},
+    {"freefem", "FreeFem++", "echo 'mesh Th = square(2, 2); savemesh(Th, \"a.msh\");' | FreeFem++ -nw -f /dev/stdin",
+     "check a.msh", "check a.mesh"},
     {"openfoam", "pvpython", openfoam, "check .", "check ./case-simplices.vtu"},
     {"off", "", "", "check s.off", "check s.1"},
     {"binary_ply", "meshio", "meshio convert t.off s.ply", "mesh s.ply", "mesh s-text.ply"},

@@ -80,7 +80,7 @@ TEST(MeshFormat, files_that_are_not_read) {
         {"a.zip", "PK\x03\x04", "a ZIP archive", "`unzip "},
         {"a.csv", "x,y\n", "a table, not a mesh", "--points"},
         {"a.npy", "\x93NUMPY", "a table, not a mesh", "--points"},
-        {"a.msh", "5 2 6\n0 0 1\n", "a mesh of FreeFem", "savevtk"},
+        {"a.msh", "5 2 6\n0 0 1\n", "a mesh of FreeFem", "savemesh"},
         {"a.rst", "?", "no mesh that is read", ".vtu or Gmsh's .msh"},
         {"it's a.unv", "", "a universal file of I-deas", "it'\\''s a.unv' "},
     };

@@ -63,7 +63,7 @@ const OtherFormat* by_suffix(std::string_view suffix) {
 
 constexpr OtherFormat fluent{"", "a mesh of Fluent", "", "ansys"};
 constexpr OtherFormat freefem{"", "a mesh of FreeFem",
-                              "in FreeFem, write it with load \"iovtk\" and savevtk(\"OUT.vtu\", Th)"};
+                              "make it a file of Medit with {freefem}; a mesh in space with mesh3 and readmesh3"};
 
 constexpr OtherFormat binary_ply{"", "a surface in binary form, not a mesh", "{text ply}"};
 constexpr OtherFormat flat_poly{"", "a PLC in the plane, not a mesh",
@@ -243,11 +243,18 @@ std::string plane_remedy(std::span<const double> points, const std::string& path
            stl + "`, then `barycert mesh " + stl + "`";
 }
 
+std::string freefem_command(const std::string& path) {
+    const std::string script =
+        "mesh Th = readmesh(\"" + path + "\"); savemesh(Th, \"" + stem_of(path) + ".mesh\");";
+    return "`echo " + shell_word(script) + " | FreeFem++ -nw -f /dev/stdin`";
+}
+
 Error other_format_error(const OtherFormat& format, const std::string& path) {
     const auto word = [&](std::string_view name) {
         if (name == "in") return shell_word(path);
         if (name == "gmsh") return gmsh_command(path);
         if (name == "stem.msh") return shell_word(stem_of(path) + ".msh");
+        if (name == "freefem") return freefem_command(path);
         if (name == "unpacked") return shell_word(unpacked_name(path));
         return name == "paraview" ? by_paraview(path) : text_ply_remedy(path);
     };
