@@ -1,29 +1,60 @@
-/// Work on some of the machine's threads.
+/// Work on some of the machine's threads: those of the caller's arena, which take over its floating-point environment.
 #pragma once
 
-#include <tbb/task_arena.h>
-
-#include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace barycert::base {
 
-/// How many threads to use: those asked for, or all for 0; never more than the arena of the caller has.
-inline int threads_of(int threads) {
-    const int available = tbb::this_task_arena::max_concurrency();
-    return threads > 0 ? std::min(threads, available) : available;
-}
+/// How many threads the arena of the caller has.
+int arena_threads();
 
-/// Returns work() on threads_of(threads) threads, which take over the floating-point environment of the caller. To wake
-/// a thread, and to wait for it, takes as long as some thousand cells or points: `pieces` says how many there are.
+/// How many threads to use: those asked for, or all for 0; never more than the arena of the caller has.
+int threads_of(int threads);
+
+/// work() in an arena of threads_of(threads) threads. To wake a thread, and to wait for it, takes as long as some
+/// thousand cells or points: `pieces` says how many there are.
+void run_in_arena(int threads, std::size_t pieces, const std::function<void()>& work);
+
+/// The same, with what work() returns.
 template <class Work>
 auto in_arena(int threads, std::size_t pieces, Work&& work) {
-    constexpr std::size_t pieces_a_thread = 1024;
-    const std::size_t most = std::min<std::size_t>(1 + pieces / pieces_a_thread, std::numeric_limits<int>::max());
-    tbb::task_arena arena(std::min(threads_of(threads), static_cast<int>(most)));
-    return arena.execute(std::forward<Work>(work));
+    using Made = decltype(work());
+    if constexpr (std::is_void_v<Made>) {
+        run_in_arena(threads, pieces, [&] { work(); });
+    } else {
+        std::optional<Made> made;
+        run_in_arena(threads, pieces, [&] { made.emplace(work()); });
+        return std::move(*made);
+    }
 }
+
+/// work(i) for each i below `count`, on all threads of the arena, in any order.
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& work);
+
+/// work(begin, end) for ranges that together are [0, count), cut until they have at most `grain`.
+void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& work);
+
+/// What join(all, part) makes of the parts of such ranges, each made by work(begin, end, part) from a copy of `empty`.
+/// Parts come in any order.
+template <class Part, class Work, class Join>
+Part parallel_reduce(std::size_t count, std::size_t grain, const Part& empty, Work work, Join join) {
+    std::mutex mutex;
+    Part all = empty;
+    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+        Part part = empty;
+        work(begin, end, part);
+        const std::lock_guard lock(mutex);
+        join(all, part);
+    });
+    return all;
+}
+
+/// work(), during which this thread takes up nothing that is not part of it, not even while it waits for others.
+void isolated(const std::function<void()>& work);
 
 }  // namespace barycert::base

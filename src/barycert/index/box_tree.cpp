@@ -1,11 +1,12 @@
 #include "barycert/index/box_tree.hpp"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
+
+#include "barycert/base/arena.hpp"
 
 namespace barycert::index {
 
@@ -34,7 +35,9 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
     nodes_.resize(nodes_over(boxes_.size()));
     build(0, boxes_.size(), 0);
     std::vector<Box> sorted(boxes_.size());
-    tbb::parallel_for(std::size_t{0}, boxes_.size(), [&](std::size_t i) { sorted[i] = boxes_[order_[i]]; });
+    base::parallel_for(boxes_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i != end; ++i) sorted[i] = boxes_[order_[i]];
+    });
     boxes_ = std::move(sorted);
 }
 

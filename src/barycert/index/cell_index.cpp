@@ -1,25 +1,18 @@
 #include "barycert/index/cell_index.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <limits>
 #include <span>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
+
 namespace barycert::index {
 namespace {
 
 /// Cells or nodes that a task takes at a time.
 constexpr std::size_t grain = std::size_t{1} << 14;
-
-template <class Use>
-void for_ranges(std::size_t count, Use use) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const tbb::blocked_range<std::size_t>& range) { use(range.begin(), range.end()); });
-}
 
 struct KeyedPlace {
     std::uint32_t key;
@@ -38,7 +31,7 @@ std::vector<std::uint32_t> scatter(const Buffer<KeyedPlace>& from, Buffer<KeyedP
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<std::uint32_t> next(blocks * buckets, 0);
     const auto for_blocks = [&](auto use) {
-        tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+        base::parallel_for(blocks, [&](std::size_t b) {
             const auto items = std::span<const KeyedPlace>(from).subspan(b * block, std::min(block, count - b * block));
             std::uint32_t* const counters = &next[b * buckets];
             for (const KeyedPlace& item : items) use(item, counters[item.key >> shift]);
@@ -75,7 +68,7 @@ void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
     const int passes = (low + low_bits - 1) / low_bits;
     if (passes == 0) return;
     // Buckets go to and fro between the same parts of both arrays, all as often.
-    tbb::parallel_for(std::size_t{0}, begin.size() - 1, [&](std::size_t k) {
+    base::parallel_for(begin.size() - 1, [&](std::size_t k) {
         const std::size_t size = begin[k + 1] - begin[k];
         KeyedPlace *from = items.data() + begin[k], *to = other.data() + begin[k];
         for (int p = 0, shift = 0; p < passes; ++p) {
@@ -91,7 +84,7 @@ void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
 /// The nodes that cells have, ascending: others may lie anywhere.
 std::vector<Mesh::Index> used_nodes(const Mesh& mesh) {
     std::vector<std::uint8_t> used(mesh.point_count(), 0);
-    for_ranges(mesh.cells.size(), [&](std::size_t first, std::size_t last) {
+    base::parallel_for(mesh.cells.size(), grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             std::atomic_ref(used[static_cast<std::size_t>(mesh.cells[i])]).store(1, std::memory_order_relaxed);
     });
@@ -124,7 +117,7 @@ void find_box(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, CellIndex
 template <std::size_t d>
 Buffer<Place> place_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
     Buffer<KeyedPlace> order(used.size());
-    for_ranges(order.size(), [&](std::size_t first, std::size_t last) {
+    base::parallel_for(order.size(), grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             order[i] = {index.bins.of(&mesh.points[d * static_cast<std::size_t>(used[i])]), used[i]};
     });
@@ -132,7 +125,7 @@ Buffer<Place> place_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& used
     Buffer<Place> place(mesh.point_count());
     index.nodes = Buffer<NodeRecord>(order.size());
     index.original_node.resize(order.size());
-    for_ranges(order.size(), [&](std::size_t first, std::size_t last) {
+    base::parallel_for(order.size(), grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const auto node = static_cast<std::size_t>(order[i].place);
             place[node] = static_cast<Place>(i);
@@ -148,13 +141,13 @@ Buffer<Place> place_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& used
 template <std::size_t d>
 Buffer<KeyedPlace> order_cells(const Mesh& mesh, const Bins& bins) {
     Buffer<std::array<std::int32_t, d>> nodes(mesh.point_count());
-    for_ranges(nodes.size(), [&](std::size_t first, std::size_t last) {
+    base::parallel_for(nodes.size(), grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             for (std::size_t k = 0; k < d; ++k) nodes[i][k] = bins.quantizer().at(k, mesh.points[d * i + k]);
         }
     });
     Buffer<KeyedPlace> cells(mesh.cell_count());
-    for_ranges(cells.size(), [&](std::size_t first, std::size_t last) {
+    base::parallel_for(cells.size(), grain, [&](std::size_t first, std::size_t last) {
         for (std::size_t c = first; c < last; ++c) {
             const Mesh::Index* const corner = mesh.cells.data() + (d + 1) * c;
             std::array<std::int64_t, d> sum{};
@@ -179,7 +172,7 @@ void place_cells(const Mesh& mesh, const Buffer<KeyedPlace>& order, const Buffer
         return mesh.cells.data() + (d + 1) * static_cast<std::size_t>(order[place].place);
     };
     const auto bin_at = [&](std::size_t place) { return order[place].key >> CellIndex::part_bits; };
-    for_ranges(order.size(), [&](std::size_t first, std::size_t last) {
+    base::parallel_for(order.size(), grain, [&](std::size_t first, std::size_t last) {
         std::size_t bin = first == 0 ? 0 : std::size_t{bin_at(first - 1)} + 1;
         for (std::size_t place = first; place < last; ++place) {
             if (place + ahead < last) __builtin_prefetch(corners_at(place + ahead));

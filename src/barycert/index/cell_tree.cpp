@@ -1,5 +1,7 @@
 #include "barycert/index/cell_tree.hpp"
 
+#include "barycert/base/arena.hpp"
+
 namespace barycert::index {
 
 CellBox box_of(const CellIndex& index, const double* const* points, std::size_t count) {
@@ -22,8 +24,8 @@ CellBox box_of(const CellIndex& index, Place cell) {
 
 CellTree make_cell_tree(const CellIndex& index) {
     std::vector<std::array<std::int32_t, 3>> nodes(index.original_node.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), 8192), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+    base::parallel_for(nodes.size(), 8192, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
             nodes[i] = {};
             for (std::size_t k = 0; k < index.dimension(); ++k)
                 nodes[i][k] = index.bins.quantizer().at(k, index.nodes[i].at[k]);

@@ -1,9 +1,6 @@
 /// Boxes in a tree of groups of eight, to find every cell that may hold a point.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/index/buffer.hpp"
 #include "barycert/index/cell_index.hpp"
 
@@ -76,11 +74,13 @@ public:
         for (std::size_t l = 0, boxes = count; l < level_.size(); ++l, boxes = (boxes + 7) / 8) {
             BoxGroup* const to = groups_.data() + level_[l];
             const BoxGroup* const below = l == 0 ? nullptr : groups_.data() + level_[l - 1];
-            const tbb::blocked_range<std::size_t> all(0, std::max<std::size_t>((boxes + 7) / 8, 1), 1024);
-            tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
-                for (std::size_t i = 8 * range.begin(); i < 8 * range.end(); ++i)
-                    to[i / 8].set(i % 8, i >= boxes ? CellBox{} : below == nullptr ? box_at(i) : below[i].box_of_all());
-            });
+            base::parallel_for(std::max<std::size_t>((boxes + 7) / 8, 1), 1024,
+                               [&](std::size_t begin, std::size_t end) {
+                                   for (std::size_t i = 8 * begin; i < 8 * end; ++i)
+                                       to[i / 8].set(i % 8, i >= boxes         ? CellBox{}
+                                                            : below == nullptr ? box_at(i)
+                                                                               : below[i].box_of_all());
+                               });
         }
     }
 

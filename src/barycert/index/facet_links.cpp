@@ -1,12 +1,13 @@
 #include "barycert/index/facet_links.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
+
+#include "barycert/base/arena.hpp"
 
 namespace barycert::index {
 namespace {
@@ -205,11 +206,11 @@ FacetLinks link(CellIndex& index) {
     const std::size_t cells = index.cell_count();
     std::vector<Block> blocks((cells + block_size - 1) / block_size);
     tbb::enumerable_thread_specific<Memory<d>> memory;
-    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+    base::parallel_for(blocks.size(), [&](std::size_t b) {
         link_block<d>(index, b * block_size, std::min(cells, (b + 1) * block_size), memory.local(), blocks[b]);
     });
     // Facets of one set of nodes are in one part, so no two threads write to the same entry of a cell.
-    tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) { link_part<d>(index, blocks, p, memory.local()); });
+    base::parallel_for(parts, [&](std::size_t p) { link_part<d>(index, blocks, p, memory.local()); });
     FacetLinks links;
     for (const Block& block : blocks) {
         links.degenerate.insert(links.degenerate.end(), block.degenerate.begin(), block.degenerate.end());

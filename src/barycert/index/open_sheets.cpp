@@ -1,6 +1,5 @@
 #include "barycert/index/open_sheets.hpp"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/index/candidates.hpp"
 #include "barycert/index/cell_tree.hpp"
@@ -28,11 +28,14 @@ struct Ridge {
 std::vector<Ridge> ridges_of(int d, const std::vector<PlacedFacet>& facets) {
     const auto n = static_cast<std::size_t>(d);
     std::vector<Ridge> ridges(facets.size() * n);
-    tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t f) {
-        const auto node = [&](std::size_t i) { return static_cast<std::uint64_t>(facets[f].nodes[i]); };
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::uint64_t nodes = d == 2 ? node(i) : node(i == 0 ? 1 : 0) << 32 | node(i == 2 ? 1 : 2);
-            ridges[n * f + i] = {nodes, static_cast<std::uint32_t>(f), static_cast<std::uint32_t>(d == 2 ? 1 - i : i)};
+    base::parallel_for(facets.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f != end; ++f) {
+            const auto node = [&](std::size_t i) { return static_cast<std::uint64_t>(facets[f].nodes[i]); };
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::uint64_t nodes = d == 2 ? node(i) : node(i == 0 ? 1 : 0) << 32 | node(i == 2 ? 1 : 2);
+                const auto other = static_cast<std::uint32_t>(d == 2 ? 1 - i : i);
+                ridges[n * f + i] = {nodes, static_cast<std::uint32_t>(f), other};
+            }
         }
     });
     tbb::parallel_sort(ridges.begin(), ridges.end(), [](const Ridge& a, const Ridge& b) {
@@ -145,13 +148,13 @@ std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vect
         // Facets are in the order of their cells, which is that of space.
         const BoxGroups boxes(facets.size(),
                               [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
-        tbb::parallel_for(std::size_t{0}, (facets.size() + 7) / 8, [&](std::size_t g) { boxes.for_each_pair(g, ask); });
+        base::parallel_for((facets.size() + 7) / 8, [&](std::size_t g) { boxes.for_each_pair(g, ask); });
         return flags;
     }
     std::vector<Item> items(facets.size());
     for (std::size_t i = 0; i < facets.size(); ++i) items[i] = item_of(facets[i], d);
     const Candidates candidates(d, items, crowd);
-    tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t i) {
+    base::parallel_for(facets.size(), [&](std::size_t i) {
         candidates.for_each(items[i], [&](std::uint32_t j) {
             if (j > i) ask(i, j);
             return true;

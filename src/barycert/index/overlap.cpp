@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::index {
@@ -117,16 +118,16 @@ std::vector<std::uint8_t> find_overlapped(const CellIndex& index, std::span<cons
     std::vector<std::uint8_t> out(asked.size(), 0);
     if (64 * asked.size() < index.cell_count() && !is_crowded(index)) {
         const CellTree& cells = tree();
-        tbb::parallel_for(std::size_t{0}, asked.size(),
-                          [&](std::size_t i) { out[i] = overlapped(index, asked[i], degenerate, cells) ? 1 : 0; });
+        base::parallel_for(asked.size(),
+                           [&](std::size_t i) { out[i] = overlapped(index, asked[i], degenerate, cells) ? 1 : 0; });
         return out;
     }
     const auto d = static_cast<int>(index.dimension());
     std::vector<Item> items(asked.size());
     for (std::size_t i = 0; i < asked.size(); ++i) items[i] = item_of(index, asked[i]);
     const Candidates candidates(d, items, crowd);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, index.cell_count(), 1 << 10), [&](const auto& range) {
-        for (std::size_t c = range.begin(); c < range.end(); ++c) {
+    base::parallel_for(index.cell_count(), 1 << 10, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
             const auto cell = static_cast<Place>(c);
             if (has(degenerate, cell)) continue;
             const Item item = item_of(index, cell);

@@ -1,13 +1,12 @@
 #include "barycert/index/proof.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstddef>
 #include <span>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/index/open_sheets.hpp"
 #include "barycert/index/overlap.hpp"
@@ -89,8 +88,7 @@ class Prover {
 public:
     Prover(const CellIndex& index, const FacetLinks& links, const std::function<const CellTree&()>& tree)
         : index_(index), links_(links), tree_(tree), facets_(links.open.size()) {
-        tbb::parallel_for(std::size_t{0}, facets_.size(),
-                          [&](std::size_t f) { facets_[f] = placed(index_, links_.open[f]); });
+        base::parallel_for(facets_.size(), [&](std::size_t f) { facets_[f] = placed(index_, links_.open[f]); });
     }
 
     bool is_partition() const { return links_.degenerate.empty() && bad_facets().empty(); }
@@ -156,7 +154,7 @@ private:
         };
         if (!is_crowded(index_)) {
             const CellTree& tree = tree_();
-            tbb::parallel_for(std::size_t{0}, bad.size(), [&](std::size_t f) {
+            base::parallel_for(bad.size(), [&](std::size_t f) {
                 tree.for_each_meeting(box_of(index_, bad[f].at.data(), index_.dimension()), [&](std::size_t cell) {
                     ask(static_cast<Place>(cell), bad[f]);
                     return true;
@@ -170,8 +168,8 @@ private:
         std::vector<std::array<Mesh::Index, 3>> nodes(bad.size());
         for (std::size_t f = 0; f < bad.size(); ++f) nodes[f] = bad[f].nodes;
         std::sort(nodes.begin(), nodes.end());
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, index_.cell_count(), 1 << 10), [&](const auto& range) {
-            for (std::size_t c = range.begin(); c < range.end(); ++c) {
+        base::parallel_for(index_.cell_count(), 1 << 10, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t c = begin; c < end; ++c) {
                 const auto cell = static_cast<Place>(c);
                 candidates.for_each(item_of(index_, cell), [&](std::uint32_t f) {
                     ask(cell, bad[f]);

@@ -1,14 +1,14 @@
-
-#include <tbb/task_arena.h>
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io.hpp"
@@ -291,7 +291,7 @@ namespace {
 
 template <class Read>
 Result<Mesh> on_threads(int threads, const Read& read) {
-    return threads <= 0 ? read() : tbb::task_arena(threads).execute(read);
+    return threads <= 0 ? read() : base::in_arena(threads, std::numeric_limits<std::size_t>::max(), read);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 /// Many points, in blocks and chunks, on several threads.
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -70,7 +68,7 @@ inline Status check_finite(std::span<const double> points, std::size_t d, std::s
 inline std::size_t block_of(std::size_t count, std::size_t cells) {
     constexpr std::size_t min = std::size_t{1} << 13, enough = std::size_t{1} << 20, most = std::size_t{1} << 24;
     const std::size_t max = std::clamp(cells / 2, enough, most);
-    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    const auto threads = static_cast<std::size_t>(base::arena_threads());
     return std::clamp((count + threads - 1) / threads, min, max);
 }
 
@@ -87,7 +85,7 @@ bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<cons
     const std::size_t block = block_of(count, data.index.cell_count()), blocks = (count + block - 1) / block;
     std::vector<LocationCounts> parts(blocks);
     std::atomic<bool> finite = true;
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    base::parallel_for(blocks, [&](std::size_t b) {
         const std::size_t first = b * block, size = std::min(block, count - first);
         std::unique_ptr<SortedPoints> sorted = data.sorted.take();
         if (!sorted->sort(data.index, data.occupancy(), points.subspan(d * first, d * size))) finite = false;

@@ -1,14 +1,11 @@
 #include "barycert/locate/cells_at_points.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/index/box_tree.hpp"
 #include "barycert/index/buffer.hpp"
 
@@ -196,21 +193,16 @@ namespace {
 
 Box box_of_nodes(const Mesh& mesh) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
-    const auto join = [](Box a, const Box& b) {
-        a.add(b);
-        return a;
-    };
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, mesh.point_count(), nodes_at_once), empty_box,
-        [&](const auto& range, Box box) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+    return base::parallel_reduce(
+        mesh.point_count(), nodes_at_once, empty_box,
+        [&](std::size_t begin, std::size_t end, Box& box) {
+            for (std::size_t i = begin; i != end; ++i) {
                 std::array<double, 3> node{};
                 std::copy_n(mesh.points.data() + d * i, d, node.begin());
                 box.add({node, node});
             }
-            return box;
         },
-        join);
+        [](Box& all, const Box& part) { all.add(part); });
 }
 
 /// Those in the box of the nodes: no cell holds another, and one far away would make the bins large.
@@ -235,8 +227,8 @@ std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::s
     if (points.empty()) return std::vector<Mesh::Index>();
     const PointBins bins(d, points);
     Buffer<std::int32_t> codes(mesh.point_count());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, codes.size(), nodes_at_once), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i)
+    base::parallel_for(codes.size(), nodes_at_once, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i != end; ++i)
             codes[i] = static_cast<std::int32_t>(bins.code(mesh.points.data() + d * i));
     });
     constexpr std::size_t block = std::size_t{1} << 15;
@@ -244,7 +236,7 @@ std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::s
     std::vector<std::vector<Mesh::Index>> found(blocks);
     std::atomic<std::size_t> count{0};
     std::atomic<bool> sound{true};
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+    base::parallel_for(blocks, [&](std::size_t b) {
         if (count > max || !sound) return;
         const std::size_t first = b * block, size = std::min(block, cells - first);
         Buffer<CellBins> near(size);

@@ -1,11 +1,10 @@
 #include "barycert/locate/contested_cells.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/index/overlap.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/locate/cell_signs.hpp"
@@ -39,7 +38,7 @@ ContestedCells::Lists ContestedCells::make_lists() const {
     using Pair = std::pair<std::uint32_t, Place>;  // which cell, and a lower one
     std::vector<std::vector<Pair>> found(groups);
     std::atomic<std::size_t> count = 0;
-    tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
+    base::parallel_for(groups, [&](std::size_t g) {
         if (count.load(std::memory_order_relaxed) > most) return;
         std::size_t pairs = 0;
         tree_.for_each_pair(g, [&](std::size_t i, std::size_t j) {

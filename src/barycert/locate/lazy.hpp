@@ -1,12 +1,11 @@
 /// Parts of an index that are made on first need.
 #pragma once
 
-#include <tbb/task_arena.h>
-
 #include <atomic>
 #include <memory>
 #include <mutex>
 
+#include "barycert/base/arena.hpp"
 namespace barycert::locate {
 
 /// Made on first need, by one thread while others wait.
@@ -18,7 +17,7 @@ public:
         if (const T* const there = made()) return *there;
         std::call_once(once_, [&] {
             // A thread that waits for others while it makes this must not take up work that would ask for it again.
-            tbb::this_task_arena::isolate([&] { value_.reset(new T(make())); });
+            base::isolated([&] { value_.reset(new T(make())); });
             made_.store(value_.get(), std::memory_order_release);
         });
         return *value_;

@@ -142,7 +142,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
     std::vector<LocationCounts> parts(blocks);
     base::in_arena(threads, data_->index.cell_count() + count, [&] {
         data_->prepare(count);
-        tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+        base::parallel_for(blocks, [&](std::size_t b) {
             const std::size_t first = b * block, size = std::min(block, count - first);
             locate::SortedPoints sorted;
             sorted.sort(data_->index, data_->occupancy(), points.subspan(d * first, d * size));

@@ -1,13 +1,12 @@
 #include "barycert/locate/occupancy.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/index/bins.hpp"
 
@@ -190,10 +189,10 @@ private:
 template <std::size_t d>
 void mark(const CellIndex& index, const std::array<int, 3>& bits, bool with_facets, std::uint32_t* words) {
     // What waits for this, waits in a lock: nothing else may be taken up here.
-    tbb::this_task_arena::isolate([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, index.cell_count(), 2048), [&](const auto& range) {
+    base::isolated([&] {
+        base::parallel_for(index.cell_count(), 2048, [&](std::size_t begin, std::size_t end) {
             Marks<d> marks(index, bits, with_facets, words);
-            for (std::size_t place = range.begin(); place < range.end(); ++place) marks.add(place);
+            for (std::size_t place = begin; place < end; ++place) marks.add(place);
         });
     });
 }

@@ -1,13 +1,11 @@
 #include "barycert/mesh/adjacency.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <tuple>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 
 namespace barycert::mesh {
@@ -38,8 +36,8 @@ struct SortedCell {
 /// f(cell, its corners sorted) for every cell that is asked for, on all threads.
 template <class F>
 void for_each_cell(const Mesh& mesh, std::span<const std::uint8_t> use, F&& f) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 4096), [&](const auto& range) {
-        for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+    base::parallel_for(mesh.cell_count(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t cell = begin; cell != end; ++cell) {
             if (use.empty() || use[cell] != 0) f(cell, SortedCell(&mesh.cells[cell * mesh.corners()], mesh.corners()));
         }
     });
@@ -80,8 +78,8 @@ FacetTable::FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use) {
             *at_second = {n[2], n[3], index, corner[0]};
         }
     });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, node_count(), 1024), [&](const auto& range) {
-        for (std::size_t node = range.begin(); node != range.end(); ++node) {
+    base::parallel_for(node_count(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t node = begin; node != end; ++node) {
             std::sort(facets_.data() + begin_[node], facets_.data() + begin_[node + 1],
                       [](const CellFacet& a, const CellFacet& b) {
                           return std::tuple(a.key(), a.cell, a.corner) < std::tuple(b.key(), b.cell, b.corner);
@@ -106,8 +104,8 @@ void pair_facets(std::span<const CellFacet> equal, std::size_t corners, std::vec
 std::vector<Mesh::Index> compute_neighbours(const Mesh& mesh) {
     std::vector<Mesh::Index> neighbours(mesh.cells.size(), -1);
     const FacetTable table(mesh);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, table.node_count(), 1024), [&](const auto& range) {
-        table.for_each_group(range.begin(), range.end(),
+    base::parallel_for(table.node_count(), 1024, [&](std::size_t begin, std::size_t end) {
+        table.for_each_group(begin, end,
                              [&](std::span<const CellFacet> equal) { pair_facets(equal, mesh.corners(), neighbours); });
     });
     return neighbours;

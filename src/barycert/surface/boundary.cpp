@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/adjacency.hpp"
@@ -17,7 +18,7 @@ using Index = Mesh::Index;
 std::vector<std::size_t> single_facets(const Mesh& mesh) {
     const mesh::FacetTable table(mesh);
     std::vector<std::uint8_t> single(mesh.cells.size());
-    for_ranges(table.node_count(), [&](std::size_t first, std::size_t last) {
+    base::parallel_for(table.node_count(), grain, [&](std::size_t first, std::size_t last) {
         table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) {
             if (equal.size() == 1)
                 single[static_cast<std::size_t>(equal[0].cell) * mesh.corners() +
@@ -46,7 +47,7 @@ template <std::size_t n>
 void write_facets(const Mesh& mesh, const std::vector<std::size_t>& facets, Surface& surface) {
     base::resize_large(surface.cells, (n - 1) * facets.size());
     base::resize_large(surface.mesh_cells, facets.size());
-    for_ranges(facets.size(), [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(facets.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f != end; ++f) {
             const Index* const corners = mesh.cells.data() + facets[f] / n * n;
             const auto facet = outward_facet<n>(facets[f] % n);

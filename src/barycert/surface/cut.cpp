@@ -1,5 +1,3 @@
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/strict_math.hpp"
@@ -242,21 +241,20 @@ template <class Level>
 TierCounts place_points(const Mesh& mesh, const Level& level, const CutOptions& options, Surface& surface) {
     const std::vector<Carried> carried = carried_by(mesh, options, surface);
     const std::size_t points = surface.mesh_edges.size() / 2;
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, points, 16 * core::block_size), TierCounts{},
-        [&](const tbb::blocked_range<std::size_t>& range, TierCounts tiers) {
+    return base::parallel_reduce(
+        points, 16 * core::block_size, TierCounts{},
+        [&](std::size_t begin, std::size_t end, TierCounts& tiers) {
             PointBlock<Level> block(level, surface, carried);
-            for (std::size_t first = range.begin(); first < range.end(); first += core::block_size)
-                block.place(first, std::min(first + core::block_size, range.end()), tiers);
-            return tiers;
+            for (std::size_t first = begin; first < end; first += core::block_size)
+                block.place(first, std::min(first + core::block_size, end), tiers);
         },
-        [](TierCounts a, const TierCounts& b) { return a.add(b), a; });
+        [](TierCounts& all, const TierCounts& part) { all.add(part); });
 }
 
 template <class Level>
 Result<Cut> cut_at(const Mesh& mesh, const Level& level, const CutOptions& options) {
     std::vector<std::uint8_t> states(mesh.point_count());
-    for_ranges(states.size(), [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(states.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i != end; ++i) states[i] = level.state(i);
     });
     Cut cut;

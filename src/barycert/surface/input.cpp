@@ -3,6 +3,7 @@
 #include <atomic>
 #include <string>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -31,7 +32,7 @@ Status check_input(const Mesh& mesh, int dimension, const CutOptions& options) {
     if (mesh.point_count() > INT32_MAX || mesh.cell_count() > INT32_MAX)
         return bad_mesh("more than 2147483647 nodes or cells");
     std::atomic<bool> finite{true};
-    for_ranges(mesh.points.size(), [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(mesh.points.size(), grain, [&](std::size_t begin, std::size_t end) {
         if (!base::all_finite({mesh.points.data() + begin, end - begin})) finite = false;
     });
     if (!finite) return bad_mesh("a coordinate that is not finite");
@@ -47,7 +48,7 @@ std::vector<double> take_rows(const std::vector<double>& from, std::size_t colum
                               const std::vector<Mesh::Index>& rows, std::size_t stride) {
     std::vector<double> to;
     base::resize_large(to, columns * (rows.size() / stride));
-    for_ranges(rows.size() / stride, [&](std::size_t begin, std::size_t end) {
+    base::parallel_for(rows.size() / stride, grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i != end; ++i)
             std::copy_n(from.data() + columns * static_cast<std::size_t>(rows[stride * i]), columns,
                         to.data() + columns * i);

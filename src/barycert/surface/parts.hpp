@@ -1,9 +1,6 @@
 /// What cuts and boundaries share: threads, what they require of their input, orientations, cells cut, fields of cells.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -46,12 +43,8 @@ auto on_good_input(const Mesh& mesh, int dimension, const CutOptions& options, W
     });
 }
 
-/// f(begin, end) for the parts of [0, count), on all threads of the calling arena.
-template <class F>
-void for_ranges(std::size_t count, F&& f) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096),
-                      [&](const auto& range) { f(range.begin(), range.end()); });
-}
+/// Rows or cells that a task takes at a time.
+inline constexpr std::size_t grain = 4096;
 
 /// Rows rows[0], rows[stride], rows[2 * stride] ... of an array of so many columns.
 std::vector<double> take_rows(const std::vector<double>& from, std::size_t columns,

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/surface/cell_cases.hpp"
@@ -137,7 +138,7 @@ private:
         const std::size_t count = mesh_.cell_count();
         std::atomic<bool> good{true};
         blocks_.resize((count + block_size - 1) / block_size);
-        tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+        base::parallel_for(blocks_.size(), [&](std::size_t b) {
             Block& block = blocks_[b];
             const std::size_t end = std::min(count, (b + 1) * block_size);
             if (!indices_fit({corners(static_cast<Index>(b * block_size)), n * (end - b * block_size)},
@@ -190,7 +191,7 @@ private:
     template <class Ask, class Visit>
     void for_cut_cells(Ask ask, Visit visit) const {
         constexpr std::size_t ahead = 12;
-        tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t b) {
+        base::parallel_for(blocks_.size(), [&](std::size_t b) {
             const std::vector<CutCell>& cells = blocks_[b].cells;
             std::size_t part = blocks_[b].first_part;
             for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -228,7 +229,7 @@ private:
             high_[std::atomic_ref(next[e.low]).fetch_add(1, std::memory_order_relaxed)] = e.high;
         });
         first_.assign(nodes + 1, 0);
-        for_ranges(nodes, [&](std::size_t from, std::size_t to) {
+        base::parallel_for(nodes, grain, [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i) {
                 Index* const list = high_.data() + begin_[i];
                 Index* const end = high_.data() + begin_[i + 1];
@@ -244,7 +245,7 @@ private:
         base::resize_large(surface.mesh_edges, 2 * points);
         base::resize_large(end_, points + at_a_time);
         std::atomic<std::uint64_t> at_nodes{0};
-        for_ranges(mesh_.point_count(), [&](std::size_t from, std::size_t to) {
+        base::parallel_for(mesh_.point_count(), grain, [&](std::size_t from, std::size_t to) {
             std::uint64_t own = 0;
             for (std::size_t i = from; i < to; ++i) {
                 for (std::size_t k = 0; k < first_[i + 1] - first_[i]; ++k) {

@@ -1,4 +1,3 @@
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +105,7 @@ Result<Verdicts> Verifier::verify(const ClaimedRows& rows) const {
     const std::size_t blocks = (count + block - 1) / block;
     std::vector<std::optional<Result<Verdicts>>> parts(blocks);
     base::in_arena(options_.threads, count, [&] {
-        tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+        base::parallel_for(blocks, [&](std::size_t b) {
             const ExactEnvironment of_task;
             const std::size_t first = b * block;
             const ClaimedRows part = part_of(rows, d, columns, first, std::min(block, count - first));
@@ -127,7 +126,7 @@ Status Verifier::measure(Verdicts& verdicts) const {
     std::vector<WrongRow>& rows = verdicts.invented_rows;
     std::vector<std::optional<Error>> errors(rows.size());
     base::in_arena(options_.threads, 1024 * rows.size(), [&] {
-        tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+        base::parallel_for(rows.size(), [&](std::size_t i) {
             const ExactEnvironment of_task;
             constexpr double anywhere = std::numeric_limits<double>::infinity();
             const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);

@@ -13,8 +13,6 @@
 // without gaps. A row has as many columns as the header tells, and the file as many rows.
 //
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
-#include <tbb/task_arena.h>
-
 #include <array>
 #include <filesystem>
 #include <initializer_list>
@@ -24,6 +22,7 @@
 #include <system_error>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
@@ -211,7 +210,7 @@ void TetgenReader::settle_mid_edge_order() {
 
 Source open_node_source(const std::string& path, int dimension, const PointOptions& options) {
     constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
-    const int threads = tbb::this_task_arena::max_concurrency();
+    const int threads = base::arena_threads();
     TextTable table = open_table(path, names, threads);
     const std::int64_t found = table.header_field(1, 3);
     // Points in space may lie in the plane of a mesh.

@@ -1,14 +1,12 @@
 /// Work on the numbers of files, on all threads.
 #pragma once
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/environment.hpp"
 
@@ -21,8 +19,8 @@ void in_parallel(std::size_t count, Work work) {
         work(std::size_t{0});
     } else if (count != 0) {
         // Isolated: while this thread waits, it must not begin other work of its caller's.
-        tbb::this_task_arena::isolate([&] {
-            tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        base::isolated([&] {
+            base::parallel_for(count, [&](std::size_t i) {
                 const ExactEnvironment of_task;  // the arena is the caller's
                 work(i);
             });

@@ -1,6 +1,5 @@
 #include "barycert/grid.hpp"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
@@ -48,7 +47,7 @@ SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::
     const std::size_t axis = index.dimension() - 1, cells = index.cell_count();
     constexpr std::size_t at_once = 32768;
     parts_.resize((cells + at_once - 1) / at_once);
-    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t p) {
+    base::parallel_for(parts_.size(), [&](std::size_t p) {
         const std::size_t first = p * at_once, count = std::min(at_once, cells - first);
         std::vector<SlabRange> ranges(count);
         SlabRange all{~std::uint32_t{0}, 0};
@@ -170,7 +169,7 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
     Status status = Done{};
     SampleCounts all;
     base::in_arena(options.threads, data.index().cell_count() + layer * layers.size(), [&] {
-        const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+        const auto threads = static_cast<std::size_t>(base::arena_threads());
         const std::size_t depth = slab_depth(layers.size(), layer, room, threads);
         const std::size_t slabs = parts_of(layers.size(), depth);
         const sample::SlabCells cells(data.index(), raster, depth);

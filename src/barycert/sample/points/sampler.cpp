@@ -262,7 +262,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     constexpr std::size_t block = std::size_t{1} << 13;
     std::vector<SampleCounts> counts((count + block - 1) / block);
     base::in_arena(options.threads, count, [&] {
-        tbb::parallel_for(std::size_t{0}, (count + block - 1) / block, [&](std::size_t b) {
+        base::parallel_for((count + block - 1) / block, [&](std::size_t b) {
             const std::size_t first = b * block, last = std::min(count, first + block);
             sample::ChunkSampler sampler(*data_, options, rows);
             for (std::size_t row = first; row < last; ++row) {

@@ -1,8 +1,5 @@
 #include "barycert/sample/quantity/quantities.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
@@ -43,10 +41,9 @@ Result<Field> gradient_field(const Mesh& mesh, const Field& of_nodes) {
     const NodalValues<double> values{of_nodes.data, of_nodes.components};
     std::mutex mutex;
     std::optional<Error> error;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, entities_of_task), [&](const auto& range) {
-        const auto corners =
-            std::span(mesh.cells).subspan(mesh.corners() * range.begin(), mesh.corners() * range.size());
-        const auto out = std::span(field.data).subspan(per_cell * range.begin(), per_cell * range.size());
+    base::parallel_for(cells, entities_of_task, [&](std::size_t begin, std::size_t end) {
+        const auto corners = std::span(mesh.cells).subspan(mesh.corners() * begin, mesh.corners() * (end - begin));
+        const auto out = std::span(field.data).subspan(per_cell * begin, per_cell * (end - begin));
         const Status done = gradients(simplex, mesh.points, corners, values, out);
         if (done) return;
         const std::lock_guard lock(mutex);

@@ -1,8 +1,5 @@
 #include "barycert/sample/quantity/quantities.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
@@ -151,21 +149,20 @@ Field nodal_mean(const Mesh& mesh, const Field& of_cells) {
     const CellsOfNodes of = cells_of_nodes(mesh);
     constexpr std::size_t cells_of_task = 4096, nodes_of_task = 512;
     std::vector<CellVolume> volumes(mesh.cell_count());
-    using Range = tbb::blocked_range<std::size_t>;
-    tbb::parallel_for(Range(0, volumes.size(), cells_of_task), [&](const Range& range) {
+    base::parallel_for(volumes.size(), cells_of_task, [&](std::size_t begin, std::size_t end) {
         const ExactEnvironment environment;  // of a thread that may be the caller's
-        volume_lanes(mesh, range.begin(), range.size(), volumes.data() + range.begin());
+        volume_lanes(mesh, begin, end - begin, volumes.data() + begin);
     });
     const MeanInput input{of.begin, of.cells, volumes, of_cells.data, components};
-    tbb::parallel_for(Range(0, mesh.point_count(), nodes_of_task), [&](const Range& range) {
+    base::parallel_for(mesh.point_count(), nodes_of_task, [&](std::size_t begin, std::size_t end) {
         const ExactEnvironment environment;
-        std::vector<std::uint32_t> undecided(range.size());
-        double* const out = field.data.data() + components * range.begin();
-        undecided.resize(mean_lanes(input, range.begin(), range.size(), out, undecided.data()));
+        std::vector<std::uint32_t> undecided(end - begin);
+        double* const out = field.data.data() + components * begin;
+        undecided.resize(mean_lanes(input, begin, end - begin, out, undecided.data()));
         if (undecided.empty()) return;
         MeanAtNode mean(mesh, of_cells);
         for (const std::uint32_t i : undecided) {
-            const std::size_t node = range.begin() + i;
+            const std::size_t node = begin + i;
             mean(std::span(of.cells).subspan(of.begin[node], of.begin[node + 1] - of.begin[node]),
                  out + components * i);
         }
