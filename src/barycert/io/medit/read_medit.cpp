@@ -139,8 +139,7 @@ private:
         mesh_.points = std::move(rows.reals);
         if (mesh_.dimension < file_.dimension())
             mesh_.points =
-                to_points(std::move(mesh_.points), 2, file_.path(), is_simplex(cells_->keyword, 1) ? file_.path() : "")
-                    .value();
+                to_points(std::move(mesh_.points), 2, file_.path(), is_simplex(cells_->keyword, 1) ? file_.path() : "");
         if (file_.narrow())
             mesh_.notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", file_.path()});
     }

@@ -9,7 +9,6 @@
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/io.hpp"
-#include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/io/vtk/xml.hpp"
 
 namespace barycert::io {
@@ -23,19 +22,20 @@ struct CollectionFile {
 };
 
 struct Collection {
-    bool is_series = false;             ///< of steps in time
-    std::vector<CollectionFile> files;  ///< in their order
+    bool is_series = false;                  ///< of steps in time
+    std::vector<CollectionFile> files = {};  ///< in their order
 };
 
 struct VtkFile {
     base::MappedFile file;
-    std::string_view legacy = {};               ///< all of it, if that is its format
-    std::optional<XmlTree> tree = {};           ///< of XML
+    std::string_view text = {};                 ///< all of it but for a byte order mark
+    std::optional<XmlTree> tree = {};           ///< of XML; without one and names it is a legacy file
     std::optional<Collection> collection = {};  ///< the files that it names
 };
 
-/// By the first word. Error: a file that is not of VTK, as the first block shows; one that names none where it should.
-Result<VtkFile> open_vtk(const std::string& path);
+/// By the first word. Throws an Exception: a file that is not of VTK, as the first block shows; one that names none
+/// where it should.
+VtkFile open_vtk(const std::string& path);
 
 /// The steps of a series: consecutive files of one time are one step.
 std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files);
@@ -46,8 +46,5 @@ Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const Step
 
 /// That a step is chosen of what is no series.
 Error no_series(const std::string& path);
-
-/// Nodes that pieces share are merged where the file gives their global numbers; else a note tells how many there are.
-void join_pieces(RawGrid& grid, const std::string& path);
 
 }  // namespace barycert::io

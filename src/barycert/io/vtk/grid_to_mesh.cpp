@@ -47,7 +47,7 @@ TypeCounts count_types(const RawGrid& grid) {
 }
 
 /// The type of the cells that make the mesh.
-Result<CellType> choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
+const CellType& choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
     const std::string others =
         counts_by_name(counts, true, [](std::uint8_t type) { return cell_types()[type].kind >= CellKind::surface; });
     if (!others.empty()) {
@@ -55,9 +55,9 @@ Result<CellType> choose(const TypeCounts& counts, const RawGrid& grid, const std
             return cell_types()[type].kind != CellKind::tetrahedron && cell_types()[type].kind != CellKind::other;
         };
         const bool surface = std::all_of(grid.types.begin(), grid.types.end(), in_surface) && !in_plane(grid.points);
-        return file_error(path, "cells that are neither tetrahedra nor triangles",
-                          "tetrahedra or triangles, linear or quadratic", others,
-                          surface ? plane_remedy(grid.points, {}) : to_simplices(path));
+        refuse_file(path, "cells that are neither tetrahedra nor triangles",
+                    "tetrahedra or triangles, linear or quadratic", others,
+                    surface ? plane_remedy(grid.points, {}) : to_simplices(path));
     }
     constexpr std::array<std::pair<std::uint8_t, std::uint8_t>, 2> pairs{
         {{vtk_tetra, vtk_quadratic_tetra}, {vtk_triangle, vtk_quadratic_triangle}}};
@@ -66,51 +66,41 @@ Result<CellType> choose(const TypeCounts& counts, const RawGrid& grid, const std
             const auto is_one = [one = linear, other = quadratic](std::uint8_t type) {
                 return type == one || type == other;
             };
-            return file_error(path, "linear and quadratic cells in one mesh", "cells of one type",
-                              counts_by_name(counts, true, is_one),
-                              "make all cells linear, or all quadratic: " + to_simplices(path));
+            refuse_file(path, "linear and quadratic cells in one mesh", "cells of one type",
+                        counts_by_name(counts, true, is_one),
+                        "make all cells linear, or all quadratic: " + to_simplices(path));
         }
         for (const std::uint8_t type : {linear, quadratic}) {
             if (counts[type] != 0) return cell_types()[type];
         }
     }
-    return file_error(path, "the file contains no mesh", "tetrahedra or triangles",
-                      std::to_string(grid.types.size()) + " cells of other kinds",
-                      "name a file with cells; this one may contain points only");
+    refuse_file(path, "the file contains no mesh", "tetrahedra or triangles",
+                std::to_string(grid.types.size()) + " cells of other kinds",
+                "name a file with cells; this one may contain points only");
 }
 
-/// Every node a point, and the simplices with as many nodes as their type has.
-Status check_cells(const RawGrid& grid, const std::string& path) {
-    const std::size_t points = grid.point_count();
-    if (!grid.checked_nodes) {
-        const std::size_t wrong = first_wrong_node(grid.connectivity, 0, points);
-        if (wrong != grid.connectivity.size()) {
-            std::size_t cell = 0;
-            while (static_cast<std::size_t>(grid.ends[cell]) <= wrong) ++cell;
-            return file_error(path, "a node of cell " + std::to_string(cell) + " (from 0)",
-                              "a point below " + std::to_string(points), std::to_string(grid.connectivity[wrong]));
-        }
-    }
+/// The simplices with as many nodes as their type has.
+void check_cells(const RawGrid& grid, const std::string& path) {
+    const std::array<CellType, 256>& types = cell_types();
     if (!grid.types.empty() && is_uniform(grid.types)) {
         // As most files have it: each cell ends behind those before it.
-        const auto nodes = static_cast<std::int64_t>(cell_types()[grid.types.front()].nodes);
+        const auto nodes = static_cast<std::int64_t>(types[grid.types.front()].nodes);
         std::int64_t end = 0, differs = 0;
-        for (const std::int64_t own : grid.ends) {
+        for (const std::int64_t own : grid.cells.ends) {
             end += nodes;
             differs |= own ^ end;
         }
-        if (differs == 0 && nodes != 0) return Done{};
+        if (differs == 0 && nodes != 0) return;
     }
-    const std::array<CellType, 256>& types = cell_types();
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
-        const auto nodes = static_cast<std::size_t>(grid.ends[cell] - std::exchange(begin, grid.ends[cell]));
+        const std::int64_t end = grid.cells.ends[cell];
+        const auto nodes = static_cast<std::size_t>(end - std::exchange(begin, end));
         const CellType& type = types[grid.types[cell]];
-        if (type.kind == CellKind::lower || nodes == type.nodes) continue;
-        return file_error(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
-                          std::to_string(type.nodes) + " in a " + name_of(grid.types[cell]), std::to_string(nodes));
+        if (type.kind != CellKind::lower && nodes != type.nodes)
+            refuse_file(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
+                        std::to_string(type.nodes) + " in a " + name_of(grid.types[cell]), std::to_string(nodes));
     }
-    return Done{};
 }
 
 /// Cells that stand for others, or for none: bits of VTK's array of that name.
@@ -147,7 +137,7 @@ std::vector<Mesh::Index> kept_cells(const RawGrid& grid, CellKind kind, std::siz
 void copy_cells(RawGrid& grid, std::size_t nodes, std::size_t count, Mesh& mesh) {
     const std::size_t corners = mesh.corners(), mids = nodes - corners;
     if (mesh.cell_numbers.empty() && mids == 0) {
-        mesh.cells = std::move(grid.connectivity);
+        mesh.cells = std::move(grid.cells.connectivity);
         return;
     }
     base::resize_large(mesh.cells, count * corners);
@@ -156,30 +146,39 @@ void copy_cells(RawGrid& grid, std::size_t nodes, std::size_t count, Mesh& mesh)
         for (std::size_t cell = first; cell < last; ++cell) {
             const auto own = static_cast<std::size_t>(mesh.cell_number(static_cast<Mesh::Index>(cell)));
             const std::int32_t* const from =
-                grid.connectivity.data() + (static_cast<std::size_t>(grid.ends[own]) - nodes);
+                grid.cells.connectivity.data() + (static_cast<std::size_t>(grid.cells.ends[own]) - nodes);
             std::copy_n(from, corners, mesh.cells.data() + cell * corners);
             std::copy_n(from + corners, mids, mesh.mid_nodes.data() + cell * mids);
         }
     });
 }
 
+/// Makes doubles of integers, if these are exact: the field that they would be in a file of these cells alone.
+void make_field(RawArray& array) {
+    const auto is_double = [](std::int64_t n) {
+        double x = 0;
+        return convert_number(n, x);
+    };
+    const std::vector<std::int64_t>* const integers = array.integers();
+    if (integers != nullptr && std::ranges::all_of(*integers, is_double))
+        array.values = std::vector<double>(integers->begin(), integers->end());
+}
+
 }  // namespace
 
-Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path,
-                                      const std::string& triangles) {
-    const auto wrong = [&](std::size_t number, const char* expected, const std::string& remedy) {
+std::vector<double> to_points(std::vector<double> points, int dimension, const std::string& path,
+                              const std::string& triangles) {
+    const auto refuse = [&](std::size_t number, const char* expected, const std::string& remedy) {
         constexpr std::array<const char*, 3> names{"x", "y", "z"};
-        return file_error(path,
-                          std::string(names[number % 3]) + " of point " + std::to_string(number / 3) + " (from 0)",
-                          expected, base::shortest(points[number]), remedy);
+        refuse_file(path, std::string(names[number % 3]) + " of point " + std::to_string(number / 3) + " (from 0)",
+                    expected, base::shortest(points[number]), remedy);
     };
-    if (!base::all_finite(points)) return wrong(base::first_not_finite(points), "a finite number", "correct the point");
+    if (!base::all_finite(points)) refuse(base::first_not_finite(points), "a finite number", "correct the point");
     if (dimension == 3) return points;
     std::size_t to = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         if (points[i + 2] != 0)  // those before have lost their z
-            return wrong(i + 2, "0, as the mesh is 2D",
-                         plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
+            refuse(i + 2, "0, as the mesh is 2D", plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
         points[to++] = points[i];
         points[to++] = points[i + 1];
     }
@@ -205,7 +204,7 @@ void take_fields(std::vector<RawArray>& arrays, const std::string& what, const s
             notes.push_back({Note::Kind::left_out, what + " " + in_quotes(array.name) + ": " + array.fault, path});
             continue;
         }
-        if (array.is_narrow()) narrow.push_back(array.name);
+        if (array.type == NumberType::float32) narrow.push_back(array.name);
         if (array.has_labels()) {
             labels->push_back({std::move(array.name), std::move(array.values)});
         } else {
@@ -220,40 +219,35 @@ void note_narrow_points(const RawGrid& grid, const std::string& path, Notes& not
     if (grid.narrow_points) notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", path});
 }
 
-Result<Mesh> to_mesh(RawGrid grid, const std::string& path) {
+Mesh to_mesh(RawGrid grid, const std::string& path) {
     const TypeCounts counts = count_types(grid);
-    const Result<CellType> type = choose(counts, grid, path);
-    if (!type) return type.error();
+    const CellType& type = choose(counts, grid, path);
+    check_cells(grid, path);
     Mesh mesh;
-    mesh.dimension = type->kind == CellKind::tetrahedron ? 3 : 2;
-    if (Status s = check_cells(grid, path); !s) return s.error();
+    mesh.dimension = type.kind == CellKind::tetrahedron ? 3 : 2;
     mesh.notes = std::move(grid.notes);
     std::size_t ghosts = 0;
-    mesh.cell_numbers = kept_cells(grid, type->kind, ghosts);
+    mesh.cell_numbers = kept_cells(grid, type.kind, ghosts);
     const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
     if (cells == 0)
-        return file_error(path, "the file contains no mesh", "cells of its own",
-                          std::to_string(ghosts) + " ghost cells (vtkGhostType)",
-                          "name the file of all pieces (.pvtu)");
+        refuse_file(path, "the file contains no mesh", "cells of its own",
+                    std::to_string(ghosts) + " ghost cells (vtkGhostType)", "name the file of all pieces (.pvtu)");
     const auto leave_out = [&](bool there_are, std::string what, bool important = true) {
         if (there_are) mesh.notes.push_back({Note::Kind::left_out, std::move(what), path, important});
     };
-    const auto is_other = [&](std::uint8_t one) { return cell_types()[one].kind != type->kind; };
+    const auto is_other = [&](std::uint8_t one) { return cell_types()[one].kind != type.kind; };
     leave_out(cells + ghosts != grid.types.size(),
               std::to_string(grid.types.size() - cells - ghosts) + " cells that are no " +
                   (mesh.dimension == 3 ? "tetrahedra: " : "triangles: ") + counts_by_name(counts, false, is_other));
     leave_out(ghosts != 0, std::to_string(ghosts) +
                                " ghost cells, which stand for cells of other pieces or are hidden (vtkGhostType)");
-    copy_cells(grid, type->nodes, cells, mesh);
-    if (type->nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
-    grid.connectivity = {};
-    Result<std::vector<double>> points =
-        to_points(std::move(grid.points), mesh.dimension, path, mesh.mid_nodes.empty() ? path : "");
-    if (!points) return points.error();
-    mesh.points = std::move(*points);
+    copy_cells(grid, type.nodes, cells, mesh);
+    if (type.nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
+    grid.cells.connectivity = {};
+    mesh.points = to_points(std::move(grid.points), mesh.dimension, path, mesh.mid_nodes.empty() ? path : "");
     if (!mesh.cell_numbers.empty()) {
         keep_rows(grid.cell_arrays, mesh.cell_numbers);
-        for (RawArray& array : grid.cell_arrays) array.make_field();
+        std::ranges::for_each(grid.cell_arrays, make_field);
     }
     // Point markers are an array like any other but for its name and type.
     const auto markers = std::ranges::find_if(grid.point_arrays, [](RawArray& array) {

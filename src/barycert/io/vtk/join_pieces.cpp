@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "barycert/base/random.hpp"
-#include "barycert/io/vtk/collection.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
 namespace {
@@ -70,7 +70,7 @@ void merge_points(RawGrid& grid, const std::vector<std::int32_t>& first) {
         number[point] = own == point ? static_cast<std::int32_t>(kept.size()) : number[own];
         if (own == point) kept.push_back(first[point]);
     }
-    for (std::int32_t& node : grid.connectivity) node = number[static_cast<std::size_t>(node)];
+    for (std::int32_t& node : grid.cells.connectivity) node = number[static_cast<std::size_t>(node)];
     keep_rows(grid.points, 3, kept);
     keep_rows(grid.point_arrays, kept);
 }
@@ -79,7 +79,7 @@ void merge_points(RawGrid& grid, const std::vector<std::int32_t>& first) {
 
 void join_pieces(RawGrid& grid, const std::string& path) {
     const std::size_t points = grid.point_count();
-    if (grid.piece_points.size() < 2 || !grid.checked_nodes) return;
+    if (grid.piece_points.size() < 2) return;
     std::size_t shared = 0, apart = 0, differing = 0;
     const auto note = [&](Note::Kind kind, std::size_t count, const char* before, const char* text) {
         if (count != 0)

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
@@ -47,14 +48,11 @@ inline std::string decoded(std::string_view word) {
 
 /// A place in a legacy file. Words are separated by white space; in a binary file the numbers of an array stand in
 /// big-endian order behind the end of the line that announces it.
-///
-/// The first error is kept. From then on the file is as if it ended there: there are no words, and nothing is read.
 class LegacyText {
 public:
-    LegacyText(std::string_view bytes, const std::string& path) : bytes_(bytes), rest_(bytes), path_(path) {}
+    LegacyText(std::string_view bytes, const std::string& path) : file_{bytes, path}, rest_(bytes) {}
 
-    const Status& status() const { return status_; }
-    const std::string& path() const { return path_; }
+    const std::string& path() const { return file_.path; }
 
     /// The first three lines: version, title, ASCII or BINARY.
     void read_head() {
@@ -66,15 +64,15 @@ public:
         const char* const end = first.data() + first.size();
         if (!known || std::from_chars(first.data(), end, major_version_).ec != std::errc{}) {
             rest_ = all;  // of the line itself, not of the next one
-            return fail("the first line", "\"# vtk DataFile Version 4.2\" or the like", shown(first));
+            fail("the first line", "\"# vtk DataFile Version 4.2\" or the like", shown(first));
         }
         rest_of_line();  // title
         const std::string type = keyword();
-        if (type != "ASCII" && type != "BINARY") return fail("the third line", "ASCII or BINARY", shown(type));
-        binary_ = type == "BINARY";
+        if (type != "ASCII" && type != "BINARY") fail("the third line", "ASCII or BINARY", shown(type));
+        file_.has_lines = type == "ASCII";
     }
     int major_version() const { return major_version_; }
-    bool binary() const { return binary_; }
+    bool binary() const { return !file_.has_lines; }
 
     /// What is left of the file, to which one can go back.
     std::string_view rest() const { return rest_; }
@@ -84,10 +82,12 @@ public:
     std::string word() { return std::string(next_word(rest_)); }
     /// The next word in capitals, as which keywords are compared.
     std::string keyword() { return capitals(next_word(rest_)); }
-    /// The same, which stays the next word.
-    std::string next_keyword() const {
+    /// Takes the next word if that is this keyword.
+    bool take(std::string_view wanted) {
         std::string_view rest = rest_;
-        return capitals(next_word(rest));
+        const bool found = capitals(next_word(rest)) == wanted;
+        if (found) rest_ = rest;
+        return found;
     }
     /// The next word as a name: %20 and the like are one byte.
     std::string name() { return decoded(next_word(rest_)); }
@@ -114,51 +114,45 @@ public:
     std::size_t count(const std::string& what) {
         const std::string_view word = next_word(rest_);
         const std::optional<std::uint64_t> value = parse_count(word);
-        if (value.has_value() && *value <= max_entities) return static_cast<std::size_t>(*value);
-        fail(what, "a count up to " + std::to_string(max_entities), word.empty() ? "the end of the file" : shown(word));
-        return 0;
+        if (!value || *value > max_entities)
+            fail(what, "a count up to " + std::to_string(max_entities),
+                 word.empty() ? "the end of the file" : shown(word));
+        return static_cast<std::size_t>(*value);
     }
     NumberType number_type(const std::string& what) {
         const std::string_view word = next_word(rest_);
         const std::optional<NumberType> type = type_of_name(capitals(word));
-        if (type && type != NumberType::text) return *type;
-        fail("the type of " + what, "double, float, int and the like", shown(word));
-        return NumberType::float64;
+        if (!type || type == NumberType::text)
+            fail("the type of " + what, "double, float, int and the like", shown(word));
+        return *type;
     }
 
-    /// Exactly `count` numbers; as XmlArrays::read.
+    /// Exactly `count` numbers; `inexact` as in FileText::check.
     void numbers(const std::string& what, NumberType type, std::uint64_t count, NumbersTo values,
-                 NumberFault* fault = nullptr) {
-        if (!status_) return;
-        const char* const start = rest_.data();
-        NumberFault found;
-        if (!binary_) {
-            found = read_text(rest_, type, static_cast<std::size_t>(count), values);
-            if (!found && count != 0 && rest_.empty() && !is_white(bytes_.back()))
-                return fail(base::unended_number(path_, line_at(rest_.data())));
-        } else {
-            rest_of_line();
-            const std::optional<std::uint64_t> size = byte_count(type, count);
-            if (!size.has_value() || *size > rest_.size())
-                return fail(what, std::to_string(count) + " numbers", "the end of the file before that", cut_off);
-            const std::string_view bytes = rest_.substr(0, static_cast<std::size_t>(*size));
-            rest_.remove_prefix(bytes.size());
-            found = read_binary(bytes, type, std::endian::native == std::endian::little,
-                                static_cast<std::size_t>(count), values);
+                 NumberFault* inexact = nullptr) {
+        const char* const begin = rest_.data();
+        if (!binary()) {
+            NumberFault fault = read_text(rest_, type, static_cast<std::size_t>(count), values);
+            if (!fault && count != 0 && rest_.empty() && !is_white(file_.bytes.back()))
+                throw Exception(base::unended_number(path(), line_of(file_.bytes, rest_.data())));
+            return file_.check(std::move(fault), begin, what, count, inexact);
         }
-        if (fault != nullptr && found.kind == NumberFault::Kind::not_exact) {
-            *fault = std::move(found);
-        } else if (found) {
-            // A number stands in a line of its own.
-            fail(number_error(path_, line_at(found.place != nullptr ? found.place : start), what, count, found));
-        }
+        rest_of_line();
+        const std::optional<std::uint64_t> size = byte_count(type, count);
+        if (!size || *size > rest_.size())
+            fail(what, std::to_string(count) + " numbers", "the end of the file before that", cut_off);
+        const std::string_view bytes = rest_.substr(0, static_cast<std::size_t>(*size));
+        rest_.remove_prefix(bytes.size());
+        constexpr bool swap = std::endian::native == std::endian::little;
+        file_.check(read_binary(bytes, type, swap, static_cast<std::size_t>(count), values), begin, what, count,
+                    inexact);
     }
     /// Bytes 0 to 255, which in an ASCII file are written as shares of 255.
     void colors(const std::string& what, std::uint64_t count, std::vector<double>& values) {
-        numbers(what, binary_ ? NumberType::uint8 : NumberType::float32, count, values);
-        if (binary_) return;
+        numbers(what, binary() ? NumberType::uint8 : NumberType::float32, count, values);
+        if (binary()) return;
         for (double& value : values) {
-            if (!(value >= 0 && value <= 1)) return fail(what, "shares from 0 to 1", std::to_string(value));
+            if (!(value >= 0 && value <= 1)) fail(what, "shares from 0 to 1", std::to_string(value));
             value = std::floor(255 * value + 0.5);
         }
     }
@@ -167,48 +161,36 @@ public:
     void strings(const std::string& what, bool in_lines, std::uint64_t count, std::vector<std::string>* texts) {
         rest_of_line();
         for (std::uint64_t i = 0; i < count; ++i) {
-            if (rest_.empty()) return fail(what, std::to_string(count) + " strings", std::to_string(i), cut_off);
-            if (!binary_ || in_lines) {
-                const std::string_view text = rest_of_line();
-                if (texts != nullptr) texts->push_back(decoded(text));
-                continue;
-            }
-            // The two highest bits say how many bytes the length takes: 8, 4, 2 or 1.
-            const auto lead = static_cast<unsigned char>(rest_.front());
-            const std::size_t width = std::size_t{8} >> (lead >> 6U);
-            if (rest_.size() < width) return fail(what, "the length of a string", "the end of the file", cut_off);
-            std::uint64_t length = lead & 0x3FU;
-            for (std::size_t k = 1; k < width; ++k) length = length << 8U | static_cast<unsigned char>(rest_[k]);
-            rest_.remove_prefix(width);
-            if (length > rest_.size())
-                return fail(what, "a string of " + std::to_string(length) + " bytes", "less", cut_off);
-            if (texts != nullptr) texts->emplace_back(rest_.substr(0, static_cast<std::size_t>(length)));
-            rest_.remove_prefix(static_cast<std::size_t>(length));
+            if (rest_.empty()) fail(what, std::to_string(count) + " strings", std::to_string(i), cut_off);
+            const bool line = !binary() || in_lines;
+            const std::string_view text = line ? rest_of_line() : counted_string(what);
+            if (texts != nullptr) texts->push_back(line ? decoded(text) : std::string(text));
         }
     }
 
     /// An error at this place.
-    void fail(std::string what, std::string expected, std::string found, std::string remedy = {}) {
-        fail({std::move(what), path_, line_at(rest_.data()), std::move(expected), std::move(found), std::move(remedy)});
+    [[noreturn]] void fail(std::string what, std::string expected, std::string found, std::string remedy = {}) const {
+        file_.refuse(rest_.data(), std::move(what), std::move(expected), std::move(found), std::move(remedy));
     }
 
 private:
-    void fail(Error error) {
-        if (status_) status_ = std::move(error);
-        rest_ = {};
-    }
-    /// Of that place in the file.
-    std::size_t line_at(const char* place) const {
-        // Binary numbers hold line breaks by chance.
-        return binary_ || !status_ ? 0 : line_of(bytes_, static_cast<std::size_t>(place - bytes_.data()));
+    std::string_view counted_string(const std::string& what) {
+        // The two highest bits say how many bytes the length takes: 8, 4, 2 or 1.
+        const auto lead = static_cast<unsigned char>(rest_.front());
+        const std::size_t width = std::size_t{8} >> (lead >> 6U);
+        if (rest_.size() < width) fail(what, "the length of a string", "the end of the file", cut_off);
+        std::uint64_t length = lead & 0x3FU;
+        for (std::size_t k = 1; k < width; ++k) length = length << 8U | static_cast<unsigned char>(rest_[k]);
+        rest_.remove_prefix(width);
+        if (length > rest_.size()) fail(what, "a string of " + std::to_string(length) + " bytes", "less", cut_off);
+        const std::string_view text = rest_.substr(0, static_cast<std::size_t>(length));
+        rest_.remove_prefix(text.size());
+        return text;
     }
 
-    std::string_view bytes_;
+    FileText file_;
     std::string_view rest_;
-    std::string path_;
-    Status status_ = Done{};
     int major_version_ = 0;
-    bool binary_ = false;
 };
 
 }  // namespace barycert::io

@@ -268,16 +268,6 @@ std::optional<std::uint64_t> parse_count(std::string_view text) {
     return value;
 }
 
-bool are_as_they_stand(NumberType type, bool swap_bytes, const NumbersTo& values) {
-    if (type == NumberType::bit) return false;
-    return std::visit(
-        [&]<class To>(std::reference_wrapper<std::vector<To>>) {
-            return with_number_type(
-                type, [&]<class From>() { return std::is_same_v<From, To> && (!swap_bytes || sizeof(From) == 1); });
-        },
-        values);
-}
-
 NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, NumbersTo values) {
     return std::visit(
         [&]<class To>(std::reference_wrapper<std::vector<To>> to) {

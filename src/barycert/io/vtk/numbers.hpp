@@ -71,9 +71,6 @@ using NumbersTo =
     std::variant<std::reference_wrapper<std::vector<double>>, std::reference_wrapper<std::vector<std::int64_t>>,
                  std::reference_wrapper<std::vector<std::int32_t>>, std::reference_wrapper<std::vector<std::uint8_t>>>;
 
-/// Whether numbers of that type and order have the bytes of those there.
-bool are_as_they_stand(NumberType type, bool swap_bytes, const NumbersTo& values);
-
 /// Appends `count` numbers to `values`, of bytes that may be too few. From a number that is not exact on, others may
 /// stand there. float32 becomes double exactly.
 NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, NumbersTo values);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "barycert/io/formats.hpp"
+
 namespace barycert::io {
 
 const std::array<CellType, 256>& cell_types() {
@@ -40,6 +42,9 @@ const std::array<CellType, 256>& cell_types() {
     return types;
 }
 
+namespace {
+
+/// The type of a cell in that section, by its number of nodes.
 std::uint8_t type_in(Section section, std::int64_t nodes) {
     if (section == vertices) return nodes == 1 ? vtk_vertex : vtk_poly_vertex;
     if (section == lines) return nodes == 2 ? vtk_line : vtk_poly_line;
@@ -47,37 +52,62 @@ std::uint8_t type_in(Section section, std::int64_t nodes) {
     return nodes == 3 ? vtk_triangle : nodes == 4 ? vtk_quad : vtk_polygon;
 }
 
-std::size_t line_of(std::string_view bytes, std::size_t at) {
-    const std::string_view before = bytes.substr(0, at);
-    return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+}  // namespace
+
+void RawGrid::append(RawCells more, std::optional<Section> section) {
+    const auto before = static_cast<std::int64_t>(cells.connectivity.size());
+    if (section || before != 0) {
+        std::int64_t end = 0;
+        for (std::int64_t& own : more.ends) {
+            if (section) types.push_back(type_in(*section, own - end));
+            end = own;
+            own += before;
+        }
+    }
+    move_behind(cells.ends, more.ends);
+    move_behind(cells.connectivity, more.connectivity);
 }
 
-Error number_error(const std::string& path, std::size_t line, const std::string& what, std::uint64_t count,
-                   const NumberFault& fault) {
+void FileText::refuse(const char* at, std::string what, std::string expected, std::string found,
+                      std::string remedy) const {
+    refuse_line(path, has_lines ? line_of(bytes, at) : 0, std::move(what), std::move(expected), std::move(found),
+                std::move(remedy));
+}
+
+void FileText::check(NumberFault fault, const char* begin, const std::string& what, std::uint64_t count,
+                     NumberFault* inexact) const {
+    // A number stands in a line of its own.
+    const char* const at = fault.place != nullptr ? fault.place : begin;
     const std::string number = "number " + std::to_string(fault.index) + " (from 0) of " + what;
-    if (fault.kind == NumberFault::Kind::too_few)
-        return {what, path, line, std::to_string(count) + " numbers", std::to_string(fault.index), cut_off};
-    if (fault.kind == NumberFault::Kind::no_number)
-        return {number, path, line, "a number of the type of the array", in_quotes(fault.text)};
-    return {number, path, line, "a number that fits what it stands for", fault.text};
+    switch (fault.kind) {
+        case NumberFault::Kind::none:
+            return;
+        case NumberFault::Kind::too_few:
+            refuse(at, what, std::to_string(count) + " numbers", std::to_string(fault.index), cut_off);
+        case NumberFault::Kind::no_number:
+            refuse(at, number, "a number of the type of the array", in_quotes(fault.text));
+        case NumberFault::Kind::not_exact:
+            if (inexact == nullptr) refuse(at, number, "a number that fits what it stands for", fault.text);
+            *inexact = std::move(fault);
+    }
 }
 
-Status read_numbers(RawArray& array, bool of_points, bool may_label,
-                    const std::function<Status(NumbersTo values, NumberFault& inexact)>& read) {
+void read_numbers(RawArray& array, bool of_points, bool may_label,
+                  const std::function<void(NumbersTo values, NumberFault& inexact)>& read) {
     const bool one = array.components == 1;
-    NumberFault fault;
+    NumberFault inexact, beyond;
     if (!(of_points && one && array.name == marker_name && array.type == NumberType::int64)) {
-        if (Status s = read(array.numbers(), fault); !s || !fault) return s;
+        read(array.numbers(), inexact);
+        if (!inexact) return;
         array.values = std::vector<double>();
-        array.fault = "it holds " + fault.text + ", which is not exactly a double";
-        if (!may_label || !one || !array.is_wide_integer()) return Done{};
+        array.fault = "it holds " + inexact.text + ", which is not exactly a double";
+        if (!may_label || !one || !array.is_wide_integer()) return;
     }
     std::vector<std::int64_t> labels;
-    NumberFault beyond;
-    if (Status s = read(labels, beyond); !s || beyond) return s;
+    read(labels, beyond);
+    if (beyond) return;
     array.values = std::move(labels);
     array.fault.clear();
-    return Done{};
 }
 
 bool takes_texts(RawArray& array, bool may_label) {
@@ -90,17 +120,17 @@ bool takes_texts(RawArray& array, bool may_label) {
     return array.fault.empty();
 }
 
-std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t from, std::size_t count) {
+std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t count) {
     const auto good = [&](std::size_t first, std::size_t last) {
         // The sign of any of these numbers: below 0, or at `count` or above.
         std::uint32_t signs = 0;
-        for (std::size_t i = from + first; i < from + last; ++i) {
+        for (std::size_t i = first; i < last; ++i) {
             const auto node = static_cast<std::uint32_t>(nodes[i]);
             signs |= node | (static_cast<std::uint32_t>(count) - 1 - node);
         }
         return signs >> 31U != 0 ? first : last;
     };
-    std::size_t i = from + first_bad(nodes.size() - from, std::size_t{1} << 18, good);
+    std::size_t i = first_bad(nodes.size(), std::size_t{1} << 18, good);
     while (i < nodes.size() && static_cast<std::uint32_t>(nodes[i]) < count) ++i;
     return i;
 }
@@ -180,23 +210,13 @@ void RawArray::make_labels() {
     values = std::move(labels);
 }
 
-void RawArray::make_field() {
-    const auto is_double = [](std::int64_t n) {
-        double x = 0;
-        return convert_number(n, x);
-    };
-    if (integers() == nullptr || !std::ranges::all_of(*integers(), is_double)) return;
-    values = std::vector<double>(integers()->begin(), integers()->end());
-}
-
-Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
-    const std::size_t points = grid.point_count(), cells = grid.types.size(), nodes = grid.connectivity.size();
+void append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
+    const std::size_t points = grid.point_count(), cells = grid.types.size();
     if (points + piece.point_count() > max_entities || cells + piece.types.size() > max_entities)
-        return file_error(path, "more points or cells than a mesh can have",
-                          "at most " + std::to_string(max_entities) + " in all pieces");
+        refuse_file(path, "more points or cells than a mesh can have",
+                    "at most " + std::to_string(max_entities) + " in all pieces");
     grid.narrow_points = grid.narrow_points || piece.narrow_points;
     grid.has_steps = grid.has_steps || piece.has_steps;
-    grid.checked_nodes = (cells == 0 || grid.checked_nodes) && piece.checked_nodes;
     move_behind(grid.notes, piece.notes);
     add_new(grid.loose_arrays, piece.loose_arrays);
     add_new(grid.unread_arrays, piece.unread_arrays);
@@ -210,19 +230,13 @@ Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
         }
         move_behind(grid.points, piece.points);
     }
-    if (!piece.types.empty()) {
-        append_arrays(grid.cell_arrays, piece.cell_arrays, cells);
-        if (points != 0) {
-            for (std::int32_t& node : piece.connectivity) node += static_cast<std::int32_t>(points);
-        }
-        if (nodes != 0) {
-            for (std::int64_t& end : piece.ends) end += static_cast<std::int64_t>(nodes);
-        }
-        move_behind(grid.connectivity, piece.connectivity);
-        move_behind(grid.ends, piece.ends);
-        move_behind(grid.types, piece.types);
+    if (piece.types.empty()) return;
+    append_arrays(grid.cell_arrays, piece.cell_arrays, cells);
+    if (points != 0) {
+        for (std::int32_t& node : piece.cells.connectivity) node += static_cast<std::int32_t>(points);
     }
-    return Done{};
+    grid.append(std::move(piece.cells));
+    move_behind(grid.types, piece.types);
 }
 
 }  // namespace barycert::io

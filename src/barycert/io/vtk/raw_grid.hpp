@@ -1,11 +1,15 @@
 /// The points, cells and arrays of a VTK file before anything is asked of them, and the mesh that they make.
+/// Errors are thrown as Exceptions.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "barycert/io.hpp"
@@ -47,40 +51,35 @@ const std::array<CellType, 256>& cell_types();
 /// The sections of polygon data. VTK numbers the cells of all sections in this order, whatever the order in the file.
 enum Section : std::size_t { vertices, lines, polygons, strips, section_count };
 
-/// The type of a cell in that section, by its number of nodes.
-std::uint8_t type_in(Section section, std::int64_t nodes);
-
 struct RawArray {
     std::string name;
     int components = 1;
     Column::Values values = std::vector<double>();  ///< doubles are those of a field; others, one a row, are labels
     NumberType type = NumberType::float64;          ///< in the file; of pieces that differ, what holds of all
-    std::string fault;                              ///< why it is neither a field nor labels; empty: it is
+    std::string fault = {};                         ///< why it is neither a field nor labels; empty: it is
 
     bool has_labels() const { return !std::holds_alternative<std::vector<double>>(values); }
-    bool is_narrow() const { return type == NumberType::float32; }
     bool is_wide_integer() const { return type == NumberType::int64 || type == NumberType::uint64; }
-    bool is_whole() const { return type < NumberType::float32; }
     /// Precondition: it has no labels.
     std::vector<double>& numbers() { return std::get<std::vector<double>>(values); }
     const std::vector<double>& numbers() const { return std::get<std::vector<double>>(values); }
     std::vector<std::int64_t>* integers() { return std::get_if<std::vector<std::int64_t>>(&values); }
     /// Makes integers of doubles, which are whole, if int64 holds all of them and there is no fault.
     void make_labels();
-    /// Makes doubles of integers, if these are exact: the field that they would be in a file of these cells alone.
-    void make_field();
+};
+
+struct RawCells {
+    std::vector<std::int32_t> connectivity;  ///< nodes of all cells
+    std::vector<std::int64_t> ends;          ///< where the nodes of each cell end in the connectivity
 };
 
 struct RawGrid {
-    std::vector<double> points;              ///< 3 coordinates a point
-    std::vector<std::int32_t> connectivity;  ///< nodes of all cells
-    std::vector<std::int64_t> ends;          ///< where the nodes of each cell end in the connectivity
-    std::vector<std::uint8_t> types;         ///< VTK's number of each cell's type
-    std::vector<RawArray> point_arrays;
-    std::vector<std::string> unread_arrays;  ///< of points, by name, where only points were asked for (XML)
-    std::vector<RawArray> cell_arrays;
+    std::vector<double> points;  ///< 3 coordinates a point
+    RawCells cells;
+    std::vector<std::uint8_t> types;  ///< VTK's number of each cell's type
+    std::vector<RawArray> point_arrays, cell_arrays;
+    std::vector<std::string> unread_arrays;       ///< of points, by name, where only points were asked for (XML)
     bool narrow_points = false;                   ///< float32 in the file
-    bool checked_nodes = false;                   ///< the connectivity names points that there are
     std::string global_ids;                       ///< name of the point array with them, where the file says so
     std::vector<std::string> loose_arrays;        ///< names of arrays of neither points nor cells
     bool has_steps = false;                       ///< of arrays with several time steps only the first was read
@@ -88,6 +87,9 @@ struct RawGrid {
     Notes notes;                                  ///< what was left out on the way
 
     std::size_t point_count() const { return points.size() / 3; }
+
+    /// The cells behind those that there are, which get the types of cells in that section, if it is given.
+    void append(RawCells more, std::optional<Section> section = {});
 };
 
 /// How much of a file is wanted. Texts of points, and integers of theirs that no doubles represent, are labels only
@@ -112,24 +114,31 @@ inline std::string in_quotes(std::string_view name) {
     return '"' + std::string(name) + '"';
 }
 
-/// Which line of the file that byte is in, from 1.
-std::size_t line_of(std::string_view bytes, std::size_t at);
+/// A file in memory. Errors name the line of a place in it.
+struct FileText {
+    std::string_view bytes;  ///< all of it
+    std::string path;
+    bool has_lines = true;  ///< false: binary numbers hold line breaks by chance
 
-/// Words for a fault in the array `what`, of `count` numbers.
-Error number_error(const std::string& path, std::size_t line, const std::string& what, std::uint64_t count,
-                   const NumberFault& fault);
+    [[noreturn]] void refuse(const char* at, std::string what, std::string expected, std::string found,
+                             std::string remedy = {}) const;
+    /// Throws what is wrong with the `count` numbers of `what`, which begin there; a number that is not exact is told
+    /// in `inexact` instead, if that is given.
+    void check(NumberFault fault, const char* begin, const std::string& what, std::uint64_t count,
+               NumberFault* inexact) const;
+};
 
 /// Reads the numbers of an array whose name, components and type are known: as doubles or, where these are not exact,
 /// as labels, if `may_label`. Markers of points are labels in any case. What can be neither has a fault.
 /// `read`: appends all of them there, from the first on, and tells a number that is not exact.
-Status read_numbers(RawArray& array, bool of_points, bool may_label,
-                    const std::function<Status(NumbersTo values, NumberFault& inexact)>& read);
+void read_numbers(RawArray& array, bool of_points, bool may_label,
+                  const std::function<void(NumbersTo values, NumberFault& inexact)>& read);
 
 /// Whether texts are wanted of an array; if not, it gets a fault.
 bool takes_texts(RawArray& array, bool may_label);
 
 /// The first node that is none of `count` points; nodes.size() if there is none.
-std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t from, std::size_t count);
+std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t count);
 
 /// Those of `from` behind those of `to`, on large pages.
 template <class T>
@@ -159,20 +168,23 @@ void keep_rows(std::vector<RawArray>& arrays, const std::vector<std::int32_t>& r
 
 /// The piece behind what is there: points and cells count on. Arrays of the same name make one; one that a piece lacks
 /// has a fault. Error: more points or cells than a mesh can have.
-Status append_piece(RawGrid& grid, RawGrid piece, const std::string& path);
+void append_piece(RawGrid& grid, RawGrid piece, const std::string& path);
+
+/// Nodes that pieces share are merged where the file gives their global numbers; else a note tells how many there are.
+void join_pieces(RawGrid& grid, const std::string& path);
 
 /// The first three lines of a file in the legacy format.
-Status check_legacy_head(std::string_view bytes, const std::string& path);
+void check_legacy_head(std::string_view bytes, const std::string& path);
 /// The whole file.
-Result<RawGrid> read_legacy(std::string_view bytes, const std::string& path, Part part);
+RawGrid read_legacy(std::string_view bytes, const std::string& path, Part part);
 
 /// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages.
-Result<Mesh> to_mesh(RawGrid grid, const std::string& path);
+Mesh to_mesh(RawGrid grid, const std::string& path);
 
 /// The coordinates in that dimension, all finite. Error: one is not; or z is not 0 in dimension 2, with a remedy for
 /// the file of linear triangles `triangles`, if that is not empty.
-Result<std::vector<double>> to_points(std::vector<double> points, int dimension, const std::string& path,
-                                      const std::string& triangles = {});
+std::vector<double> to_points(std::vector<double> points, int dimension, const std::string& path,
+                              const std::string& triangles = {});
 
 /// Fields of what can be one; what cannot, and what was widened, is noted. `what`: "point array".
 void take_fields(std::vector<RawArray>& arrays, const std::string& what, const std::string& path,

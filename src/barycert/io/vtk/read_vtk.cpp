@@ -17,44 +17,53 @@
 namespace barycert {
 namespace {
 
-/// Of files that name files, each is read once.
+bool is_polygons(const std::string& path) {
+    return io::has_suffix(path, ".vtp") || io::has_suffix(path, ".pvtp");
+}
+
+/// Blocks of surfaces and grids beside the mesh.
+bool is_other_kind(const std::string& path) {
+    constexpr std::string_view others = " .vtp .vti .vtr .vts .pvtp .pvti .pvtr .pvts .vtt .vth ";
+    return others.find(' ' + std::filesystem::path(path).extension().string() + ' ') != std::string_view::npos;
+}
+
+/// Whether a grid that is no polygon data is among the files, or those that they name.
+bool has_cells_of_grids(std::span<const io::CollectionFile> files) {
+    for (const io::CollectionFile& file : files) {
+        if (is_polygons(file.path)) continue;
+        for (const std::string& named : vtk_mesh_files(file.path)) {
+            if (io::has_suffix(named, ".vtu") || io::has_suffix(named, ".vtk")) return true;
+        }
+    }
+    return false;
+}
+
+/// Of files that name files, each is read once. Errors are thrown as Exceptions.
 class GridReader {
 public:
-    explicit GridReader(io::Part part, const StepChoice& step = {}) : part_(part), step_(step), chosen_(!step.made()) {}
+    explicit GridReader(io::Part part, const StepChoice& step = {}) : part_(part), step_(step) {}
 
     /// `depth`: of the files that name it.
-    Result<io::RawGrid> read(const std::string& path, int depth = 0) {
+    io::RawGrid read(const std::string& path, int depth = 0) {
         constexpr int deepest = 16;
         if (depth == deepest)
-            return file_error(path, "files that name files too deeply",
-                              "at most " + std::to_string(deepest) + " of them one in the other", "more");
+            io::refuse_file(path, "files that name files too deeply",
+                            "at most " + std::to_string(deepest) + " of them one in the other", "more");
         std::error_code ignored;
         if (!seen_.insert(std::filesystem::weakly_canonical(path, ignored).string()).second)
-            return file_error(path, "a file that is named twice in a collection of files", "every piece once", {},
-                              "correct the file that names it");
-        const Result<io::VtkFile> file = io::open_vtk(path);
-        if (!file) return file.error();
-        if (const auto& named = file->collection; named)
+            io::refuse_file(path, "a file that is named twice in a collection of files", "every piece once", {},
+                            "correct the file that names it");
+        const io::VtkFile file = io::open_vtk(path);
+        if (const auto& named = file.collection; named)
             return named->is_series ? read_step(named->files, path, depth) : read_all(named->files, path, depth);
-        return file->tree ? io::read_xml(*file->tree, part_) : io::read_legacy(file->legacy, path, part_);
+        return file.tree ? io::read_xml(*file.tree, part_) : io::read_legacy(file.text, path, part_);
     }
 
-    /// Whether no step is left to be chosen.
-    bool chosen() const { return chosen_; }
+    /// Whether a step is chosen of what is no series.
+    bool step_left() const { return step_.made(); }
 
 private:
-    /// Whether a grid that is no polygon data is among the files, or those that they name.
-    static bool has_cells_of_grids(std::span<const io::CollectionFile> files) {
-        for (const io::CollectionFile& file : files) {
-            if (is_polygons(file.path)) continue;
-            for (const std::string& named : vtk_mesh_files(file.path)) {
-                if (io::has_suffix(named, ".vtu") || io::has_suffix(named, ".vtk")) return true;
-            }
-        }
-        return false;
-    }
-
-    Result<io::RawGrid> read_all(std::span<const io::CollectionFile> files, const std::string& path, int depth) {
+    io::RawGrid read_all(std::span<const io::CollectionFile> files, const std::string& path, int depth) {
         io::RawGrid grid;
         std::vector<std::string> others;
         if (!polygons_) polygons_ = !has_cells_of_grids(files);
@@ -65,11 +74,9 @@ private:
             }
             std::error_code unknown;
             if (std::filesystem::status(file.path, unknown).type() == std::filesystem::file_type::not_found)
-                return Error{"a file that is named here is missing", path, file.line, file.path, "no such file",
-                             "put it there, or correct the name"};
-            Result<io::RawGrid> piece = read(file.path, depth + 1);
-            if (!piece) return piece;
-            if (Status s = io::append_piece(grid, std::move(*piece), path); !s) return s.error();
+                io::refuse_line(path, file.line, "a file that is named here is missing", file.path, "no such file",
+                                "put it there, or correct the name");
+            io::append_piece(grid, read(file.path, depth + 1), path);
         }
         if (!others.empty())
             grid.notes.push_back(
@@ -81,38 +88,25 @@ private:
     }
 
     /// The step that is chosen; of a series within a series the first.
-    Result<io::RawGrid> read_step(std::span<const io::CollectionFile> files, const std::string& path, int depth) {
+    io::RawGrid read_step(std::span<const io::CollectionFile> files, const std::string& path, int depth) {
         const std::vector<SeriesStep> steps = io::steps_of(files);
         const StepChoice choice = std::exchange(step_, {});
-        chosen_ = true;
-        const Result<std::size_t> number = io::chosen_step(steps, choice, path);
-        if (!number) return number.error();
+        const std::size_t number = io::chosen_step(steps, choice, path).value();
         std::size_t begin = 0;
-        for (std::size_t i = 0; i < *number; ++i) begin += steps[i].files.size();
-        Result<io::RawGrid> grid = read_all(files.subspan(begin, steps[*number].files.size()), path, depth);
+        for (std::size_t i = 0; i < number; ++i) begin += steps[i].files.size();
+        io::RawGrid grid = read_all(files.subspan(begin, steps[number].files.size()), path, depth);
         // Who names a number knows what is read.
-        if (!grid || steps.size() == 1 || choice.number) return grid;
-        const std::string which = *number == 0 ? "the first" : "number " + std::to_string(*number);
-        grid->notes.push_back({Note::Kind::left_out,
-                               "all steps but " + which + " of a series of " + std::to_string(steps.size()) +
-                                   ": read is the time " + base::shortest(steps[*number].time),
-                               path, !choice.made()});
+        if (steps.size() == 1 || choice.number) return grid;
+        const std::string which = number == 0 ? "the first" : "number " + std::to_string(number);
+        grid.notes.push_back({Note::Kind::left_out,
+                              "all steps but " + which + " of a series of " + std::to_string(steps.size()) +
+                                  ": read is the time " + base::shortest(steps[number].time),
+                              path, !choice.made()});
         return grid;
     }
 
-    static bool is_polygons(const std::string& path) {
-        return io::has_suffix(path, ".vtp") || io::has_suffix(path, ".pvtp");
-    }
-
-    /// Blocks of surfaces and grids beside the mesh.
-    static bool is_other_kind(const std::string& path) {
-        constexpr std::string_view others = " .vtp .vti .vtr .vts .pvtp .pvti .pvtr .pvts .vtt .vth ";
-        return others.find(' ' + std::filesystem::path(path).extension().string() + ' ') != std::string_view::npos;
-    }
-
     io::Part part_;
-    StepChoice step_;
-    bool chosen_;
+    StepChoice step_;               ///< not yet made use of
     std::optional<bool> polygons_;  ///< they are the mesh: there is no other
     std::set<std::string> seen_;
 };
@@ -122,26 +116,26 @@ private:
 Result<io::PointTable> read_table(const std::string& path, int dimension, bool arrays,
                                   const std::vector<std::string>* names, bool labels, bool finite) {
     return io::read_guarded(path, [&]() -> Result<io::PointTable> {
-        Result<io::RawGrid> grid = GridReader(arrays ? io::Part::point_arrays : io::Part::points).read(path);
-        if (!grid) return grid.error();
+        io::RawGrid grid = GridReader(arrays ? io::Part::point_arrays : io::Part::points).read(path);
         io::PointTable table;
         table.dimension = dimension;
-        table.notes = std::move(grid->notes);
-        table.unread = std::move(grid->unread_arrays);
-        Result<std::vector<double>> points =
-            finite ? io::to_points(std::move(grid->points), dimension, path) : std::move(grid->points);
-        if (!points) {
-            Error error = points.error();
+        table.notes = std::move(grid.notes);
+        table.unread = std::move(grid.unread_arrays);
+        try {
+            table.points = finite ? io::to_points(std::move(grid.points), dimension, path) : std::move(grid.points);
+        } catch (const Exception& problem) {
+            Error error = problem.error();
             if (labels) error.remedy += io::or_nan_for_it;
             return error;
         }
-        table.points = std::move(*points);
         if (names != nullptr)
-            std::erase_if(grid->point_arrays, [&](auto& array) { return std::ranges::count(*names, array.name) == 0; });
-        for (io::RawArray& array : grid->point_arrays)
-            if (labels && array.is_whole() && array.components == 1) array.make_labels();
-        io::take_fields(grid->point_arrays, "point array", path, table.fields, &table.labels, table.notes);
-        io::note_narrow_points(*grid, path, table.notes);
+            std::erase_if(grid.point_arrays, [&](auto& array) { return std::ranges::count(*names, array.name) == 0; });
+        for (io::RawArray& array : grid.point_arrays) {
+            const bool whole = array.type < io::NumberType::float32;
+            if (labels && whole && array.components == 1) array.make_labels();
+        }
+        io::take_fields(grid.point_arrays, "point array", path, table.fields, &table.labels, table.notes);
+        io::note_narrow_points(grid, path, table.notes);
         return table;
     });
 }
@@ -156,10 +150,9 @@ Result<io::PointTable> io::read_vtk_table(const std::string& path, bool arrays, 
 Result<Mesh> read_vtk(const std::string& path, const StepChoice& step) {
     return io::read_guarded(path, [&]() -> Result<Mesh> {
         GridReader reader(io::Part::all, step);
-        Result<io::RawGrid> grid = reader.read(path);
-        if (!grid) return grid.error();
-        if (!reader.chosen()) return io::no_series(path);
-        return io::to_mesh(std::move(*grid), path);
+        io::RawGrid grid = reader.read(path);
+        if (reader.step_left()) return io::no_series(path);
+        return io::to_mesh(std::move(grid), path);
     });
 }
 

@@ -1,4 +1,5 @@
-/// VTK's XML files: their elements (through expat), the numbers in them, the data sets that they are.
+/// VTK's XML files: their elements (through expat), the numbers in them, the data sets that they are. Errors are thrown
+/// as Exceptions.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,6 @@
 
 #include "barycert/io/vtk/packed.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 
@@ -23,11 +23,13 @@ struct XmlElement {
 
     /// The value of the attribute; nothing if there is none.
     std::optional<std::string_view> attribute(std::string_view key) const;
+    /// The same, or `other`.
+    std::string_view attribute_or(std::string_view key, std::string_view other) const {
+        return attribute(key).value_or(other);
+    }
 };
 
-struct XmlTree {
-    std::string_view bytes;  ///< all of the file
-    std::string path;
+struct XmlTree : FileText {
     std::vector<XmlElement> elements;  ///< the root first
     /// The appended data, from behind the underscore to the end of the file; empty if there are none.
     std::string_view appended;
@@ -39,13 +41,15 @@ struct XmlTree {
     /// The text of an element: what stands before its first child or, if that is blank, behind its last one.
     std::string_view text_of(const XmlElement& element) const;
 
-    Error error(const XmlElement& at, std::string what, std::string expected, std::string found,
-                std::string remedy = {}) const;
+    [[noreturn]] void refuse_at(const XmlElement& at, std::string what, std::string expected, std::string found,
+                                std::string remedy = {}) const {
+        refuse(bytes.data() + at.begin, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+    }
 };
 
 /// What follows the tag of appended data is not looked at, nor are the numbers in elements. Error: no well-formed XML,
 /// a document type (whose entities might expand without bound), another encoding of appended data.
-Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path);
+XmlTree parse_xml(std::string_view bytes, const std::string& path);
 
 /// What the attributes of the root say of all arrays.
 struct XmlLayout {
@@ -58,27 +62,22 @@ struct XmlLayout {
 class XmlArrays {
 public:
     /// The tree is kept as a reference. Error: a byte order, type of header or compressor that VTK does not know.
-    static Result<XmlArrays> of(const XmlTree& tree);
-
-    const XmlTree& tree() const { return tree_; }
+    explicit XmlArrays(const XmlTree& tree);
 
     /// The type of the numbers; nothing if they are none (strings).
     static std::optional<NumberType> type_of(const XmlElement& array);
 
-    /// Appends the numbers of the array, exactly `count`, to `values`. `what` names it in errors. Where `fault` is
-    /// given, numbers that are not exact are told there instead of as an error.
-    Status read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
-                NumberFault* fault = nullptr) const;
+    /// Appends the numbers of the array, exactly `count`, to `values`. `what` names it in errors. `inexact` as in
+    /// FileText::check.
+    void read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
+              NumberFault* inexact = nullptr) const;
 
     /// The texts of an array of strings, exactly `count`.
-    Status read_texts(const XmlElement& array, const std::string& what, std::uint64_t count,
-                      std::vector<std::string>& texts) const;
+    std::vector<std::string> read_texts(const XmlElement& array, const std::string& what, std::uint64_t count) const;
 
 private:
-    explicit XmlArrays(const XmlTree& tree) : tree_(tree) {}
-    Status read_any(const XmlElement& array, const std::string& what, NumberType type,
-                    std::optional<std::uint64_t> count, NumbersTo values, NumberFault& fault) const;
-    Error error(const XmlElement& array, const std::string& what, std::uint64_t count, const NumberFault& fault) const;
+    NumberFault read_any(const XmlElement& array, const std::string& what, NumberType type,
+                         std::optional<std::uint64_t> count, NumbersTo values) const;
 
     const XmlTree& tree_;
     XmlLayout layout_;
@@ -86,6 +85,6 @@ private:
 
 /// The data set of one file: UnstructuredGrid or PolyData; where only points are wanted, ImageData, RectilinearGrid or
 /// StructuredGrid as well.
-Result<RawGrid> read_xml(const XmlTree& tree, Part part);
+RawGrid read_xml(const XmlTree& tree, Part part);
 
 }  // namespace barycert::io

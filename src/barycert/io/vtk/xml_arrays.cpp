@@ -1,10 +1,13 @@
 #include "barycert/io/vtk/xml.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
+#include <limits>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace barycert::io {
@@ -70,6 +73,8 @@ public:
         const bool honest = layout_.compressor != Compressor::lzma;
         make_room(values,
                   honest ? count : static_cast<std::size_t>(std::min<std::uint64_t>(count, likely * packed_size_)));
+        const bool as_they_stand = type != NumberType::bit && (!layout_.swap_bytes || number == 1) &&
+                                   with_number_type(type, []<class From>() { return std::is_same_v<From, To>; });
         std::vector<char> packed_room;
         std::unique_ptr<char[]> plain_room;  // not initialised: pages that no data reach take no memory
         NumberFault fault;
@@ -78,7 +83,7 @@ public:
             const std::size_t last = std::min(packed_.size(), first + per_wave);
             const std::size_t plain = block_at(last) - block_at(first), before = values.size();
             const std::size_t numbers = at_once ? count : plain / number;
-            const bool direct = last - first > 1 && are_as_they_stand(type, layout_.swap_bytes, values);
+            const bool direct = last - first > 1 && as_they_stand;
             if (direct) {
                 make_room(values, numbers);
                 values.resize(before + numbers);
@@ -140,68 +145,53 @@ private:
 
 }  // namespace
 
-Result<XmlArrays> XmlArrays::of(const XmlTree& tree) {
+XmlArrays::XmlArrays(const XmlTree& tree) : tree_(tree) {
     // What each attribute may be; the first is that of files without it.
     constexpr std::array<std::string_view, 2> orders{"LittleEndian", "BigEndian"}, headers{"UInt32", "UInt64"};
-    const std::array<std::pair<const char*, std::span<const std::string_view>>, 3> known{
-        {{"byte_order", orders}, {"header_type", headers}, {"compressor", compressor_names}}};
-    std::array<std::size_t, 3> chosen{};
-    for (std::size_t i = 0; i < known.size(); ++i) {
-        const auto& [key, values] = known[i];
-        const std::string_view value = tree.root().attribute(key).value_or(values.front());
-        chosen[i] = static_cast<std::size_t>(std::ranges::find(values, value) - values.begin());
-        if (chosen[i] < values.size()) continue;
+    const auto choose = [&](const char* key, std::span<const std::string_view> values) {
+        const std::string_view value = tree.root().attribute_or(key, values.front());
+        const auto found = std::ranges::find(values, value);
+        if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
         std::string names;
         for (const std::string_view name : values) names.append(names.empty() ? "" : ", ").append(name);
-        return tree.error(tree.root(), std::string("the attribute ") + key + " of the file", names, in_quotes(value));
-    }
-    XmlArrays arrays(tree);
-    arrays.layout_ = {.swap_bytes = (chosen[0] == 0) != (std::endian::native == std::endian::little),
-                      .header_bytes = chosen[1] == 0 ? 4U : 8U,
-                      .compressor = static_cast<Compressor>(chosen[2])};
-    return arrays;
+        tree.refuse_at(tree.root(), std::string("the attribute ") + key + " of the file", names, in_quotes(value));
+    };
+    layout_.swap_bytes = (choose("byte_order", orders) == 0) != (std::endian::native == std::endian::little);
+    layout_.header_bytes = choose("header_type", headers) == 0 ? 4 : 8;
+    layout_.compressor = static_cast<Compressor>(choose("compressor", compressor_names));
 }
 
 std::optional<NumberType> XmlArrays::type_of(const XmlElement& array) {
-    const std::string_view name = array.attribute("type").value_or("");
+    const std::string_view name = array.attribute_or("type", "");
     const std::optional<NumberType> type = type_of_name(name);
     return array.name == "DataArray" && type && xml_name(*type) == name && type != NumberType::text ? type
                                                                                                     : std::nullopt;
 }
 
-/// A number stands in a line of its own.
-Error XmlArrays::error(const XmlElement& array, const std::string& what, std::uint64_t count,
-                       const NumberFault& fault) const {
-    const char* const file = tree_.bytes.data();
-    const std::size_t at = fault.place != nullptr ? static_cast<std::size_t>(fault.place - file) : array.begin;
-    return number_error(tree_.path, line_of(tree_.bytes, at), what, count, fault);
-}
-
 /// `count` numbers, or all where it is not known.
-Status XmlArrays::read_any(const XmlElement& array, const std::string& what, NumberType type,
-                           std::optional<std::uint64_t> count, NumbersTo values, NumberFault& fault) const {
+NumberFault XmlArrays::read_any(const XmlElement& array, const std::string& what, NumberType type,
+                                std::optional<std::uint64_t> count, NumbersTo values) const {
     constexpr std::uint64_t all = std::numeric_limits<std::size_t>::max();
-    const std::string_view format = array.attribute("format").value_or("ascii");
+    constexpr const char* other_count = "they do not match the counts of points, cells and components";
+    const std::string_view format = array.attribute_or("format", "ascii");
     if (format != "ascii" && format != "binary" && format != "appended")
-        return tree_.error(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
+        tree_.refuse_at(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
     std::string_view text = format == "appended" ? tree_.appended : tree_.text_of(array);
     if (format == "ascii") {
-        fault = read_text(text, type, static_cast<std::size_t>(count.value_or(all)), values);
-        if (!count && fault.kind == NumberFault::Kind::too_few) fault = {};
-        const bool ended = fault.kind == NumberFault::Kind::too_few || fault.kind == NumberFault::Kind::no_number;
-        if (!ended && !next_word(text).empty())
-            return tree_.error(array, what, std::to_string(*count) + " numbers", "more",
-                               "they do not match the counts of points, cells and components");
-        return Done{};
+        NumberFault fault = read_text(text, type, static_cast<std::size_t>(count.value_or(all)), values);
+        if (fault.kind == NumberFault::Kind::too_few) return count ? fault : NumberFault{};
+        if (fault.kind != NumberFault::Kind::no_number && !next_word(text).empty())
+            tree_.refuse_at(array, what, std::to_string(*count) + " numbers", "more", other_count);
+        return fault;
     }
-    if (count == 0U) return Done{};  // without a number there may be no header either
+    if (count == 0U) return {};  // without a number there may be no header either
     const std::optional<std::uint64_t> size = byte_count(type, count.value_or(0));
-    if (!size) return tree_.error(array, "the size of " + what, "less than 2^64 bytes", "more");
+    if (!size) tree_.refuse_at(array, "the size of " + what, "less than 2^64 bytes", "more");
     if (format == "appended") {
-        const std::string_view offset = array.attribute("offset").value_or("");
+        const std::string_view offset = array.attribute_or("offset", "");
         const std::uint64_t begin = parse_count(offset).value_or(all);
         if (begin >= text.size())
-            return tree_.error(
+            tree_.refuse_at(
                 array, "the offset of " + what + " into the appended data",
                 "less than " + std::to_string(text.size()) + ", the bytes from there to the end of the file",
                 in_quotes(offset), cut_off);
@@ -209,46 +199,38 @@ Status XmlArrays::read_any(const XmlElement& array, const std::string& what, Num
     }
     ArrayData data(Encoded(text, format == "binary" || !tree_.appended_raw), layout_);
     if (const std::string found = data.open(); !found.empty())
-        return tree_.error(array, "the data of " + what, {}, found, "write the file again");
+        tree_.refuse_at(array, "the data of " + what, {}, found, "write the file again");
     if (count && data.size() != *size)
-        return tree_.error(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(data.size()),
-                           "its numbers do not match the counts of points, cells and components");
+        tree_.refuse_at(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(data.size()),
+                        other_count);
     const auto numbers = static_cast<std::size_t>(count.value_or(data.size() / number_bytes(type)));
-    fault = std::visit([&](auto to) { return data.read(type, numbers, to.get()); }, values);
-    return Done{};
+    return std::visit([&](auto to) { return data.read(type, numbers, to.get()); }, values);
 }
 
-Status XmlArrays::read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
-                       NumberFault* fault) const {
+void XmlArrays::read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
+                     NumberFault* inexact) const {
     const std::optional<NumberType> type = type_of(array);
     if (!type)
-        return tree_.error(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
-                           in_quotes(array.attribute("type").value_or("")));
-    NumberFault found;
-    if (Status s = read_any(array, what, *type, count, values, found); !s) return s;
-    if (fault != nullptr && found.kind == NumberFault::Kind::not_exact) {
-        *fault = std::move(found);
-    } else if (found) {
-        return error(array, what, count, found);
-    }
-    return Done{};
+        tree_.refuse_at(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
+                        in_quotes(array.attribute_or("type", "")));
+    tree_.check(read_any(array, what, *type, count, values), tree_.bytes.data() + array.begin, what, count, inexact);
 }
 
 /// Each text ends with a zero byte; in ascii format bytes are written as numbers.
-Status XmlArrays::read_texts(const XmlElement& array, const std::string& what, std::uint64_t count,
-                             std::vector<std::string>& texts) const {
+std::vector<std::string> XmlArrays::read_texts(const XmlElement& array, const std::string& what,
+                                               std::uint64_t count) const {
     std::vector<std::uint8_t> bytes;
-    NumberFault fault;
-    if (count == 0) return Done{};
-    if (Status s = read_any(array, what, NumberType::uint8, std::nullopt, bytes, fault); !s) return s;
-    if (fault) return error(array, what, count, fault);
+    if (count == 0) return {};
+    tree_.check(read_any(array, what, NumberType::uint8, std::nullopt, bytes), tree_.bytes.data() + array.begin, what,
+                count, nullptr);
     std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto found = static_cast<std::uint64_t>(std::ranges::count(all, '\0'));
     if (found != count || !all.ends_with('\0'))
-        return tree_.error(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
-                           std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
+        tree_.refuse_at(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
+                        std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
+    std::vector<std::string> texts;
     for (; !all.empty(); all.remove_prefix(texts.back().size() + 1)) texts.emplace_back(all.data());
-    return Done{};
+    return texts;
 }
 
 }  // namespace barycert::io

@@ -104,37 +104,29 @@ std::size_t behind_tag(std::string_view bytes, std::size_t at) {
     return bytes.size();
 }
 
-std::size_t find_tag(std::string_view bytes, std::size_t from) {
-    return std::min(bytes.find('<', from), bytes.size());
-}
-
 /// Hands the file to the parser up to appended data, without the long texts between tags: numbers, which XML does not
 /// concern. They are found by their first and last bytes, many times faster than expat reads them. False where it ends.
 bool parse_tags(std::string_view bytes, ElementParser& parser) {
     constexpr std::size_t long_text = std::size_t{1} << 14;
+    const auto find_tag = [&](std::size_t from) { return std::min(bytes.find('<', from), bytes.size()); };
     std::size_t first = 0;  // not yet handed over
-    for (std::size_t tag = find_tag(bytes, 0); tag < bytes.size();) {
-        const bool appended = bytes.substr(tag, appended_tag.size()) == appended_tag;
-        std::size_t next = tag + 1;
-        if (appended) {
+    for (std::size_t tag = find_tag(0), next = tag; tag < bytes.size(); tag = next) {
+        if (bytes.substr(tag, appended_tag.size()) == appended_tag) {
             // What follows may be anything: the tag alone.
-            next = behind_tag(bytes, tag);
-            if (!parser.parse(bytes, first, next)) return false;
-            first = next;
-            next = find_tag(bytes, next);
-        } else {
-            next = find_tag(bytes, next);
-            const char kind = tag + 1 < bytes.size() ? bytes[tag + 1] : '!';
-            // Comments and the like are no elements, and all their text counts.
-            if (next - tag > long_text && kind != '!' && kind != '?') {
-                const std::size_t text = behind_tag(bytes.substr(0, next), tag);
-                if (next - text > long_text && bytes[text - 1] == '>') {
-                    if (!parser.parse(bytes, first, text)) return false;
-                    first = next;
-                }
-            }
+            const std::size_t behind = behind_tag(bytes, tag);
+            if (!parser.parse(bytes, first, behind)) return false;
+            first = behind;
+            next = find_tag(behind);
+            continue;
         }
-        tag = next;
+        next = find_tag(tag + 1);
+        const char kind = tag + 1 < bytes.size() ? bytes[tag + 1] : '!';
+        // Comments and the like are no elements, and all their text counts.
+        if (next - tag <= long_text || kind == '!' || kind == '?') continue;
+        const std::size_t text = behind_tag(bytes.substr(0, next), tag);
+        if (next - text <= long_text || bytes[text - 1] != '>') continue;
+        if (!parser.parse(bytes, first, text)) return false;
+        first = next;
     }
     return parser.parse(bytes, first, bytes.size()) && parser.finish();
 }
@@ -164,27 +156,17 @@ std::string_view XmlTree::text_of(const XmlElement& element) const {
     return up_to_tag(bytes.substr(behind, element.end > behind ? element.end - behind : 0));
 }
 
-Error XmlTree::error(const XmlElement& at, std::string what, std::string expected, std::string found,
-                     std::string remedy) const {
-    return {std::move(what), path, line_of(bytes, at.begin), std::move(expected), std::move(found), std::move(remedy)};
-}
-
-Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path) {
-    XmlTree tree{.bytes = bytes, .path = path, .elements = {}, .appended = {}};
+XmlTree parse_xml(std::string_view bytes, const std::string& path) {
+    XmlTree tree{{bytes, path}, {}, {}};
     ElementParser parser;
     const bool whole = parse_tags(bytes, parser);
     if (parser.out_of_memory || parser.fault() == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-    if (!whole && !parser.at_appended_data) {
-        const std::size_t line = line_of(bytes, parser.place());
-        if (!parser.has_doctype)
-            return Error{"not a well-formed XML file", path, line, {}, XML_ErrorString(parser.fault()), cut_off};
-        return Error{"a document type in an XML file of VTK",
-                     path,
-                     line,
-                     "none: entities that it defines could grow without bound",
-                     "<!DOCTYPE",
-                     "remove it"};
-    }
+    const char* const place = bytes.data() + parser.place();
+    if (parser.has_doctype)
+        tree.refuse(place, "a document type in an XML file of VTK",
+                    "none: entities that it defines could grow without bound", "<!DOCTYPE", "remove it");
+    if (!whole && !parser.at_appended_data)
+        tree.refuse(place, "not a well-formed XML file", {}, XML_ErrorString(parser.fault()), cut_off);
     tree.elements = std::move(parser.elements);
     if (!parser.at_appended_data) return tree;
     const XmlElement& element = tree.elements.back();
@@ -193,8 +175,8 @@ Result<XmlTree> parse_xml(std::string_view bytes, const std::string& path) {
     if (mark != std::string_view::npos && tree.appended[mark] == '_') tree.appended.remove_prefix(mark + 1);
     const std::optional<std::string_view> encoding = element.attribute("encoding");
     tree.appended_raw = encoding == "raw";
-    if (encoding.has_value() && encoding != "raw" && encoding != "base64")
-        return tree.error(element, "the encoding of the appended data", "raw or base64", std::string(*encoding));
+    if (encoding && encoding != "raw" && encoding != "base64")
+        tree.refuse_at(element, "the encoding of the appended data", "raw or base64", std::string(*encoding));
     return tree;
 }
 
