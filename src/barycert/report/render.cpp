@@ -32,9 +32,7 @@ void tell_triangles(Document& d, const RenderCounts& n) {
                                        ", ");
     std::string text = fmt::format("{}: {} drawn{}{}", n.triangles, n.drawn, others.empty() ? "" : ", ", others);
     if (n.clipped != 0) text += fmt::format("; {} clipped", n.clipped);
-    d.figure("triangles",
-             record("count", n.triangles, "drawn", n.drawn, "outside", n.outside, "degenerate", n.degenerate,
-                    "between_pixels", n.between_pixels, "clipped", n.clipped),
+    d.figure("triangles", record("count", n.triangles, MEMBERS(n, drawn, outside, degenerate, between_pixels, clipped)),
              "triangles", text);
 }
 
@@ -42,24 +40,24 @@ void tell_pixels(Document& d, const RenderCounts& n) {
     std::string text = fmt::format("{} drawn", n.pixels);
     if (n.hidden != 0 || n.covered != n.pixels)
         text += fmt::format("; triangles cover {} one by one, the nearest is seen", n.covered);
-    d.figure("pixels", record("count", n.pixels, "covered", n.covered, "hidden", n.hidden), "pixels", text);
+    d.figure("pixels", record("count", n.pixels, MEMBERS(n, covered, hidden)), "pixels", text);
 }
 
 void tell_colours(Document& d, const ColourRange& c) {
     std::string text =
         c.field + " " + (std::isnan(c.low) ? "none: no value is finite" : "from " + range_text(c.low, c.high));
     if (c.without_value != 0) text += fmt::format("; {} triangles without a value, grey", c.without_value);
-    d.figure("colours", record("field", c.field, "low", c.low, "high", c.high, "without_value", c.without_value),
-             "colours", text, c.without_value == 0 ? Tone::plain : Tone::strong);
+    d.figure("colours", record(MEMBERS(c, field, low, high, without_value)), "colours", text,
+             c.without_value == 0 ? Tone::plain : Tone::strong);
 }
 
 Document render_document(const RenderReport& s, const Environment& environment) {
     Document d;
-    d.data = record("schema", render_schema, "picture", s.picture, "input", s.input);
-    if (s.picture == "mesh") d.data["curved"] = curved_json(s.curved);
     const bool correct = s.rounding == Rounding::correct;
-    put(d.data, "output", s.output, "width", s.size.width, "height", s.size.height, "method", word(s.method),
-        "interpolation", word(s.interpolation), "rounding", correct ? "correct" : "plain");
+    d.data = record("schema", render_schema, MEMBERS(s, picture, input));
+    if (s.picture == "mesh") put(d.data, MEMBERS(s, curved));
+    put(d.data, MEMBERS(s, output), MEMBERS(s.size, width, height), "method", word(s.method), "interpolation",
+        word(s.interpolation), "rounding", correct ? "correct" : "plain");
     d.curved(s.curved);
     std::string text = fmt::format("{}, {} x {} pixels: {}", s.picture, s.size.width, s.size.height, word(s.method));
     if (s.interpolation != Interpolation::perspective || s.texel_error)
@@ -70,13 +68,13 @@ Document render_document(const RenderReport& s, const Environment& environment) 
     if (s.colours) tell_colours(d, *s.colours);
     if (s.texel_error) {
         const TexelError& e = *s.texel_error;
-        d.figure("texel_error", record("texels", e.texels, "column", e.column, "row", e.row), "error",
+        d.figure("texel_error", record(MEMBERS(e, texels, column, row)), "error",
                  fmt::format("at most {:.3g} texels, in column {}, row {} from the bottom", e.texels, e.column, e.row));
     }
-    d.data["notes"] = notes_json(s.notes);
+    put(d.data, MEMBERS(s, notes));
     for (const Note& note : s.notes) d.name("note", message(note));
     d.figure("seconds", s.seconds, "time", fmt::format("{:.3g} s", s.seconds));
-    d.data["environment"] = environment_json(environment);
+    put(d.data, "environment", environment);
     return d;
 }
 
@@ -141,30 +139,24 @@ std::string view_text(const ContourReport& s) {
                 : fmt::format("; {} in grey, without a value", counted(s.drawn.without_value, "triangle")));
 }
 
-Json cut_json(const CutCounts& n) {
-    return record("cells", n.cells, "not_finite", n.not_finite, "degenerate", n.degenerate, "second_order",
-                  n.second_order, "at_nodes", n.at_nodes, "on_edges", n.on_edges, "double_double",
-                  n.tiers.double_double, "exact", n.tiers.exact, "nan", n.tiers.not_finite);
-}
-
 Document contour_document(const ContourReport& s, const Environment& environment) {
     Document d;
-    d.data = record("schema", contour_schema, "command", s.value ? "render iso" : "render slice", "mesh", s.mesh,
-                    "curved", curved_json(s.curved), "dimension", s.dimension, "nodes", s.nodes, "cells", s.cells,
-                    "field", s.field, "value", s.value);
-    if (s.plane) put(d.data, "normal", s.plane->normal, "offset", s.plane->offset);
-    put(d.data, "low", s.low, "high", s.high, "output", s.output, "points", s.points, "parts", s.parts, "cut",
-        cut_json(s.counts), "fields", s.fields, "left_out", s.file.left_out, "renamed", s.file.renamed, "notes",
-        notes_json(s.notes));
+    d.data = record("schema", contour_schema, "command", s.value ? "render iso" : "render slice",
+                    MEMBERS(s, mesh, curved, dimension, nodes, cells, field, value));
+    if (s.plane) put(d.data, MEMBERS(*s.plane, normal, offset));
+    const CutCounts& cut = s.counts;
+    put(d.data, MEMBERS(s, low, high, output, points, parts), "cut",
+        record(MEMBERS(cut, cells, not_finite, degenerate, second_order, at_nodes, on_edges),
+               MEMBERS(cut.tiers, double_double, exact), "nan", cut.tiers.not_finite),
+        MEMBERS(s, fields), MEMBERS(s.file, left_out, renamed), MEMBERS(s, notes));
     d.curved(s.curved);
     d.name("cut", level(s));
     if (s.pixels) {
         const PixelGrid& p = *s.pixels;
         const SliceCounts& n = s.picture;
         d.figure("picture",
-                 record("width", p.width, "height", p.height, "pixel", p.pixel, "origin", p.origin, "right",
-                        p.step_right, "up", p.step_up, "low", n.low, "high", n.high, "drawn", n.drawn, "below", n.below,
-                        "above", n.above, "outside", n.outside, "not_finite", n.not_finite),
+                 record(MEMBERS(p, width, height, pixel, origin), "right", p.step_right, "up", p.step_up,
+                        MEMBERS(n, low, high, drawn, below, above, outside, not_finite)),
                  "picture", pixels_text(s));
         d.name("values", fmt::format("exact{} at the pixels' middles, which are rounded to doubles; rounded once",
                                      for_straight_sides(s.curved)));
@@ -174,9 +166,8 @@ Document contour_document(const ContourReport& s, const Environment& environment
     if (s.view) {
         const double none = std::nan("");
         put(d.data, "view",
-            record("width", s.view->width, "height", s.view->height, "colours", s.colours, "low",
-                   s.colours.empty() ? none : s.drawn.low, "high", s.colours.empty() ? none : s.drawn.high,
-                   "without_value", s.drawn.without_value));
+            record(MEMBERS(*s.view, width, height), "colours", s.colours, "low", s.colours.empty() ? none : s.drawn.low,
+                   "high", s.colours.empty() ? none : s.drawn.high, "without_value", s.drawn.without_value));
         if (!s.pixels) d.name("picture", view_text(s));
     } else if (!s.pixels && !s.fields.empty()) {
         d.name("fields", fmt::format("{}", fmt::join(s.fields, ", ")));
@@ -187,9 +178,9 @@ Document contour_document(const ContourReport& s, const Environment& environment
     std::vector<std::pair<std::string_view, double>> parts{{"mesh", t.mesh}, {"cutting", t.cut}};
     if (s.pixels || s.view) parts.emplace_back(s.pixels ? "sampling" : "drawing", t.sample);
     parts.emplace_back("writing", t.write);
-    d.figure("seconds", record("mesh", t.mesh, "cut", t.cut, "sample", t.sample, "write", t.write, "total", t.total),
-             "time", time_text(t.total, s.threads, parts));
-    put(d.data, "threads", s.threads, "environment", environment_json(environment));
+    d.figure("seconds", record(MEMBERS(t, mesh, cut, sample, write, total)), "time",
+             time_text(t.total, s.threads, parts));
+    put(d.data, MEMBERS(s, threads), "environment", environment);
     return d;
 }
 

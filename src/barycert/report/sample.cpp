@@ -13,9 +13,7 @@ using namespace report;
 namespace {
 
 void tell_inside(Document& d, const LocationCounts& n) {
-    d.figure("inside",
-             record("count", n.inside(), "interior", n.interior, "face", n.face, "edge", n.edge, "vertex", n.vertex),
-             "inside",
+    d.figure("inside", record("count", n.inside(), MEMBERS(n, interior, face, edge, vertex)), "inside",
              n.inside() == 0
                  ? "0"
                  : fmt::format("{}: {} in the interior of a cell, {} on a face, {} on an edge, {} at a vertex",
@@ -36,8 +34,8 @@ void tell_outside(Document& d, const SampleReport& s) {
                                                                    : "")}});
     const std::uint64_t count = n.locations.outside;
     d.figure("outside",
-             record("count", count, "policy", policy_text(s.outside), "snapped", n.snapped, "extrapolated",
-                    n.extrapolated, "without_value", n.without_value, "not_finite", strange, "farthest", n.farthest),
+             record("count", count, "policy", policy_text(s.outside), MEMBERS(n, snapped, extrapolated, without_value),
+                    "not_finite", strange, MEMBERS(n, farthest)),
              "outside", count == 0 ? "0" : fmt::format("{}: {}", count, fates),
              count == 0 ? Tone::plain : Tone::strong);
 }
@@ -51,8 +49,8 @@ void tell_values(Document& d, const SampleReport& s) {
     if (s.rounding == Rounding::plain) text = "plain double, by --rounding plain; cells and features are exact";
     if (s.columns.empty()) text = "none: the mesh has no fields, and --field was not given";
     d.figure("values",
-             record("rounding", s.rounding == Rounding::correct ? "correct" : "plain", "filter", t.filter,
-                    "double_double", t.double_double, "exact", t.exact, "nan", s.nan_values),
+             record("rounding", s.rounding == Rounding::correct ? "correct" : "plain",
+                    MEMBERS(t, filter, double_double, exact), "nan", s.nan_values),
              "values", text);
     if (s.nan_values != 0)
         d.name("NaN",
@@ -74,8 +72,7 @@ void tell_picture(Document& d, const SliceCounts& n) {
     const auto points = [](std::uint64_t count, const char* how) {
         return count == 0 ? "" : fmt::format("; {} {}", counted(count, "point"), how);
     };
-    d.figure("picture", record("low", n.low, "high", n.high, "drawn", n.drawn, "below", n.below, "above", n.above),
-             "picture",
+    d.figure("picture", record(MEMBERS(n, low, high, drawn, below, above)), "picture",
              std::isnan(n.low)
                  ? "nothing drawn: no point has a finite value"
                  : fmt::format("colours from {} to {}", base::shortest(n.low), base::shortest(n.high)) +
@@ -86,8 +83,7 @@ void tell_picture(Document& d, const SliceCounts& n) {
 void tell_integrals(Document& d, const std::vector<FieldIntegral>& all) {
     if (all.empty()) return;
     d.data["integrals"] = list(all, [](const FieldIntegral& of) {
-        return record("column", of.column, "source", of.source, "target", of.target, "source_left_out",
-                      of.source_left_out, "target_left_out", of.target_left_out);
+        return record(MEMBERS(of, column, source, target, source_left_out, target_left_out));
     });
     const auto over = [](double sum, const char* where, std::uint64_t left_out) {
         return fmt::format("{} over {}", base::shortest(sum), where) +
@@ -114,11 +110,8 @@ void tell_times(Document& d, const SampleReport& s) {
     std::string text = time_text(t.total, s.threads, parts);
     if (const std::uint64_t n = s.counts.locations.points(); n != 0)
         text += fmt::format("; sampling took {} ns a point", brief_time(1e9 * t.sample / static_cast<double>(n)));
-    d.figure("seconds",
-             record("mesh", t.mesh, "build", t.build, "read", t.read, "sample", t.sample, "write", t.write, "total",
-                    t.total),
-             "time", text);
-    d.data["threads"] = s.threads;
+    d.figure("seconds", record(MEMBERS(t, mesh, build, read, sample, write, total)), "time", text);
+    put(d.data, MEMBERS(s, threads));
 }
 
 Json grid_json(const Grid& g) {
@@ -128,19 +121,18 @@ Json grid_json(const Grid& g) {
 
 Document sample_document(const SampleReport& s, const Environment& environment) {
     Document d;
-    d.data = record("schema", sample_schema, "command", s.command, "mesh", s.mesh, "curved", curved_json(s.curved));
+    d.data = record("schema", sample_schema, MEMBERS(s, command, mesh, curved));
     d.curved(s.curved);
-    if (s.from == PointsFrom::mesh) d.data["onto_curved"] = curved_json(s.onto_curved);
+    if (s.from == PointsFrom::mesh) put(d.data, MEMBERS(s, onto_curved));
     if (!message(s.onto_curved).empty()) d.name("--onto", s.points + ":");
     d.curved(s.onto_curved);
-    put(d.data, "dimension", s.dimension, "nodes", s.nodes, "cells", s.cells, "degenerate_cells", s.degenerate_cells,
-        "contested_cells", s.contested_cells, "verdict", name(s.verdict), "from", name(s.from));
+    put(d.data, MEMBERS(s, dimension, nodes, cells, degenerate_cells, contested_cells, verdict, from));
     s.grid ? put(d.data, "grid", grid_json(*s.grid)) : put(d.data, "file", s.points);
-    d.data["output"] = s.output;
-    if (!s.weights.empty()) d.data["weights"] = s.weights;
-    if (!s.steps.empty()) d.data["steps"] = s.steps;
-    if (!s.times.empty()) put(d.data, "times", s.times, "meshes", s.meshes);
-    put(d.data, "columns", s.columns, "carried", s.carried);
+    put(d.data, MEMBERS(s, output));
+    if (!s.weights.empty()) put(d.data, MEMBERS(s, weights));
+    if (!s.steps.empty()) put(d.data, MEMBERS(s, steps));
+    if (!s.times.empty()) put(d.data, MEMBERS(s, times, meshes));
+    put(d.data, MEMBERS(s, columns, carried));
 
     const std::uint64_t points = s.counts.locations.points();
     std::string text = std::to_string(points);
@@ -158,21 +150,18 @@ Document sample_document(const SampleReport& s, const Environment& environment) 
     tell_integrals(d, s.integrals);
     tell_mesh(d, s);
     d.figure("method", name(s.method), "method", fmt::format("{}: {}", name(s.method), s.reason));
-    d.data["reason"] = s.reason;
+    put(d.data, MEMBERS(s, reason));
     if (const WayCounts& w = s.counts.locations.ways; w.points() != 0)
-        d.figure("ways",
-                 record("no_cell_near", w.no_cell_near, "walk", w.walk, "contested", w.contested, "candidates",
-                        w.candidates),
-                 "found",
+        d.figure("ways", record(MEMBERS(w, no_cell_near, walk, contested, candidates)), "found",
                  clauses({{w.walk, "by a walk"},
                           {w.contested, "in contested cells"},
                           {w.candidates, "by testing every candidate"},
                           {w.no_cell_near, "outside at once, no cell is near"}}));
-    put(d.data, "notes", notes_json(s.notes), "not_finite", not_finite_json(s.not_finite));
+    put(d.data, MEMBERS(s, notes, not_finite));
     for (const Note& note : s.notes) d.name("note", message(note));
     for (const NotFinite& field : s.not_finite) d.name("note", not_finite_text(field));
     tell_times(d, s);
-    d.data["environment"] = environment_json(environment);
+    put(d.data, "environment", environment);
     return d;
 }
 

@@ -104,7 +104,7 @@ void tell_verdict(Document& d, const VerifyReport& s) {
     d.say(fmt::format("{}: {} inside the mesh, {} of them on a face, an edge or a vertex; {} outside{}",
                       counted(v.rows, "row"), v.inside, v.on_boundary, v.outside,
                       v.not_finite == 0 ? "" : fmt::format(", {} of them not finite", v.not_finite)));
-    Listing table{.columns = {{"row is", true, 12}, {"rows", false, 12}, {"", false, 9}, {"meaning", true, 0, 2}},
+    Listing table{.columns = {left("row is", 12), right("rows", 12), right("", 9), left("meaning", 0, 2)},
                   .headless = true};
     const auto kinds = kinds_of(s);
     for (std::size_t k = 0; k < kinds.size(); ++k) {
@@ -122,13 +122,13 @@ void tell_values(Document& d, const VerifyReport& s) {
     d.part("Values");
     if (s.columns.empty()) return d.say("values       not compared");
     const std::string over = s.exact ? "over 0" : "over " + base::shortest(s.tolerance);
-    Listing table{.columns = {{"values of", true, 20},
-                              {"column", true, 0, 1, "", "", For::page},
-                              {"compared", false, 12},
-                              {"bits right %", false, 12},
-                              {"max ulps", false, 12},
-                              {"max error", false, 12},
-                              {over, false, 10, 1, "wrong"}}};
+    Listing table{.columns = {left("values of", 20),
+                              {.head = "column", .left = true, .whom = For::page},
+                              right("compared", 12),
+                              right("bits right %", 12),
+                              right("max ulps", 12),
+                              right("max error", 12),
+                              right(over, 10, "wrong")}};
     for (std::size_t c = 0; c < s.columns.size(); ++c) {
         const ValueErrors& e = s.verdicts.columns[c];
         const std::uint64_t wrong = e.over + e.missing + e.spurious;
@@ -174,23 +174,22 @@ Json errors_json(const VerifyReport& s) {
     for (std::size_t c = 0; c < s.columns.size(); ++c) {
         const ValueErrors& e = s.verdicts.columns[c];
         all.push_back(record("name", s.columns[c], "column", s.found_in[c], "range", s.ranges[c], "relative_to",
-                             name(s.relative_to[c]), "compared", e.values, "identical", e.identical, "over", e.over,
-                             "missing", e.missing, "spurious", e.spurious, "max_ulps", e.max_ulps, "max_error",
-                             e.max_relative, "by_ulps", e.by_ulps, "by_error", e.by_relative));
+                             s.relative_to[c], "compared", e.values,
+                             MEMBERS(e, identical, over, missing, spurious, max_ulps), "max_error", e.max_relative,
+                             "by_ulps", e.by_ulps, "by_error", e.by_relative));
     }
     return all;
 }
 
 Json example_json(const VerifyReport& s, const WrongRow& row) {
     const auto number = [](std::int64_t cell) { return cell < 0 ? Json() : Json(cell); };
-    Json j = record("verdict", name(row.verdict), "row", row.row, "point",
-                    std::vector(row.point.begin(), row.point.begin() + s.dimension), "cell", number(row.exact.cell),
-                    "feature", name(row.exact.feature));
-    if (row.verdict == RowVerdict::invented) put(j, "distance", row.distance);
+    Json j =
+        record(MEMBERS(row, verdict, row), "point", std::vector(row.point.begin(), row.point.begin() + s.dimension),
+               "cell", number(row.exact.cell), MEMBERS(row.exact, feature));
+    if (row.verdict == RowVerdict::invented) put(j, MEMBERS(row, distance));
     if (!s.cell_column.empty()) put(j, "claimed_cell", number(row.claimed_cell));
     if (!s.columns.empty())
-        put(j, "column", s.columns[row.column], "claimed", row.claimed, "value", row.value, "ulps", row.ulps, "error",
-            row.relative);
+        put(j, "column", s.columns[row.column], MEMBERS(row, claimed, value, ulps), "error", row.relative);
     put(j, "command", example_command(s, row));
     return j;
 }
@@ -200,18 +199,15 @@ Json verify_data(const VerifyReport& s, const Environment& environment) {
     const Verdicts& v = s.verdicts;
     const SampleSeconds& t = s.seconds;
     return record(
-        "schema", verify_schema, "command", "verify", "mesh", s.mesh, "results", s.results, "curved",
-        curved_json(s.curved), "dimension", s.dimension, "nodes", s.nodes, "cells", s.cells, "certified", s.certified,
-        "contested_cells", s.contested_cells, "cell_column", text(s.cell_column), "mask_column", text(s.mask_column),
-        "tolerance", s.tolerance, "exact", s.exact, "outside_value", s.outside_value, "rows", v.rows, "right", v.right,
-        "missed", v.missed, "invented", v.invented, "wrong_cell", v.wrong_cell, "wrong_value", v.wrong_value, "inside",
-        v.inside, "outside", v.outside, "not_finite", v.not_finite, "on_boundary", v.on_boundary, "missed_on_boundary",
-        v.missed_on_boundary, "invented_zero", v.invented_zero, "invented_measured", v.invented_measured,
-        "invented_near", v.invented_near, "invented_distance", v.invented_distance, "by_other_cell", v.by_other_cell,
+        "schema", verify_schema, "command", "verify",
+        MEMBERS(s, mesh, results, curved, dimension, nodes, cells, certified, contested_cells), "cell_column",
+        text(s.cell_column), "mask_column", text(s.mask_column), MEMBERS(s, tolerance, exact, outside_value),
+        MEMBERS(v, rows, right, missed, invented, wrong_cell, wrong_value, inside, outside, not_finite, on_boundary,
+                missed_on_boundary, invented_zero, invented_measured, invented_near, invented_distance, by_other_cell),
         "values", errors_json(s), "examples",
-        list(v.examples, [&](const WrongRow& row) { return example_json(s, row); }), "notes", notes_json(s.notes),
-        "seconds", record("mesh", t.mesh, "build", t.build, "read", t.read, "compare", t.sample, "total", t.total),
-        "threads", s.threads, "environment", environment_json(environment));
+        list(v.examples, [&](const WrongRow& row) { return example_json(s, row); }), MEMBERS(s, notes), "seconds",
+        record(MEMBERS(t, mesh, build, read), "compare", t.sample, MEMBERS(t, total)), MEMBERS(s, threads),
+        "environment", environment);
 }
 
 Document verify_document(const VerifyReport& s, const Environment& environment) {

@@ -48,21 +48,17 @@ struct Known {
 /// Of kernels, worst first; or of the families of one.
 Listing statistics_table(const std::vector<Known>& all, bool kernels) {
     const std::string error = kernels ? "error," : "error";
-    const For of_kernels = kernels ? For::all : For::page, of_families = kernels ? For::page : For::all;
-    Listing table{.columns = {{kernels ? "kernel" : "family", true, 6},
-                              {"cases", false, 6, 1, "", "", of_families},
-                              {"wrong\n%", false, 6, 1, "wrong, %"},
-                              {"in as\nout %", false, 6, 1, "inside called outside, %"},
-                              {"out as\nin %", false, 6, 1, "outside called inside, %"},
-                              {"no\nans. %", false, 6, 1, "no answer, %"},
-                              {"error\n99 %", false, 6, 1, "error of 99 %"},
-                              {error + "\nmax", false, 8, 1, "largest error", "", of_families},
-                              {error + "\nmeshes", false, 8, 1, "largest error on meshes", "", of_kernels},
-                              {error + "\nulps", false, 8, 1, "largest, ulps"},
-                              {"ns", false, 5, 1, "", "", of_kernels}},
-                  .sorts = true,
-                  .style = kernels ? "kernels" : ""};
-    if (!kernels) table.columns.erase(table.columns.end() - 3), table.columns.pop_back();
+    const For of_families = kernels ? For::page : For::all;
+    Listing table{
+        .columns = {left(kernels ? "kernel" : "family", 6), right("cases", 6, "", of_families),
+                    right("wrong\n%", 6, "wrong, %"), right("in as\nout %", 6, "inside called outside, %"),
+                    right("out as\nin %", 6, "outside called inside, %"), right("no\nans. %", 6, "no answer, %"),
+                    right("error\n99 %", 6, "error of 99 %"), right(error + "\nmax", 8, "largest error", of_families)},
+        .sorts = true,
+        .style = kernels ? "kernels" : ""};
+    if (kernels) table.columns.push_back(right(error + "\nmeshes", 8, "largest error on meshes"));
+    table.columns.push_back(right(error + "\nulps", 8, "largest, ulps"));
+    if (kernels) table.columns.push_back(right("ns", 5));
     for (const Known& k : all) {
         const KernelStatistics& s = *k.statistics;
         const Share wrong{s.wrong_cases, s.cases};
@@ -126,7 +122,7 @@ void tell_cases(Document& d, const AuditReport& r, const TerminalStyle& style) {
     tell_meshes(d, r, style, Breaks::commas);
 }
 
-void tell_families(Document& d, const AuditReport& r, For whom) {
+void tell_families(Document& d, const AuditReport& r) {
     struct Line {
         std::uint64_t cases = 0;
         std::size_t kernels = 0;
@@ -142,13 +138,9 @@ void tell_families(Document& d, const AuditReport& r, For whom) {
                 line.wrong.emplace_back(f.statistics.wrong_cases, k.kernel.name.substr(k.kernel.name.find('.') + 1));
         }
     }
-    Listing table{.columns = {{"family", true, 6},
-                              {"simplex", true, 11, 2},
-                              {"cases", false, 7},
-                              {"clean", false, 7, 1, "kernels without a finding"},
-                              {"median %", false, 9, 1, "median wrong, %"},
-                              {"worst %", false, 8, 1, "worst wrong, %"},
-                              {"worst kernel", true, 0, 2}},
+    Listing table{.columns = {left("family", 6), left("simplex", 11, 2), right("cases", 7),
+                              right("clean", 7, "kernels without a finding"), right("median %", 9, "median wrong, %"),
+                              right("worst %", 8, "worst wrong, %"), left("worst kernel", 0, 2)},
                   .sorts = true};
     for (auto& [key, line] : lines) {
         auto& wrong = line.wrong;
@@ -169,10 +161,10 @@ void tell_families(Document& d, const AuditReport& r, For whom) {
                                share_cell({worst, line.cases}),
                                worst == 0 && line.cases != 0 ? "-" : wrong.front().second + more}});
     }
-    d.add(Section{"Families of cases", 2, false}, whom);
-    d.add(std::move(table), whom);
+    d.part("Families of cases");
+    d.add(std::move(table));
     d.say("clean: kernels without a finding / all kernels. median, worst: share of wrong cases, over the kernels.",
-          Tone::soft, whom);
+          Tone::soft);
 }
 
 Item witness_item(const AuditReport& r, const KernelResult& k, const Witness& w, const TerminalStyle& style) {
@@ -184,22 +176,21 @@ Item witness_item(const AuditReport& r, const KernelResult& k, const Witness& w,
 
 constexpr std::string_view no_witness = "No witness: every weight and value is correctly rounded.";
 
-/// Of each kernel the witnesses of all its findings, for a page.
+/// Of each kernel the witnesses of all its findings.
 void tell_witnesses(Document& d, const AuditReport& r, const TerminalStyle& style) {
-    d.section("Witnesses", For::page);
+    d.section("Witnesses");
     d.say("The worst case of each finding, and the command that shows the kernel's answer beside the exact one.",
-          Tone::soft, For::page);
+          Tone::soft);
     for (const KernelResult& k : r.kernels) {
-        d.section(k.kernel.name, For::page, 3);
-        if (!k.kernel.fails.empty()) d.say(k.kernel.fails, Tone::soft, For::page);
-        if (!k.kernel.note.empty()) d.say(k.kernel.note, Tone::plain, For::page);
-        if (k.total.not_run != 0)
-            d.say(fmt::format("Given up: {} cases were not run.", k.total.not_run), Tone::plain, For::page);
-        if (k.witnesses.empty() && k.total.not_run == 0) d.say(std::string(no_witness), Tone::plain, For::page);
-        for (std::size_t i = 0; i < k.witnesses.size(); ++i) {
-            Item item = witness_item(r, k, k.witnesses[i], style);
-            item.folds = i > 0;
-            d.add(std::move(item), For::page);
+        d.section(k.kernel.name, For::all, 3);
+        if (!k.kernel.fails.empty()) d.say(k.kernel.fails, Tone::soft);
+        if (!k.kernel.note.empty()) d.say(k.kernel.note);
+        if (k.total.not_run != 0) d.say(fmt::format("Given up: {} cases were not run.", k.total.not_run));
+        if (k.witnesses.empty() && k.total.not_run == 0) d.say(std::string(no_witness));
+        for (const Witness& w : k.witnesses) {
+            Item item = witness_item(r, k, w, style);
+            item.folds = &w != &k.witnesses.front();
+            d.add(std::move(item));
         }
     }
 }
@@ -250,22 +241,11 @@ Share wrong_on_meshes(const AuditReport& report, const KernelResult& k) {
 
 /// All columns: wider than most terminals.
 void tell_all_counts(Document& d, const AuditReport& r) {
-    Listing table{.columns = {{"kernel", true, 6},
-                              {"cases", false, 5},
-                              {"wrong\n%", false, 6},
-                              {"wrong%\nmeshes", false, 6},
-                              {"opp.\nsign", false, 5},
-                              {"false\nzero", false, 5},
-                              {"false\nnon-0", false, 5},
-                              {"not\nfinite", false, 6},
-                              {"false\ninside", false, 6},
-                              {"false\noutside", false, 7},
-                              {"false\ndegen.", false, 6},
-                              {"missed\ndegen.", false, 6},
-                              {"ulps\n99.9%", false, 9},
-                              {"ulps\nworst", false, 9},
-                              {"value\n99.9%", false, 9},
-                              {"ns", false, 5}}};
+    Listing table{.columns = {left("kernel", 6), right("cases", 5), right("wrong\n%", 6), right("wrong%\nmeshes", 6),
+                              right("opp.\nsign", 5), right("false\nzero", 5), right("false\nnon-0", 5),
+                              right("not\nfinite", 6), right("false\ninside", 6), right("false\noutside", 7),
+                              right("false\ndegen.", 6), right("missed\ndegen.", 6), right("ulps\n99.9%", 9),
+                              right("ulps\nworst", 9), right("value\n99.9%", 9), right("ns", 5)}};
     for (const KernelResult& k : r.kernels) {
         const KernelStatistics& s = k.total;
         Row row{.cells = {k.kernel.name, brief_count(s.cases), percent({s.wrong_cases, s.cases}),
@@ -284,15 +264,13 @@ void tell_all_counts(Document& d, const AuditReport& r) {
         table.rows.push_back(std::move(row));
     }
     d.add(std::move(table));
-    for (
-        const char* line :
+    d.notes(
         {"wrong %: share of cases with a finding, over all families and over the families mesh.*. A finding is a wrong "
          "sign, zero, region or declaration.",
          "ulps: error of a weight in ulps of the correctly rounded weight; value: the same for the interpolated value. "
          "Signs, zeros and not",
          "finite count weights; inside, outside and degenerate count cases.  ns: median time of one evaluation, over "
-         "blocks of cases."})
-        d.say(line, Tone::soft);
+         "blocks of cases."});
 }
 
 void tell_wide(Document& d, const AuditReport& r, const TerminalStyle& style) {
@@ -304,7 +282,7 @@ void tell_wide(Document& d, const AuditReport& r, const TerminalStyle& style) {
     d.say(oracle_line(r.oracles));
     d.part();
     tell_all_counts(d, r);
-    tell_families(d, r, For::all);
+    tell_families(d, r);
     d.section("Worst witness of each kernel, and the command that replays it:");
     for (const KernelResult& k : r.kernels) {
         const Witness* const w = worst_witness(k);
@@ -333,6 +311,31 @@ void tell_hints(Document& d, const AuditReport& r, const TerminalStyle& style) {
           For::terminal);
 }
 
+/// What is on a page alone.
+Document page_of(const AuditReport& r, const TerminalStyle& style, const AuditPage& page) {
+    Document d;
+    const bool one = r.kernels.size() == 1;
+    d.add(Pictures{[&r, &page, one] {
+        return (one ? "" : pareto_figures(r)) + sign_figures(page.signs) + map_figures(r, page.maps) +
+               error_histograms(r);
+    }});
+    if (!one) {
+        tell_witnesses(d, r, style);
+        tell_families(d, r);
+    }
+    tell_others(d, page.others);
+    d.section("How it was made");
+    if (!page.command_line.empty()) d.add(Named{.name = "command", .lines = {page.command_line}, .command = true});
+    d.name("run", how_it_was_made(r));
+    d.name("by", environment_line(r.environment));
+    d.name("on", fmt::format("a processor of {} threads", r.environment.hardware_threads));
+    d.say(
+        "The same seed gives the same cases on every machine; figures other than times do not depend on the number of "
+        "threads.",
+        Tone::soft);
+    return d;
+}
+
 /// `page`: what is on it beside.
 Document audit_document(const AuditReport& r, const TerminalStyle& style, const AuditPage& page) {
     Document d;
@@ -346,7 +349,6 @@ Document audit_document(const AuditReport& r, const TerminalStyle& style, const 
         tell_wide(d, r, style);
         return d;
     }
-    const auto pictures = [&](auto markup) { d.add(Pictures{markup}, For::page); };
     const bool one = r.kernels.size() == 1;
     d.add(Headline{
         .tone = any_wrong(r) ? Tone::bad : Tone::good, .text = verdict_sentence(r), .sentences = verdict_details(r)});
@@ -356,23 +358,7 @@ Document audit_document(const AuditReport& r, const TerminalStyle& style, const 
         tell_kernels(d, r);
     d.part();
     tell_cases(d, r, style);
-    if (!one) pictures([&r] { return pareto_figures(r); });
-    pictures([&] { return sign_figures(page.signs) + map_figures(r, page.maps) + error_histograms(r); });
-    if (!one) {
-        tell_witnesses(d, r, style);
-        tell_families(d, r, For::page);
-    }
-    tell_others(d, page.others);
-    d.section("How it was made", For::page);
-    if (!page.command_line.empty())
-        d.add(Named{.name = "command", .lines = {page.command_line}, .command = true}, For::page);
-    d.add(Named{"run", {how_it_was_made(r)}}, For::page);
-    d.add(Named{"by", {environment_line(r.environment)}}, For::page);
-    d.add(Named{"on", {fmt::format("a processor of {} threads", r.environment.hardware_threads)}}, For::page);
-    d.say(
-        "The same seed gives the same cases on every machine; figures other than times do not depend on the number of "
-        "threads.",
-        Tone::soft, For::page);
+    d.append(page_of(r, style, page), For::page);
     d.say(how_it_was_made(r), Tone::plain, For::terminal);
     d.say(environment_line(r.environment), Tone::plain, For::terminal);
     if (!one) tell_hints(d, r, style);

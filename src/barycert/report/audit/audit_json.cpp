@@ -14,7 +14,7 @@ using namespace report;
 namespace {
 
 void put_statistics(Json& j, const KernelStatistics& s) {
-    put(j, "cases", s.cases, "wrong_cases", s.wrong_cases, "not_run", s.not_run);
+    put(j, MEMBERS(s, cases, wrong_cases, not_run));
     for (std::size_t f = 0; f < finding_count; ++f) put(j, finding_texts[f].name, s.counts[f]);
     put(j, "worst_error", magnitude(s.errors.worst.value), "by_error", s.errors.counts, "worst_weight_ulp",
         magnitude(s.weight_ulp.value), "p999_weight_ulp", magnitude(s.p999_weight_ulp()), "worst_value_ulp",
@@ -38,19 +38,18 @@ Json prediction_json(const Prediction& p) {
 }
 
 Json kernel_json(const Kernel& k) {
-    Json j = record("name", k.name, "simplex", name(k.simplex), "perspective", k.perspective, "formula", k.formula,
-                    "source", k.source, "fails", k.fails, "declares_degenerate", k.declares_degenerate, "certifies",
-                    k.certifies, "contained", k.host != nullptr, "region_rule",
+    Json j = record(MEMBERS(k, name, simplex, perspective, formula, source, fails, declares_degenerate, certifies),
+                    "contained", k.host != nullptr, "region_rule",
                     k.rule == RegionRule::sign  ? "sign"
                     : k.rule == RegionRule::own ? "own"
                                                 : "tolerant");
-    if (k.rule == RegionRule::tolerant) put(j, "tolerance", k.tolerance);
+    if (k.rule == RegionRule::tolerant) put(j, MEMBERS(k, tolerance));
     return j;
 }
 
 Json family_json(const Family& f) {
-    return record("name", f.name, "after", f.tests, "parameters", f.parameters, "needs_mesh", f.needs_mesh, "simplices",
-                  list(f.simplices, [](Simplex s) { return Json(name(s)); }), "perspective", f.perspective);
+    return record(MEMBERS(f, name), "after", f.tests, MEMBERS(f, parameters, needs_mesh), "simplices",
+                  list(f.simplices, [](Simplex s) { return name(s); }), MEMBERS(f, perspective));
 }
 
 Json result_json(const AuditReport& r, const KernelResult& k) {
@@ -96,22 +95,19 @@ std::string audit_json(const AuditReport& r) {
         for (const Witness& w : k.witnesses) witnesses.push_back(audit::witness_json(w));
     }
     const Json j = record(
-        "schema", audit_schema, "environment", environment_json(r.environment), "seed", r.seed, "count", r.count,
-        "threads", r.threads, "meshes", r.meshes, "verdicts", list(r.verdicts, [](Verdict v) { return Json(name(v)); }),
-        "curved", list(r.curved, curved_json), "cases", r.cases, "regions", regions, "oracles",
-        oracles_json(r.oracle, r.oracles), "seconds", r.seconds, "families", list(r.families, family_json), "kernels",
+        "schema", audit_schema, MEMBERS(r, environment, seed, count, threads, meshes), "verdicts",
+        list(r.verdicts, [](Verdict v) { return name(v); }), MEMBERS(r, curved, cases), "regions", regions, "oracles",
+        oracles_json(r.oracle, r.oracles), MEMBERS(r, seconds), "families", list(r.families, family_json), "kernels",
         list(r.kernels, [&](const KernelResult& k) { return result_json(r, k); }), "witnesses", witnesses);
     return base::json_text(j, 1);
 }
 
 std::string kernels_json(const std::vector<Kernel>& kernels) {
-    const Json j = record("schema", audit_schema, "kernels", list(kernels, kernel_json));
-    return base::json_text(j, 1);
+    return base::json_text(record("schema", audit_schema, "kernels", list(kernels, kernel_json)), 1);
 }
 
 std::string families_json(const std::vector<Family>& families) {
-    const Json j = record("schema", audit_schema, "families", list(families, family_json));
-    return base::json_text(j, 1);
+    return base::json_text(record("schema", audit_schema, "families", list(families, family_json)), 1);
 }
 
 CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,

@@ -206,9 +206,9 @@ std::string oracle_line(const OracleCounts& o) {
 }
 
 Json oracles_json(OracleChoice choice, const OracleCounts& o) {
-    return record("choice", name(choice), "core", o.core, "integers", o.integers, "wide", o.wide, "cgal", o.cgal,
-                  "also_integers", o.also_integers, "also_cgal", o.also_cgal, "disagreements",
-                  0);  // with one there is no report
+    // With a disagreement there is no report.
+    return record("choice", choice, MEMBERS(o, core, integers, wide, cgal, also_integers, also_cgal), "disagreements",
+                  0);
 }
 
 }  // namespace barycert::report

@@ -56,7 +56,7 @@ std::string replay_command(const AuditReport& report, const KernelResult& k, con
 
 /// Who decided what is right: "decided: 900 by barycert's core, ...; confirmed: 60 by integers, ..., 0 disagreements".
 std::string oracle_line(const OracleCounts& o);
-/// What other programs measured: the flags matrix, the league of systems.
+/// What other programs measured, for a page: the flags matrix, the league of systems.
 void tell_others(Document& d, const std::vector<OtherResults>& others);
 
 Json oracles_json(OracleChoice choice, const OracleCounts& o);

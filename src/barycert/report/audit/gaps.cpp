@@ -16,15 +16,9 @@ std::string number_list(const std::vector<Mesh::Index>& numbers) {
 }
 
 void tell_table(Document& d, const GapsReport& r) {
-    Listing table{.columns = {{"kernel", true, 16},
-                              {"rule", true, 8, 2},
-                              {"inside", false, 6},
-                              {"gaps", false, 6},
-                              {"several", false, 7},
-                              {"wrong", false, 6},
-                              {"first", false, 6},
-                              {"outside", false, 7},
-                              {"claimed", false, 7}}};
+    Listing table{.columns = {left("kernel", 16), left("rule", 8, 2), right("inside", 6), right("gaps", 6),
+                              right("several", 7), right("wrong", 6), right("first", 6), right("outside", 7),
+                              right("claimed", 7)}};
     for (const ClaimResult& of : r.results) {
         const ClaimCounts c = of.total();
         const auto n = [&](ClaimFault f) { return brief_count(c.of(f)); };
@@ -34,16 +28,14 @@ void tell_table(Document& d, const GapsReport& r) {
     }
     d.part();
     d.add(std::move(table));
-    d.say(fmt::format(
-              "rule: a cell claims a point if all weights are > 0 (strict), >= 0 (exact), >= -{} (tolerant), or by the",
-              base::shortest(r.tolerance)),
-          Tone::soft);
-    for (const char* line :
-         {"kernel's own rule. inside: points that a cell holds, exactly; of these gaps: no cell claims it; several:",
-          "more than one does (right where it lies on what they share: see exact arithmetic); wrong: one that does not",
-          "hold it; first: the lowest of those that claim it does not hold it. outside: points that no cell holds, of",
-          "these claimed: by a cell."})
-        d.say(line, Tone::soft);
+    d.notes(
+        {fmt::format(
+             "rule: a cell claims a point if all weights are > 0 (strict), >= 0 (exact), >= -{} (tolerant), or by the",
+             base::shortest(r.tolerance)),
+         "kernel's own rule. inside: points that a cell holds, exactly; of these gaps: no cell claims it; several:",
+         "more than one does (right where it lies on what they share: see exact arithmetic); wrong: one that does not",
+         "hold it; first: the lowest of those that claim it does not hold it. outside: points that no cell holds, of",
+         "these claimed: by a cell."});
 }
 
 void tell_points(Document& d, const GapsReport& r) {
@@ -85,12 +77,12 @@ Json claims_json(const ClaimResult& r, int dimension) {
         j["features"].push_back(std::move(part));
     }
     put(j, "witnesses", list(r.witnesses, [&](const auto& of) {
-            const auto& [fault, w] = of;
+            const ClaimWitness& w = of.second;
             Json point = Json::array();
             for (int axis = 0; axis < dimension; ++axis)
                 point.push_back(base::hexadecimal(w.point[static_cast<std::size_t>(axis)]));
-            return record("fault", name(fault), "feature", name(w.feature), "index", w.index, "nodes", w.nodes, "point",
-                          point, "holders", w.holders, "claimants", w.claimants);
+            return record("fault", name(of.first), MEMBERS(w, feature, index, nodes), "point", point,
+                          MEMBERS(w, holders, claimants));
         }));
     return j;
 }
@@ -117,10 +109,9 @@ Document gaps_document(const GapsReport& r) {
         d.say("that): the cell does not claim the point then.");
     }
     tell_points(d, r);
-    d.data = record("schema", audit_schema, "environment", environment_json(r.environment), "mesh", r.mesh, "curved",
-                    curved_json(r.curved), "verdict", name(r.verdict), "dimension", r.dimension, "seed", r.seed,
-                    "count", r.count, "threads", r.threads, "tolerance", r.tolerance, "oracles",
-                    oracles_json(OracleChoice::automatic, r.oracles), "seconds", r.seconds, "results",
+    d.data = record("schema", audit_schema,
+                    MEMBERS(r, environment, mesh, curved, verdict, dimension, seed, count, threads, tolerance),
+                    "oracles", oracles_json(OracleChoice::automatic, r.oracles), "seconds", r.seconds, "results",
                     list(r.results, [&](const ClaimResult& of) { return claims_json(of, r.dimension); }));
     return d;
 }
@@ -132,11 +123,11 @@ Document drift_document(const DriftReport& r) {
         fmt::format("seed {}, {} cases per size. Largest error of the value, in ulps of the exact one, by the size of "
                     "the triangle in pixels.",
                     r.seed, r.count));
-    Listing table{.columns = {{"kernel", true, 6}}};
+    Listing table{.columns = {left("kernel", 6)}};
     if (!r.curves.empty()) {
-        for (const DriftPoint& p : r.curves.front().points) table.columns.push_back({std::to_string(p.size), false, 9});
+        for (const DriftPoint& p : r.curves.front().points) table.columns.push_back(right(std::to_string(p.size), 9));
     }
-    table.columns.push_back({"", true, 0, 2});
+    table.columns.push_back(left("", 0, 2));
     for (const DriftCurve& curve : r.curves) {
         Row row{{curve.kernel.name}};
         std::uint64_t not_finite = 0;
@@ -149,11 +140,10 @@ Document drift_document(const DriftReport& r) {
     }
     d.part();
     d.add(std::move(table));
-    d.data = record("schema", audit_schema, "environment", environment_json(measure_environment()), "seed", r.seed,
-                    "count", r.count, "kernels", list(r.curves, [](const DriftCurve& curve) {
+    d.data = record("schema", audit_schema, "environment", measure_environment(), MEMBERS(r, seed, count), "kernels",
+                    list(r.curves, [](const DriftCurve& curve) {
                         return record("name", curve.kernel.name, "sizes", list(curve.points, [](const DriftPoint& p) {
-                                          return record("size", p.size, "cases", p.cases, "not_finite", p.not_finite,
-                                                        "worst_ulp", p.worst_ulp, "worst_relative", p.worst_relative,
+                                          return record(MEMBERS(p, size, cases, not_finite, worst_ulp, worst_relative),
                                                         "case", p.index);
                                       }));
                     }));
@@ -163,12 +153,8 @@ Document drift_document(const DriftReport& r) {
 Document texels_document(const std::vector<TexelResult>& results) {
     Document d;
     d.indent = 1;
-    Listing table{.columns = {{"rule", true, 22},
-                              {"wrap", true, 7},
-                              {"cases", false, 7},
-                              {"past\nthe end", false, 9},
-                              {"before\nthe start", false, 9},
-                              {"wrong\ntexel", false, 9}}};
+    Listing table{.columns = {left("rule", 22), left("wrap", 7), right("cases", 7), right("past\nthe end", 9),
+                              right("before\nthe start", 9), right("wrong\ntexel", 9)}};
     std::vector<Item> items;
     Json rules = Json::array();
     for (const TexelResult& r : results) {
@@ -179,8 +165,7 @@ Document texels_document(const std::vector<TexelResult>& results) {
                               : r.counts[0] + r.counts[1] != 0 ? Tone::bad
                                                                : Tone::plain});
         Item item{.title = r.rule.name, .text = ": " + r.rule.formula};
-        Json rule = record("name", r.rule.name, "wrap", name(r.rule.wrap), "formula", r.rule.formula, "source",
-                           r.rule.source, "fails", r.rule.fails, "cases", r.cases);
+        Json rule = record(MEMBERS(r.rule, name, wrap, formula, source, fails), "cases", r.cases);
         Json witnesses = Json::array();
         for (std::size_t f = 0; f < r.counts.size(); ++f) {
             const TexelWitness& w = r.witnesses[f];
@@ -189,8 +174,8 @@ Document texels_document(const std::vector<TexelResult>& results) {
             item.lines.push_back(
                 {fmt::format("{}: u = {} ({}) in a row of {}: texel {}, exactly {}", texel_finding_names[f],
                              base::shortest(w.u), base::hexadecimal(w.u), w.size, w.texel, w.exact)});
-            witnesses.push_back(record("finding", texel_finding_names[f], "u", base::hexadecimal(w.u), "size", w.size,
-                                       "texel", w.texel, "exact", w.exact));
+            witnesses.push_back(
+                record("finding", texel_finding_names[f], "u", base::hexadecimal(w.u), MEMBERS(w, size, texel, exact)));
         }
         if (clean) item.lines.push_back({"no finding"});
         items.push_back(std::move(item));

@@ -171,27 +171,27 @@ std::string name_of(const FlagsMatrix::Column& column) {
 
 void tell_matrix(Document& d, const FlagsMatrix& m, std::string heading, std::uint64_t FlagsMatrix::Cell::*part,
                  bool red) {
-    Listing table{.columns = {{"formula", true}}, .sorts = true};
+    Listing table{.columns = {left("formula")}, .sorts = true};
     const std::vector<std::size_t> columns = columns_of(m, true);
     for (const std::size_t c : columns)
-        table.columns.push_back({name_of(m.columns[c]), false, 0, 1, "", m.columns[c].flags});
+        table.columns.push_back({.head = name_of(m.columns[c]), .tip = m.columns[c].flags});
     for (const FlagsMatrix::Row& row : m.rows) {
         Row& shares = table.rows.emplace_back(Row{{row.kernel}});
         for (const std::size_t c : columns)
             shares.cells.push_back(share_cell({row.cells[c].*part, row.cells[c].cases}, red));
     }
-    d.section(std::move(heading), For::page, 3);
-    d.add(std::move(table), For::page);
+    d.section(std::move(heading), For::all, 3);
+    d.add(std::move(table));
 }
 
 void tell_flags(Document& d, const FlagsMatrix& m) {
     const std::string same = joined(columns_of(m, false), "; ", [&](std::size_t c) { return name_of(m.columns[c]); });
-    d.section("Formulas under compiler flags", For::page);
+    d.section("Formulas under compiler flags");
     d.say(fmt::format("From `./run flags`: {} cases of each of {} families, seed {}. {}. In per cent of the cases of a "
                       "formula.",
                       m.count, m.families, m.seed, fmt::join(m.compilers, "; ")),
-          Tone::soft, For::page);
-    if (!same.empty()) d.say(fmt::format("No answer changes under: {}.", same), Tone::soft, For::page);
+          Tone::soft);
+    if (!same.empty()) d.say(fmt::format("No answer changes under: {}.", same), Tone::soft);
     if (m.rows.empty() || m.columns.empty()) return;
     tell_matrix(d, m, "Answers that change by a bit or more", &FlagsMatrix::Cell::changed, false);
     tell_matrix(d, m, "Answers that get wrong", &FlagsMatrix::Cell::newly_wrong, true);
@@ -212,21 +212,17 @@ Row standing_row(const SystemsLeague::Standing& s) {
 }
 
 void tell_systems(Document& d, const SystemsLeague& league) {
-    d.section("Systems: point location and interpolation", For::page);
+    d.section("Systems: point location and interpolation");
     d.say(
         fmt::format("From `./run systems`: {} points of each set on each mesh, seed {}, held against the exact owners "
                     "and values. In per cent of the points inside, outside, and of those inside that were found. "
                     "Error: of a value, in parts of the field's range. ns: median time of a random point.",
                     league.count, league.seed),
-        Tone::soft, For::page);
+        Tone::soft);
     for (const int dimension : {3, 2}) {
-        Listing table{.columns = {{"system", true},
-                                  {"version", true},
-                                  {"inside called outside, %"},
-                                  {"outside called inside, %"},
-                                  {"owner does not contain the point, %"},
-                                  {"largest error"},
-                                  {"ns"}},
+        Listing table{.columns = {left("system"), left("version"), right("inside called outside, %"),
+                                  right("outside called inside, %"), right("owner does not contain the point, %"),
+                                  right("largest error"), right("ns")},
                       .sorts = true};
         Item failures{.title = "Without an answer, and not counted:"};
         for (const SystemsLeague::Standing& s : league.standings) {
@@ -235,9 +231,9 @@ void tell_systems(Document& d, const SystemsLeague& league) {
             for (const std::string& failure : s.failures) failures.lines.push_back({s.name + ", " + failure});
         }
         if (table.rows.empty()) continue;
-        d.section(dimension == 3 ? "On meshes of tetrahedra" : "On meshes of triangles", For::page, 3);
-        d.add(std::move(table), For::page);
-        if (!failures.lines.empty()) d.add(std::move(failures), For::page);
+        d.section(dimension == 3 ? "On meshes of tetrahedra" : "On meshes of triangles", For::all, 3);
+        d.add(std::move(table));
+        if (!failures.lines.empty()) d.add(std::move(failures));
     }
 }
 

@@ -30,23 +30,22 @@ void tell_finds(Document& d, const SearchReport& r, const TerminalStyle& style) 
     d.say(fmt::format(
         "wrong: {} % of the cases met on the way (no measure of how often: the search goes where faults are)",
         percent(r.wrong_cases, r.steps)));
-    Listing table{.columns = {{"\nfault", true, 21},
-                              {"\ncases", false, 7},
-                              {"worst:\nrelative", false, 9},
-                              {"ulps of\na weight", false, 9},
-                              {"plainest:\nrelative", false, 9, 3},
-                              {"ulps of\na weight", false, 9},
-                              {"\nbits", false, 5}}};
+    Listing table{.columns = {left("\nfault", 21),
+                              right("\ncases", 7),
+                              right("worst:\nrelative", 9),
+                              right("ulps of\na weight", 9),
+                              {.head = "plainest:\nrelative", .width = 9, .gap = 3},
+                              right("ulps of\na weight", 9),
+                              right("\nbits", 5)}};
     for (const SearchFind& f : r.finds)
         table.rows.push_back(
             {{f.reason, brief_count(f.cases), brief(f.relative_error), brief(f.weight_ulp),
               brief(f.plain_relative_error), brief(f.plain_weight_ulp), std::to_string(f.plain_bits)}});
     d.part();
     d.add(std::move(table));
-    d.say("relative: error of a weight over the largest exact weight. plainest: the same fault on coordinates of the",
-          Tone::soft);
-    d.say("fewest significant bits (of an error: at least 1/1024 of it); bits: of all its coordinates together.",
-          Tone::soft);
+    d.notes(
+        {"relative: error of a weight over the largest exact weight. plainest: the same fault on coordinates of the",
+         "fewest significant bits (of an error: at least 1/1024 of it); bits: of all its coordinates together."});
     for (const SearchFind& f : r.finds) {
         d.part();
         d.add(plain_case(r, f, style));
@@ -68,19 +67,19 @@ Document search_document(const SearchReport& r, const TerminalStyle& style) {
         d.say("no fault and no error found", Tone::good);
     else
         tell_finds(d, r, style);
-    d.data = record(
-        "schema", audit_schema, "environment", environment_json(r.environment), "kernel", r.kernel.name, "seed", r.seed,
-        "steps_asked", r.steps_asked, "steps", r.steps, "walks", r.walks, "plain_steps", r.plain_steps, "min_exponent",
-        r.min_exponent, "max_exponent", r.max_exponent, "threads", r.threads, "seconds", r.seconds, "stopped",
-        r.stopped, "given_up", r.given_up, "wrong_cases", r.wrong_cases, "finds",
-        list(r.finds,
-             [](const SearchFind& f) {
-                 return record("reason", f.reason, "cases", f.cases, "weight_ulp", magnitude(f.weight_ulp),
-                               "relative_error", magnitude(f.relative_error), "found", audit::witness_json(f.found),
-                               "plain_weight_ulp", magnitude(f.plain_weight_ulp), "plain_relative_error",
-                               magnitude(f.plain_relative_error), "plain_bits", f.plain_bits);
-             }),
-        "witnesses", list(r.finds, [](const SearchFind& f) { return audit::witness_json(f.plain); }));
+    d.data = record("schema", audit_schema, MEMBERS(r, environment), "kernel", r.kernel.name,
+                    MEMBERS(r, seed, steps_asked, steps, walks, plain_steps, min_exponent, max_exponent, threads,
+                            seconds, stopped, given_up, wrong_cases),
+                    "finds",
+                    list(r.finds,
+                         [](const SearchFind& f) {
+                             return record(MEMBERS(f, reason, cases), "weight_ulp", magnitude(f.weight_ulp),
+                                           "relative_error", magnitude(f.relative_error), "found",
+                                           audit::witness_json(f.found), "plain_weight_ulp",
+                                           magnitude(f.plain_weight_ulp), "plain_relative_error",
+                                           magnitude(f.plain_relative_error), MEMBERS(f, plain_bits));
+                         }),
+                    "witnesses", list(r.finds, [](const SearchFind& f) { return audit::witness_json(f.plain); }));
     return d;
 }
 
@@ -89,12 +88,8 @@ void tell_mutants(Document& d, const MutantReport& r) {
         return name.find("ulp") == std::string::npos ? brief_count(static_cast<std::uint64_t>(std::max(x, 0.0)))
                                                      : brief(x);
     };
-    Listing table{.columns = {{"mutant", true, 6},
-                              {"families", false, 8},
-                              {"most telling", true, 24, 2},
-                              {"by", true, 17},
-                              {"sound", false, 9},
-                              {"mutant", false, 9}}};
+    Listing table{.columns = {left("mutant", 6), right("families", 8), left("most telling", 24, 2), left("by", 17),
+                              right("sound", 9), right("mutant", 9)}};
     for (const MutantResult& m : r.mutants) {
         Row row{{m.mutant.kernel.name, fmt::format("{}/{}", m.catches.size(), m.families)}};
         if (m.catches.empty()) {
@@ -109,10 +104,9 @@ void tell_mutants(Document& d, const MutantReport& r) {
         table.rows.push_back(std::move(row));
     }
     d.add(std::move(table));
-    d.say("families: in which the mutant does worse than the sound kernel on the same cases: more wrong cases, or an",
-          Tone::soft);
-    d.say("error more than twice as large. by: the figure that tells it, of the sound kernel and of the mutant.",
-          Tone::soft);
+    d.notes(
+        {"families: in which the mutant does worse than the sound kernel on the same cases: more wrong cases, or an",
+         "error more than twice as large. by: the figure that tells it, of the sound kernel and of the mutant."});
 }
 
 /// Each family and how many mutants it catches, most first; those with one alone say which.
@@ -123,7 +117,7 @@ void tell_catches(Document& d, const MutantReport& r) {
     }
     std::vector<std::pair<std::string, std::vector<const MutantResult*>>> all(by_family.begin(), by_family.end());
     std::ranges::stable_sort(all, std::greater<>(), [](const auto& of) { return of.second.size(); });
-    Listing table{.columns = {{"family", true, 24}, {"catches", false, 4}, {"", true, 0, 2}}};
+    Listing table{.columns = {left("family", 24), right("catches", 4), left("", 0, 2)}};
     for (const auto& [family, caught] : all) {
         std::string alone = joined(caught, ", ", [](const MutantResult* m) {
             return m->catches.size() == 1 ? m->mutant.kernel.name : std::string();
@@ -146,14 +140,13 @@ Document mutants_document(const MutantReport& r) {
     d.part();
     tell_mutants(d, r);
     tell_catches(d, r);
-    d.data = record("schema", audit_schema, "environment", environment_json(r.environment), "seed", r.seed, "count",
-                    r.count, "threads", r.threads, "seconds", r.seconds, "caught", caught, "mutants",
-                    list(r.mutants, [](const MutantResult& m) {
-                        return record("name", m.mutant.kernel.name, "sound", m.mutant.sound.name, "fault",
-                                      m.mutant.fault, "change", m.mutant.change, "families", m.families, "catches",
+    d.data = record("schema", audit_schema, MEMBERS(r, environment, seed, count, threads, seconds), "caught", caught,
+                    "mutants", list(r.mutants, [](const MutantResult& m) {
+                        return record("name", m.mutant.kernel.name, "sound", m.mutant.sound.name,
+                                      MEMBERS(m.mutant, fault, change), MEMBERS(m, families), "catches",
                                       list(m.catches, [](const MutantCatch& c) {
-                                          return record("family", c.family, "figure", c.figure, "sound_figure",
-                                                        magnitude(c.sound), "mutant_figure", magnitude(c.mutant));
+                                          return record(MEMBERS(c, family, figure), "sound_figure", magnitude(c.sound),
+                                                        "mutant_figure", magnitude(c.mutant));
                                       }));
                     }));
     return d;

@@ -49,7 +49,7 @@ void tell_verdict(Document& d, const CheckReport& r, const std::string& name) {
 
 /// What must hold, and how often it does not.
 void tell_conditions(Document& d, const CheckReport& r, const Mesh& mesh) {
-    Listing table{.columns = {{"condition", true, 75}, {"violations", false, 12}}};
+    Listing table{.columns = {left("condition", 75), right("violations", 12)}};
     for (const ConditionRow& row : condition_rows(r, mesh)) {
         const std::string what =
             row.count != 0 ? (row.at_least ? ">= " : "") + std::to_string(row.count) : std::string(row.instead);
@@ -173,11 +173,8 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
 
 void tell_measures(Document& d, const CheckReport& r) {
     const auto rounded = [](double x) { return fmt::format("{:.4g}", x == 0 ? 0.0 : x); };
-    Listing table{.columns = {{"measure of a cell", true, 31},
-                              {"min", false, 11},
-                              {"median", false, 11},
-                              {"max", false, 11},
-                              {"worst cell", false, 11}}};
+    Listing table{.columns = {left("measure of a cell", 31), right("min", 11), right("median", 11), right("max", 11),
+                              right("worst cell", 11)}};
     for (const Measure& m : measures_of(r)) {
         const Distribution x = distribution(m.values);
         table.rows.push_back(x.min_cell < 0
@@ -218,9 +215,7 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
                           mesh.index_base == 1 ? " (the file itself numbers from 1)" : ""));
     tell_conditions(d, r, mesh);
     tell_defects(d, r, true, "Defects and remedies");
-    if (fixed != nullptr) {
-        for (Document::Block& block : fix_document(*fixed).blocks) d.add(std::move(block.content), For::page);
-    }
+    if (fixed != nullptr) d.append(fix_document(*fixed), For::page);
     if (drawn) d.add(Pictures{[&r, &mesh] { return exhibits(r, mesh); }}, For::page);
     tell_contacts(d, r);
     if (r.cells != 0) {

@@ -36,8 +36,7 @@ Json indices(const auto& all) {
 Json place_json(const CheckReport& r, DefectKind kind, const DefectPlace& p) {
     Json j = record("cells", indices(r.cell_number(p.cells)), "nodes", indices(p.nodes));
     if (p.other_nodes[0] >= 0) put(j, "other_nodes", indices(p.other_nodes));
-    if (kind == DefectKind::near_nodes || kind == DefectKind::near_hanging)
-        put(j, "distance", p.distance, "relative", p.relative);
+    if (kind == DefectKind::near_nodes || kind == DefectKind::near_hanging) put(j, MEMBERS(p, distance, relative));
     if (*p.detail != '\0') put(j, "detail", p.detail);
     return j;
 }
@@ -47,9 +46,8 @@ Json defects_json(const CheckReport& r) {
         const DefectText& t = defect_text(f.kind);
         Json j = record("name", t.name);
         if (!t.condition.empty()) put(j, "condition", t.condition);
-        put(j, "breaks", f.breaks(), "count", f.count, "at_least", f.at_least, "curved_cells", f.curved_cells, "text",
-            t.text, "remedy", f.remedy(), "places",
-            list(f.places, [&](const DefectPlace& p) { return place_json(r, f.kind, p); }));
+        put(j, "breaks", f.breaks(), MEMBERS(f, count, at_least, curved_cells), "text", t.text, "remedy", f.remedy(),
+            "places", list(f.places, [&](const DefectPlace& p) { return place_json(r, f.kind, p); }));
         return j;
     });
 }
@@ -82,18 +80,15 @@ Json measures_json(const CheckReport& r) {
 Json fix_json(const FixedMesh& fixed) {
     const FixReport& done = fixed.done;
     const auto differing = [](const MergedField& f) {
-        return record("name", f.name, "differ", f.differ, "largest_difference", f.max_difference);
+        return record(MEMBERS(f, name, differ), "largest_difference", f.max_difference);
     };
     return record(
-        "file", fixed.file, "merged",
-        list(done.merged, [](const MergedNode& m) { return record("node", m.node, "into", m.into, "moved", m.moved); }),
-        "dropped",
+        MEMBERS(fixed, file), "merged",
+        list(done.merged, [](const MergedNode& m) { return record(MEMBERS(m, node, into, moved)); }), "dropped",
         list(done.dropped, [](const DroppedCell& c) { return record("cell", c.cell, "why", defect_text(c.why).name); }),
-        "collapsed", done.collapsed, "turned", done.turned, "dropped_faces", done.dropped_faces, "differing_markers",
-        done.differing_markers, "differing_face_markers", done.differing_face_markers, "changed_neighbours",
-        done.changed_neighbours, "fields", list(done.fields, differing), "cell_fields",
-        list(done.cell_fields, differing), "notes", notes_json(fixed.notes), "verdict",
-        barycert::name(fixed.after.certificate.verdict()), "remaining", defects_json(fixed.after));
+        MEMBERS(done, collapsed, turned, dropped_faces, differing_markers, differing_face_markers, changed_neighbours),
+        "fields", list(done.fields, differing), "cell_fields", list(done.cell_fields, differing), MEMBERS(fixed, notes),
+        "verdict", fixed.after.certificate.verdict(), "remaining", defects_json(fixed.after));
 }
 
 /// "40 text: place; place; and 38 more. Remedy: remedy".
@@ -117,35 +112,27 @@ std::string defect_message(const CheckReport& r, const Defect& d) {
 std::string check_json(const CheckReport& r, const std::string& name, const Environment& environment,
                        const FixedMesh* fixed) {
     const ExactEnvironment exact;
-    const BoundaryReport& b = r.boundary;
-    Json j = record("schema", check_schema, "mesh", name, "curved", curved_json(r.curved), "verdict",
-                    barycert::name(r.certificate.verdict()), "dimension", r.dimension, "nodes", r.nodes, "cells",
-                    r.cells, "notes", notes_json(r.notes), "not_finite", not_finite_json(r.not_finite), "conditions",
-                    conditions_json(r), "findings", defects_json(r), "contacts",
-                    list(r.contacts, [&](const CellContact& c) { return contact_json(r, c); }), "orientation",
-                    record("positive", r.positive, "negative", r.negative, "degenerate", r.degenerate), "parts",
-                    r.parts, "boundary",
-                    record("facets", b.facets, "pieces", b.pieces, "closed", b.closed, "manifold", b.manifold,
-                           "cavities", b.cavities, "tunnels", b.tunnels),
-                    "volume", record("cells", r.volume.cells, "boundary", r.volume.boundary, "equal", r.volume.equal),
-                    "measures", measures_json(r));
+    Json j =
+        record("schema", check_schema, "mesh", name, MEMBERS(r, curved), "verdict", r.certificate.verdict(),
+               MEMBERS(r, dimension, nodes, cells, notes, not_finite), "conditions", conditions_json(r), "findings",
+               defects_json(r), "contacts", list(r.contacts, [&](const CellContact& c) { return contact_json(r, c); }),
+               "orientation", record(MEMBERS(r, positive, negative, degenerate)), MEMBERS(r, parts), "boundary",
+               record(MEMBERS(r.boundary, facets, pieces, closed, manifold, cavities, tunnels)), "volume",
+               record(MEMBERS(r.volume, cells, boundary, equal)), "measures", measures_json(r));
     if (const auto& d = r.delaunay) {
         const auto index = [](std::int64_t i) { return i < 0 ? Json() : Json(i); };
         put(j, "delaunay",
-            record("facets", d->facets, "violations", d->violations, "cospherical", d->cospherical, "worst_depth",
-                   d->worst_depth, "worst_cell", index(r.cell_number(d->worst_cell)), "worst_node",
-                   index(d->worst_node)));
+            record(MEMBERS(*d, facets, violations, cospherical, worst_depth), "worst_cell",
+                   index(r.cell_number(d->worst_cell)), "worst_node", index(d->worst_node)));
     }
     if (const auto& c = r.conformity)
         put(j, "conformity",
-            record("facets", c->facets, "exact", c->exact, "rounded", c->rounded, "violated", c->violated,
-                   "missing_vertices", c->missing_vertices, "largest_distance", c->max_distance, "relative_distance",
-                   c->relative_distance, "examples", list(c->examples, [](const ViolatedFacet& f) {
-                       return record("facet", f.facet, "covered", f.covered);
-                   })));
+            record(MEMBERS(*c, facets, exact, rounded, violated, missing_vertices), "largest_distance", c->max_distance,
+                   MEMBERS(*c, relative_distance), "examples",
+                   list(c->examples, [](const ViolatedFacet& f) { return record(MEMBERS(f, facet, covered)); })));
     if (fixed != nullptr) put(j, "fix", fix_json(*fixed));
-    put(j, "problem_bits", list(defect_texts, [](const DefectText& t) { return Json(t.name); }), "seconds", r.seconds,
-        "threads", r.threads, "environment", environment_json(environment));
+    put(j, "problem_bits", list(defect_texts, [](const DefectText& t) { return t.name; }), MEMBERS(r, seconds, threads),
+        "environment", environment);
     return base::json_text(j, 1);
 }
 

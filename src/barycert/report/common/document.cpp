@@ -100,9 +100,9 @@ public:
         std::string line = h.text;
         for (std::size_t i = 0; i < h.reasons.size(); ++i) {
             const std::size_t left = h.reasons.size() - i;
-            const std::size_t more = left == 1 ? 0 : fmt::format(", and 20 {}s", h.rest).size();
+            const std::size_t more = left == 1 ? 0 : std::string_view(", and 20 more defects").size();
             if (i > 0 && line.size() + 4 + h.reasons[i].size() + more > columns) {
-                line += ", and " + counted(left, h.rest);
+                line += ", and " + counted(left, "more defect");
                 break;
             }
             line += (i == 0 ? ": " : ", ") + h.reasons[i];

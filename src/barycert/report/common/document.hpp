@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <variant>
 
 #include "barycert/check.hpp"
@@ -26,7 +27,6 @@ struct Headline {
     std::string text = {};                    ///< "certified"
     std::vector<std::string> reasons = {};    ///< "2 cells are degenerate"
     std::vector<std::string> sentences = {};  ///< below it
-    std::string_view rest = "more defect";    ///< what reasons are called that do not fit, in the singular
 };
 
 /// A heading, above it room; on a terminal, which has the more on a screen, it may be that room alone.
@@ -64,6 +64,14 @@ struct Column {
     std::string tip = {};   ///< more of it, on a page
     For whom = For::all;
 };
+
+/// Columns of text, and of figures.
+inline Column left(std::string head, std::size_t width = 0, std::size_t gap = 1) {
+    return {std::move(head), true, width, gap};
+}
+inline Column right(std::string head, std::size_t width = 0, std::string page = {}, For whom = For::all) {
+    return {.head = std::move(head), .width = width, .page = std::move(page), .whom = whom};
+}
 
 struct Cell {
     Cell(std::string shown, std::optional<double> key = {}, Tone in = Tone::plain)  // NOLINT: text is a cell
@@ -151,13 +159,19 @@ public:
     std::vector<Block> blocks = {};
 
     void add(Content content, For whom = For::all) { blocks.push_back({std::move(content), whom}); }
-    void section(std::string heading, For whom = For::all, int level = 2) {
-        add(Section{std::move(heading), level}, whom);
+    /// All that `part` says.
+    void append(Document part, For whom) {
+        for (Block& block : part.blocks) add(std::move(block.content), whom);
     }
+    void section(std::string text, For whom = For::all, int level = 2) { add(Section{std::move(text), level}, whom); }
     /// With a heading on a page alone.
-    void part(std::string heading = {}) { add(Section{std::move(heading), 2, false}); }
+    void part(std::string text = {}) { add(Section{std::move(text), 2, false}); }
     void say(std::string text, Tone tone = Tone::plain, For whom = For::all, Breaks wrap = Breaks::none) {
         add(Paragraph{std::move(text), tone, wrap}, whom);
+    }
+    /// Below a table, what its words mean; already broken into lines.
+    void notes(std::initializer_list<std::string> lines, For whom = For::all) {
+        for (const std::string& line : lines) say(line, Tone::soft, whom);
     }
     void name(std::string name, std::string text, Tone tone = Tone::plain) {
         add(Named{std::move(name), {std::move(text)}, tone});

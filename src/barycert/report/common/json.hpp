@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "barycert/check.hpp"
@@ -30,15 +33,29 @@ inline Json magnitude(double x) {
 
 inline void put(Json& /*record*/) {}
 
-/// Adds keys and their values to a record, in turn: doubles as figure() has them, null for an optional without one.
+template <class Value, class... Rest>
+void put(Json& record, std::string_view key, const Value& value, const Rest&... rest);
+
+/// Adds what `members` adds: see MEMBERS.
+template <std::invocable<Json&> Members, class... Rest>
+void put(Json& record, const Members& members, const Rest&... rest) {
+    members(record);
+    put(record, rest...);
+}
+
+/// Adds keys and their values to a record, in turn: doubles as figure() has them, enumerators by their names, null for
+/// an optional without a value.
 template <class Value, class... Rest>
 void put(Json& record, std::string_view key, const Value& value, const Rest&... rest) {
+    Json& member = record[std::string(key)];
     if constexpr (std::is_same_v<Value, double>) {
-        record[std::string(key)] = figure(value);
+        member = figure(value);
+    } else if constexpr (std::is_enum_v<Value>) {
+        member = name(value);
     } else if constexpr (requires { value.has_value(); }) {
-        record[std::string(key)] = value.has_value() ? Json(*value) : Json(nullptr);
+        member = value.has_value() ? Json(*value) : Json(nullptr);
     } else {
-        record[std::string(key)] = value;
+        member = value;
     }
     put(record, rest...);
 }
@@ -57,28 +74,31 @@ Json list(const auto& items, auto convert) {
     return j;
 }
 
-inline Json environment_json(const Environment& e) {
-    return record("version", e.version, "rounding", e.rounding, "flush_to_zero", e.flush_to_zero, "contraction",
-                  e.contraction, "excess_precision", e.excess_precision, "simd", e.simd, "fma", e.fma, "compiler",
-                  e.compiler, "hardware_threads", e.hardware_threads);
-}
+/// Of put() and record(): members of `object`, each under its own name. A macro, as C++ has no other way to that name.
+#define MEMBERS(object, ...)                                               \
+    [&](barycert::report::Json& record_of_members) {                       \
+        const auto& with_members = object;                                 \
+        NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(PUT_MEMBER, __VA_ARGS__)) \
+    }
+#define PUT_MEMBER(member) barycert::report::put(record_of_members, #member, with_members.member);
 
-/// What was left out, converted or guessed.
-inline Json notes_json(const Notes& notes) {
-    return list(notes, [](const Note& n) { return record("kind", name(n.kind), "text", n.text, "file", n.file); });
-}
-
-/// Cells that were taken with straight sides.
-inline Json curved_json(const CurvedCells& c) {
-    return record("cells", c.cells, "max_deviation", c.max_deviation, "rounded_cells", c.rounded_cells, "max_rounded",
-                  c.max_rounded);
-}
-
-/// Fields with values that are not finite.
-inline Json not_finite_json(const std::vector<NotFinite>& fields) {
-    return list(fields, [](const NotFinite& f) {
-        return record("field", f.field, "of", f.of_cells ? "cells" : "nodes", "count", f.count, "values", f.values);
-    });
-}
+/// How a type of namespace barycert is written, alone and in lists.
+#define JSON_OF(Type, ...)                                      \
+    inline void to_json(report::Json& record, const Type& of) { \
+        report::put(record, MEMBERS(of, __VA_ARGS__));          \
+    }
 
 }  // namespace barycert::report
+
+namespace barycert {
+
+JSON_OF(Environment, version, rounding, flush_to_zero, contraction, excess_precision, simd, fma, compiler,
+        hardware_threads)
+JSON_OF(Note, kind, text, file)
+JSON_OF(CurvedCells, cells, max_deviation, rounded_cells, max_rounded)
+
+inline void to_json(report::Json& record, const NotFinite& f) {
+    report::put(record, MEMBERS(f, field), "of", f.of_cells ? "cells" : "nodes", MEMBERS(f, count, values));
+}
+
+}  // namespace barycert
