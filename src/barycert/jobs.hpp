@@ -252,8 +252,8 @@ struct VerifyJob : MeshJob {
     /// The column that is 0 outside. Empty: vtkValidPointMask, if there is one; "none": none.
     std::string mask_column;
 
-    VerifyOptions options = {};
-    bool tolerance_given = false;          ///< else 1e-6 is taken where values are single precision throughout
+    VerifyOptions options = {};             ///< but for tolerance
+    std::optional<double> tolerance = {};  ///< not set: 1e-9, or 1e-6 where values are single precision throughout
     std::vector<VerifyLimit> limits = {};  ///< empty: none of any kind
 };
 

@@ -15,39 +15,35 @@
 namespace barycert::cli {
 namespace {
 
-struct AuditArguments {
-    AuditJob job;
-    std::vector<std::string> meshes, fail_on, others;
+struct AuditArguments : Arguments<AuditJob> {
+    std::vector<std::string> meshes, others;
+    std::vector<Threshold> rules;
     bool mutants = false, wide = false;
-    Reports reports;
     const CLI::App* app = nullptr;
 };
 
 /// What can be known of files before the work.
-Status check_files(const AuditArguments& a) {
+void check_files(const AuditArguments& a) {
     std::vector<base::NamedFile> inputs = library_files(a.job.kernels);
     for (const NamedMesh& mesh : a.job.meshes) {
         for (const std::string& path : mesh_files(mesh.path)) inputs.push_back({"the mesh", path});
     }
     for (const std::string& file : a.others) inputs.push_back({"--with", file});
     if (!a.job.baseline.empty()) inputs.push_back({"--baseline", a.job.baseline});
-    if (const Status ok = a.reports.check(inputs); !ok) return ok;
+    a.reports.check(inputs);
     if (!a.others.empty() && a.reports.path("--html").empty())
-        return Error{.what = "--with needs --html", .remedy = "it adds to the page"};
-    return Done{};
+        throw Exception({.what = "--with needs --html", .remedy = "it adds to the page"});
 }
 
 /// Other options than these say something of kernels under audit, or of reports on them.
-Status check_mutants_alone(const CLI::App& sub) {
-    static constexpr std::array<std::string_view, 10> with_mutants{"MESH",       "--family",  "--oracle", "--count",
-                                                                   "--seed",     "--threads", "--json",   "--mutants",
-                                                                   "--no-check", "--quiet"};
-    for (const std::string& name : sub.count("--mutants") == 0 ? std::vector<std::string>() : given_options(sub)) {
-        if (std::find(with_mutants.begin(), with_mutants.end(), name) == with_mutants.end())
-            return Error{.what = "--mutants and " + name,
-                         .remedy = "leave " + name + " out: --mutants audits kernels of its own"};
-    }
-    return Done{};
+void check_mutants_alone(const AuditArguments& a) {
+    const std::string other = given_option(*a.app,
+                                           {"MESH", "--family", "--oracle", "--count", "--seed", "--threads", "--json",
+                                            "--mutants", "--no-check", "--quiet"},
+                                           true);
+    if (a.mutants && !other.empty())
+        throw Exception({.what = "--mutants and " + other,
+                         .remedy = "leave " + other + " out: --mutants audits kernels of its own"});
 }
 
 /// The mutation score of the families.
@@ -58,8 +54,7 @@ Told told_of(const MutantReport& report) {
 }
 
 Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const AuditReport& report,
-             const std::vector<Threshold>& rules, const BaselineComparison* comparison,
-             const std::vector<OtherResults>& others) {
+             const BaselineComparison* comparison, const std::vector<OtherResults>& others) {
     const std::string& apart = a.reports.path("--witnesses");
     const std::string witnesses = apart.empty() ? a.reports.path("--json") : apart;
     const TerminalStyle style{.colour = false,
@@ -78,7 +73,7 @@ Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const Audit
         with.others = others;
         return audit_html(report, with);
     };
-    const std::vector<Violation> broken = violations(report, rules);
+    const std::vector<Violation> broken = violations(report, a.rules);
     return {
         .files = {{"--json", [&report] { return audit_json(report); }},
                   {"--html", page},
@@ -90,50 +85,47 @@ Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const Audit
                 shown.colour = colour;
                 return audit_text(report, shown);
             },
-        .ci = [=, &report, &rules, &prepared] { return audit_outcomes(report, rules, comparison, prepared.libraries); },
+        .ci = [=, &a, &report, &prepared] { return audit_outcomes(report, a.rules, comparison, prepared.libraries); },
         .curved = report.curved,
         .failures = (comparison ? baseline_text(*comparison, prepared.baseline->path) : "") + failures_of(broken),
         .clean = broken.empty() && (comparison == nullptr || comparison->worse.empty())};
 }
 
 int run_audit(AuditArguments& a) {
-    if (const Status ok = check_mutants_alone(*a.app); !ok) return fail(ok.error());
-    const auto rules = parsed_all(a.fail_on, parse_threshold);
-    if (!rules) return fail(rules.error());
+    check_mutants_alone(a);
     const auto meshes = meshes_or_own(a.meshes);
     if (meshes) a.job.meshes = *meshes;
-    if (const Status ok = check_files(a); !ok) return fail(ok.error());
-    const auto others = parsed_all(a.others, read_other_results);
-    if (!others) return fail(others.error());
+    check_files(a);
+    std::vector<OtherResults> others;
+    for (const std::string& file : a.others) others.push_back(read_other_results(file).value());
     a.job.meshes_asked = !a.meshes.empty();
-    Result<PreparedAudit> prepared = prepare_audit(a.job);
-    if (!prepared) return fail(prepared.error());
-    if (!meshes && std::any_of(prepared->options.families.begin(), prepared->options.families.end(),
+    PreparedAudit prepared = prepare_audit(a.job).value();
+    if (!meshes && std::any_of(prepared.options.families.begin(), prepared.options.families.end(),
                                [](const Family& f) { return f.needs_mesh; }))
         return fail(meshes.error());
-    for (const Kernel& kernel : prepared->options.kernels) {
-        if (prepared->libraries.contains(kernel.name)) tell_note(prepared->libraries.at(kernel.name), kernel);
+    for (const Kernel& kernel : prepared.options.kernels) {
+        if (prepared.libraries.contains(kernel.name)) tell_note(prepared.libraries.at(kernel.name), kernel);
     }
-    if (!a.reports.is_quiet()) tell_important(prepared->notes);
+    if (!a.reports.is_quiet()) tell_important(prepared.notes);
     a.reports.begin_progress();
     Progress& progress = a.reports.progress();
-    prepared->options.progress = [&progress](const AuditProgress& p) {
+    prepared.options.progress = [&progress](const AuditProgress& p) {
         if (!progress.due()) return;
         progress.stage(fmt::format("{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
                                    p.cases_total, p.family));
     };
     if (a.mutants)
-        return a.reports.end(audit_mutants(prepared->options, prepared->meshes),
+        return a.reports.end(audit_mutants(prepared.options, prepared.meshes),
                              [](const MutantReport& report) { return told_of(report); });
     std::optional<BaselineComparison> comparison;
-    return a.reports.end(barycert::run_audit(prepared->options, prepared->meshes), [&](const AuditReport& report) {
+    return a.reports.end(barycert::run_audit(prepared.options, prepared.meshes), [&](const AuditReport& report) {
         Status compared = Done{};
-        if (prepared->baseline) {
-            auto with = compare_with_baseline(report, *prepared->baseline);
+        if (prepared.baseline) {
+            auto with = compare_with_baseline(report, *prepared.baseline);
             if (with) comparison = std::move(*with);
             if (!with) compared = with.error();
         }
-        Told told = told_of(a, *prepared, report, *rules, comparison ? &*comparison : nullptr, *others);
+        Told told = told_of(a, prepared, report, comparison ? &*comparison : nullptr, others);
         if (!compared) told.ci = {};
         told.written = compared;
         return told;
@@ -178,10 +170,10 @@ void add_audit(const Options& program) {
                    "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
     std::string names;
     for (const std::string& rule : threshold_names()) names += " " + rule;
-    o.text("--fail-on", a.fail_on,
+    o.each("--fail-on", "RULE[>NUMBER]",
            "Exit with 1 if this figure of a kernel exceeds NUMBER (0 if omitted); may be repeated. RULE is one of:" +
                names,
-           "RULE[>NUMBER]");
+           [&rules = a.rules](const std::string& text) { rules.push_back(parse_threshold(text).value()); });
     o.text("--baseline", job.baseline,
            "Compare with the --json report of an earlier audit of the same seed, count and meshes; exit with 1 if a "
            "figure got worse");
@@ -190,7 +182,7 @@ void add_audit(const Options& program) {
            "Audit kernels with seeded faults instead, and show which family catches which; exit with 1 if one is not "
            "caught");
     o.flag("--wide", a.wide, "Print all counts, the families and a witness of each kernel: 160 columns");
-    o.negative("--no-check", job.check, "Do not check whether the meshes are partitions (see `barycert check`)");
+    o.flag("--no-check", job.check, "Do not check whether the meshes are partitions (see `barycert check`)", false);
     a.reports.quiet(o, "Print no table and no progress");
 }
 

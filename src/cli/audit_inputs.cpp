@@ -59,7 +59,7 @@ void add_kernel_rules(const Options& o, KernelChoice& kernels) {
 
 void add_containment(const Options& o, KernelChoice& kernels) {
     o.number("--time-limit", kernels.seconds, 0.001, "Seconds that a kernel of yours may take for one case", "S")
-        ->capture_default_str()
+        ->default_str(base::shortest(kernels.seconds))
         ->check(CLI::Range(0.001, 1e6).description(""));
     o.flag("--in-process", kernels.in_process,
            "Run kernels of yours in this process: a crash of theirs is then one of the audit's");
@@ -82,7 +82,7 @@ void add_count(const Options& o, std::uint64_t& count, int most_bits, const std:
 }
 
 void add_seed(const Options& o, std::uint64_t& seed, const std::string& help) {
-    o.whole("--seed", seed, help)->capture_default_str();
+    o.whole("--seed", seed, help)->default_str(std::to_string(seed));
 }
 
 void tell_note(const std::string& path, const Kernel& kernel) {

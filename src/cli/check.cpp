@@ -2,18 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "barycert/base/text.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
 namespace {
 
-struct CheckArguments {
-    CheckJob job;
-    Reports reports;
-};
-
-int run_check(CheckArguments& a) {
+int run_check(Arguments<CheckJob>& a) {
     a.reports.begin(a.job);
     return a.reports.end(check_files(a.job), [&](const CheckedMesh& c) {
         const FixedMesh* const fixed = c.copied ? &*c.fixed : nullptr;
@@ -80,7 +76,7 @@ void add_check(const Options& program) {
         ->excludes(all);
     o.number("--near", job.options.near, 0,
              "Tell boundary nodes at most RATIO times the shortest boundary edge at either apart; 0: none", "RATIO")
-        ->capture_default_str();
+        ->default_str(base::shortest(job.options.near));
     o.vtk_data(job.vtk_data);
     a.reports.ci(o, "what breaks the certificate");
     a.reports.quiet(o, "Print no table and no progress");

@@ -18,16 +18,15 @@ namespace {
 
 /// Members of jobs and what is in them whose options have the same name, with - for _.
 constexpr std::string_view same_names =
-    " bounds cell_base cell_column colours columns count family field fields fix fix_orientation in_process keep "
-    "kernel kernel_library map mask_column merge_within mesh nonfinite_points onto output outside plane points range "
-    "reason results save_map seed simplex spacing step time tolerance value vtk_data weights width ";
+    " bounds cell_base cell_column colours columns count family field fields fix fix_orientation image in_process "
+    "keep kernel kernel_library map mask_column merge_within mesh nonfinite_points onto output outside plane points "
+    "range reason results save_map seed simplex spacing step time tolerance value vtk_data weights width ";
 
 /// Those whose options have another.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> other_names{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> other_names{{
     {"all", "--on-boundary"},
     {"counts", "--grid"},
     {"field_files", "--field"},
-    {"image", "--image"},
     {"measures", "--vtu"},
     {"plc", "--conforms-to"},
     {"values", "--value"},
@@ -89,10 +88,6 @@ Status write_output(const std::string& path, std::string_view bytes) {
     base::OutputFile file(path);
     file.write(bytes);
     return file.commit();
-}
-
-int exit_of(const Status& done) {
-    return done ? exit_clean : fail(done.error());
 }
 
 std::string command_name() {

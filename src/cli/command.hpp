@@ -34,9 +34,6 @@ void add_help(const Options& program);
 void add_render_contours(const Options& render);
 void add_render_tables(const Options& render);
 
-/// An Error if the word names none of the pictures of `barycert render`, and no scene (.json).
-Status check_picture_name(const std::string& word, const std::vector<std::string>& pictures);
-
 /// From now on a failed allocation in CGAL's or GMP's code, which would abort, ends the process as
 /// fail_for_want_of_memory() does, or is thrown.
 void prepare_for_want_of_memory();
@@ -45,7 +42,8 @@ void prepare_for_want_of_memory();
 /// it (a closed or full stderr) is no reason to stop.
 void tell(std::string_view text);
 
-/// "error: ..." on stderr, with the options that set the members of jobs that it names; returns exit_error.
+/// "error: ..." on stderr, with the options that set the members of jobs that it names; returns exit_error. What a
+/// subcommand throws as an Exception, as value() does, ends there, too.
 int fail(Error error);
 
 /// "note: ..." on stderr for each that may change what results mean.
@@ -53,9 +51,6 @@ void tell_important(const Notes& notes);
 
 /// Writes `bytes` to a file that appears whole or not at all; "-" is stdout.
 Status write_output(const std::string& path, std::string_view bytes);
-
-/// exit_clean, or what fail() returns.
-int exit_of(const Status& done);
 
 /// How the user calls this program, for commands to repeat: BARYCERT_COMMAND if a wrapper set it, else "barycert".
 std::string command_name();

@@ -14,11 +14,10 @@
 namespace barycert::cli {
 namespace {
 
-struct GapsArguments {
-    GapsJob job;
+struct GapsArguments : Arguments<GapsJob> {
     KernelChoice kernels;
-    std::vector<std::string> fail_on, rules;
-    Reports reports;
+    std::vector<std::string> rules;
+    std::vector<GapsLimit> limits;
 };
 
 std::string broken_limits(const GapsReport& report, const std::vector<GapsLimit>& limits) {
@@ -35,19 +34,15 @@ std::string broken_limits(const GapsReport& report, const std::vector<GapsLimit>
 }
 
 int run_gaps(GapsArguments& a) {
-    const auto limits = parsed_all(a.fail_on, parse_gaps_limit);
-    if (!limits) return fail(limits.error());
     std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(a.job.mesh));
     for (base::NamedFile& file : library_files(a.kernels)) inputs.push_back(std::move(file));
-    if (const Status ok = a.reports.check(inputs); !ok) return fail(ok.error());
-    const auto kernels = chosen_kernels(a.kernels);
-    if (!kernels) return fail(kernels.error());
-    a.job.options.kernels = *kernels;
+    a.reports.check(inputs);
+    a.job.options.kernels = chosen_kernels(a.kernels).value();
     for (const ClaimRule rule : all_claim_rules) {
         if (std::find(a.rules.begin(), a.rules.end(), name(rule)) != a.rules.end()) a.job.options.rules.push_back(rule);
     }
     return a.reports.end(gaps_file(a.job), [&](const GapsReport& report) {
-        const std::string failures = broken_limits(report, *limits);
+        const std::string failures = broken_limits(report, a.limits);
         return Told{.files = {{"--json", [&] { return gaps_json(report); }}},
                     .text = [&](bool colour) { return gaps_text(report, {.colour = colour}); },
                     .notes = report.notes,
@@ -79,11 +74,11 @@ void add_gaps(const Options& program) {
     o.curved(a.job.curved);
     o.threads(options.threads);
     a.reports.file(o, "--json", json_instead);
-    o.text("--fail-on", a.fail_on,
+    o.each("--fail-on", "FAULT[>NUMBER]",
            "Exit with 1 if a kernel has more than NUMBER (0 if omitted) such points under a rule that is shown; FAULT "
            "is gaps, several, wrong, wrong_first or outside_claimed; may be repeated",
-           "FAULT[>NUMBER]");
-    o.negative("--no-check", a.job.check, "Do not check whether the mesh is a partition (see `barycert check`)");
+           [&limits = a.limits](const std::string& text) { limits.push_back(parse_gaps_limit(text).value()); });
+    o.flag("--no-check", a.job.check, "Do not check whether the mesh is a partition (see `barycert check`)", false);
     a.reports.quiet(o, "Print no table");
 }
 

@@ -109,11 +109,8 @@ int write_pages(const CommandEntry& program, const std::string& folder) {
     std::vector<ManPage> pages = man_pages(program, "barycert " BARYCERT_VERSION, variables(), date());
     for (ManPage& page : man_pages(mesher(program), "barycert " BARYCERT_VERSION, {}, date()))
         pages.push_back(std::move(page));
-    for (const ManPage& page : pages) {
-        if (const Status written = write_output((std::filesystem::path(folder) / page.file).string(), page.text);
-            !written)
-            return fail(written.error());
-    }
+    for (const ManPage& page : pages)
+        write_output((std::filesystem::path(folder) / page.file).string(), page.text).value();
     return exit_clean;
 }
 
@@ -134,7 +131,8 @@ int explain(const CLI::App& app, const std::vector<std::string>& words) {
     const std::string text = command == &app
                                  ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal)
                                  : command->help(above);
-    return exit_of(write_output("-", text));
+    write_output("-", text).value();
+    return exit_clean;
 }
 
 int run_help(const CLI::App& app, const HelpArguments& a) {
@@ -150,7 +148,8 @@ int run_help(const CLI::App& app, const HelpArguments& a) {
     if (!pages && !script) return explain(app, a.words);
     const CommandEntry program = command_table(app, vocabulary(app));
     if (!script) return write_pages(program, a.folder);
-    return exit_of(write_output("-", a.completion(a.words.empty() ? with_names_below_help(program) : mesher(program))));
+    write_output("-", a.completion(a.words.empty() ? with_names_below_help(program) : mesher(program))).value();
+    return exit_clean;
 }
 
 }  // namespace

@@ -117,16 +117,11 @@ int run(int argc, char** argv) {
                      .found = '"' + std::string(first) + '"',
                      .remedy = base::did_you_mean(first, command_names(app), "`barycert --help` lists them")});
     }
-    // The parser would take it for a scene, and complain of the words behind it.
-    const std::string_view second = argc > 2 ? argv[2] : "";
-    if (first == "render" && !second.empty() && second.front() != '-') {
-        if (const Status named = check_picture_name(std::string(second), command_names(*app.get_subcommand("render")));
-            !named)
-            return fail(named.error());
-    }
     try {
         remember_command_line(argc, argv);
         app.parse(argc, argv);
+    } catch (const Exception& e) {
+        return fail(e.error());
     } catch (const CLI::ParseError& e) {
         if (app.exit(e) != 0) return exit_error;
         // --help and --version were printed: to a full disk, perhaps.

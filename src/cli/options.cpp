@@ -50,12 +50,12 @@ FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::
 
 }  // namespace
 
-std::vector<std::string> given_options(const CLI::App& app) {
-    std::vector<std::string> names;
+std::string given_option(const CLI::App& app, std::initializer_list<std::string_view> names, bool others) {
     for (const CLI::Option* option : app.get_options()) {
-        if (option->count() != 0) names.push_back(option->get_name());
+        const bool named = std::find(names.begin(), names.end(), option->get_name()) != names.end();
+        if (option->count() != 0 && named != others) return option->get_name();
     }
-    return names;
+    return "";
 }
 
 void refuse_option(const std::string& option, const std::string& expected, std::string_view found) {
@@ -94,23 +94,8 @@ std::string Options::told(const std::string& help) {
     return with_command_name(help);
 }
 
-CLI::Validator Options::whole_number() {
-    return {[](std::string& text) {
-                return integer_of<std::uint64_t>(text)
-                           ? std::string()
-                           : fmt::format("expected a whole number from 0 to 2^64 - 1, found \"{}\"", text);
-            },
-            ""};
-}
-
-CLI::Validator Options::finite_number(double least, bool above) {
-    return {[=](std::string& text) {
-                const auto x = finite(text);
-                if (x && (*x > least || (!above && *x == least))) return std::string();
-                return fmt::format("expected a finite number {} {}, found \"{}\"", above ? "above" : "of at least",
-                                   base::shortest(least), text);
-            },
-            ""};
+std::string finite_number(double least, bool above) {
+    return fmt::format("a finite number {} {}", above ? "above" : "of at least", base::shortest(least));
 }
 
 Options Options::below(std::string_view name, const std::string& about, const std::string& footer) const {
@@ -127,12 +112,31 @@ CLI::Option* Options::text_like(CLI::Option* option, const std::string& type, bo
     return option->type_name(type);
 }
 
+void Options::run(const std::function<int()>& work) const {
+    app_->callback([work, app = app_, code = exit_code_] {
+        if (app->get_subcommands().empty()) *code = work();
+    });
+}
+
 CLI::Option* Options::taken(const std::string& name, const std::string& type, const std::string& help,
                             const std::string& expected, const std::function<bool(const std::string&)>& take) const {
     const auto read = [=](const std::string& text) {
         if (!take(text)) refuse_option(name, expected, text);
     };
     return app_->add_option_function<std::string>(name, read, told(help))->type_name(type);
+}
+
+CLI::Option* Options::each(const std::string& name, const std::string& type, const std::string& help,
+                           const std::function<void(const std::string&)>& take) const {
+    const auto take_all = [take](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) take(text);
+    };
+    return text_like(app_->add_option_function<std::vector<std::string>>(name, take_all, told(help)), type, true);
+}
+
+CLI::Option* Options::flag(const std::string& name, bool& value, const std::string& help, bool given) const {
+    return app_->add_flag_callback(
+        name, [&value, given] { value = given; }, told(help));
 }
 
 void Options::mesh(std::string& mesh) const {
@@ -202,16 +206,12 @@ void Options::field_files(std::vector<FieldFile>& files, const std::string& eith
         (series == nullptr ? ""
                            : "; NAME@'step-*.npy': a series, one file a step in natural order, or a .pvd or "
                              ".vtu.series file. {step} in --output: a file for each step; else columns NAME@STEP");
+    const std::string type = series == nullptr ? "NAME=FILE[:COLUMN]" : "NAME=FILE[:COLUMN]|NAME@PATTERN[:COLUMN]";
     const auto add = [&](const std::string& name, FieldFile::Of of, const std::string& help) {
-        const auto take = [=, &files](const std::vector<std::string>& all) {
-            for (const std::string& text : all) {
-                const auto steps = series == nullptr ? std::nullopt : series_of(of, text);
-                steps ? series->push_back(*steps) : files.push_back(field_file_of(name, of, text));
-            }
-        };
-        app_->add_option_function<std::vector<std::string>>(name, take, help)
-            ->allow_extra_args(false)
-            ->type_name(series == nullptr ? "NAME=FILE[:COLUMN]" : "NAME=FILE[:COLUMN]|NAME@PATTERN[:COLUMN]");
+        each(name, type, help, [=, &files](const std::string& text) {
+            const auto steps = series == nullptr ? std::nullopt : series_of(of, text);
+            steps ? series->push_back(*steps) : files.push_back(field_file_of(name, of, text));
+        });
     };
     add(either, FieldFile::Of::either, any);
     add("--point-field", FieldFile::Of::points, "Like " + either + "; the rows belong to nodes");

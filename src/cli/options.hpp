@@ -7,7 +7,9 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,6 +54,9 @@ auto numbers(char separator, Read read, std::size_t least, std::size_t most = st
 /// MIN,MAX.
 std::optional<std::pair<double, double>> ends_of(std::string_view text);
 
+/// "a finite number of at least 0", or above it: what an option expects.
+std::string finite_number(double least, bool above);
+
 /// Of each item its name, a member or name(item).
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {
@@ -88,12 +93,7 @@ public:
     CLI::App& app() const { return *app_; }
 
     /// What the subcommand does; it returns the exit code. A subcommand below it does its own work instead.
-    template <class Work>
-    void run(Work work) const {
-        app_->callback([work, app = app_, code = exit_code_] {
-            if (app->get_subcommands().empty()) *code = work();
-        });
-    }
+    void run(const std::function<int()>& work) const;
 
     /// A text or, if the option may be repeated, texts. A file or mesh, by the type, is not the empty string.
     template <class Text>
@@ -101,15 +101,12 @@ public:
                       const std::string& type = "FILE") const {
         return text_like(app_->add_option(name, text, told(help)), type, !std::same_as<Text, std::string>);
     }
-    CLI::Option* flag(const std::string& name, bool& value, const std::string& help) const {
-        return app_->add_flag(name, value, told(help));
-    }
+    /// Of an option that may be repeated, each text.
+    CLI::Option* each(const std::string& name, const std::string& type, const std::string& help,
+                      const std::function<void(const std::string&)>& take) const;
 
-    /// Sets what is true without it to false.
-    CLI::Option* negative(const std::string& name, bool& value, const std::string& help) const {
-        return app_->add_flag_callback(
-            name, [&value] { value = false; }, told(help));
-    }
+    /// Sets what is not `given` without it.
+    CLI::Option* flag(const std::string& name, bool& value, const std::string& help, bool given = true) const;
 
     /// An integer from `least` to `most`; the help shows what it is without the option.
     template <class N>
@@ -120,17 +117,21 @@ public:
             ->check(CLI::Range(least, most).description(""))
             ->type_name(type);
     }
-    /// A whole number of 64 bits, all of which may be given. "-1" and 2^64 are refused: the parser takes both for
+    /// A whole number of 64 bits, all of which may be given. "-1" and 2^64 are refused: the parser would take both for
     /// 2^64 - 1.
     template <class N>
     CLI::Option* whole(const std::string& name, N& n, const std::string& help, const std::string& type = "S") const {
-        return app_->add_option(name, n, told(help))->check(whole_number())->type_name(type);
+        return parsed(name, type, help, "a whole number from 0 to 2^64 - 1", n, integer_of<std::uint64_t>);
     }
     /// A finite number of at least `least`; with `above`, more than it.
     template <class X>
     CLI::Option* number(const std::string& name, X& x, double least, const std::string& help, const std::string& type,
                         bool above = false) const {
-        return app_->add_option(name, x, told(help))->check(finite_number(least, above))->type_name(type);
+        const auto read = [=](std::string_view text) {
+            const std::optional<double> number = finite(text);
+            return number && (*number > least || (!above && *number == least)) ? number : std::nullopt;
+        };
+        return parsed(name, type, help, finite_number(least, above), x, read);
     }
     /// What take(text) reads; it returns false for what is not as `expected`.
     CLI::Option* taken(const std::string& name, const std::string& type, const std::string& help,
@@ -185,15 +186,13 @@ public:
 private:
     static std::string told(const std::string& help);
     static CLI::Option* text_like(CLI::Option* option, const std::string& type, bool several);
-    static CLI::Validator whole_number();
-    static CLI::Validator finite_number(double least, bool above);
 
     CLI::App* app_;
     int* exit_code_;
 };
 
-/// The names of the options that were given.
-std::vector<std::string> given_options(const CLI::App& app);
+/// The first option that was given and is among these; or, with `others`, that is not. Empty: none.
+std::string given_option(const CLI::App& app, std::initializer_list<std::string_view> names, bool others = false);
 
 /// Throws what the parser of options tells.
 [[noreturn]] void refuse_option(const std::string& option, const std::string& expected, std::string_view found);

@@ -9,12 +9,9 @@ namespace barycert::cli {
 namespace {
 
 constexpr const char* pictures_remedy = "`barycert render --help` lists the pictures";
+constexpr const char* picture_or_scene = "the name of a picture, or a scene (.json)";
 
-struct PictureArguments {
-    RenderJob job;
-    Reports reports{Reports::Text::summary};
-    std::vector<std::string> pictures;  ///< the names of all, beside those of a scene
-};
+using PictureArguments = Arguments<RenderJob>;
 
 int run_picture(PictureArguments& a) {
     return a.reports.summarise(a.job, render_files, render_json, render_text);
@@ -22,10 +19,7 @@ int run_picture(PictureArguments& a) {
 
 int run_scene_file(PictureArguments& a) {
     if (a.job.scene.empty())
-        return fail({.what = "nothing to draw",
-                     .expected = "the name of a picture, or a scene (.json)",
-                     .remedy = pictures_remedy});
-    if (const Status named = check_picture_name(a.job.scene, a.pictures); !named) return fail(named.error());
+        return fail({.what = "nothing to draw", .expected = picture_or_scene, .remedy = pictures_remedy});
     if (a.job.output.empty())
         return fail({.what = "--output is required", .remedy = "name the picture: --output FILE.png"});
     return run_picture(a);
@@ -98,7 +92,7 @@ void add_mesh(const Options& render) {
     o.field_files(job.field_files, "--field-file");
     o.range(job.view.range, "");
     o.camera(job.view, "");
-    o.negative("--no-bar", job.view.bar, "Draw no colour bar");
+    o.flag("--no-bar", job.view.bar, "Draw no colour bar", false);
     add_outputs(o, a);
     o.size(job.view.size);
     add_methods(o, job.view);
@@ -108,19 +102,22 @@ void add_mesh(const Options& render) {
 
 }  // namespace
 
-Status check_picture_name(const std::string& word, const std::vector<std::string>& pictures) {
-    if (word.ends_with(".json") || std::find(pictures.begin(), pictures.end(), word) != pictures.end()) return Done{};
-    return Error{.what = "no such picture",
-                 .expected = "the name of a picture, or a scene (.json)",
-                 .found = '"' + word + '"',
-                 .remedy = base::did_you_mean(word, pictures, pictures_remedy)};
-}
-
 void add_render(const Options& program) {
     const auto& [o, a] = program.command(
         "render", "Pictures of meshes and scenes, surfaces in meshes, and what the shortcuts of rasterisers cost", "",
         run_scene_file);
-    o.text("SCENE", a.job.scene, "A scene (.json)");
+    // Told before what stands behind a name that is none.
+    const auto scene = [&job = a.job, app = &o.app()](const std::string& word) {
+        const std::vector<std::string> pictures = command_names(*app);
+        if (!word.ends_with(".json") && std::find(pictures.begin(), pictures.end(), word) == pictures.end())
+            throw Exception({.what = "no such picture",
+                             .expected = picture_or_scene,
+                             .found = '"' + word + '"',
+                             .remedy = base::did_you_mean(word, pictures, pictures_remedy)});
+        job.scene = word;
+        return true;
+    };
+    o.taken("SCENE", "FILE", "A scene (.json)", picture_or_scene, scene);
     add_outputs(o, a, false);
     add_picture(o, PictureKind::gradient, {400, 400}, "A triangle with a red, a green and a blue corner");
     add_picture(o, PictureKind::texture, {400, 400}, "A picture on a square or a triangle", add_texture);
@@ -135,7 +132,6 @@ void add_render(const Options& program) {
 #ifdef BARYCERT_WITH_AUDIT
     add_render_tables(o);
 #endif
-    a.pictures = command_names(o.app());
     o.app().require_subcommand(0, 1);
     // After the pictures, which would take it over.
     o.app().footer(with_command_name(

@@ -14,9 +14,7 @@
 namespace barycert::cli {
 namespace {
 
-struct ContourArguments {
-    ContourJob job;
-    Reports reports{Reports::Text::summary};
+struct ContourArguments : Arguments<ContourJob> {
     std::vector<double> ends, values;  ///< of --segment, end after end, and --values
     const CLI::App* app = nullptr;
 };
@@ -34,18 +32,10 @@ void add_contour_options(const Options& o, ContourArguments& a) {
     a.reports.quiet(o, "Print no summary and no progress");
 }
 
-/// Refuses options of pictures that were given, where the output is a surface.
-Status check_picture_only(const ContourArguments& a) {
-    for (const std::string& name : given_options(*a.app)) {
-        const bool picture = name == "--azimuth" || name == "--elevation" || name == "--size" || name == "--width";
-        if (picture && !a.job.output.empty() && !io::has_suffix(a.job.output, ".png"))
-            return Error{.what = name + " is for pictures", .remedy = "leave it out, or name a .png file"};
-    }
-    return Done{};
-}
-
 int run_contour(ContourArguments& a) {
-    if (const Status ok = check_picture_only(a); !ok) return fail(ok.error());
+    const std::string of_picture = given_option(*a.app, {"--azimuth", "--elevation", "--size", "--width"});
+    if (!of_picture.empty() && !a.job.output.empty() && !io::has_suffix(a.job.output, ".png"))
+        return fail({.what = of_picture + " is for pictures", .remedy = "leave it out, or name a .png file"});
     return a.reports.summarise(a.job, contour_files, contour_json, contour_text);
 }
 
@@ -64,39 +54,35 @@ void add_segment(const Options& o, ContourArguments& a) {
              numbers(',', finite, 2, 2));
 }
 
-/// t and the point, on one line. `of_mesh`: an option that was given and has no meaning for a segment.
-int on_segment(const ContourArguments& a, const std::string& of_mesh) {
+/// t and the point, on one line.
+int on_segment(const ContourArguments& a) {
     if (a.values.empty() || !a.job.value)
         return fail({.what = "--segment needs the values at its ends and the one to look for",
                      .expected = "--values FA,FB --value V"});
     if (!a.job.mesh.empty()) return fail({.what = "--segment cannot be combined with a mesh", .found = a.job.mesh});
+    const std::string of_mesh = given_option(*a.app, {"--segment", "--values", "--value"}, true);
     if (!of_mesh.empty()) return fail({.what = "--segment cannot be combined with " + of_mesh});
     const std::size_t d = a.ends.size() / 2;
     const std::span<const double> ends(a.ends);
     std::vector<double> point(d);
-    const auto t = point_of_value(ends.first(d), ends.subspan(d), a.values[0], a.values[1], *a.job.value, point);
-    if (!t) return fail(t.error());
+    const Parameter t =
+        point_of_value(ends.first(d), ends.subspan(d), a.values[0], a.values[1], *a.job.value, point).value();
     std::string text;
-    if (t->undetermined) {
+    if (t.undetermined) {
         const bool all = a.values[0] == *a.job.value;
         text = fmt::format("undetermined: both ends have the value {}: {}\n", base::shortest(a.values[0]),
                            all ? "so has every point" : "no point has the one looked for");
     } else {
-        text = "t " + base::shortest(t->t) + "\npoint ";
+        text = "t " + base::shortest(t.t) + "\npoint ";
         for (std::size_t k = 0; k < d; ++k) text += (k == 0 ? "" : ",") + base::shortest(point[k]);
-        text += t->t < 0 || t->t > 1 ? "\noutside the segment, on its line\n" : "\n";
+        text += t.t < 0 || t.t > 1 ? "\noutside the segment, on its line\n" : "\n";
     }
-    return exit_of(write_output("-", text));
+    write_output("-", text).value();
+    return exit_clean;
 }
 
 int run_iso(ContourArguments& a) {
-    if (const Status ok = check_picture_only(a); !ok) return fail(ok.error());
-    std::string of_mesh;
-    for (const std::string& name : given_options(*a.app)) {
-        const bool of_segment = name == "--segment" || name == "--values" || name == "--value";
-        if (!of_segment && name.starts_with('-')) of_mesh = name;
-    }
-    if (!a.ends.empty()) return on_segment(a, of_mesh);
+    if (!a.ends.empty()) return on_segment(a);
     if (!a.values.empty()) return fail({.what = "--values needs --segment"});
     if (a.job.mesh.empty() || a.job.field.empty() || !a.job.value || a.job.output.empty())
         return fail({.what = "something is missing",

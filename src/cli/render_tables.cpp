@@ -21,13 +21,11 @@ int run_drift(TableArguments& a) {
                      .expected = "a name that ends in .svg",
                      .found = '"' + plot + '"',
                      .remedy = "browsers and most programs show SVG"});
-    if (const Status ok = a.reports.check(library_files(a.kernels)); !ok) return fail(ok.error());
+    a.reports.check(library_files(a.kernels));
     if (a.kernels.names.empty() && a.kernels.libraries.empty())
         a.kernels.names = {"triangle.scanline-increments.float32", "triangle.scanline-increments", "triangle.bilinear",
                            "triangle.signed-area", "triangle.exact"};
-    const auto kernels = chosen_kernels(a.kernels);
-    if (!kernels) return fail(kernels.error());
-    const DriftOptions options{.kernels = *kernels, .count = a.count, .seed = a.seed};
+    const DriftOptions options{.kernels = chosen_kernels(a.kernels).value(), .count = a.count, .seed = a.seed};
     return a.reports.end(measure_drift(options), [](const DriftReport& report) {
         return Told{
             .files = {{"--json", [&] { return drift_json(report); }}, {"--output", [&] { return drift_plot(report); }}},

@@ -41,49 +41,45 @@ std::string where_none_matches(const CaseJob& wanted, const std::vector<Witness>
 }
 
 /// What contradicts itself.
-Status check_arguments(const ReplayArguments& a) {
+void check_arguments(const ReplayArguments& a) {
     if (a.file.empty() == a.made.family.empty())
-        return Error{.what = a.file.empty() ? "no case to replay" : "a witness file and a case",
-                     .expected = "either a witness file, or --family and --case"};
-    if (!a.made.family.empty() && !a.index) return Error{.what = "--family needs --case"};
-    for (const std::string& name : given_options(*a.app)) {
-        if (!a.file.empty() && (name == "--case" || name == "--seed" || name == "--simplex"))
-            return Error{.what = name + " is for a case that is generated",
-                         .expected = "a witness file without it, or --family and --case"};
-    }
+        throw Exception({.what = a.file.empty() ? "no case to replay" : "a witness file and a case",
+                         .expected = "either a witness file, or --family and --case"});
+    if (!a.made.family.empty() && !a.index) throw Exception({.what = "--family needs --case"});
+    const std::string of_case = given_option(*a.app, {"--case", "--seed", "--simplex"});
+    if (!a.file.empty() && !of_case.empty())
+        throw Exception({.what = of_case + " is for a case that is generated",
+                         .expected = "a witness file without it, or --family and --case"});
     if (std::error_code ignored; std::filesystem::is_directory(a.file, ignored))
-        return Error{.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"};
-    return Done{};
+        throw Exception(
+            {.what = "cannot read the witnesses", .file = a.file, .expected = "a file", .found = "a folder"});
 }
 
 /// Those of the file, or the one that --family and --case describe, made again.
-Result<std::vector<Witness>> witnesses_of(ReplayArguments& a, const std::vector<Kernel>& kernels) {
-    if (!a.file.empty()) return read_witnesses(a.file);
+std::vector<Witness> witnesses_of(ReplayArguments& a, const std::vector<Kernel>& kernels) {
+    if (!a.file.empty()) return read_witnesses(a.file).value();
     a.made.index = *a.index;
     // Where they are missing, it is told only if the family draws from meshes.
     const auto meshes = meshes_or_own(a.meshes);
     if (meshes) a.made.meshes = *meshes;
-    const Result<Witness> made = make_witness(a.made, kernels);
-    if (!made) return !meshes && made.error().what.starts_with("no mesh supplies") ? meshes.error() : made.error();
-    return std::vector<Witness>{*made};
+    Result<Witness> made = make_witness(a.made, kernels);
+    if (!made && !meshes && made.error().what.starts_with("no mesh supplies")) throw Exception(meshes.error());
+    return {std::move(made).value()};
 }
 
 int run_replay(ReplayArguments& a) {
-    const Result<std::vector<Kernel>> kernels = chosen_kernels(a.kernels);
-    if (!kernels) return fail(kernels.error());
-    if (const Status ok = check_arguments(a); !ok) return fail(ok.error());
-    const auto witnesses = witnesses_of(a, *kernels);
-    if (!witnesses) return fail(witnesses.error());
+    const std::vector<Kernel> kernels = chosen_kernels(a.kernels).value();
+    check_arguments(a);
+    const std::vector<Witness> witnesses = witnesses_of(a, kernels);
     bool any = false, all_reproduced = true;
     const TerminalStyle style{.colour = colour_on_stdout(), .command = command_name()};
-    for (const Witness& w : *witnesses) {
+    for (const Witness& w : witnesses) {
         const CaseJob& wanted = a.made;
         if (!a.file.empty() && !wanted.kernel.empty() && !base::glob_match(wanted.kernel, w.kernel)) continue;
         if (!a.file.empty() && !wanted.reason.empty() && !base::glob_match(wanted.reason, w.reason)) continue;
-        const Replay replay = replay_witness(w, *kernels);
+        const Replay replay = replay_witness(w, kernels);
         const std::string above = any ? "\n" : environment_line(measure_environment()) + "\n\n";
-        const Status written = write_output("-", above + witness_text(replay, style, a.all));
-        if (!written) return fail(written.error());
+        write_output("-", above + witness_text(replay, style, a.all)).value();
         any = true;
         if (replay.not_reproduced.empty()) continue;
         tell(base::printable(fmt::format("not reproduced: {} of {}: {}", w.reason, w.kernel, replay.not_reproduced)) +
@@ -91,7 +87,7 @@ int run_replay(ReplayArguments& a) {
         all_reproduced = false;
     }
     if (!any)
-        return fail({.what = "no witness matches", .file = a.file, .remedy = where_none_matches(a.made, *witnesses)});
+        return fail({.what = "no witness matches", .file = a.file, .remedy = where_none_matches(a.made, witnesses)});
     return all_reproduced ? exit_clean : exit_findings;
 }
 

@@ -26,15 +26,14 @@ void Progress::clear() {
     shown_ = false;
 }
 
-void Reports::file(const Options& o, const char* option, const char* help) {
+void Reports::file(const Options& o, const char* option, const std::string& help) {
     files_.push_back({option, ""});
     o.text(option, files_.back().path, help);
 }
 
 void Reports::ci(const Options& o, const std::string& failures) {
-    o.text("--junit", junit_, "Write " + failures + " as failures in JUnit XML; - is stdout and suppresses the table");
-    o.text("--sarif", sarif_,
-           "Write all that was found as SARIF 2.1.0, " + failures + " as errors; - is stdout likewise");
+    file(o, "--junit", "Write " + failures + " as failures in JUnit XML; - is stdout and suppresses the table");
+    file(o, "--sarif", "Write all that was found as SARIF 2.1.0, " + failures + " as errors; - is stdout likewise");
     o.flag("--annotations", annotations_,
            "Print " + failures + " as annotations of GitHub's workflows, after the table");
 }
@@ -49,29 +48,27 @@ bool Reports::any_file() const {
     return std::any_of(files_.begin(), files_.end(), [](const File& f) { return !f.path.empty(); });
 }
 
-bool Reports::stdout_taken() const {
-    return junit_ == "-" || sarif_ == "-" || (rows_ != nullptr && *rows_ == "-") ||
-           std::any_of(files_.begin(), files_.end(), [](const File& f) { return f.path == "-"; });
+bool Reports::table() const {
+    const bool rows = rows_ != nullptr && *rows_ == "-";
+    return !quiet_ && !rows && std::none_of(files_.begin(), files_.end(), [](const File& f) { return f.path == "-"; });
 }
 
 std::vector<std::pair<std::string, std::string>> Reports::outputs() const {
     std::vector<std::pair<std::string, std::string>> all;
     for (const File& f : files_) all.emplace_back(f.option, f.path);
-    all.emplace_back("--junit", junit_);
-    all.emplace_back("--sarif", sarif_);
     // Annotations follow the table; without one stdout is theirs alone.
     if (table()) {
-        all.emplace_back(text_ == Text::table ? "the table" : "the summary", "-");
+        all.emplace_back(summary_ ? "the summary" : "the table", "-");
     } else if (annotations_) {
         all.emplace_back("--annotations", "-");
     }
     return all;
 }
 
-Status Reports::check(const std::vector<base::NamedFile>& inputs) const {
+void Reports::check(const std::vector<base::NamedFile>& inputs) const {
     std::vector<base::NamedFile> files;
     for (const auto& [what, path] : outputs()) files.push_back({what, path});
-    return base::check_outputs(inputs, std::move(files));
+    base::check_outputs(inputs, std::move(files)).value();
 }
 
 void Reports::begin(MeshJob& job) {
@@ -87,10 +84,14 @@ void Reports::begin(MeshJob& job) {
 void Reports::begin_progress() {
     // Rows on the same terminal would run into the progress.
     const bool rows_on_terminal = rows_ != nullptr && *rows_ == "-" && isatty(STDOUT_FILENO) == 1;
-    progress_.begin(!quiet_ && stderr_is_terminal() && !rows_on_terminal);
+    progress_.begin(!quiet_ && isatty(STDERR_FILENO) == 1 && !rows_on_terminal);
 }
 
-int Reports::write(const Told& told) {
+int Reports::write(Told told) {
+    if (told.ci) {
+        told.files["--junit"] = [&] { return ci_junit(told.ci()); };
+        told.files["--sarif"] = [&] { return ci_sarif(told.ci()); };
+    }
     std::vector<Status> done{told.written};
     for (const File& f : files_) {
         const auto made = told.files.find(f.option);
@@ -101,25 +102,19 @@ int Reports::write(const Told& told) {
     if (!quiet_) tell_important(told.notes);
     if (table()) {
         done.push_back(write_output("-", told.text(colour_on_stdout())));
-    } else if (!quiet_ && text_ == Text::summary) {
+    } else if (!quiet_ && summary_) {
         tell(told.text(false));
     } else if (!quiet_) {
         for (const CurvedCells& curved : told.curved) {
             if (curved.cells != 0) tell(fmt::format("note: {}\n", message(curved)));
         }
     }
-    if (told.ci && !junit_.empty()) done.push_back(write_output(junit_, ci_junit(told.ci())));
-    if (told.ci && !sarif_.empty()) done.push_back(write_output(sarif_, ci_sarif(told.ci())));
     if (told.ci && annotations_) done.push_back(write_output("-", ci_annotations(told.ci())));
     for (const Status& status : done) {
         if (!status) return fail(status.error());
     }
     tell(told.failures);
     return told.clean ? exit_clean : exit_findings;
-}
-
-bool stderr_is_terminal() {
-    return isatty(STDERR_FILENO) == 1;
 }
 
 bool colour_on_stdout() {

@@ -7,7 +7,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -51,13 +50,8 @@ struct Told {
 /// The options of reports, and all that is done with them.
 class Reports {
 public:
-    /// What text is on stdout: a table, which stands aside for a report on stdout; or a summary, which goes to stderr
-    /// then.
-    enum class Text { table, summary };
-    explicit Reports(Text text = Text::table) : text_(text) {}
-
     // Declared in the order of the help.
-    void file(const Options& o, const char* option, const char* help);
+    void file(const Options& o, const char* option, const std::string& help);
     /// --junit, --sarif, --annotations. `failures`: what is reported as failed, as in "broken rules".
     void ci(const Options& o, const std::string& failures);
     void quiet(const Options& o, const char* help) { o.flag("--quiet", quiet_, help); }
@@ -66,13 +60,11 @@ public:
     void rows(const std::string& path) { rows_ = &path; }
 
     bool is_quiet() const { return quiet_; }
-    bool table() const { return !quiet_ && !stdout_taken(); }
     bool any_file() const;
     const std::string& path(std::string_view option) const;
 
-    /// All outputs, after what their user calls them: for the job, or to be checked here.
-    std::vector<std::pair<std::string, std::string>> outputs() const;
-    Status check(const std::vector<base::NamedFile>& inputs) const;
+    /// Throws where an output is one of these, or cannot be written.
+    void check(const std::vector<base::NamedFile>& inputs) const;
 
     /// Tells the job of the reports, and how the program is called; its progress is shown from now on.
     void begin(MeshJob& job);
@@ -81,7 +73,7 @@ public:
 
     /// Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
     /// the user the others, the fruit of the whole run. Returns the exit code.
-    int write(const Told& told);
+    int write(Told told);
 
     /// The end of a job: its error, or its report by told(report), with options in the notes.
     template <class Report, class Tell>
@@ -98,6 +90,7 @@ public:
     template <class Job, class Report>
     int summarise(Job& job, Result<Report> (*files)(const Job&), std::string (*json)(const Report&, const Environment&),
                   std::string (*text)(const Report&, bool)) {
+        summary_ = true;
         begin(job);
         return end(files(job), [&](const Report& report) {
             return Told{.files = {{"--json", [&] { return json(report, measure_environment()); }}},
@@ -110,33 +103,25 @@ private:
     struct File {
         std::string option, path;
     };
-    bool stdout_taken() const;
+    bool table() const;
+    std::vector<std::pair<std::string, std::string>> outputs() const;
 
-    Text text_;
     std::deque<File> files_;  // options refer to the paths
-    std::string junit_, sarif_;
     bool annotations_ = false, quiet_ = false;
+    bool summary_ = false;  ///< a table stands aside for a report on stdout; a summary goes to stderr then
     const std::string* rows_ = nullptr;
     Progress progress_;
 };
 
-bool stderr_is_terminal();
+/// What most subcommands are given.
+template <class Job>
+struct Arguments {
+    Job job;
+    Reports reports;
+};
 
 /// True if text for people on stdout may be coloured: a terminal, and NO_COLOR is not set.
 bool colour_on_stdout();
-
-/// What parse(text) makes of each text, or its first error.
-template <class Parse>
-auto parsed_all(const std::vector<std::string>& texts, Parse parse)
-    -> Result<std::vector<std::decay_t<decltype(*parse(texts.front()))>>> {
-    std::vector<std::decay_t<decltype(*parse(texts.front()))>> all;
-    for (const std::string& text : texts) {
-        auto one = parse(text);
-        if (!one) return one.error();
-        all.push_back(std::move(*one));
-    }
-    return all;
-}
 
 /// "fails: WHAT = VALUE, limit LIMIT", a line.
 std::string failure(const std::string& what, const std::string& value, const std::string& limit);

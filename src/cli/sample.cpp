@@ -11,12 +11,6 @@
 namespace barycert::cli {
 namespace {
 
-template <class Job>
-struct SamplingArguments {
-    Job job;
-    Reports reports{Reports::Text::summary};
-};
-
 /// The number after `word=`; nothing if the text is something else.
 std::optional<double> number_after(std::string_view word, std::string_view text) {
     if (!text.starts_with(word) || text.substr(word.size(), 1) != "=") return std::nullopt;
@@ -71,7 +65,7 @@ void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) 
 }
 
 template <class Job, Result<SampleReport> (*files)(const Job&)>
-int run_sampling(SamplingArguments<Job>& a) {
+int run_sampling(Arguments<Job>& a) {
     a.job.count_degenerate = !a.reports.is_quiet() || a.reports.any_file();
     return a.reports.summarise(a.job, files, sample_json, sample_text);
 }

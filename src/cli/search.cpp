@@ -18,7 +18,8 @@ struct SearchArguments {
     SearchOptions options;
     KernelChoice kernel;
     std::string name, library;
-    std::vector<std::string> families, fail_on;
+    std::vector<std::string> families;
+    std::vector<Threshold> rules;
     Reports reports;
 };
 
@@ -71,21 +72,15 @@ Result<SearchReport> search(SearchArguments& a) {
 }
 
 int run_search(SearchArguments& a) {
-    const auto rules = parsed_all(a.fail_on, parse_threshold);
-    if (!rules) return fail(rules.error());
-    if (const Status ok = check_search_rules(*rules); !ok) return fail(ok.error());
+    check_search_rules(a.rules).value();
     if (!a.name.empty()) a.kernel.names = {a.name};
     if (!a.library.empty()) a.kernel.libraries = {a.library};
-    if (const Status ok = a.reports.check(library_files(a.kernel)); !ok) return fail(ok.error());
-    const Result<Kernel> kernel = choose_kernel(a.kernel);
-    if (!kernel) return fail(kernel.error());
-    tell_note(a.library, *kernel);
-    a.options.kernel = *kernel;
-    const auto families = choose_families(a.families);
-    if (!families) return fail(families.error());
-    a.options.families = *families;
+    a.reports.check(library_files(a.kernel));
+    a.options.kernel = choose_kernel(a.kernel).value();
+    tell_note(a.library, a.options.kernel);
+    a.options.families = choose_families(a.families).value();
     return a.reports.end(search(a), [&](const SearchReport& report) {
-        const std::vector<Violation> broken = violations(report, *rules);
+        const std::vector<Violation> broken = violations(report, a.rules);
         return Told{.files = {{"--json", [&] { return search_json(report); }},
                               {"--witnesses", [&] { return witnesses_json(report); }}},
                     .text =
@@ -128,10 +123,10 @@ void add_search(const Options& program) {
     o.threads(options.threads);
     a.reports.file(o, "--json", json_instead);
     a.reports.file(o, "--witnesses", "Write the plainest cases as JSON, for `barycert replay`; - is stdout");
-    o.text("--fail-on", a.fail_on,
+    o.each("--fail-on", "RULE[>NUMBER]",
            "Exit with 1 if RULE exceeds NUMBER (0 if omitted): any, a class of finding (cases), worst_weight_ulp, "
            "worst_value_ulp; may be repeated",
-           "RULE[>NUMBER]");
+           [&rules = a.rules](const std::string& text) { rules.push_back(parse_threshold(text).value()); });
     a.reports.quiet(o, "Print no table and no progress");
 }
 

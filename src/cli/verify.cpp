@@ -8,22 +8,7 @@
 namespace barycert::cli {
 namespace {
 
-struct VerifyArguments {
-    VerifyJob job;
-    std::vector<std::string> values, fail_on;
-    Reports reports;
-    CLI::Option* tolerance = nullptr;
-};
-
-int run_verify(VerifyArguments& a) {
-    auto limits = parsed_all(a.fail_on, parse_verify_limit);
-    if (!limits) return fail(limits.error());
-    a.job.limits = *limits;
-    a.job.tolerance_given = a.tolerance->count() != 0;
-    for (const std::string& text : a.values) {
-        const auto [field, column] = assignment("--value", "FIELD=COLUMN", text);
-        a.job.values[field] = column;
-    }
+int run_verify(Arguments<VerifyJob>& a) {
     a.reports.begin(a.job);
     return a.reports.end(verify_files(a.job), [&](const VerifyReport& r) {
         const Environment environment = measure_environment();
@@ -35,11 +20,9 @@ int run_verify(VerifyArguments& a) {
                   .notes = r.notes,
                   .curved = {r.curved},
                   .clean = failures.empty()};
-        for (const VerifyLimit& limit : failures) {
-            if (!a.fail_on.empty())
-                told.failures += failure(fmt::format("{}: {}", base::printable(r.results), handle(limit.verdict)),
-                                         std::to_string(r.verdicts.of(limit.verdict)), std::to_string(limit.most));
-        }
+        for (const VerifyLimit& limit : a.job.limits.empty() ? std::vector<VerifyLimit>() : failures)
+            told.failures += failure(fmt::format("{}: {}", base::printable(r.results), handle(limit.verdict)),
+                                     std::to_string(r.verdicts.of(limit.verdict)), std::to_string(limit.most));
         return told;
     });
 }
@@ -68,7 +51,12 @@ void add_verify(const Options& program) {
            "Fields to compare, or what is made of them, as sample names it: A,B.x,|C|,...; default: those that the "
            "results have",
            "NAMES");
-    o.text("--value", a.values, "The column of the results for a value of the mesh (T, v.0, ...)", "FIELD=COLUMN");
+    constexpr const char* value = "FIELD=COLUMN";
+    o.each("--value", value, "The column of the results for a value of the mesh (T, v.0, ...)",
+           [&job](const std::string& text) {
+               auto [field, column] = assignment("--value", value, text);
+               job.values[field] = std::move(column);
+           });
     o.text("--columns", job.columns, "Columns of the coordinates: names, or numbers from 1; default: x,y,z", "A,B,C");
     o.text("--cell-column", job.cell_column, "Column with the cell of each point; default: cell; none: none", "NAME");
     o.integer("--cell-base", job.cell_base, 0, 1, "Number of the first cell in that column", "0|1");
@@ -79,19 +67,19 @@ void add_verify(const Options& program) {
                     "A row whose values are all this number is outside (tools that turn outside into 0)")
         ->type_name("NUMBER");
     o.nonfinite(job.options.nonfinite_points);
-    a.tolerance =
-        o.number("--tolerance", job.options.tolerance, 0,
+    auto* const tolerance =
+        o.number("--tolerance", job.tolerance, 0,
                  "Largest error of a right value, in parts of the range of its field (where that is 0 of the "
                  "magnitude, and of 1 where the field is 0); default: 1e-9, or 1e-6 where all values are single "
                  "precision",
                  "T");
     o.flag("--exact", job.options.exact, "Right is only the exact value, rounded once, to the last bit")
-        ->excludes(a.tolerance);
+        ->excludes(tolerance);
     o.integer<std::size_t>("--examples", job.options.examples, 0, 100000, "Number of rows shown of each kind of error");
-    o.text("--fail-on", a.fail_on,
+    o.each("--fail-on", "KIND[>NUMBER]",
            "Exit with 1 only if there are more than NUMBER (0 if omitted) such rows; KIND is missed, invented, "
            "wrong_cell or wrong_value; several with commas, or repeated",
-           "KIND[>NUMBER]")
+           [&job](const std::string& text) { job.limits.push_back(parse_verify_limit(text).value()); })
         ->delimiter(',');
     o.curved(job.curved);
     o.threads(job.options.threads);

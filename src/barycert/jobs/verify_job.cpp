@@ -175,7 +175,8 @@ private:
 
     /// Single precision is told by the first block.
     void choose_tolerance(const ResultBlock& first, VerifyOptions& options) {
-        if (job_.tolerance_given || options.exact) return;
+        if (job_.tolerance) options.tolerance = *job_.tolerance;
+        if (job_.tolerance || options.exact) return;
         const auto claims = jobs::claims_of(columns_, first.columns, mesh_, job_, 0);
         if (!claims) return;
         cut_ = are_cut_to_six_digits(*claims);
