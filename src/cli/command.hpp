@@ -16,6 +16,9 @@ inline constexpr int exit_error = 2;
 
 class Options;
 
+/// Declares the subcommands of an executable, by those below: of barycert all, of barycert-audit the audit's.
+void add_subcommands(const Options& program);
+
 /// Each declares its subcommand below the program.
 void add_audit(const Options& program);
 void add_gaps(const Options& program);

@@ -85,20 +85,7 @@ int run(int argc, char** argv) {
     });
     int exit_code = exit_clean;
     const Options program(app, exit_code);
-#ifdef BARYCERT_WITH_AUDIT
-    add_audit(program);
-    add_gaps(program);
-#endif
-    add_check(program);
-    add_sample(program);
-    add_resample(program);
-    add_verify(program);
-    add_render(program);
-#ifdef BARYCERT_WITH_AUDIT
-    add_search(program);
-    add_replay(program);
-    add_catalogue(program);
-#endif
+    add_subcommands(program);
     // Its options are those of barycert-tetgen, for help and completions; main() has handed all else over.
     auto* mesh =
         app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
