@@ -42,8 +42,7 @@ std::string example(const TableColumns& all, int dimension, std::size_t first) {
 
 [[noreturn]] void refuse(const TableColumns& all, std::string what, std::string expected, std::string found,
                          std::string remedy) {
-    throw Exception(
-        line_error(all.file, all.line, std::move(what), std::move(expected), std::move(found), std::move(remedy)));
+    refuse_line(all.file, all.line, std::move(what), std::move(expected), std::move(found), std::move(remedy));
 }
 
 /// The column of exactly that name; names.size() if there is none.

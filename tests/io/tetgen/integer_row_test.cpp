@@ -1,5 +1,5 @@
 // The fast row against the general scanner: it may say "don't know", and never anything else than the scanner says.
-#include "barycert/io/tetgen/integer_row.hpp"
+#include "barycert/io/tetgen/scanner.hpp"
 
 #include <string>
 

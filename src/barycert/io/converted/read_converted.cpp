@@ -42,7 +42,9 @@ struct Pipe {
     base::Descriptor out, in;
     Pipe() {
         std::array<int, 2> ends{-1, -1};
-        if (::pipe2(ends.data(), O_CLOEXEC) == 0) out.number = ends[0], in.number = ends[1];
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
+        out.number = ends[0];
+        in.number = ends[1];
     }
 };
 

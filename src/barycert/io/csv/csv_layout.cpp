@@ -89,10 +89,8 @@ CsvLine cut_first_line(std::string_view line, const LinePlace& place) {
     CsvLine out{.separator = separator_of(line)};
     FieldCutter cutter(line, out.separator);
     for (std::string_view field; cutter.next(field);) out.fields.push_back(cutter.name(field));
-    if (!cutter.malformed()) return out;
-    CsvLayout layout;
-    layout.separator = out.separator;
-    throw Exception(csv_row_error(line, layout, place));
+    if (cutter.malformed()) throw Exception(csv_row_error({CsvFault::Kind::open_quote, line}, {}, place));
+    return out;
 }
 
 CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOptions& options, const LinePlace& place) {

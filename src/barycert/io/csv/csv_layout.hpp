@@ -31,15 +31,26 @@ public:
         skip_blanks();
         if (separator_ == ' ' && at_ == end_) return more_ = false;
         quoted_ = at_ != end_ && *at_ == '"';
-        if (quoted_) return next_quoted(field);
-        const char* const start = at_;
-        if (separator_ == ' ') {
-            while (at_ != end_ && !is_blank(*at_)) ++at_;
+        const char* const start = quoted_ ? ++at_ : at_;
+        const char* stop = nullptr;
+        if (quoted_) {
+            while (at_ != end_ && (*at_ != '"' || (at_ + 1 != end_ && at_[1] == '"'))) at_ += *at_ == '"' ? 2 : 1;
+            malformed_ = at_ == end_;
+            if (malformed_) return more_ = false;
+            stop = at_++;
+            if (separator_ != ' ') skip_blanks();
         } else {
-            while (at_ != end_ && *at_ != separator_) ++at_;
+            while (at_ != end_ && !separates(*at_)) ++at_;
+            stop = at_;
         }
-        field = without_blanks_after(start, at_);
-        pass_separator();
+        more_ = at_ != end_;
+        malformed_ = more_ && !separates(*at_);
+        if (malformed_) return more_ = false;
+        if (more_) ++at_;
+        inside_ = {start, static_cast<std::size_t>(stop - start)};
+        field = inside_;
+        while (!field.empty() && is_blank(field.front())) field.remove_prefix(1);
+        while (!field.empty() && is_blank(field.back())) field.remove_suffix(1);
         return true;
     }
 
@@ -70,37 +81,7 @@ private:
         while (at_ != end_ && is_blank(*at_)) ++at_;
     }
 
-    std::string_view without_blanks_after(const char* start, const char* stop) const {
-        while (stop != start && is_blank(stop[-1])) --stop;
-        return {start, static_cast<std::size_t>(stop - start)};
-    }
-
-    void pass_separator() {
-        more_ = at_ != end_;
-        if (more_) ++at_;
-    }
-
-    bool next_quoted(std::string_view& field) {
-        const char* const start = ++at_;
-        while (at_ != end_ && (*at_ != '"' || (at_ + 1 != end_ && at_[1] == '"'))) at_ += *at_ == '"' ? 2 : 1;
-        if (at_ == end_) return fail();
-        const char* const stop = at_++;
-        if (separator_ == ' ' && at_ != end_ && !is_blank(*at_)) return fail();
-        if (separator_ != ' ') skip_blanks();
-        if (separator_ != ' ' && at_ != end_ && *at_ != separator_) return fail();
-        pass_separator();
-        inside_ = {start, static_cast<std::size_t>(stop - start)};
-        const char* first = start;
-        while (first != stop && is_blank(*first)) ++first;
-        field = without_blanks_after(first, stop);
-        return true;
-    }
-
-    bool fail() {
-        more_ = false;
-        malformed_ = true;
-        return false;
-    }
+    bool separates(char c) const { return c == separator_ || (separator_ == ' ' && c == '\t'); }
 
     const char* at_;
     const char* end_;
@@ -108,7 +89,7 @@ private:
     bool more_ = true;
     bool malformed_ = false;
     bool quoted_ = false;
-    std::string_view inside_;  // of the last quoted field
+    std::string_view inside_;  // of the last field, with its blanks
 };
 
 struct CsvLayout {
@@ -153,17 +134,26 @@ CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOpt
 
 std::string separator_name(char separator);
 
-/// Why the row was refused. Slow: called once.
-Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePlace& place);
+/// What is wrong with a line.
+struct CsvFault {
+    // cut: it ends with the file, and within a value: 0.2 may be the beginning of 0.25
+    enum class Kind : std::uint8_t { none, behind_the_last, value, coordinate, off_plane, open_quote, count, cut };
+    Kind kind = Kind::none;
+    std::string_view text = {};  ///< the field, or the line
+    std::size_t number = 0;      ///< of the carried column or the axis; how many fields there are
+
+    explicit operator bool() const { return kind != Kind::none; }
+};
+
+/// The same in words.
+Error csv_row_error(const CsvFault& fault, const CsvLayout& layout, const LinePlace& place);
 
 /// What became of whole lines; the last of the file may lack its end.
 struct CsvPiece {
     std::vector<double> points;   ///< of the lines before the bad one
     std::vector<Column> carried;  ///< likewise
     std::size_t lines = 0;        ///< parsed, the bad one included
-    bool failed = false;
-    std::string_view bad;  ///< the line that is no point, without its end
-    bool cut = false;      ///< it ends with the file, and within a value: 0.2 may be the beginning of 0.25
+    CsvFault fault;               ///< of that one
 };
 
 /// Parses `text` up to its end or the first bad line. The byte after the text must be readable. Keeps the memory of

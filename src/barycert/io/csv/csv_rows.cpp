@@ -3,7 +3,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -52,16 +51,6 @@ Complaint about_coordinate(std::string_view field, char separator) {
                             " throughout, as in the first line; put # before lines that are no points"};
 }
 
-/// Why a value of a carried column is refused, if it is: the columns had their types from an earlier look at the file.
-std::optional<Complaint> about_value(std::string_view field, Column::Type type) {
-    const char* const remedy = "do not change the file while it is read";
-    if (type == Column::Type::integer && !integer_of(field)) return Complaint{"an integer, as in a first pass", remedy};
-    if (type == Column::Type::number && !number_of(field)) return Complaint{"a number, as in a first pass", remedy};
-    return std::nullopt;
-}
-
-enum class Verdict : std::uint8_t { point, bad, cut };
-
 /// Appends the value of a carried column; false if it is none of its type.
 bool append_value(Column& column, const FieldCutter& cutter, std::string_view field) {
     if (auto* const texts = std::get_if<std::vector<std::string>>(&column.values)) {
@@ -78,34 +67,43 @@ bool append_value(Column& column, const FieldCutter& cutter, std::string_view fi
     return value.has_value();
 }
 
+/// Beside a mesh in the plane. A point that is not finite anyway may lie anywhere.
+bool is_off_plane(const CsvLayout& layout, const std::array<double, 3>& point) {
+    return layout.flat && point[2] != 0 && std::isfinite(point[0]) && std::isfinite(point[1]);
+}
+
 /// `whole`: the line has an end.
-Verdict parse_line(std::string_view line, bool whole, const CsvLayout& layout, std::array<double, 3>& point,
-                   std::vector<Column>& carried) {
+CsvFault parse_line(std::string_view line, bool whole, const CsvLayout& layout, std::array<double, 3>& point,
+                    std::vector<Column>& carried) {
+    using Kind = CsvFault::Kind;
     FieldCutter cutter(line, layout.separator);
-    const char* const cut = whole ? nullptr : line.data() + line.size();
+    const char* const file_end = whole ? nullptr : line.data() + line.size();
     bool at_cut = false;
     const std::size_t fields = layout.role_of.size();
     std::size_t i = 0;
+    std::string_view height;
     for (std::string_view field; cutter.next(field); ++i) {
-        if (i == fields) return Verdict::bad;
+        if (i >= fields) continue;
         const int role = layout.role_of[i];
         const char* const end = field.data() + field.size();
-        if (role == CsvLayout::must_be_empty && !field.empty()) return Verdict::bad;
+        if (role == CsvLayout::must_be_empty && !field.empty()) return {Kind::behind_the_last, field};
         if (role < 0) continue;
         if (role >= CsvLayout::first_kept) {
-            if (!append_value(carried[static_cast<std::size_t>(role - CsvLayout::first_kept)], cutter, field))
-                return Verdict::bad;
+            const auto k = static_cast<std::size_t>(role - CsvLayout::first_kept);
+            if (!append_value(carried[k], cutter, field)) return {Kind::value, field, k};
             // A text may go on behind blanks, but not where these separate.
-            at_cut = !whole && i + 1 == fields && !cutter.quoted() && (end == cut || layout.separator != ' ');
+            at_cut = !whole && i + 1 == fields && !cutter.quoted() && (end == file_end || layout.separator != ' ');
             continue;
         }
-        double value = 0;
-        if (!layout.coordinate(field, value)) return Verdict::bad;
-        point[static_cast<std::size_t>(role)] = value;
-        at_cut = end == cut;
+        const auto axis = static_cast<std::size_t>(role);
+        if (!layout.coordinate(field, point[axis])) return {Kind::coordinate, field, axis};
+        if (axis == 2) height = field;
+        at_cut = end == file_end;
     }
-    if (i != fields || cutter.malformed()) return Verdict::bad;
-    return at_cut ? Verdict::cut : Verdict::point;
+    if (cutter.malformed()) return {Kind::open_quote, line};
+    if (i != fields) return {Kind::count, line, i};
+    if (at_cut) return {Kind::cut, line};
+    return is_off_plane(layout, point) ? CsvFault{Kind::off_plane, height} : CsvFault{};
 }
 
 /// The common case: nothing but numbers, each with the separator or the end of the line right behind it. Then
@@ -123,16 +121,7 @@ bool parse_plain(std::string_view line, const CsvLayout& layout, std::array<doub
         if (axis >= 0) point[static_cast<std::size_t>(axis)] = value;
         at = after + 1;
     }
-    return true;
-}
-
-void refuse(CsvPiece& piece, std::string_view line, bool cut, int dimension) {
-    piece.failed = true;
-    piece.bad = line;
-    piece.cut = cut;
-    // Some of its columns may have their value.
-    for (Column& column : piece.carried)
-        mesh::shrink(column, piece.points.size() / static_cast<std::size_t>(dimension));
+    return !is_off_plane(layout, point);
 }
 
 }  // namespace
@@ -150,73 +139,69 @@ std::string separator_name(char separator) {
     }
 }
 
-Error csv_row_error(std::string_view line, const CsvLayout& layout, const LinePlace& place) {
+Error csv_row_error(const CsvFault& fault, const CsvLayout& layout, const LinePlace& place) {
     const auto refused = [&](std::string what, std::string expected, std::string found, std::string remedy) {
         return line_error(place.file, place.line, std::move(what), std::move(expected), std::move(found),
                           std::move(remedy));
     };
-    FieldCutter cutter(line, layout.separator);
-    std::size_t count = 0;
-    for (std::string_view field; cutter.next(field); ++count) {
-        if (count >= layout.role_of.size()) continue;
-        const int role = layout.role_of[count];
-        if (role == CsvLayout::must_be_empty && !field.empty())
-            return refused("a value behind the last separator", "none, as in the first line", base::quoted(field),
-                           "say which columns are the coordinates, such as options.columns 1,2,3");
-        if (role < 0) continue;
-        if (role >= CsvLayout::first_kept) {
-            const ColumnFormat& column = layout.kept[static_cast<std::size_t>(role - CsvLayout::first_kept)];
-            const std::optional<Complaint> c = about_value(field, column.type);
-            if (c)
-                return refused("bad value of column " + base::quoted(column.name), c->expected, base::quoted(field),
-                               c->remedy);
-            continue;
-        }
-        double value = 0;
-        if (!layout.coordinate(field, value)) {
-            const Complaint c = about_coordinate(field, layout.separator);
-            return refused(std::string("bad coordinate ") + "xyz"[role], c.expected,
-                           field.empty() ? "nothing" : base::quoted(field), c.remedy);
-        }
-        if (layout.flat && role == 2 && value != 0) return off_plane(place.file, place.line, "", base::quoted(field));
-    }
-    if (cutter.malformed())
-        return refused("a quoted field is not closed", "a closing quote, and then a separator or the end of the line",
-                       base::quoted(line), "close the quote on the same line; double the quotes inside");
+    const std::string found = base::quoted(fault.text);
     const std::size_t fields = layout.role_of.size();
-    return refused(
-        std::string("too ") + (count < fields ? "few" : "many") + " fields in a line",
-        std::to_string(fields) + ", separated by " + separator_name(layout.separator) + ", as in the first line",
-        std::to_string(count), "give every line the same columns; put fields that hold a separator in double quotes");
+    switch (fault.kind) {
+        case CsvFault::Kind::behind_the_last:
+            return refused("a value behind the last separator", "none, as in the first line", found,
+                           "say which columns are the coordinates, such as options.columns 1,2,3");
+        case CsvFault::Kind::value: {
+            const ColumnFormat& column = layout.kept[fault.number];
+            const std::string type = column.type == Column::Type::integer ? "an integer" : "a number";
+            return refused("bad value of column " + base::quoted(column.name), type + ", as in a first pass", found,
+                           "do not change the file while it is read");
+        }
+        case CsvFault::Kind::coordinate: {
+            const Complaint c = about_coordinate(fault.text, layout.separator);
+            return refused(std::string("bad coordinate ") + "xyz"[fault.number], c.expected,
+                           fault.text.empty() ? "nothing" : found, c.remedy);
+        }
+        case CsvFault::Kind::off_plane:
+            return off_plane(place.file, place.line, "", found);
+        case CsvFault::Kind::open_quote:
+            return refused("a quoted field is not closed",
+                           "a closing quote, and then a separator or the end of the line", found,
+                           "close the quote on the same line; double the quotes inside");
+        case CsvFault::Kind::cut:
+            return base::unended_number(place.file, place.line);
+        default:
+            return refused(std::string("too ") + (fault.number < fields ? "few" : "many") + " fields in a line",
+                           std::to_string(fields) + ", separated by " + separator_name(layout.separator) +
+                               ", as in the first line",
+                           std::to_string(fault.number),
+                           "give every line the same columns; put fields that hold a separator in double quotes");
+    }
 }
 
 void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, CsvPiece& piece) {
     piece.points.clear();
     piece.lines = 0;
-    piece.failed = false;
+    piece.fault = {};
     mesh::begin_columns(layout.kept, piece.carried);
+    const auto size = static_cast<std::size_t>(dimension);
     // Blanks come in runs.
     const bool may_be_plain = layout.plain && layout.separator != ' ';
     std::array<double, 3> point{};
     while (!text.empty()) {
-        const void* const feed = std::memchr(text.data(), '\n', text.size());
-        const std::size_t size =
-            feed == nullptr ? text.size() : static_cast<std::size_t>(static_cast<const char*>(feed) - text.data());
-        std::string_view line = text.substr(0, size);
-        const bool whole = feed != nullptr || line.ends_with('\r');
+        std::string_view line = text.substr(0, text.find('\n'));
+        const bool feed = line.size() != text.size(), whole = feed || line.ends_with('\r');
+        text.remove_prefix(line.size() + (feed ? 1 : 0));
         if (line.ends_with('\r')) line.remove_suffix(1);
-        text.remove_prefix(feed == nullptr ? size : size + 1);
         ++piece.lines;
         if (!(may_be_plain && whole && parse_plain(line, layout, point))) {
             if (!holds_fields(line, layout.separator)) continue;
-            const Verdict verdict = parse_line(line, whole, layout, point, piece.carried);
-            if (verdict != Verdict::point) return refuse(piece, line, verdict == Verdict::cut, dimension);
+            piece.fault = parse_line(line, whole, layout, point, piece.carried);
+            if (piece.fault) break;
         }
-        if (layout.flat && point[2] != 0 && std::isfinite(point[0]) && std::isfinite(point[1]))
-            return refuse(piece, line, false, dimension);
-        for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis)
-            piece.points.push_back(point[axis]);
+        for (std::size_t axis = 0; axis < size; ++axis) piece.points.push_back(point[axis]);
     }
+    // Of a bad line some columns may have their value.
+    for (Column& column : piece.carried) mesh::shrink(column, piece.points.size() / size);
 }
 
 }  // namespace barycert::io

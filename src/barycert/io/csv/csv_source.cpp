@@ -57,7 +57,7 @@ CsvSource::CsvSource(const std::string& path, int dimension, const PointOptions&
         const std::string text = std::string(line) + (lines_.line_ended() ? "\n" : "");
         pieces_.resize(1);
         parse_csv(text, layout_, dimension, pieces_.front());
-        if (pieces_.front().failed) throw Exception(row_error(pieces_.front()));
+        if (pieces_.front().fault) throw Exception(row_error(pieces_.front()));
         piece_count_ = 1;
         return;
     }
@@ -69,8 +69,7 @@ CsvSource::CsvSource(const std::string& path, int dimension, const PointOptions&
 /// The bad line has been counted.
 Error CsvSource::row_error(const CsvPiece& piece) const {
     if (const Status same = lines_.unchanged(); !same) return same.error();
-    return piece.cut ? base::unended_number(lines_.name(), lines_.number())
-                     : csv_row_error(piece.bad, layout_, place());
+    return csv_row_error(piece.fault, layout_, place());
 }
 
 /// Parses the next pieces; false at the end of the file. The error of a line is kept. Precondition: all pieces have
@@ -91,7 +90,7 @@ bool CsvSource::parse_more() {
     in_parallel(piece_count_, [&](std::size_t i) { parse_csv(texts_[i], layout_, dimension(), pieces_[i]); });
     for (std::size_t i = 0; i < piece_count_; ++i) {
         lines_.count(pieces_[i].lines);
-        if (!pieces_[i].failed) continue;
+        if (!pieces_[i].fault) continue;
         pending_ = row_error(pieces_[i]);
         piece_count_ = i + 1;
     }

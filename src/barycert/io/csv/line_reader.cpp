@@ -24,7 +24,7 @@ LineReader::LineReader(const std::string& path) : name_(path == "-" ? "standard 
     descriptor_ = own ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
     need(descriptor_ >= 0);
     Status plain = base::unpack(descriptor_, name_, base::Text::words);
-    if (own) owned_.reset(new int(descriptor_));
+    if (own) owned_.number = descriptor_;
     if (own) plain.value();
     struct stat status {};
     need(::fstat(descriptor_, &status) == 0);
@@ -37,11 +37,6 @@ LineReader::LineReader(const std::string& path) : name_(path == "-" ? "standard 
     const std::size_t room = small ? static_cast<std::size_t>(status.st_size) + 1 : longest_line;
     buffer_.resize(room + 1);  // the last byte stays zero: a scanner may look at it
     skip_mark();
-}
-
-void LineReader::Close::operator()(const int* descriptor) const {
-    ::close(*descriptor);
-    delete descriptor;
 }
 
 void LineReader::skip_mark() {
@@ -57,14 +52,13 @@ void LineReader::skip_mark() {
     if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF"))
         refuse_line(name_, 1, "the text is not in UTF-8", "UTF-8 or ASCII", "a byte-order mark of UTF-16",
                     "save the file as UTF-8");
-    if (head.starts_with("\xEF\xBB\xBF")) begin_ = searched_ = 3;
+    if (head.starts_with("\xEF\xBB\xBF")) begin_ = 3;
 }
 
 void LineReader::refill() {
     if (begin_ != 0) {
         std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
         end_ -= begin_;
-        searched_ -= begin_;
         begin_ = 0;
     }
     if (end_ == longest_line)
@@ -87,27 +81,23 @@ bool LineReader::more_is_there() const {
 }
 
 bool LineReader::next(std::string_view& line) {
-    const char* feed = nullptr;
-    while (true) {
-        feed = static_cast<const char*>(std::memchr(buffer_.data() + searched_, '\n', end_ - searched_));
-        if (feed != nullptr || ended_) break;
-        searched_ = end_;
-        refill();
-    }
-    if (feed == nullptr && begin_ == end_) {
-        unchanged().value();
-        return false;
-    }
-    const std::size_t stop = feed == nullptr ? end_ : static_cast<std::size_t>(feed - buffer_.data());
-    line = std::string_view(buffer_.data() + begin_, stop - begin_);
-    line_ended_ = feed != nullptr || line.ends_with('\r');
+    if (lines_.empty() && !take_lines()) return false;
+    line = lines_.substr(0, lines_.find('\n'));
+    const bool feed = line.size() != lines_.size();
+    lines_.remove_prefix(line.size() + (feed ? 1 : 0));
+    line_ended_ = feed || line.ends_with('\r');
     if (line.ends_with('\r')) line.remove_suffix(1);
-    begin_ = searched_ = feed == nullptr ? stop : stop + 1;
     ++number_;
     return true;
 }
 
 bool LineReader::next_lines(std::string_view& lines) {
+    if (lines_.empty() && !take_lines()) return false;
+    lines = std::exchange(lines_, {});
+    return true;
+}
+
+bool LineReader::take_lines() {
     // As much as there is room for: a pipe gives little at a time. But a line is not kept waiting for others that may
     // be long in coming.
     const auto held = [&] { return std::string_view(buffer_.data() + begin_, end_ - begin_); };
@@ -115,20 +105,16 @@ bool LineReader::next_lines(std::string_view& lines) {
         if (held().rfind('\n') != std::string_view::npos && !more_is_there()) break;
         refill();
     }
-    const std::string_view text = held();
-    if (text.empty()) {
-        unchanged().value();
-        return false;
-    }
-    std::size_t size = text.size();
+    std::size_t size = held().size();
+    if (size == 0) unchanged().value();
     if (!ended_) {
-        const std::size_t feed = text.rfind('\n');
+        const std::size_t feed = held().rfind('\n');
         if (feed == std::string_view::npos) refill();  // a line too long, which that says
         size = feed + 1;
     }
-    lines = text.substr(0, size);
-    begin_ = searched_ = begin_ + size;
-    return true;
+    lines_ = held().substr(0, size);
+    begin_ += size;
+    return size != 0;
 }
 
 }  // namespace barycert::io

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "barycert/base/descriptor.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/result.hpp"
 
@@ -47,23 +47,20 @@ public:
     const std::string& name() const { return name_; }
 
 private:
+    bool take_lines();
     void refill();
     void skip_mark();
     /// Reading would not wait.
     bool more_is_there() const;
 
-    struct Close {
-        void operator()(const int* descriptor) const;
-    };
     std::string name_;
     int descriptor_ = -1;
-    std::unique_ptr<const int, Close> owned_;  // the same; not of the standard input, which stays open
-    std::optional<base::FileState> then_;      // of a regular file
-    bool ended_ = false;                       // nothing more comes from the system
+    base::Descriptor owned_;               // the same; not of the standard input, which stays open
+    std::optional<base::FileState> then_;  // of a regular file
+    bool ended_ = false;                   // nothing more comes from the system
     std::vector<char> buffer_;
-    std::size_t begin_ = 0;     // of the next line
-    std::size_t end_ = 0;       // of what has been read
-    std::size_t searched_ = 0;  // no LF from begin_ to here
+    std::size_t begin_ = 0, end_ = 0;  // what has been read and not taken
+    std::string_view lines_;           // taken, whole lines, and not given
     bool line_ended_ = true;
     std::size_t number_ = 0;
 };

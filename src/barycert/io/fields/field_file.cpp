@@ -74,8 +74,9 @@ void take_line(std::string_view line, bool whole, const FieldLayout& layout, con
             cut = !whole && text.data() + text.size() == line.data() + line.size();
         }
     }
+    const auto fault = cutter.malformed() ? CsvFault::Kind::open_quote : CsvFault::Kind::count;
     if (cutter.malformed() || count != layout.lines.role_of.size())
-        throw Exception(csv_row_error(line, layout.lines, place));
+        throw Exception(csv_row_error({fault, line, count}, layout.lines, place));
     if (cut) throw Exception(base::unended_number(place.file, place.line));
 }
 
@@ -164,7 +165,7 @@ Field read_npy(Field field, const std::string& path, const std::string& column, 
         (shape.empty() || shape.size() > 2 || (shape.size() == 2 && (shape[1] < 1 || shape[1] > max_components))))
         refuse_file(path, "the shape of field \"" + field.name + '"', "(rows,) or (rows, components)", as_tuple(shape),
                     "save a.reshape(len(a), -1)");
-    const NpyTable table = file.table();
+    const NpyTable& table = file.make_table();
     const std::vector<std::size_t> columns = components_of(table, field, path, column);
     for (const std::size_t c : columns) {
         const NpyType& type = table.columns[c].type;
@@ -175,11 +176,11 @@ Field read_npy(Field field, const std::string& path, const std::string& column, 
     if (const NpyType& type = table.columns[columns.front()].type; !type.is_double())
         notes.push_back(
             {Note::Kind::converted, "field " + field.name + " of type " + type.text + " to double, exactly", path});
-    const std::size_t components = columns.size(), at_once = NpyFile::rows_at_once(table);
+    const std::size_t components = columns.size(), at_once = file.rows_at_once();
     field.components = static_cast<int>(components);
     field.data.resize(table.rows * components);
     for (std::uint64_t row = 0; row < table.rows; row += at_once) {
-        file.go_to(table, row, std::min<std::uint64_t>(at_once, table.rows - row));
+        file.go_to(row, std::min<std::uint64_t>(at_once, table.rows - row));
         for (std::size_t c = 0; c < components; ++c)
             file.numbers(table.columns[columns[c]], "field \"" + field.name + '"',
                          field.data.data() + row * components + c, components);

@@ -1,5 +1,8 @@
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <string>
+#include <string_view>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/io.hpp"
@@ -8,6 +11,50 @@
 
 namespace barycert::io {
 namespace {
+
+// Numbers, orders and node counts of Gmsh's documentation ("MSH file format") and of GmshDefines.h. The serendipity
+// types of higher order have fewer nodes than the complete ones of the same order.
+constexpr auto element_types = [] {
+    using enum ElementFamily;
+    return std::to_array<ElementType>(
+        {{1, line, 1, 2},           {2, triangle, 1, 3},        {3, quadrangle, 1, 4},     {4, tetrahedron, 1, 4},
+         {5, hexahedron, 1, 8},     {6, prism, 1, 6},           {7, pyramid, 1, 5},        {8, line, 2, 3},
+         {9, triangle, 2, 6},       {10, quadrangle, 2, 9},     {11, tetrahedron, 2, 10},  {12, hexahedron, 2, 27},
+         {13, prism, 2, 18},        {14, pyramid, 2, 14},       {15, point, 1, 1},         {16, quadrangle, 2, 8},
+         {17, hexahedron, 2, 20},   {18, prism, 2, 15},         {19, pyramid, 2, 13},      {20, triangle, 3, 9},
+         {21, triangle, 3, 10},     {22, triangle, 4, 12},      {23, triangle, 4, 15},     {24, triangle, 5, 15},
+         {25, triangle, 5, 21},     {26, line, 3, 4},           {27, line, 4, 5},          {28, line, 5, 6},
+         {29, tetrahedron, 3, 20},  {30, tetrahedron, 4, 35},   {31, tetrahedron, 5, 56},  {36, quadrangle, 3, 16},
+         {37, quadrangle, 4, 25},   {38, quadrangle, 5, 36},    {42, triangle, 6, 28},     {43, triangle, 7, 36},
+         {44, triangle, 8, 45},     {45, triangle, 9, 55},      {46, triangle, 10, 66},    {47, quadrangle, 6, 49},
+         {48, quadrangle, 7, 64},   {49, quadrangle, 8, 81},    {50, quadrangle, 9, 100},  {51, quadrangle, 10, 121},
+         {62, line, 6, 7},          {63, line, 7, 8},           {64, line, 8, 9},          {65, line, 9, 10},
+         {66, line, 10, 11},        {71, tetrahedron, 6, 84},   {72, tetrahedron, 7, 120}, {73, tetrahedron, 8, 165},
+         {74, tetrahedron, 9, 220}, {75, tetrahedron, 10, 286}, {90, prism, 3, 40},        {91, prism, 4, 75},
+         {92, hexahedron, 3, 64},   {93, hexahedron, 4, 125},   {94, hexahedron, 5, 216},  {118, pyramid, 3, 30},
+         {119, pyramid, 4, 55}});
+}();
+
+constexpr std::array<std::string_view, 8> family_names{"point",       "line",       "triangle", "quadrangle",
+                                                       "tetrahedron", "hexahedron", "prism",    "pyramid"};
+
+/// "8 points, 120 lines": of types whose dimension is at least `low` and at most `high`.
+std::string counted_types(const TypeCounts& counts, int low, int high) {
+    std::string text;
+    for (const ElementType& type : element_types) {
+        const std::size_t count = counts[static_cast<std::size_t>(type.number)];
+        if (count == 0 || type.dimension() < low || type.dimension() > high) continue;
+        std::string name(family_names[static_cast<std::size_t>(type.family)]);
+        if (count != 1 && name.ends_with("on")) {
+            name.replace(name.size() - 2, 2, "a");
+        } else if (count != 1) {
+            name += 's';
+        }
+        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+        if (type.order > 1) text += " of order " + std::to_string(type.order);
+    }
+    return text;
+}
 
 /// What makes all cells second-order ones.
 std::string order_remedy(const MshFile& file) {
@@ -19,7 +66,7 @@ std::string order_remedy(const MshFile& file) {
 const ElementType& choose(const MshFile& file, const TypeCounts& counts) {
     int dimension = 0;
     std::vector<const ElementType*> kinds;  // of that dimension
-    for (const ElementType& type : element_types()) {
+    for (const ElementType& type : element_types) {
         if (counts[static_cast<std::size_t>(type.number)] == 0 || type.dimension() < dimension) continue;
         if (type.dimension() > dimension) kinds.clear();
         dimension = type.dimension();
@@ -48,8 +95,7 @@ const ElementType& choose(const MshFile& file, const TypeCounts& counts) {
 }
 
 /// Takes the tags of nodes and gives their positions.
-template <class Row>
-bool take_node(Row& row, const TagIndex& nodes, Mesh::Index& node) {
+bool take_node(auto& row, const TagIndex& nodes, Mesh::Index& node) {
     std::int64_t tag = 0;
     if (!row.tag(tag, "the tag of a node")) return false;
     node = nodes.find(tag);
@@ -63,14 +109,13 @@ struct Head {
     bool more = false;
 };
 
-template <class Row>
-bool take_head(Row& row, int version, const ElementBlock& block, Head& head) {
+bool take_head(auto& row, int version, const ElementBlock& block, Head& head) {
     if (!row.tag(head.tag, "the tag of an element")) return false;
     if (version == 41 && head.tag < 0)
         return row.refuse({"bad tag of an element", "a number that is not negative", head.tag});
     if (version != 22) return true;
     std::int64_t value = 0;
-    for (int i = 0; Row::text && i < 2; ++i) {  // the type and the number of tags, which are known
+    for (int i = 0; row.text && i < 2; ++i) {  // the type and the number of tags, which are known
         if (!row.integer(value, "a number")) return false;
     }
     head.more = block.tags > 2;
@@ -212,19 +257,29 @@ void look_at_others(const Target& to, std::span<const Run> runs, const std::vect
 
 }  // namespace
 
+int ElementType::dimension() const {
+    using enum ElementFamily;
+    if (family <= line) return family == point ? 0 : 1;
+    return family <= quadrangle ? 2 : 3;
+}
+
+const ElementType* element_type(std::int64_t number) {
+    const auto* const found = std::ranges::find(element_types, number, &ElementType::number);
+    return found == element_types.end() ? nullptr : found;
+}
+
 MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes) {
     const ElementType& type = choose(file, elements.counts);
     MshCells cells;
     cells.dimension = type.dimension();
     std::vector<Run> runs, others;
     std::size_t count = 0;
-    for (std::size_t b = 0; b < elements.blocks.size(); ++b) {
-        Run run = elements.blocks[b].run;
-        run.id = b;
-        const bool taken = elements.blocks[b].type == &type;
-        run.first = taken ? count : elements.blocks[b].first;
-        if (taken) count += run.count;
-        (taken ? runs : others).push_back(run);
+    for (const ElementBlock& block : elements.blocks) {
+        const bool taken = block.type == &type;
+        (taken ? runs : others).push_back(block.run);
+        if (!taken) continue;
+        runs.back().first = count;
+        count += block.run.count;
     }
     const auto corners = static_cast<std::size_t>(cells.dimension) + 1;
     const Target target{file, elements, nodes.index, cells, type.nodes - corners};
@@ -241,7 +296,7 @@ MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const 
         cells.numbers.reserve(count);
         for (const Run& run : runs) {
             for (std::size_t i = 0; i < run.count; ++i)
-                cells.numbers.push_back(static_cast<Mesh::Index>(elements.blocks[run.id].first + i));
+                cells.numbers.push_back(static_cast<Mesh::Index>(elements.blocks[run.id].run.first + i));
         }
     }
     if (file.version() == 22) drop_repeats(cells, corners, target.mids);
@@ -250,6 +305,31 @@ MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const 
     cells.left_out[static_cast<std::size_t>(type.number)] = 0;
     look_at_others(target, others, used);
     return cells;
+}
+
+void note_cells(const MshCells& cells, bool partitioned, const std::string& path, Notes& notes) {
+    const std::string others = counted_types(cells.left_out, 0, cells.dimension - 1);
+    // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result, and to
+    // tell it each time would teach users to look away. What has nodes of its own is another matter: a wire or a shell
+    // beside the cells, of which nothing is left.
+    if (!others.empty())
+        notes.push_back(
+            {Note::Kind::left_out,
+             "elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
+             path, cells.apart});
+    if (cells.repeated != 0)
+        notes.push_back({Note::Kind::left_out,
+                         std::to_string(cells.repeated) +
+                             " elements that repeat the one before them for a further physical group: gmsh:physical "
+                             "has the first group of each cell",
+                         path, true});
+    if (cells.unused_nodes != 0)
+        notes.push_back({Note::Kind::left_out,
+                         std::to_string(cells.unused_nodes) +
+                             " nodes of no cell: no value is taken from them; all nodes keep their numbers",
+                         path});
+    if (cells.partitioned || partitioned)
+        notes.push_back({Note::Kind::left_out, "partitions of the mesh: it is read as one", path});
 }
 
 }  // namespace barycert::io

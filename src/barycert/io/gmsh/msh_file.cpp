@@ -249,15 +249,27 @@ const char* WordIndex::find(std::size_t number) const {
     return at;
 }
 
-std::vector<WordIndex::Part> WordIndex::cut(const char* from, std::size_t rows, std::size_t words) const {
-    std::vector<Part> parts;
-    if (rows == 0) return parts;
-    const std::size_t base = before(from);
-    for (Part part{0, 0, from}; part.first != rows; part.first = part.last) {
+void WordIndex::cut(const Run& run, std::vector<RunPart>& parts) const {
+    if (run.count == 0) return;
+    const std::size_t base = before(run.at);
+    for (RunPart part{&run, 0, 0, run.at}; part.first != run.count; part.first = part.last) {
         const auto i = static_cast<std::size_t>(part.at - text_.data()) / piece;
-        part.last = std::clamp((before_[i + 1] - base + words - 1) / words, part.first + 1, rows);
+        part.last = std::clamp((before_[i + 1] - base + run.numbers - 1) / run.numbers, part.first + 1, run.count);
         parts.push_back(part);
-        if (part.last != rows) part.at = find(base + part.last * words);
+        if (part.last != run.count) part.at = find(base + part.last * run.numbers);
+    }
+}
+
+std::vector<RunPart> MshFile::cut(std::span<const Run> runs) const {
+    std::vector<RunPart> parts;
+    for (const Run& run : runs) {
+        if (!binary_ && run.count * run.numbers > few_words) {
+            words_.cut(run, parts);
+            continue;
+        }
+        const std::size_t step = binary_ ? std::max<std::size_t>(1, piece / run.bytes) : run.count;
+        for (std::size_t i = 0; i < run.count; i += step)
+            parts.push_back({&run, i, std::min(i + step, run.count), run.at + i * run.bytes});
     }
     return parts;
 }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,25 @@
 #include "barycert/result.hpp"
 
 namespace barycert::io {
+
+/// Rows of as many numbers each, one after the other.
+struct Run {
+    const char* at = nullptr;  ///< the first, perhaps after blanks
+    std::size_t count = 0;
+    std::size_t first = 0;               ///< its first row among those of all runs
+    std::size_t numbers = 1, bytes = 1;  ///< of a row: of text, of a binary file
+    std::size_t id = 0;                  ///< for the parser
+};
+
+/// Some rows of a run, `first` to `last`, not included, to be read by one thread.
+struct RunPart {
+    const Run* run;
+    std::size_t first, last;
+    const char* at;  ///< the beginning of `first`
+};
+
+/// So many words are passed one by one: the index would take longer.
+inline constexpr std::size_t few_words = 1024;
 
 /// Words are parted by blanks, line ends and control characters. One at the very beginning of the text does not count.
 class WordIndex {
@@ -30,15 +50,8 @@ public:
     /// The beginning of the word before which `number` others begin. Precondition: there is one.
     const char* find(std::size_t number) const;
 
-    /// Some rows of a run: `first` to `last`, not included, of its own count.
-    struct Part {
-        std::size_t first = 0, last = 0;
-        const char* at = nullptr;  ///< the beginning of `first`
-    };
-
-    /// Cuts `rows` rows of `words` words each, from `from` on, into parts of about a piece. Precondition: they are
-    /// there.
-    std::vector<Part> cut(const char* from, std::size_t rows, std::size_t words) const;
+    /// Appends the run in parts of about a piece. Precondition: its words are there.
+    void cut(const Run& run, std::vector<RunPart>& parts) const;
 
 private:
     std::string_view text_;
@@ -72,6 +85,9 @@ public:
     const std::vector<MshSection>& sections() const { return sections_; }
     /// The only section of that name; nullptr if there is none.
     const MshSection* find(std::string_view name) const;
+
+    /// The runs in parts that take a thread some hundred microseconds.
+    std::vector<RunPart> cut(std::span<const Run> runs) const;
 
     /// An Error about the place `at`, with its line where the file is text.
     [[noreturn]] void refuse(const char* at, std::string what, std::string expected, std::string found,

@@ -63,8 +63,10 @@ void take_entities(const MshFile& file, const MshSection& section, bool parts, M
     Walk walk(file, section);
     if (parts) {
         walk.size("the number of partitions");
-        for (std::int64_t ghosts = walk.size("the number of ghost entities"); ghosts-- > 0;)
-            walk.integer("the tag of an entity"), walk.integer("a partition");
+        for (std::int64_t ghosts = walk.size("the number of ghost entities"); ghosts-- > 0;) {
+            walk.integer("the tag of an entity");
+            walk.integer("a partition");
+        }
         groups.partitioned = true;
     }
     std::array<std::int64_t, 4> counts{};
@@ -80,11 +82,6 @@ void take_entities(const MshFile& file, const MshSection& section, bool parts, M
 /// The tag of an entity: 1, or 0 for none, throughout says nothing.
 bool says_something(std::int64_t tag, std::int64_t first) {
     return tag != first || (tag != 0 && tag != 1);
-}
-
-bool has_field(const Mesh& mesh, const char* name) {
-    return std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
-                       [&](const Field& field) { return field.name == name; });
 }
 
 /// 4.x: groups of cells by way of their entities. Nothing is filled in that would say nothing.
@@ -166,31 +163,6 @@ MshGroups read_msh_groups(const MshFile& file) {
     return groups;
 }
 
-void note_cells(const MshCells& cells, const MshGroups& groups, const std::string& path, Notes& notes) {
-    const std::string others = counted_types(cells.left_out, 0, cells.dimension - 1);
-    // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result, and to
-    // tell it each time would teach users to look away. What has nodes of its own is another matter: a wire or a shell
-    // beside the cells, of which nothing is left.
-    if (!others.empty())
-        notes.push_back(
-            {Note::Kind::left_out,
-             "elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
-             path, cells.apart});
-    if (cells.repeated != 0)
-        notes.push_back({Note::Kind::left_out,
-                         std::to_string(cells.repeated) +
-                             " elements that repeat the one before them for a further physical group: gmsh:physical "
-                             "has the first group of each cell",
-                         path, true});
-    if (cells.unused_nodes != 0)
-        notes.push_back({Note::Kind::left_out,
-                         std::to_string(cells.unused_nodes) +
-                             " nodes of no cell: no value is taken from them; all nodes keep their numbers",
-                         path});
-    if (cells.partitioned || groups.partitioned)
-        notes.push_back({Note::Kind::left_out, "partitions of the mesh: it is read as one", path});
-}
-
 void label_cells(const MshFile& file, const MshElements& elements, MshCells cells, const MshGroups& groups,
                  Mesh& mesh) {
     if (file.version() == 22) {
@@ -198,21 +170,22 @@ void label_cells(const MshFile& file, const MshElements& elements, MshCells cell
     } else {
         fill_from_entities(file, elements, groups, cells, mesh.notes);
     }
-    const bool grouped = !cells.physical.empty();
     bool in_sequence = true;
     for (std::size_t i = 0; i < cells.tags.size() && in_sequence; ++i) {
         in_sequence = cells.tags[i] == std::int64_t{mesh.cell_number(static_cast<Mesh::Index>(i))} + 1;
     }
-    if (grouped) {
+    if (!cells.physical.empty()) {
         std::vector<std::string> names = group_names(cells, groups);
         if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return !name.empty(); }))
             mesh.cell_labels.push_back({"gmsh:physical_name", std::move(names)});
     }
     if (!in_sequence) mesh.cell_labels.push_back({"gmsh:tag", std::move(cells.tags)});
-    if (grouped && !has_field(mesh, "gmsh:physical"))
-        mesh.cell_fields.push_back({"gmsh:physical", 1, std::move(cells.physical)});
-    if (!cells.geometrical.empty() && !has_field(mesh, "gmsh:geometrical"))
-        mesh.cell_fields.push_back({"gmsh:geometrical", 1, std::move(cells.geometrical)});
+    const auto add_field = [&](const char* name, std::vector<double>& tags) {
+        const bool there = std::ranges::find(mesh.cell_fields, name, &Field::name) != mesh.cell_fields.end();
+        if (!tags.empty() && !there) mesh.cell_fields.push_back({name, 1, std::move(tags)});
+    };
+    add_field("gmsh:physical", cells.physical);
+    add_field("gmsh:geometrical", cells.geometrical);
 }
 
 }  // namespace barycert::io

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -29,23 +30,13 @@ struct ElementType {
     std::size_t nodes;
 
     int dimension() const;
-    /// "tetrahedra of order 3"; with a count of one, "tetrahedron of order 3".
-    std::string counted(std::size_t count) const;
 };
 
 /// nullptr if the type is not known.
 const ElementType* element_type(std::int64_t number);
 
-/// All types that are known, by number.
-std::span<const ElementType> element_types();
-
-inline constexpr std::int64_t max_element_type = 140;
-
-/// How many elements there are of each type.
-using TypeCounts = std::array<std::size_t, max_element_type + 1>;
-
-/// "8 points, 120 lines": of types whose dimension is at least `low` and at most `high`.
-std::string counted_types(const TypeCounts& counts, int low, int high);
+/// How many elements there are of each type, whose numbers are at most that.
+using TypeCounts = std::array<std::size_t, 141>;
 
 class TagIndex {
 public:
@@ -59,22 +50,14 @@ public:
         std::size_t same = 0;
         while (same != tags.size() && offset_of(tags[same]) == same) ++same;
         if (same == tags.size()) return;
-        if (span_ <= 8 * tags.size() + 1024) {
-            table_.assign(span_, -1);
-            for (std::size_t i = 0; i < tags.size() && !first_twice; ++i) {
-                Mesh::Index& entry = table_[offset_of(tags[i])];
-                if (entry != -1) first_twice = i;
-                entry = static_cast<Mesh::Index>(i);
-            }
-            return;
-        }
-        in_order_.reserve(tags.size());
-        for (std::size_t i = 0; i < tags.size(); ++i) in_order_.emplace_back(tags[i], static_cast<Mesh::Index>(i));
-        std::sort(in_order_.begin(), in_order_.end());
-        for (std::size_t i = 1; i < in_order_.size(); ++i) {
-            const auto position = static_cast<std::size_t>(in_order_[i].second);
-            if (in_order_[i].first == in_order_[i - 1].first)
-                first_twice = std::min(first_twice.value_or(position), position);
+        const bool dense = span_ <= 8 * tags.size() + 1024;
+        if (dense) table_.assign(span_, -1);
+        if (!dense) sparse_.reserve(tags.size());
+        for (std::size_t i = 0; i < tags.size() && !first_twice; ++i) {
+            const std::uint64_t offset = offset_of(tags[i]);
+            Mesh::Index& entry = dense ? table_[offset] : sparse_.try_emplace(offset, -1).first->second;
+            if (entry != -1) first_twice = i;
+            entry = static_cast<Mesh::Index>(i);
         }
     }
 
@@ -86,22 +69,21 @@ public:
         const std::uint64_t offset = offset_of(tag);
         if (offset >= span_) return -1;
         if (!table_.empty()) return table_[offset];
-        return in_order_.empty() ? static_cast<Mesh::Index>(offset) : search(tag);
+        if (sparse_.empty()) return static_cast<Mesh::Index>(offset);
+        const auto found = sparse_.find(offset);
+        return found == sparse_.end() ? -1 : found->second;
     }
 
 private:
     std::uint64_t offset_of(std::int64_t tag) const {
         return static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(low_);
     }
-    Mesh::Index search(std::int64_t tag) const {
-        const auto found = std::lower_bound(in_order_.begin(), in_order_.end(), std::pair(tag, Mesh::Index{0}));
-        return found != in_order_.end() && found->first == tag ? found->second : -1;
-    }
 
     std::int64_t low_ = 0;
-    std::uint64_t span_ = 0;                                      ///< highest - lowest + 1
-    std::vector<Mesh::Index> table_;                              ///< where it is not much larger than the tags
-    std::vector<std::pair<std::int64_t, Mesh::Index>> in_order_;  ///< by tag, where it would be; neither: in sequence
+    std::uint64_t span_ = 0;          ///< highest - lowest + 1
+    std::vector<Mesh::Index> table_;  ///< by offset, where it is not much larger than the tags
+    /// By offset, where it would be. Neither: the tags are in sequence.
+    std::unordered_map<std::uint64_t, Mesh::Index> sparse_;
 };
 
 struct MshNodes {
@@ -117,8 +99,7 @@ struct ElementBlock {
     const ElementType* type = nullptr;
     std::int64_t entity = 0;  ///< 4.x
     std::size_t tags = 0;     ///< of an element; 2.x
-    std::size_t first = 0;    ///< its first element among all of the file
-    Run run;                  ///< `first` and `id` are not set
+    Run run;                  ///< `first` among all of the file; `id`: the number of the block
 };
 
 struct MshElements {
@@ -129,40 +110,6 @@ struct MshElements {
 
 /// Looks at headers, in text of 2.x at the types of the elements. Error: what the grammar does not have, unknown types.
 MshElements find_msh_elements(const MshFile& file);
-
-/// The header of a block of 4.x.
-struct BlockHeader {
-    std::int64_t dimension = 0, entity = 0;
-    std::int64_t kind = 0;  ///< of nodes: whether they have parameters; of elements: their type
-    std::int64_t count = 0;
-};
-
-/// Calls add(header) for each block of $Nodes or $Elements, which moves over its rows. `what`: "nodes"; `kind`: what
-/// BlockHeader::kind is; `found`: how many rows there are so far.
-template <class Add>
-void walk_blocks(Walk& walk, int version, const std::string& what, const char* kind, const std::size_t& found,
-                 const Add& add) {
-    constexpr std::uint64_t most = INT32_MAX;
-    const std::string all = "the number of " + what, one = all + " in a block";
-    constexpr const char *dimension = "the dimension of an entity", *entity = "the tag of an entity";
-    const std::int64_t blocks = walk.size("the number of blocks"), total = walk.size(all.c_str());
-    if (version == 41) walk.size("the lowest tag"), walk.size("the highest tag");
-    for (std::int64_t i = 0; i < blocks; ++i) {
-        BlockHeader b;
-        if (version == 40) b.entity = walk.integer(entity);
-        b.dimension = walk.integer(dimension);
-        if (version != 40) b.entity = walk.integer(entity);
-        b.kind = walk.integer(kind);
-        b.count = walk.size(one.c_str());
-        if (static_cast<std::uint64_t>(b.count) > most - found)
-            walk.refuse("too many " + what, "at most 2147483647", "more");
-        add(b);
-    }
-    if (static_cast<std::uint64_t>(total) != found)
-        walk.refuse("the blocks do not add up", std::to_string(total) + " " + what, std::to_string(found),
-                    "mend the numbers of " + what);
-    walk.need_end();
-}
 
 struct MshCells {
     int dimension = 3;
@@ -198,8 +145,8 @@ struct MshGroups {
 
 MshGroups read_msh_groups(const MshFile& file);
 
-/// Tells which elements are not among the cells, and which nodes are of no cell.
-void note_cells(const MshCells& cells, const MshGroups& groups, const std::string& path, Notes& notes);
+/// Tells which elements are not among the cells, and which nodes are of no cell. `partitioned`: entities are.
+void note_cells(const MshCells& cells, bool partitioned, const std::string& path, Notes& notes);
 
 /// Appends the fields "gmsh:physical" and "gmsh:geometrical", and the labels "gmsh:tag" and "gmsh:physical_name". A
 /// cell field of one of these names that is there already stays: the writer makes such where groups cannot say the

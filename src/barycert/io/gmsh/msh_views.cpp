@@ -59,28 +59,6 @@ void read_header(const MshFile& file, MshView& view) {
     rows.need_end();
 }
 
-/// The rows of one section.
-struct ViewRows {
-    std::vector<std::int64_t> tags;
-    std::vector<double> values;
-};
-
-ViewRows read_rows(const MshFile& file, const MshView& view) {
-    ViewRows rows;
-    const auto components = static_cast<std::size_t>(view.components);
-    rows.tags.resize(view.rows.count);
-    rows.values.resize(view.rows.count * components);
-    const std::string section(view.section->name);
-    parse_runs(file, section.c_str(), std::span(&view.rows, 1), [&, components](auto& row, const Run&, std::size_t i) {
-        if (!row.integer(rows.tags[i], "a tag")) return false;
-        for (std::size_t c = 0; c < components; ++c) {
-            if (!row.value(rows.values[i * components + c], "a number")) return false;
-        }
-        return true;
-    });
-    return rows;
-}
-
 std::string step_text(const MshView& view) {
     return "step " + std::to_string(view.step) + " (time " + base::shortest(view.time) + ")";
 }
@@ -100,15 +78,24 @@ public:
 
     void add(const MshView& view) {
         if (view.components != first_.components) return skip(view, "has another number of components");
-        ViewRows rows = read_rows(file_, view);
-        std::vector<Mesh::Index> to(rows.tags.size());
-        bool all = placed_ == 0 && to.size() == targets_.count;
+        const auto components = static_cast<std::size_t>(view.components);
+        std::vector<std::int64_t> tags(view.rows.count);
+        std::vector<double> values(view.rows.count * components);
+        parse_runs(file_, view.section->name, {&view.rows, 1}, [&, components](auto& row, const Run&, std::size_t i) {
+            if (!row.integer(tags[i], "a tag")) return false;
+            for (std::size_t c = 0; c < components; ++c) {
+                if (!row.any_real(values[i * components + c], "a number")) return false;
+            }
+            return true;
+        });
+        bool all = placed_ == 0 && tags.size() == targets_.count;
+        std::vector<Mesh::Index> to(tags.size());
         for (std::size_t i = 0; i < to.size(); ++i) {
-            to[i] = targets_.index.find(rows.tags[i]);
+            to[i] = targets_.index.find(tags[i]);
             all = all && to[i] == static_cast<Mesh::Index>(i);
         }
-        if (!all) return place(view, rows, to);
-        field_.data = std::move(rows.values);
+        if (!all) return place(view, tags, values, to);
+        field_.data = std::move(values);
         placed_ = targets_.count;
     }
 
@@ -136,7 +123,9 @@ private:
              "a second section " + base::quoted(view.field) + " of " + step_text(view) + ": it " + why, true);
     }
 
-    void place(const MshView& view, const ViewRows& rows, const std::vector<Mesh::Index>& to) {
+    /// Value i, of the tag i, at to[i], if that is not -1.
+    void place(const MshView& view, const std::vector<std::int64_t>& tags, const std::vector<double>& values,
+               const std::vector<Mesh::Index>& to) {
         const auto components = static_cast<std::size_t>(field_.components);
         if (has_.empty()) {
             has_.assign(targets_.count, placed_ == targets_.count ? 1 : 0);
@@ -155,10 +144,10 @@ private:
             if (has_[i] == 2)
                 file_.refuse(view.section->name.data(),
                              "two values of " + base::quoted(view.field) + " for one " + targets_.one,
-                             "each tag once in a section", "tag " + std::to_string(rows.tags[row]) + " again");
+                             "each tag once in a section", "tag " + std::to_string(tags[row]) + " again");
             has_[i] = 2;
             ++placed_;
-            std::copy_n(&rows.values[row * components], components, &field_.data[i * components]);
+            std::copy_n(&values[row * components], components, &field_.data[i * components]);
         }
         std::replace(has_.begin(), has_.end(), std::uint8_t{2}, std::uint8_t{1});
     }

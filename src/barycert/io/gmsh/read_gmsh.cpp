@@ -69,7 +69,7 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options) {
     mesh.index_base = 1;
     mesh.cell_numbers = std::move(cells.numbers);
     if (mesh.dimension == 2) flatten(mesh.points, file.path(), mesh.mid_nodes.empty() ? file.path() : "");
-    note_cells(cells, groups, file.path(), mesh.notes);
+    note_cells(cells, groups.partitioned, file.path(), mesh.notes);
     read_msh_fields(file, views, MshView::Of::nodes, {nodes.index, mesh.point_count(), "node", "nodes"}, options.step,
                     mesh.point_fields, mesh.notes);
     if (std::any_of(views.begin(), views.end(), [](const MshView& v) { return v.of == MshView::Of::elements; })) {

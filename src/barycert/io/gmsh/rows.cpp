@@ -1,17 +1,12 @@
 #include "barycert/io/gmsh/rows.hpp"
 
-#include <bit>
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "barycert/base/text.hpp"
 
 namespace barycert::io {
-namespace {
-
-/// So many words are passed one by one: the index would take longer.
-constexpr std::size_t few = 1024;
-
-}  // namespace
 
 Walk::Walk(const MshFile& file, const MshSection& section, bool text, const char* bad)
     : file_(&file),
@@ -21,10 +16,6 @@ Walk::Walk(const MshFile& file, const MshSection& section, bool text, const char
       at_(section.body.data()),
       end_(at_ + section.body.size()) {}
 
-void Walk::skip() {
-    while (at_ != end_ && (is_blank(*at_) || *at_ == '\n' || *at_ == '\r')) ++at_;
-}
-
 void Walk::refuse(const std::string& what, std::string expected, std::string found, std::string remedy) const {
     file_->refuse(at_, what + " in $" + std::string(name_), std::move(expected), std::move(found), std::move(remedy));
 }
@@ -33,40 +24,37 @@ void Walk::refuse_word(std::string expected, std::string found) const {
     file_->refuse(at_, std::string(bad_) + " $" + std::string(name_), std::move(expected), std::move(found));
 }
 
-void Walk::take(const char* after, const char* name) {
-    if (after == nullptr || static_cast<unsigned char>(*after) > ' ' || after > end_)
-        refuse_word(name, word_at(at_, file_->end()));
-    at_ = after;
+template <class Take>
+void Walk::step(const char* name, const Take& take) {
+    const auto from = [&](auto row) {
+        if (!take(row)) {
+            at_ = row.at();
+            refuse_word(name, word_at(at_, file_->end()));
+        }
+        if (row.at() > end_) refuse("the section ends too early", name, "the end of the section");
+        at_ = row.at();
+    };
+    text_ ? from(Row<true>(*file_, at_)) : from(Row<false>(*file_, at_));
 }
 
-std::int64_t Walk::number(std::size_t bytes, const char* name) {
+std::int64_t Walk::integer(const char* name) {
     std::int64_t value = 0;
-    if (text_) {
-        skip();
-        take(scan_integer(at_, value), name);
-        return value;
-    }
-    if (static_cast<std::size_t>(end_ - at_) < bytes)
-        refuse("the section ends too early", name, "the end of the section");
-    BinaryRow row(at_, bytes == 8, file_->swapped());
-    row.tag(value, name);
-    at_ = row.at();
+    step(name, [&](auto& row) { return row.integer(value, name); });
     return value;
 }
 
 std::int64_t Walk::size(const char* name) {
     const char* const at = at_;
-    const std::int64_t value = number(8, name);
+    std::int64_t value = 0;
+    step(name, [&](auto& row) { return row.tag(value, name); });
     if (value >= 0) return value;
     at_ = at;
     refuse("bad number", name, std::to_string(value));
 }
 
 double Walk::real(const char* name, bool any) {
-    if (!text_) return std::bit_cast<double>(number(8, name));
-    skip();
     double value = 0;
-    take(any ? scan_any_real(at_, end_, value) : scan_real(at_, end_, value), name);
+    step(name, [&](auto& row) { return row.text && !any ? row.real(value, name) : row.any_real(value, name); });
     return value;
 }
 
@@ -74,7 +62,8 @@ std::int64_t Walk::count_line(const char* name) {
     if (text_) return size(name);
     std::int64_t value = 0;
     const char* const after = scan_integer(at_, value);
-    take(after, name);
+    if (after == nullptr || static_cast<unsigned char>(*after) > ' ') refuse_word(name, word_at(at_, file_->end()));
+    at_ = after;
     const std::string_view rest = line();
     if (value < 0 || rest.find_first_not_of(" \t") != std::string_view::npos)
         refuse("bad number", name, base::quoted({after, rest.size()}));
@@ -91,8 +80,9 @@ void Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, 
         if (good) at_ += count * bytes;
     } else if (good) {
         // The last of many words is found by its number.
-        const std::size_t wanted = count * numbers, words = wanted <= few ? wanted : std::min(wanted, words_left());
-        const std::size_t passed = words <= few ? 0 : words - 1;
+        const std::size_t wanted = count * numbers,
+                          words = wanted <= few_words ? wanted : std::min(wanted, words_left());
+        const std::size_t passed = words <= few_words ? 0 : words - 1;
         std::size_t rest = words - passed;
         const char* const from = passed == 0 ? at_ : file_->words().find(file_->words().before(at_) + passed);
         const char* const after = skip_words(from, end_, rest);
@@ -106,37 +96,16 @@ void Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, 
 }
 
 void Walk::need_end() {
-    skip();
+    while (at_ != end_ && (is_blank(*at_) || *at_ == '\n' || *at_ == '\r')) ++at_;
     if (at_ != end_)
         refuse("more than its header tells", "the end of the section",
                text_ ? word_at(at_, end_) : std::to_string(end_ - at_) + " more bytes",
                "mend the numbers at the beginning of the section");
 }
 
-std::vector<RunPart> cut_runs(const MshFile& file, std::span<const Run> runs) {
-    constexpr std::size_t part_bytes = std::size_t{1} << 18;
-    std::vector<RunPart> parts;
-    for (const Run& run : runs) {
-        if (!file.binary() && run.count * run.numbers <= few) {
-            parts.push_back({&run, 0, run.count, run.at});
-            continue;
-        }
-        if (!file.binary()) {
-            for (const WordIndex::Part& part : file.words().cut(run.at, run.count, run.numbers))
-                parts.push_back({&run, part.first, part.last, part.at});
-            continue;
-        }
-        const std::size_t step = std::max<std::size_t>(1, part_bytes / run.bytes);
-        for (std::size_t i = 0; i < run.count; i += step)
-            parts.push_back({&run, i, std::min(i + step, run.count), run.at + i * run.bytes});
-    }
-    return parts;
-}
-
-void refuse_row(const MshFile& file, const char* section, const char* at, const RowFault& fault, std::size_t row) {
+void refuse_row(const MshFile& file, std::string_view section, const char* at, const RowFault& fault, std::size_t row) {
     const bool text = !file.binary();
-    while (text && at != file.end() && (is_blank(*at) || *at == '\r' || *at == '\n') && !fault.number) ++at;
-    std::string what = std::string(fault.what) + " in $" + section;
+    std::string what = std::string(fault.what) + " in $" + std::string(section);
     if (!text) what += ", row " + std::to_string(row) + " from 0";
     const std::string found = fault.number ? std::to_string(*fault.number)
                               : text       ? word_at(at, file.end())

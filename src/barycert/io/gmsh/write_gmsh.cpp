@@ -32,12 +32,11 @@ struct CellGroups {
     std::int32_t group_of(std::size_t cell) const { return physical.empty() ? 0 : physical[cell]; }
 };
 
-/// The values of a field, if each is an integer of 32 bits (and no -0, which would not come back).
-std::optional<std::vector<std::int32_t>> integers(const Field* field) {
-    if (field == nullptr || field->components != 1) return std::nullopt;
+/// The values of a field of one component, if each is an integer of 32 bits (and no -0, which would not come back).
+std::optional<std::vector<std::int32_t>> integers(const Field& field) {
     std::vector<std::int32_t> values;
-    values.reserve(field->data.size());
-    for (const double x : field->data) {
+    values.reserve(field.data.size());
+    for (const double x : field.data) {
         if (!(std::fabs(x) <= INT32_MAX) || x != std::trunc(x) || (x == 0 && std::signbit(x))) return std::nullopt;
         values.push_back(static_cast<std::int32_t>(x));
     }
@@ -46,13 +45,6 @@ std::optional<std::vector<std::int32_t>> integers(const Field* field) {
 
 bool all_are(const std::vector<std::int32_t>& values, std::int32_t value) {
     return std::all_of(values.begin(), values.end(), [&](std::int32_t v) { return v == value; });
-}
-
-const Field* find_field(const Mesh& mesh, const char* name) {
-    for (const Field& field : mesh.cell_fields) {
-        if (field.name == name) return &field;
-    }
-    return nullptr;
 }
 
 template <class T>
@@ -103,12 +95,13 @@ CellGroups group_cells(const Mesh& mesh, bool by_entity, const std::string& path
     CellGroups groups;
     groups.tags = element_tags(mesh);
     // Where all cells are of no group, or of entity 1 or none, the reader makes no field.
-    const auto take = [&](const char* name, std::int32_t nothing, std::vector<std::int32_t>& to) {
-        const Field* const field = find_field(mesh, name);
-        auto values = integers(field);
-        if (!values || all_are(*values, 0) || all_are(*values, nothing)) return static_cast<const Field*>(nullptr);
+    const auto take = [&](const char* name, std::int32_t nothing, std::vector<std::int32_t>& to) -> const Field* {
+        const auto field = std::ranges::find(mesh.cell_fields, name, &Field::name);
+        if (field == mesh.cell_fields.end() || field->components != 1) return nullptr;
+        auto values = integers(*field);
+        if (!values || all_are(*values, 0) || all_are(*values, nothing)) return nullptr;
         to = std::move(*values);
-        return field;
+        return &*field;
     };
     const Field* const physical = take("gmsh:physical", 0, groups.physical);
     const Field* geometrical = take("gmsh:geometrical", 1, groups.entity);

@@ -170,8 +170,7 @@ MeditFile::MeditFile(const std::string& path) : path_(path) {
 void MeditFile::refuse(const char* at, std::string what, std::string expected, std::string found,
                        std::string remedy) const {
     if (binary_) what += ", at byte " + std::to_string(at - bytes_.data());
-    throw Exception(
-        line_error(path_, line_at(at), std::move(what), std::move(expected), std::move(found), std::move(remedy)));
+    refuse_line(path_, line_at(at), std::move(what), std::move(expected), std::move(found), std::move(remedy));
 }
 
 void MeditFile::refuse_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,

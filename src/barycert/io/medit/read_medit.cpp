@@ -92,8 +92,7 @@ public:
 
 private:
     [[noreturn]] void refuse(std::string what, std::string expected, std::string found, std::string remedy) const {
-        throw Exception(
-            file_error(file_.path(), std::move(what), std::move(expected), std::move(found), std::move(remedy)));
+        refuse_file(file_.path(), std::move(what), std::move(expected), std::move(found), std::move(remedy));
     }
 
     /// Which section has the cells.

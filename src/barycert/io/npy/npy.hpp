@@ -104,13 +104,13 @@ public:
 
     /// Columns can be read afterwards. Error: a type of unknown size, or Python objects; a shape that is no table; a
     /// file of another size.
-    NpyTable table() const;
+    const NpyTable& make_table();
 
     /// How many rows of the table are read at once: some hundred kilobytes, or one.
-    static std::size_t rows_at_once(const NpyTable& table);
+    std::size_t rows_at_once() const;
 
     /// Reads `count` rows from row `first` on; of a table by columns nothing, yet.
-    void go_to(const NpyTable& table, std::uint64_t first, std::size_t count);
+    void go_to(std::uint64_t first, std::size_t count);
 
     /// The numbers of a column in these rows, to out[0], out[stride], ...; `what` is the column in messages. Error: an
     /// integer that is no double. Precondition: a column of numbers.
@@ -130,7 +130,7 @@ private:
     std::string path_;
     base::InputFile file_;
     NpyHeader header_;
-    bool by_columns_ = false;
+    NpyTable table_;
     std::uint64_t first_ = 0;  // of the rows gone to
     std::size_t count_ = 0;
     std::vector<char> bytes_;  // of these rows, or of one column

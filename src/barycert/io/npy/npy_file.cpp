@@ -38,10 +38,9 @@ void check_room(const NpyTable& table, std::uint64_t room, const std::string& fi
     const bool too_few = row != 0 && table.rows > room / row;
     if (!too_few && table.rows * row == room) return;
     if (too_few)
-        throw Exception(
-            file_error(file, "the file ends too early",
-                       std::to_string(table.rows) + " rows of " + std::to_string(row) + " bytes, as its header tells",
-                       std::to_string(room) + " bytes", "the file may be cut short: write it again"));
+        refuse_file(file, "the file ends too early",
+                    std::to_string(table.rows) + " rows of " + std::to_string(row) + " bytes, as its header tells",
+                    std::to_string(room) + " bytes", "the file may be cut short: write it again");
     refuse_file(file, "bytes after the array", std::to_string(table.rows * row) + ", as the header tells",
                 std::to_string(room), "save one array a file");
 }
@@ -60,48 +59,46 @@ void NpyFile::read(std::uint64_t offset, std::span<char> bytes) const {
                     "do not change the file while it is read");
 }
 
-NpyTable NpyFile::table() const {
+const NpyTable& NpyFile::make_table() {
     const std::vector<std::uint64_t>& shape = header_.shape;
-    NpyTable table{.rows = 0, .columns = {}, .structured = header_.structured};
     if (shape.empty() || shape.size() > (header_.structured ? 1U : 2U))
         refuse_file(path_, "an array of another shape", header_.structured ? "(n,)" : "(n, columns)", as_tuple(shape),
                     "save an array with a row for each point");
-    table.rows = shape[0];
+    table_.structured = header_.structured;
+    table_.rows = shape[0];
     if (header_.structured) {
-        table.columns = header_.fields;
-        table.row_size = header_.item_size;
-        for (NpyColumn& column : table.columns) column.step = table.row_size;
+        table_.columns = header_.fields;
+        table_.row_size = header_.item_size;
+        for (NpyColumn& column : table_.columns) column.step = table_.row_size;
     } else {
-        make_simple(header_, path_, table);
+        make_simple(header_, path_, table_);
     }
-    check_room(table, file_.size() - header_.size, path_);
-    return table;
+    check_room(table_, file_.size() - header_.size, path_);
+    return table_;
 }
 
-std::size_t NpyFile::rows_at_once(const NpyTable& table) {
-    return std::max<std::size_t>(1, bytes_at_once / std::max<std::size_t>(1, table.row_size));
+std::size_t NpyFile::rows_at_once() const {
+    return std::max<std::size_t>(1, bytes_at_once / std::max<std::size_t>(1, table_.row_size));
 }
 
-void NpyFile::go_to(const NpyTable& table, std::uint64_t first, std::size_t count) {
-    by_columns_ = table.by_columns;
+void NpyFile::go_to(std::uint64_t first, std::size_t count) {
     first_ = first;
     count_ = count;
-    if (by_columns_) return;
-    bytes_.resize(count * table.row_size);
-    read(first * table.row_size, bytes_);
+    if (table_.by_columns) return;
+    bytes_.resize(count * table_.row_size);
+    read(first * table_.row_size, bytes_);
 }
 
 /// Where the first value of the column in the rows stands.
 const char* NpyFile::items(const NpyColumn& column) {
-    if (!by_columns_) return bytes_.data() + column.first;
+    if (!table_.by_columns) return bytes_.data() + column.first;
     bytes_.resize(count_ * column.step);
     read(column.first + first_ * column.step, bytes_);
     return bytes_.data();
 }
 
 void NpyFile::refuse(const std::string& what, std::size_t row, const char* expected, const char* remedy) const {
-    throw Exception(
-        file_error(path_, "row " + std::to_string(first_ + row) + " of " + what, expected, "another value", remedy));
+    refuse_file(path_, "row " + std::to_string(first_ + row) + " of " + what, expected, "another value", remedy);
 }
 
 void NpyFile::numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride) {

@@ -17,8 +17,6 @@
 namespace barycert::io {
 namespace {
 
-/// NumPy aligns the numbers of a file so.
-
 constexpr std::size_t feature_count = static_cast<std::size_t>(Feature::degenerate) + 1;
 
 /// The longest feature of a row: interior.
@@ -41,21 +39,20 @@ std::string as_literal(std::string_view name) {
     return text + "'";
 }
 
-/// NumPy has no texts of length zero that every function takes.
-std::size_t length_of(const ColumnFormat& text) {
-    return std::max<std::size_t>(1, text.max_characters != 0 ? text.max_characters : text.max_bytes);
-}
+/// How a carried column stands in the file: NumPy's name of the type, and the bytes in a row.
+struct CarriedType {
+    std::string descr = "<f8";
+    std::size_t size = 8;
+    bool characters = false;  ///< a text of these, of 4 bytes each, else of bytes
+};
 
-std::string type_of(const ColumnFormat& column) {
-    if (column.type == Column::Type::integer) return "<i8";
-    if (column.type == Column::Type::number) return "<f8";
-    return (column.max_characters != 0 ? "<U" : "|S") + std::to_string(length_of(column));
-}
-
-/// How many bytes a carried column takes in a row.
-std::size_t size_of(const ColumnFormat& column) {
-    if (column.type != Column::Type::text) return 8;
-    return length_of(column) * (column.max_characters != 0 ? 4 : 1);
+CarriedType type_of(const ColumnFormat& column) {
+    if (column.type == Column::Type::integer) return {"<i8"};
+    if (column.type == Column::Type::number) return {};
+    // NumPy has no texts of length zero that every function takes.
+    const bool characters = column.max_characters != 0;
+    const std::size_t length = std::max<std::size_t>(1, characters ? column.max_characters : column.max_bytes);
+    return {(characters ? "<U" : "|S") + std::to_string(length), length * (characters ? 4 : 1), characters};
 }
 
 const char* fault_of(const std::string& name, std::set<std::string>& seen) {
@@ -72,26 +69,25 @@ char* put(char* at, std::uint64_t bits) {
     return at + sizeof bits;
 }
 
-/// Whether that many bytes hold the text, as characters or as bytes.
-bool fits_text(std::string_view text, std::size_t size, bool characters) {
+/// Whether it holds the text.
+bool holds(const CarriedType& type, std::string_view text) {
     if (text.ends_with('\0')) return false;
-    if (!characters) return text.size() <= size;
+    if (!type.characters) return text.size() <= type.size;
     const std::ptrdiff_t count = mesh::count_characters(text);
-    return count >= 0 && static_cast<std::size_t>(count) <= size / 4;
+    return count >= 0 && static_cast<std::size_t>(count) <= type.size / 4;
 }
 
-/// Writes the text into `size` bytes, with zeros behind it. Precondition: it fits.
-void put_text(char* at, std::size_t size, std::string_view text, bool characters) {
-    std::memset(at, 0, size);
-    if (!characters) {
-        std::copy(text.begin(), text.end(), at);
-        return;
-    }
-    for (; !text.empty(); at += 4) {
+/// Writes the text, with zeros behind it; the place after it. Precondition: it fits.
+char* put(char* at, const CarriedType& type, std::string_view text) {
+    char* const end = at + type.size;
+    if (!type.characters) at = std::copy(text.begin(), text.end(), at);
+    for (; type.characters && !text.empty(); at += 4) {
         const auto [code, bytes] = base::first_character(text);
         text.remove_prefix(bytes);
         for (std::size_t i = 0; i < 4; ++i) at[i] = static_cast<char>(code >> 8 * i & 0xFFU);
     }
+    std::fill(at, end, '\0');
+    return end;
 }
 
 class NpySink final : public RowSink {
@@ -114,8 +110,7 @@ private:
     char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override {
         const auto put_one = [&]<class T>(const T& value, std::size_t k) {
             if constexpr (std::is_same_v<T, std::string>) {
-                put_text(at, carried_[k], value, format_.carried[k].max_characters != 0);
-                at += carried_[k];
+                at = put(at, carried_[k], value);
             } else if constexpr (std::is_same_v<T, Feature>) {
                 std::memcpy(at, &features_[static_cast<std::size_t>(value)], feature_size);
                 at += feature_size;
@@ -132,7 +127,7 @@ private:
     std::string types_;          // the descr of the header
     std::size_t head_size_ = 0;  // with room for any count
     std::size_t row_size_ = 0;
-    std::vector<std::size_t> carried_;  // bytes of each carried column
+    std::vector<CarriedType> carried_;
     std::uint64_t count_ = 0;
     std::array<std::uint64_t, feature_count> features_{};  // as they stand in the file, in the memory of this machine
 };
@@ -151,9 +146,9 @@ void NpySink::settle_types() {
     if (format_.distances) fields.push_back({"distance"});
     row_size_ = 8 * fields.size();  // each has 8 bytes
     for (const ColumnFormat& column : format_.carried) {
-        fields.push_back({column.name, type_of(column)});
-        carried_.push_back(size_of(column));
-        row_size_ += carried_.back();
+        carried_.push_back(type_of(column));
+        fields.push_back({column.name, carried_.back().descr});
+        row_size_ += carried_.back().size;
     }
     std::set<std::string> seen;
     for (const Field& field : fields) {
@@ -178,7 +173,6 @@ NpySink::NpySink(const std::string& path, const TableFormat& format) : RowSink(p
         std::copy_n(word.begin(), std::min(word.size(), text.size()), text.begin());
         std::memcpy(&features_[f], text.data(), text.size());
     }
-
     head_size_ = npy_header_of(types_, {UINT64_MAX}).size();
     if (head_size_ > longest_npy_text)
         refuse_file(path_, "too many columns for an NPY file",
@@ -193,14 +187,15 @@ Status NpySink::check(const TableView& rows) const {
     for (std::size_t k = 0; k < carried_.size(); ++k) {
         const auto* const texts = std::get_if<std::vector<std::string>>(&rows.carried[k].values);
         if (texts == nullptr) continue;
-        const bool characters = format_.carried[k].max_characters != 0;
+        const CarriedType& type = carried_[k];
         for (const std::string& text : *texts) {
-            if (fits_text(text, carried_[k], characters)) continue;
-            return file_error(
-                path_, "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
-                std::to_string(carried_[k] / (characters ? 4 : 1)) + (characters ? " characters of UTF-8" : " bytes") +
-                    " at most, as the column was told, and no zero byte at its end",
-                base::quoted(text), "write CSV");
+            if (holds(type, text)) continue;
+            return file_error(path_,
+                              "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
+                              std::to_string(type.size / (type.characters ? 4 : 1)) +
+                                  (type.characters ? " characters of UTF-8" : " bytes") +
+                                  " at most, as the column was told, and no zero byte at its end",
+                              base::quoted(text), "write CSV");
         }
     }
     return Done{};

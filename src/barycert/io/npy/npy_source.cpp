@@ -16,7 +16,7 @@ class NpySource final : public ColumnSource {
 public:
     NpySource(const std::string& path, int dimension, const PointOptions& options);
 
-    std::optional<std::uint64_t> count() const override { return table_.rows; }
+    std::optional<std::uint64_t> count() const override { return rows_; }
 
 private:
     std::size_t next(std::size_t max, std::vector<double>& out) override;
@@ -26,7 +26,7 @@ private:
 
     std::string path_;
     NpyFile file_;
-    NpyTable table_;
+    std::uint64_t rows_ = 0;
     bool as_in_memory_ = false;    // the array is what is asked for, number by number
     std::vector<NpyColumn> axes_;  // and perhaps a z that must be 0
     std::vector<NpyColumn> kept_;
@@ -54,16 +54,17 @@ void NpySource::check_shape() const {
 NpySource::NpySource(const std::string& path, int dimension, const PointOptions& options)
     : ColumnSource(dimension), path_(path), file_(path), any_point_(options.nonfinite_points == NonfinitePoints::nan) {
     if (!file_.header().structured && options.columns.empty()) check_shape();
-    table_ = file_.table();
-    TableColumns all{.names = {}, .named = table_.structured, .file = path_};
-    for (const NpyColumn& column : table_.columns) all.names.push_back(column.name);
+    const NpyTable& table = file_.make_table();
+    rows_ = table.rows;
+    TableColumns all{.names = {}, .named = table.structured, .file = path_};
+    for (const NpyColumn& column : table.columns) all.names.push_back(column.name);
     PointColumns columns = choose_columns(all, dimension, options);
     notes_ = std::move(columns.notes);
     std::vector<std::size_t> places = columns.axes;
     if (columns.zero) places.push_back(*columns.zero);
     std::string widened;
     for (const std::size_t place : places) {
-        const NpyColumn& column = table_.columns[place];
+        const NpyColumn& column = table.columns[place];
         if (!column.type.is_number())
             refuse_file(path_, "cannot read points of that type",
                         "integers or floating-point numbers of at most 64 bits", base::quoted(column.type.text),
@@ -73,10 +74,10 @@ NpySource::NpySource(const std::string& path, int dimension, const PointOptions&
     }
     if (!widened.empty())
         notes_.push_back({Note::Kind::converted, "coordinates of type " + widened + " to double, exactly", path_});
-    for (PointColumns::Kept& kept : columns.kept) keep(table_.columns[kept.column], std::move(kept.name));
+    for (PointColumns::Kept& kept : columns.kept) keep(table.columns[kept.column], std::move(kept.name));
     const NpyType& type = axes_.front().type;
-    as_in_memory_ = !table_.structured && !table_.by_columns && kept_.empty() && type.is_double() && !type.swapped &&
-                    table_.columns.size() == dimension_;
+    as_in_memory_ = !table.structured && !table.by_columns && kept_.empty() && type.is_double() && !type.swapped &&
+                    table.columns.size() == dimension_;
     for (std::size_t i = 0; i < places.size(); ++i) as_in_memory_ = as_in_memory_ && places[i] == i;
 }
 
@@ -103,10 +104,10 @@ void NpySource::keep(const NpyColumn& column, std::string name) {
 /// The next points, and what is carried through with them.
 void NpySource::read_rows(std::span<double> points) {
     const auto name = [](const NpyColumn& column) { return "column " + base::quoted(column.name); };
-    const std::size_t at_once = NpyFile::rows_at_once(table_), taken = points.size() / dimension_;
+    const std::size_t at_once = file_.rows_at_once(), taken = points.size() / dimension_;
     for (std::size_t done = 0, size = 0; done < taken; done += size) {
         size = std::min(at_once, taken - done);
-        file_.go_to(table_, next_ + done, size);
+        file_.go_to(next_ + done, size);
         const std::span<double> some = points.subspan(done * dimension_, size * dimension_);
         for (std::size_t axis = 0; axis < dimension_; ++axis)
             file_.numbers(axes_[axis], name(axes_[axis]), some.data() + axis, dimension_);
@@ -125,7 +126,7 @@ void NpySource::read_rows(std::span<double> points) {
 }
 
 std::size_t NpySource::next(std::size_t max, std::vector<double>& out) {
-    const std::size_t taken = std::min<std::uint64_t>(max, table_.rows - next_), before = out.size();
+    const std::size_t taken = std::min<std::uint64_t>(max, rows_ - next_), before = out.size();
     out.resize(before + taken * dimension_);
     const std::span<double> points = std::span(out).subspan(before);
     try {
@@ -138,11 +139,10 @@ std::size_t NpySource::next(std::size_t max, std::vector<double>& out) {
         if (const std::size_t i =
                 any_point_ || base::all_finite(points) ? points.size() : base::first_not_finite(points);
             i != points.size())
-            throw Exception(
-                file_error(path_, "a point that is not finite", "finite coordinates",
-                           base::shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
-                               std::to_string(i % dimension_) + "]",
-                           std::string("remove the point: a[numpy.isfinite(a).all(axis=1)]") + or_nan_for_it));
+            refuse_file(path_, "a point that is not finite", "finite coordinates",
+                        base::shortest(points[i]) + " at [" + std::to_string(next_ + i / dimension_) + ", " +
+                            std::to_string(i % dimension_) + "]",
+                        std::string("remove the point: a[numpy.isfinite(a).all(axis=1)]") + or_nan_for_it);
     } catch (const Exception&) {
         out.resize(before);
         throw;

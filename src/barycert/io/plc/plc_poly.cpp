@@ -4,47 +4,40 @@
 #include "barycert/io/plc/plc_text.hpp"
 
 namespace barycert::io {
-NodeHeader read_node_header(PlcText& in) {
+
+bool read_nodes(PlcText& in, Plc& plc) {
     in.need_line("the number of nodes");
-    NodeHeader header;
-    header.nodes = in.take_count("the number of nodes");
+    const std::size_t nodes = in.take_count("the number of nodes");
     if (in.words_left() > 0) {
         const int dimension = in.take_integer("the dimension");
         if (dimension != 3)
             in.fail("cannot mesh", "dimension 3", std::to_string(dimension), "mesh a PLC in the plane with Triangle");
     }
-    if (in.words_left() > 0) header.attributes = static_cast<int>(in.take_count("the number of attributes"));
-    if (in.words_left() > 0) {
-        const int markers = in.take_integer("the number of markers");
-        if (markers != 0 && markers != 1) in.fail("cannot read", "0 or 1 markers", std::to_string(markers));
-        header.markers = markers == 1;
-    }
-    return header;
-}
-
-namespace {
-
-void read_nodes(PlcText& in, const NodeHeader& header, Plc& plc) {
-    plc.attribute_count = header.attributes;
-    for (std::size_t i = 0; i < header.nodes; ++i) {
-        in.need_line("node " + std::to_string(i + 1) + " of " + std::to_string(header.nodes));
+    if (in.words_left() > 0) plc.attribute_count = static_cast<int>(in.take_count("the number of attributes"));
+    const int markers = in.words_left() > 0 ? in.take_integer("the number of markers") : 0;
+    if (markers != 0 && markers != 1) in.fail("cannot read", "0 or 1 markers", std::to_string(markers));
+    for (std::size_t i = 0; i < nodes; ++i) {
+        in.need_line("node " + std::to_string(i + 1) + " of " + std::to_string(nodes));
         const std::int32_t id = in.take_integer("a node's number");
         if (i == 0) {
             if (id != 0 && id != 1) in.fail("cannot read", "numbering from 0 or 1", std::to_string(id));
             plc.index_base = id;
         }
-        if (id < 0 || static_cast<std::size_t>(id) != i + static_cast<std::size_t>(plc.index_base))
-            in.fail("nodes are not numbered in order", std::to_string(i + static_cast<std::size_t>(plc.index_base)),
-                    std::to_string(id));
+        const std::size_t expected = i + static_cast<std::size_t>(plc.index_base);
+        if (id < 0 || static_cast<std::size_t>(id) != expected)
+            in.fail("nodes are not numbered in order", std::to_string(expected), std::to_string(id));
         for (int axis = 0; axis < 3; ++axis) plc.points.push_back(in.take_number("a coordinate"));
-        for (int a = 0; a < header.attributes; ++a) plc.attributes.push_back(in.take_number("an attribute"));
+        for (int a = 0; a < plc.attribute_count; ++a) plc.attributes.push_back(in.take_number("an attribute"));
         // A marker may be left out and is 0 then, as in TetGen.
-        if (header.markers) plc.point_markers.push_back(in.words_left() > 0 ? in.take_integer("a marker") : 0);
+        if (markers == 1) plc.point_markers.push_back(in.words_left() > 0 ? in.take_integer("a marker") : 0);
         if (in.words_left() > 0)
             in.fail("more words than the header announces", "the end of the line", in.take(""),
                     "state attributes and markers in the header");
     }
+    return nodes > 0;
 }
+
+namespace {
 
 /// A ring of nodes; it may run over several lines.
 std::vector<std::int32_t> read_polygon(PlcText& in, const Plc& plc) {
@@ -99,18 +92,12 @@ PlcFacet read_facet(PlcText& in, const Plc& plc, bool one_polygon) {
 
 }  // namespace
 
-Plc read_poly(const std::string& path, std::string_view text, bool one_polygon_a_facet) {
+Plc read_poly(PlcText& in, bool one_polygon_a_facet) {
     Plc plc;
-    PlcText in(path, text);
-    const NodeHeader header = read_node_header(in);
-    if (header.nodes > 0) {
-        read_nodes(in, header, plc);
-    } else {
-        const std::string node_path = node_path_of(path);
-        const std::string node_text = read_whole_file(node_path);
-        PlcText nodes(node_path, node_text);
-        const NodeHeader node_header = read_node_header(nodes);
-        read_nodes(nodes, node_header, plc);
+    if (!read_nodes(in, plc)) {
+        const std::string path = node_path_of(in.path()), text = read_whole_file(path);
+        PlcText nodes(path, text);
+        read_nodes(nodes, plc);
         plc.nodes_apart = true;
     }
     in.need_line("the number of facets");

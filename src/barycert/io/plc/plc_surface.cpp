@@ -77,30 +77,31 @@ T little_endian(std::string_view bytes, std::size_t at) {
     return number_at<T, std::endian::native == std::endian::big>(bytes.data() + at);
 }
 
-constexpr std::size_t header = 84;  // 80 bytes of text and a count
-constexpr std::size_t record = 50;  // normal and three corners as floats, two bytes of padding
+constexpr std::size_t stl_header = 84;  // 80 bytes of text and a count
+constexpr std::size_t stl_record = 50;  // normal and three corners as floats, two bytes of padding
 
 /// Of a file of `size` bytes that begins so. Some binary files begin with `solid` too; a text file has no zero byte.
 bool is_binary_stl(std::string_view bytes, std::size_t size, const std::string& path) {
     if (bytes.substr(0, 5) == "solid" && bytes.find('\0') == std::string_view::npos) return false;
-    const std::size_t count = bytes.size() < header ? 0 : little_endian<std::uint32_t>(bytes, 80);
-    if (size >= header && (size - header) / record == count && (size - header) % record == 0) return true;
+    const std::size_t count = bytes.size() < stl_header ? 0 : little_endian<std::uint32_t>(bytes, 80);
+    if (size >= stl_header && (size - stl_header) / stl_record == count && (size - stl_header) % stl_record == 0)
+        return true;
     refuse_file(path, "neither a text nor a whole binary .stl",
-                "`solid`, or " + std::to_string(header + record * count) + " bytes", std::to_string(size) + " bytes");
+                "`solid`, or " + std::to_string(stl_header + stl_record * count) + " bytes",
+                std::to_string(size) + " bytes");
 }
 
 Plc read_binary_stl(const std::string& path, std::string_view bytes) {
-    const std::size_t count = (bytes.size() - header) / record;
+    const std::size_t count = (bytes.size() - stl_header) / stl_record;
     SoupBuilder soup;
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             std::array<double, 3> point{};
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const std::size_t at = header + record * i + 12 * (corner + 1) + 4 * axis;
+                const std::size_t at = stl_header + stl_record * i + 12 * (corner + 1) + 4 * axis;
                 point[axis] = static_cast<double>(little_endian<float>(bytes, at));
                 if (!std::isfinite(point[axis]))
-                    throw Exception(
-                        file_error(path, "a coordinate of triangle " + std::to_string(i) + " is not finite"));
+                    refuse_file(path, "a coordinate of triangle " + std::to_string(i) + " is not finite");
             }
             soup.add(point);
         }
@@ -108,9 +109,14 @@ Plc read_binary_stl(const std::string& path, std::string_view bytes) {
     return std::move(soup.plc);
 }
 
-}  // namespace
+/// The number of nodes or polygons and where x, y, z stand, from the head of a .ply file.
+struct PlyHeader {
+    std::size_t nodes = 0, polygons = 0;
+    std::array<std::optional<std::size_t>, 3> axis;
+    std::size_t properties = 0;
+};
 
-PlyHeader read_ply_header(PlcText& in, const std::string& path) {
+PlyHeader read_ply_header(PlcText& in) {
     PlyHeader header;
     std::string element;
     bool text_format = false;
@@ -120,7 +126,7 @@ PlyHeader read_ply_header(PlcText& in, const std::string& path) {
         const std::string_view key = in.take("a keyword");
         if (key == "format") {
             const std::string_view format = in.take("ascii");
-            if (format != "ascii") in.fail("cannot read a binary .ply", "ascii", format, text_ply_remedy(path));
+            if (format != "ascii") in.fail("cannot read a binary .ply", "ascii", format, text_ply_remedy(in.path()));
             text_format = true;
         } else if (key == "element") {
             element = in.take("an element's name");
@@ -148,19 +154,15 @@ PlyHeader read_ply_header(PlcText& in, const std::string& path) {
     return header;
 }
 
-OffHeader read_off_header(PlcText& in) {
+}  // namespace
+
+Plc read_off(PlcText& in) {
+    Plc plc;
     in.need_line("OFF");
     const std::string_view keyword = in.take("OFF");
     if (keyword != "OFF") in.fail("cannot read", "OFF", keyword);
     if (in.words_left() == 0) in.need_line("the counts of nodes and polygons");
-    const std::size_t nodes = in.take_count("the number of nodes");
-    return {nodes, in.take_count("the number of polygons")};
-}
-
-Plc read_off(const std::string& path, std::string_view text) {
-    Plc plc;
-    PlcText in(path, text);
-    const auto [nodes, polygons] = read_off_header(in);
+    const std::size_t nodes = in.take_count("the number of nodes"), polygons = in.take_count("the number of polygons");
     for (std::size_t i = 0; i < nodes; ++i) {
         in.need_line("node " + std::to_string(i) + " of " + std::to_string(nodes));
         for (int axis = 0; axis < 3; ++axis) plc.points.push_back(in.take_number("a coordinate"));
@@ -177,9 +179,9 @@ void check_stl_size(const std::string& path) {
     if (file && size) is_binary_stl(std::string_view(block).substr(0, *size), file->size(), path);
 }
 
-Plc read_stl(const std::string& path, std::string_view text) {
-    if (is_binary_stl(text, text.size(), path)) return read_binary_stl(path, text);
-    PlcText in(path, text);
+Plc read_stl(PlcText& in) {
+    const std::string_view bytes = in.rest();
+    if (is_binary_stl(bytes, bytes.size(), in.path())) return read_binary_stl(in.path(), bytes);
     SoupBuilder soup;
     bool ended = false;
     while (in.next_line()) {
@@ -194,10 +196,9 @@ Plc read_stl(const std::string& path, std::string_view text) {
     return std::move(soup.plc);
 }
 
-Plc read_ply(const std::string& path, std::string_view text) {
+Plc read_ply(PlcText& in) {
     Plc plc;
-    PlcText in(path, text);
-    const PlyHeader header = read_ply_header(in, path);
+    const PlyHeader header = read_ply_header(in);
     std::vector<double> row(header.properties);
     for (std::size_t i = 0; i < header.nodes; ++i) {
         in.need_line("node " + std::to_string(i) + " of " + std::to_string(header.nodes));

@@ -15,23 +15,22 @@
 namespace barycert::io {
 namespace {
 
-/// Of the first block; one that goes on behind it, after long comments, is left to the reader.
-Status check_header(std::string_view block, std::size_t size, const std::string& path) {
+/// Of the first block, which ends in the middle: what is wrong there in whole lines.
+Status check_beginning_of(std::string_view block, std::size_t size, const std::string& path) {
     block = block.substr(0, block.rfind('\n') + 1);
     if (block.starts_with("\xEF\xBB\xBF")) block.remove_prefix(3);
     PlcText in(path, block, size);
-    try {
+    Plc ignored;
+    const Status read = status_of([&] {
         if (has_suffix(path, ".off")) {
-            read_off_header(in);
+            read_off(in);
         } else if (has_suffix(path, ".ply")) {
-            read_ply_header(in, path);
+            read_ply(in);
         } else {
-            read_node_header(in);
+            read_nodes(in, ignored);
         }
-    } catch (const Exception& problem) {
-        if (!in.at_end()) return problem.error();
-    }
-    return Done{};
+    });
+    return in.rest().empty() ? Status(Done{}) : read;
 }
 
 }  // namespace
@@ -46,7 +45,9 @@ std::string read_whole_file(const std::string& path) {
     // A binary .stl may begin with zeros; its size tells at once whether it is one.
     const bool stl = has_suffix(path, ".stl");
     if (stl) check_stl_size(path);
-    const auto header = [&](std::string_view block, std::uint64_t size) { return check_header(block, size, path); };
+    const auto header = [&](std::string_view block, std::uint64_t size) {
+        return check_beginning_of(block, size, path);
+    };
     Result<std::string> text =
         base::read_file(path, base::longest_pipe, stl ? base::Text::none : base::Text::all, header);
     if (!text) throw Exception(text.error());
@@ -147,10 +148,11 @@ Result<Plc> read_plc(const std::string& path) {
                           extension.empty() ? "no extension" : extension);
     try {
         const std::string text = read_whole_file(path);
-        Plc plc = extension == ".off"   ? read_off(path, text)
-                  : extension == ".stl" ? read_stl(path, text)
-                  : extension == ".ply" ? read_ply(path, text)
-                                        : read_poly(path, text, extension == ".smesh");
+        PlcText in(path, text);
+        Plc plc = extension == ".off"   ? read_off(in)
+                  : extension == ".stl" ? read_stl(in)
+                  : extension == ".ply" ? read_ply(in)
+                                        : read_poly(in, extension == ".smesh");
         if (plc.facets.empty()) return file_error(path, "nothing to mesh: the PLC has no facets");
         if (plc.point_count() < 4) return file_error(path, "nothing to mesh: a PLC needs four nodes");
         return plc;

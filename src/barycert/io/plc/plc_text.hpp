@@ -3,9 +3,7 @@
 /// For use within read_plc: errors are thrown as Exception and turned into a Result there.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +26,9 @@ public:
     PlcText(const std::string& path, std::string_view text, std::size_t size)
         : path_(path), rest_(text), end_(text.data() + text.size()), size_(size) {}
 
-    bool at_end() const { return rest_.empty(); }
+    const std::string& path() const { return path_; }
+    /// What has not been read.
+    std::string_view rest() const { return rest_; }
 
     /// Goes to the next line that has words. False at the end of the file.
     bool next_line();
@@ -65,32 +65,14 @@ private:
     std::size_t at_ = 0;
 };
 
-/// The headers by themselves; each reader below reads its own.
-struct NodeHeader {
-    std::size_t nodes = 0;
-    int attributes = 0;
-    bool markers = false;
-};
-struct OffHeader {
-    std::size_t nodes = 0;
-    std::size_t polygons = 0;
-};
-/// The number of nodes or polygons and where x, y, z stand, from the head of a .ply file.
-struct PlyHeader {
-    std::size_t nodes = 0;
-    std::size_t polygons = 0;
-    std::array<std::optional<std::size_t>, 3> axis;
-    std::size_t properties = 0;
-};
-NodeHeader read_node_header(PlcText& in);
-OffHeader read_off_header(PlcText& in);
-PlyHeader read_ply_header(PlcText& in, const std::string& path);
+/// Appends nodes: their header and then their rows. False: the header tells that they stand in a file of their own.
+bool read_nodes(PlcText& in, Plc& plc);
 
-Plc read_poly(const std::string& path, std::string_view text, bool one_polygon_a_facet);
-Plc read_off(const std::string& path, std::string_view text);
-Plc read_stl(const std::string& path, std::string_view text);
+Plc read_poly(PlcText& in, bool one_polygon_a_facet);
+Plc read_off(PlcText& in);
+Plc read_stl(PlcText& in);
 /// Throws Exception if the file is an .stl neither as text nor, by its size, in binary form.
 void check_stl_size(const std::string& path);
-Plc read_ply(const std::string& path, std::string_view text);
+Plc read_ply(PlcText& in);
 
 }  // namespace barycert::io

@@ -6,7 +6,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/tetgen/integer_row.hpp"
 
 namespace barycert::io {
 namespace {
@@ -81,13 +80,14 @@ bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row) {
             if (c.kind == ColumnKind::real) {
                 double value = 0;
                 if (!scanner.real(value) && !(table.any_real && scanner.nonfinite(value))) return false;
-                (c.fields != nullptr ? c.fields[k][row] : c.reals[row * c.step + k]) = value;
+                if (c.fields != nullptr) c.fields[k].data[row] = value;
+                if (c.reals != nullptr) c.reals[row * c.step + k] = value;
                 continue;
             }
             std::int64_t value = 0;
             if (!scanner.integer(value)) return false;
             if (c.kind == ColumnKind::integer) {
-                c.integers[row * c.step + k] = value;
+                if (c.integers != nullptr) c.integers[row * c.step + k] = value;
                 continue;
             }
             const bool none = c.kind == ColumnKind::neighbour && value == -1;
@@ -168,9 +168,8 @@ void make_attributes(TextTable& table, std::vector<Field>& fields) {
     for (std::size_t i = 0; i < columns.count; ++i) {
         fields[i].name = "attribute" + std::to_string(i);
         base::resize_large(fields[i].data, table.rows);
-        table.attributes.push_back(fields[i].data.data());
     }
-    columns.fields = table.attributes.data();
+    columns.fields = fields.data();
 }
 
 void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
@@ -222,19 +221,10 @@ TextTable open_table(const std::string& name, std::span<const char* const> heade
 }
 
 void check_room(const TextTable& table) {
-    // Each field takes a character and something that ends it.
+    // Each field takes a character and something that ends it. Without that room rows are missing, or one is too short,
+    // or the last has no line end: the first of these is told.
     const auto room = static_cast<std::size_t>(table.end() - table.body);
-    if (table.rows * 2 * table.column_count() <= room) return;
-    // Then rows are missing, or one is too short, or the last has no line end.
-    const char* at = table.end();
-    std::size_t rows = 0;
-    for (Scanner scanner{table.body, table.end()}; rows < table.rows && scanner.next_row(table.end()); ++rows) {
-        at = scanner.at;
-        if (fields_of_line(table, at).size() < table.column_count()) refuse_row(table, at, rows);
-        scanner.skip_line();
-    }
-    if (rows < table.rows) refuse_end(table, rows);
-    refuse_row(table, at, rows - 1);
+    if (table.rows * 2 * table.column_count() > room) parse_in_order(table);
 }
 
 void parse_tables(std::span<TextTable* const> tables, int threads) {

@@ -44,7 +44,7 @@ struct Columns {
 
     std::size_t step = 0;
     double* reals = nullptr;
-    double* const* fields = nullptr;  ///< in place of it: an array for each column, with a step of 1
+    Field* fields = nullptr;  ///< in place of it: a field for each column
     std::int64_t* integers = nullptr;
     Mesh::Index* indices = nullptr;
     Mesh::Index* more_indices = nullptr;  ///< of the columns from number `step` on: count - step in a row
@@ -62,8 +62,7 @@ struct TextTable {
     int base = 0;
     bool base_is_given = false;  ///< by another file of the mesh
     std::vector<Columns> columns;
-    std::vector<double*> attributes;  ///< where the values of attributes go
-    std::string surplus_remedy;       ///< what to mend if rows have more columns than the header tells
+    std::string surplus_remedy;  ///< what to mend if rows have more columns than the header tells
     std::string finite_remedy = "give every node and cell finite numbers";
     bool any_real = false;  ///< numbers may be nan and inf
 
