@@ -67,13 +67,7 @@ std::vector<std::size_t> axes_asked_for(const TableColumns& all, int dimension, 
     const bool places = are_places(names);
     std::vector<std::size_t> axes;
     for (const std::string& name : names) {
-        std::size_t column = all.names.size();
-        if (places) {
-            std::from_chars(name.data(), name.data() + name.size(), column);
-            --column;
-        } else {
-            column = column_named(all, name);
-        }
+        const std::size_t column = places ? *place_of(name) - 1 : column_named(all, name);
         if (column >= all.names.size())
             no_such_column(all, name, "name columns that are there, or say their places, from 1");
         if (std::find(axes.begin(), axes.end(), column) != axes.end())
@@ -196,12 +190,15 @@ std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::si
     return parts;
 }
 
+std::optional<std::size_t> place_of(std::string_view column) {
+    std::size_t place = 0;
+    const char* const last = column.data() + column.size();
+    const auto [end, error] = std::from_chars(column.data(), last, place);
+    return error == std::errc{} && end == last && place != 0 ? std::optional(place) : std::nullopt;
+}
+
 bool are_places(const std::vector<std::string>& columns) {
-    return std::all_of(columns.begin(), columns.end(), [](const std::string& text) {
-        std::size_t place = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), place);
-        return error == std::errc{} && end == text.data() + text.size() && place != 0;
-    });
+    return std::ranges::all_of(columns, [](const std::string& text) { return place_of(text).has_value(); });
 }
 
 std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimension) {

@@ -54,7 +54,8 @@ std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimens
 /// The texts, each cut at its commas unless there are `count` of them.
 std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::size_t count);
 
-/// True if all are numbers from 1: columns by their places.
+/// The place of a column, from 1, if the text is one; whether all are.
+std::optional<std::size_t> place_of(std::string_view column);
 bool are_places(const std::vector<std::string>& columns);
 
 /// By PointOptions. Errors: columns that are not there, or not clear; a coordinate that is to be carried through.

@@ -38,8 +38,7 @@ bool is_header(const TableColumns& all, int dimension, const PointOptions& optio
     }
     if (!are_places(asked)) return true;
     return std::none_of(asked.begin(), asked.end(), [&](const std::string& text) {
-        std::size_t place = 0;
-        std::from_chars(text.data(), text.data() + text.size(), place);
+        const std::size_t place = *place_of(text);
         return place <= all.names.size() && looks_numeric(all.names[place - 1]);
     });
 }

@@ -1,7 +1,5 @@
 // Rows of CSV: what they say, and why they are refused, in words.
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -16,39 +14,11 @@
 namespace barycert::io {
 namespace {
 
-struct Complaint {
-    std::string expected;
-    std::string remedy;
-};
-
-/// Digits, and nothing but digits and `also`.
-bool only_digits_and(std::string_view text, std::string_view also) {
-    return std::any_of(text.begin(), text.end(), is_digit) && std::all_of(text.begin(), text.end(), [&](char c) {
-               return is_digit(c) || also.find(c) != std::string_view::npos;
-           });
-}
-
 Complaint about_coordinate(std::string_view field, char separator) {
     if (field.empty()) return {"a number", std::string("fill it in, or remove the line") + or_nan_for_it};
-    if (only_digits_and(field, ".eE+-") && std::count(field.begin(), field.end(), '.') < 2) {
-        // A number in form: either it overflows, or its signs and exponent are askew.
-        return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
-    }
-    if (only_digits_and(field, ".,eE+-") && field.find(',') != std::string_view::npos)
-        return {"a number", "write it with a decimal point, not a comma"};
-    if (only_digits_and(field, ".dD+-")) return {"a number", "write the exponent with e"};
-    std::string word(field.substr(field.find_first_not_of("+-") == 1 ? 1 : 0, 3));
-    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (word == "nan" || word == "inf")
-        return {"a finite number", std::string("remove the point, give it coordinates") + or_nan_for_it};
-    if (field.find('\r') != std::string_view::npos)
-        return {"a number", "end the lines with LF or CR LF, not with CR alone"};
-    if (std::any_of(field.begin(), field.end(),
-                    [](char c) { return static_cast<unsigned char>(c) < 32 && c != '\t'; })) {
-        return {"a number", "save the points as text: this looks like binary data"};
-    }
-    return {"a number", "separate the fields by " + separator_name(separator) +
-                            " throughout, as in the first line; put # before lines that are no points"};
+    return about_real(field, std::string("remove the point, give it coordinates") + or_nan_for_it,
+                      "separate the fields by " + separator_name(separator) +
+                          " throughout, as in the first line; put # before lines that are no points");
 }
 
 /// Appends the value of a carried column; false if it is none of its type.

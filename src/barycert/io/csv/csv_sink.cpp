@@ -11,20 +11,16 @@
 namespace barycert::io {
 namespace {
 
-// The longest text of a double is -2.2250738585072014e-308, that of an int32 -2147483648, of an int64
-// -9223372036854775808, that of a feature
-// degenerate; and a comma or line end.
-constexpr std::size_t longest_double = 24 + 1;
-constexpr std::size_t longest_cell = 11 + 1;
-constexpr std::size_t longest_integer = 20 + 1;
-constexpr std::size_t longest_feature = 10 + 1;
+/// The longest text of a double is -2.2250738585072014e-308, and those of integers and features are shorter; and a
+/// comma or line end.
+constexpr std::size_t longest_value = 24 + 1;
 
 char* put(char* at, double x) {
     if (std::isnan(x)) [[unlikely]] {  // its sign bit says nothing
         for (const char c : {'n', 'a', 'n'}) *at++ = c;
         return at;
     }
-    return std::to_chars(at, at + longest_double, x).ptr;
+    return std::to_chars(at, at + longest_value, x).ptr;
 }
 
 /// Whether a name or text would not be read as it is: readers settle the separator by the header, and pass over blanks
@@ -59,26 +55,12 @@ std::string as_field(const std::string& name) {
 
 template <std::signed_integral Integer>
 char* put(char* at, Integer x) {
-    return std::to_chars(at, at + longest_integer, x).ptr;
+    return std::to_chars(at, at + longest_value, x).ptr;
 }
 
 char* put(char* at, Feature feature) {
     const std::string_view word = name(feature);
     return std::copy(word.begin(), word.end(), at);
-}
-
-/// What the carried columns of any of these rows take at most.
-std::size_t longest_carried(const TableView& rows) {
-    std::size_t size = 0;
-    for (const Column& column : rows.carried) {
-        std::size_t longest = std::max(longest_integer, longest_double);
-        if (const auto* const texts = std::get_if<std::vector<std::string>>(&column.values)) {
-            longest = 0;
-            for (const std::string& text : *texts) longest = std::max(longest, longest_field(text));
-        }
-        size += longest;
-    }
-    return size;
 }
 
 class CsvSink final : public RowSink {
@@ -94,9 +76,16 @@ public:
 
 private:
     std::size_t longest_row(const TableView& rows) const override {
-        const auto dimension = static_cast<std::size_t>(format_.dimension);
-        const std::size_t numbers = dimension + columns_ + (format_.distances ? 1 : 0);
-        return numbers * longest_double + longest_cell + longest_feature + 1 + longest_carried(rows);
+        // The coordinates, the cell, the feature, the values and perhaps a distance.
+        std::size_t size = longest_value * (static_cast<std::size_t>(format_.dimension) + 3 + columns_);
+        for (const Column& column : rows.carried) {
+            std::size_t longest = longest_value;
+            if (const auto* const texts = std::get_if<std::vector<std::string>>(&column.values)) {
+                for (const std::string& text : *texts) longest = std::max(longest, longest_field(text));
+            }
+            size += longest;
+        }
+        return size;
     }
     char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override {
         for (; first != last; ++first) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -39,12 +38,10 @@ FieldLayout settle(std::string_view line, const std::string& column, const LineP
     out.lines.separator = cut.separator;
     out.lines.role_of.assign(cut.fields.size(), CsvLayout::passed_over);
     out.lines.header = true;
-    if (are_places({column})) {
-        std::size_t number = 0;
-        std::from_chars(column.data(), column.data() + column.size(), number);
-        if (number <= cut.fields.size()) {
-            out.columns = {number - 1};
-            out.lines.header = !looks_numeric(cut.fields[number - 1]);
+    if (const std::optional<std::size_t> number = place_of(column); number) {
+        if (*number <= cut.fields.size()) {
+            out.columns = {*number - 1};
+            out.lines.header = !looks_numeric(cut.fields[*number - 1]);
         }
     } else {
         out.columns = columns_of_field(cut.fields, column);
@@ -149,7 +146,7 @@ std::vector<std::size_t> components_of(const NpyTable& table, const Field& field
         if (!columns.empty()) return columns;
     }
     if (!column.empty())
-        columns = columns_of_field(names, are_places({column}) && !table.structured ? "column" + column : column);
+        columns = columns_of_field(names, place_of(column) && !table.structured ? "column" + column : column);
     if (!columns.empty()) return columns;
     refuse_file(path, column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
                 column.empty() ? "an array of numbers" : base::quoted(column),

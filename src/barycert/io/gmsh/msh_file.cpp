@@ -185,7 +185,7 @@ const MshSection* MshFile::find(std::string_view name) const {
 namespace {
 
 /// Fits in a core's own cache, which has it for the second look.
-constexpr std::size_t piece = std::size_t{1} << 18;
+constexpr std::size_t text_piece = std::size_t{1} << 18;
 
 bool in_word(char c) {
     return static_cast<unsigned char>(c) > ' ';
@@ -213,11 +213,11 @@ std::size_t count_words(const char* at, const char* end) {
 }  // namespace
 
 WordIndex::WordIndex(std::string_view text, int threads) : text_(text) {
-    const std::size_t pieces = (text.size() + piece - 1) / piece;
+    const std::size_t pieces = (text.size() + text_piece - 1) / text_piece;
     before_.resize(pieces + 1);
     std::vector<std::vector<const char*>> marks(pieces);
     base::share_work(threads, pieces, [&](std::size_t i) {
-        const std::string_view part = text.substr(i * piece, piece);
+        const std::string_view part = text.substr(i * text_piece, text_piece);
         const char *at = part.data(), *const end = at + part.size();
         before_[i + 1] = count_words(at + (i == 0 ? 1 : 0), end);
         while ((at = static_cast<const char*>(std::memchr(at, '$', static_cast<std::size_t>(end - at)))) != nullptr) {
@@ -231,15 +231,15 @@ WordIndex::WordIndex(std::string_view text, int threads) : text_(text) {
 }
 
 std::size_t WordIndex::before(const char* at) const {
-    const std::size_t i = static_cast<std::size_t>(at - text_.data()) / piece;
-    return before_[i] + count_words(text_.data() + std::max<std::size_t>(i * piece, 1), at);
+    const std::size_t i = static_cast<std::size_t>(at - text_.data()) / text_piece;
+    return before_[i] + count_words(text_.data() + std::max<std::size_t>(i * text_piece, 1), at);
 }
 
 const char* WordIndex::find(std::size_t number) const {
     // The last piece with no more before it.
     const auto after = std::upper_bound(before_.begin(), before_.end(), number);
     const auto i = static_cast<std::size_t>(after - before_.begin()) - 1;
-    const char* at = text_.data() + std::max<std::size_t>(i * piece, 1);
+    const char* at = text_.data() + std::max<std::size_t>(i * text_piece, 1);
     std::size_t left = number - before_[i];
     constexpr std::ptrdiff_t step = 1024;
     const char* const end = text_.data() + text_.size();
@@ -253,7 +253,7 @@ void WordIndex::cut(const Run& run, std::vector<RunPart>& parts) const {
     if (run.count == 0) return;
     const std::size_t base = before(run.at);
     for (RunPart part{&run, 0, 0, run.at}; part.first != run.count; part.first = part.last) {
-        const auto i = static_cast<std::size_t>(part.at - text_.data()) / piece;
+        const auto i = static_cast<std::size_t>(part.at - text_.data()) / text_piece;
         part.last = std::clamp((before_[i + 1] - base + run.numbers - 1) / run.numbers, part.first + 1, run.count);
         parts.push_back(part);
         if (part.last != run.count) part.at = find(base + part.last * run.numbers);
@@ -267,7 +267,7 @@ std::vector<RunPart> MshFile::cut(std::span<const Run> runs) const {
             words_.cut(run, parts);
             continue;
         }
-        const std::size_t step = binary_ ? std::max<std::size_t>(1, piece / run.bytes) : run.count;
+        const std::size_t step = binary_ ? std::max<std::size_t>(1, text_piece / run.bytes) : run.count;
         for (std::size_t i = 0; i < run.count; i += step)
             parts.push_back({&run, i, std::min(i + step, run.count), run.at + i * run.bytes});
     }

@@ -7,25 +7,12 @@
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
 namespace barycert {
 namespace io {
 namespace {
-
-/// Coordinates of the plane z = 0, in place.
-void flatten(std::vector<double>& points, const std::string& path, const std::string& triangles) {
-    std::size_t to = 0;
-    for (std::size_t i = 0; i < points.size(); i += 3) {
-        if (points[i + 2] != 0)
-            refuse_file(path, "z of node " + std::to_string(i / 3) + " (from 0)", "0, as the mesh is of triangles",
-                        base::shortest(points[i + 2]),
-                        plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
-        points[to++] = points[i];
-        points[to++] = points[i + 1];
-    }
-    points.resize(to);
-}
 
 /// What is in the file and has no place in a mesh.
 void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes& notes) {
@@ -68,7 +55,9 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options) {
     }
     mesh.index_base = 1;
     mesh.cell_numbers = std::move(cells.numbers);
-    if (mesh.dimension == 2) flatten(mesh.points, file.path(), mesh.mid_nodes.empty() ? file.path() : "");
+    if (mesh.dimension == 2)
+        mesh.points =
+            to_points(std::move(mesh.points), 2, file.path(), mesh.mid_nodes.empty() ? file.path() : "", "node");
     note_cells(cells, groups.partitioned, file.path(), mesh.notes);
     read_msh_fields(file, views, MshView::Of::nodes, {nodes.index, mesh.point_count(), "node", "nodes"}, options.step,
                     mesh.point_fields, mesh.notes);
@@ -110,9 +99,7 @@ Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimens
     if (dimension != 2 && dimension != 3)
         return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
     return io::read_guarded(path, [&]() -> Result<std::vector<double>> {
-        std::vector<double> points = io::read_msh_nodes(io::MshFile(path, threads)).points;
-        if (dimension == 2) io::flatten(points, path, {});
-        return points;
+        return io::to_points(io::read_msh_nodes(io::MshFile(path, threads)).points, dimension, path, {}, "node");
     });
 }
 

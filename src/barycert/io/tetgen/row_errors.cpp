@@ -10,8 +10,6 @@
 namespace barycert::io {
 namespace {
 
-constexpr const char* separators_remedy = "separate the columns by spaces, tabs or commas";
-
 [[noreturn]] void refuse_at(const TextTable& table, const char* at, std::string what, std::string expected,
                             std::string found, std::string remedy) {
     refuse_line(table.file, line_of(table.bytes, at), std::move(what), std::move(expected), std::move(found),
@@ -33,19 +31,9 @@ std::string described_columns(const TextTable& table) {
     return plural(table.column_count(), "column") + text;
 }
 
-/// A remedy that fits most fields that are no number at all; empty if none does.
-std::string remedy_for_text(std::string_view field) {
-    if (field.find(';') != std::string_view::npos) return separators_remedy;
-    if (field.find('\r') != std::string_view::npos) return "end the lines with LF or CR LF, not with CR alone";
-    if (std::any_of(field.begin(), field.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }))
-        return "save the mesh as text: this looks like binary data";
-    return {};
-}
-
 /// Digits, and nothing but digits and what else is allowed.
 bool looks_like_number(std::string_view text, std::string_view also) {
-    constexpr std::string_view digits = "0123456789";
-    return text.find_first_of(digits) != std::string_view::npos && std::all_of(text.begin(), text.end(), [&](char c) {
+    return std::any_of(text.begin(), text.end(), is_digit) && std::all_of(text.begin(), text.end(), [&](char c) {
                return is_digit(c) || also.find(c) != std::string_view::npos;
            });
 }
@@ -55,10 +43,9 @@ std::string_view without_sign(std::string_view field) {
     return field;
 }
 
-struct Complaint {
-    std::string expected;
-    std::string remedy;
-};
+std::string about_separators(std::string_view field) {
+    return field.find(';') == std::string_view::npos ? "" : "separate the columns by spaces, tabs or commas";
+}
 
 Complaint about_integer(std::string_view field) {
     const std::string_view body = without_sign(field);
@@ -68,19 +55,7 @@ Complaint about_integer(std::string_view field) {
         return {"an integer of at most 64 bits", "check the number"};
     }
     if (looks_like_number(body, ".eE+-")) return {"an integer", "write it without point and exponent"};
-    return {"an integer", remedy_for_text(field)};
-}
-
-Complaint about_real(std::string_view field, const std::string& finite_remedy) {
-    const std::string_view body = without_sign(field);
-    if (looks_like_number(body, ".eEdD+-") && body.find_first_of("dD") != std::string_view::npos)
-        return {"a number", "write the exponent with e: TetGen would silently stop reading at the d"};
-    if (looks_like_number(body, ".eE+-"))
-        return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
-    std::string word(body.substr(0, 3));
-    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (word == "nan" || word == "inf") return {"a finite number", finite_remedy};
-    return {"a number", remedy_for_text(field)};
+    return {"an integer", about_real(field, {}, about_separators(field)).remedy};
 }
 
 [[noreturn]] void refuse_id(const TextTable& table, std::string_view field, std::size_t row) {
@@ -117,7 +92,8 @@ void check_field(const TextTable& table, const Columns& columns, std::string_vie
     std::int64_t value = 0;
     double number = 0;
     if ((real ? scan_real(field.data(), end, number) : scan_integer(field.data(), value)) != end) {
-        const Complaint complaint = real ? about_real(field, table.finite_remedy) : about_integer(field);
+        const Complaint complaint =
+            real ? about_real(field, table.finite_remedy, about_separators(field)) : about_integer(field);
         refuse_at(table, end, "bad " + columns.name, complaint.expected, base::quoted(field), complaint.remedy);
     }
     if (columns.kind == ColumnKind::id && value != table.base + static_cast<std::int64_t>(row))
@@ -139,6 +115,25 @@ void check_field(const TextTable& table, const Columns& columns, std::string_vie
 }
 
 }  // namespace
+
+Complaint about_real(std::string_view field, const std::string& finite, const std::string& separators) {
+    const std::string_view body = without_sign(field);
+    if (looks_like_number(body, ".eEdD+-") && body.find_first_of("dD") != std::string_view::npos)
+        return {"a number", "write the exponent with e: programs in C stop reading at the d"};
+    // A number in form: either it overflows, or its signs and exponent are askew.
+    if (looks_like_number(body, ".eE+-") && std::count(body.begin(), body.end(), '.') < 2)
+        return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
+    if (looks_like_number(body, ".,eE+-") && body.find(',') != std::string_view::npos)
+        return {"a number", "write it with a decimal point, not a comma"};
+    std::string word(body.substr(0, 3));
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (word == "nan" || word == "inf") return {"a finite number", finite};
+    if (field.find('\r') != std::string_view::npos)
+        return {"a number", "end the lines with LF or CR LF, not with CR alone"};
+    if (std::any_of(field.begin(), field.end(), [](char c) { return static_cast<unsigned char>(c) < 32 && c != '\t'; }))
+        return {"a number", "save the file as text: this looks like binary data"};
+    return {"a number", separators};
+}
 
 std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at) {
     const std::string_view bytes = table.bytes;

@@ -13,10 +13,14 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include <fast_float/fast_float.h>
 #ifdef __SSE2__
@@ -34,19 +38,12 @@ inline bool is_digit(char c) {
 
 /// Any integer of 64 bits; out of line because most fit in the fast path below.
 [[gnu::noinline, gnu::cold]] inline const char* scan_integer_slowly(const char* at, std::int64_t& value) {
-    const bool negative = *at == '-';
-    if (negative || *at == '+') ++at;
-    if (!is_digit(*at) || (*at == '0' && is_digit(at[1]))) return nullptr;
-    std::int64_t sum = 0;
-    for (; is_digit(*at); ++at) {
-        const int digit = *at - '0';
-        if (__builtin_mul_overflow(sum, std::int64_t{10}, &sum) || __builtin_sub_overflow(sum, digit, &sum)) {
-            return nullptr;  // summed below zero, where one number more fits
-        }
-    }
-    if (!negative && sum == INT64_MIN) return nullptr;
-    value = negative ? sum : -sum;
-    return at;
+    const bool plus = *at == '+';
+    const char* const digits = at + (plus || *at == '-' ? 1 : 0);
+    if (!is_digit(*digits) || (*digits == '0' && is_digit(digits[1]))) return nullptr;
+    constexpr int more_than_fit = 32;
+    const auto [after, error] = std::from_chars(plus ? digits : at, digits + more_than_fit, value);
+    return error == std::errc{} ? after : nullptr;
 }
 
 /// Eight characters '0', as one word.
@@ -99,6 +96,15 @@ inline const char* scan_nonfinite(const char* at, const char* end, double& value
     const auto [after, error] = fast_float::from_chars(first, end, value);
     return error == std::errc{} ? after : nullptr;
 }
+
+/// Why a field is no number, and what to do.
+struct Complaint {
+    std::string expected, remedy;
+};
+
+/// Of a field that scan_real() refuses. `finite`: what to do about nan and inf; `separators`: about what is nothing
+/// known.
+Complaint about_real(std::string_view field, const std::string& finite, const std::string& separators);
 
 /// A place in the text, moved by each success and left near the fault by a failure.
 struct Scanner {

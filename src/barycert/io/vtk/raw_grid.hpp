@@ -182,9 +182,9 @@ RawGrid read_legacy(std::string_view bytes, const std::string& path, Part part);
 Mesh to_mesh(RawGrid grid, const std::string& path);
 
 /// The coordinates in that dimension, all finite. Error: one is not; or z is not 0 in dimension 2, with a remedy for
-/// the file of linear triangles `triangles`, if that is not empty.
+/// the file of linear triangles `triangles`, if that is not empty. `one`: of what they are.
 std::vector<double> to_points(std::vector<double> points, int dimension, const std::string& path,
-                              const std::string& triangles = {});
+                              const std::string& triangles = {}, const std::string& one = "point");
 
 /// Fields of what can be one; what cannot, and what was widened, is noted. `what`: "point array".
 void take_fields(std::vector<RawArray>& arrays, const std::string& what, const std::string& path,
