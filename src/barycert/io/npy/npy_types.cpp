@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -28,9 +29,11 @@ NumberType number_type(const NpyType& type) {
     return static_cast<NumberType>(first + 2 * doublings);
 }
 
+}  // namespace
+
 template <class To>
-std::size_t take_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, To* out,
-                         std::size_t stride) {
+std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, To* out,
+                        std::size_t stride) {
     const auto all = [&]<class From>(const auto& change) {
         const auto numbers = [&]<bool swap>() {
             std::size_t i = 0;
@@ -45,36 +48,16 @@ std::size_t take_numbers(const char* at, std::size_t step, std::size_t count, co
     return with_number_type(number_type(type),
                             [&]<class From>() { return all.template operator()<From>([](From x) { return x; }); });
 }
-
-}  // namespace
-
-std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, double* out,
-                        std::size_t stride) {
-    return take_numbers(at, step, count, type, out, stride);
-}
-
-std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, std::int64_t* out,
-                        std::size_t stride) {
-    return take_numbers(at, step, count, type, out, stride);
-}
+template std::size_t npy_numbers(const char*, std::size_t, std::size_t, const NpyType&, double*, std::size_t);
+template std::size_t npy_numbers(const char*, std::size_t, std::size_t, const NpyType&, std::int64_t*, std::size_t);
 
 void append_utf8(std::string& text, std::uint32_t code) {
-    const auto more = [&](int shift) { text += static_cast<char>(0x80U | (code >> shift & 0x3FU)); };
-    if (code < 0x80) {
-        text += static_cast<char>(code);
-    } else if (code < 0x800) {
-        text += static_cast<char>(0xC0U | code >> 6);
-        more(0);
-    } else if (code < 0x10000) {
-        text += static_cast<char>(0xE0U | code >> 12);
-        more(6);
-        more(0);
-    } else {
-        text += static_cast<char>(0xF0U | code >> 18);
-        more(12);
-        more(6);
-        more(0);
-    }
+    // The first code that takes two, three and four bytes; what marks the first of so many.
+    constexpr std::array<std::uint32_t, 3> longer{0x80, 0x800, 0x10000};
+    constexpr std::array<std::uint32_t, 4> marks{0, 0xC0, 0xE0, 0xF0};
+    auto more = static_cast<std::size_t>(std::upper_bound(longer.begin(), longer.end(), code) - longer.begin());
+    text += static_cast<char>(marks[more] | code >> 6 * more);
+    while (more-- != 0) text += static_cast<char>(0x80U | (code >> 6 * more & 0x3FU));
 }
 
 std::optional<NpyType> npy_type(std::string_view descr) {
