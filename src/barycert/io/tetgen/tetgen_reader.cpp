@@ -23,7 +23,6 @@
 #include <utility>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/base/large_pages.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
@@ -127,18 +126,12 @@ void TetgenReader::prepare_cells() {
             flat ? "3 or 6, for the .node file has 2 dimensions" : "4 or 10, for the .node file has 3 dimensions",
             corners, "check that the files belong together and hold triangles (2D) or tetrahedra (3D)");
     table.columns = {{ColumnKind::id, 1, "id"},
-                     {ColumnKind::index, static_cast<std::size_t>(corners), "corner", nodes_.limit(), "nodes"},
-                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"}};
+                     {ColumnKind::index, static_cast<std::size_t>(corners), "corner", nodes_.limit(), "nodes",
+                      &mesh_.cells, &mesh_.mid_nodes, mesh_.corners()},
+                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute", 0, {}, &mesh_.cell_fields}};
     table.surplus_remedy =
         "if there is one attribute more, make the header " + header_text({table.header[0], corners, attributes + 1});
-    check_room(table);
-
-    Columns& nodes = table.columns[1];
-    nodes.step = mesh_.corners();
-    nodes.indices = room_for(mesh_.cells, nodes, table.rows);
-    base::resize_large(mesh_.mid_nodes, table.rows * (nodes.count - nodes.step));
-    nodes.more_indices = mesh_.mid_nodes.data();
-    make_attributes(table, mesh_.cell_fields);
+    make_room(table);
 }
 
 void TetgenReader::prepare_faces() {
@@ -154,21 +147,15 @@ void TetgenReader::prepare_faces() {
     const std::size_t linear = 4 + marker_columns;  // id, corners, marker
     const bool mids = found == linear + 3 || found == linear + 5;
     const bool adjacent = found == linear + 2 || found == linear + 5;  // checked, and told again by the neighbours
-    table.columns = {{ColumnKind::id, 1, "id"},
-                     {ColumnKind::index, mids ? 6U : 3U, "corner", nodes_.limit(), "nodes"},
-                     {ColumnKind::integer, marker_columns, "marker"},
-                     {ColumnKind::neighbour, adjacent ? 2U : 0U, "cell", cells_.limit(), "cells"}};
+    table.columns = {
+        {ColumnKind::id, 1, "id"},
+        {ColumnKind::index, mids ? 6U : 3U, "corner", nodes_.limit(), "nodes", &mesh_.faces, &mesh_.face_mid_nodes, 3},
+        {ColumnKind::integer, marker_columns, "marker", 0, {}, &mesh_.face_markers},
+        {ColumnKind::neighbour, adjacent ? 2U : 0U, "cell", cells_.limit(), "cells"}};
     table.surplus_remedy = markers == 0
                                ? "if the last column is a marker, make the header " + header_text({table.header[0], 1})
                                : "let all rows have as many columns as the first";
-    check_room(table);
-
-    Columns &nodes = table.columns[1], &marks = table.columns[2];
-    nodes.step = 3;
-    nodes.indices = room_for(mesh_.faces, nodes, table.rows);
-    base::resize_large(mesh_.face_mid_nodes, table.rows * (nodes.count - nodes.step));
-    nodes.more_indices = mesh_.face_mid_nodes.data();
-    marks.integers = room_for(mesh_.face_markers, marks, table.rows);
+    make_room(table);
 }
 
 void TetgenReader::prepare_neighbours() {
@@ -182,10 +169,10 @@ void TetgenReader::prepare_neighbours() {
     const std::int64_t declared = table.header_field(1, static_cast<std::int64_t>(sides));
     if (declared != static_cast<std::int64_t>(sides))
         refuse_meaning(table, "bad number of neighbours", std::to_string(sides), declared, remedy);
-    table.columns = {{ColumnKind::id, 1, "id"}, {ColumnKind::neighbour, sides, "neighbour", cells_.limit(), "cells"}};
+    table.columns = {{ColumnKind::id, 1, "id"},
+                     {ColumnKind::neighbour, sides, "neighbour", cells_.limit(), "cells", &mesh_.neighbours}};
     table.surplus_remedy = "let each row have an id and " + std::to_string(sides) + " neighbours";
-    check_room(table);
-    table.columns[1].indices = room_for(mesh_.neighbours, table.columns[1], table.rows);
+    make_room(table);
 }
 
 void TetgenReader::settle_mid_edge_order() {

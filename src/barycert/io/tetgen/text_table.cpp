@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/io/formats.hpp"
@@ -67,7 +68,7 @@ bool parse_plain_cell(const TextTable& table, Scanner& scanner, std::size_t row)
 /// The corners of a row that is nothing but an id and these; else 0.
 std::size_t plain_corners(const TextTable& table) {
     const std::size_t count = table.column_count();
-    if (count < 4 || table.columns[1].kind != ColumnKind::index) return 0;
+    if (count < 4 || table.columns[1].kind != ColumnKind::index || table.columns[1].indices == nullptr) return 0;
     return table.columns[1].count == count - 1 && table.columns[1].step == count - 1 ? count - 1 : 0;
 }
 
@@ -161,17 +162,6 @@ void read_header(TextTable& table, std::span<const char* const> header_names) {
 
 }  // namespace
 
-void make_attributes(TextTable& table, std::vector<Field>& fields) {
-    Columns& columns = table.columns[2];
-    if (table.rows == 0) columns.count = 0;  // a count that no row bears out may be anything
-    fields.resize(columns.count);
-    for (std::size_t i = 0; i < columns.count; ++i) {
-        fields[i].name = "attribute" + std::to_string(i);
-        base::resize_large(fields[i].data, table.rows);
-    }
-    columns.fields = fields.data();
-}
-
 void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
                          std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
     const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
@@ -179,16 +169,13 @@ void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<d
         refuse_header(table, "bad number of markers in the header", "0 or 1", std::to_string(markers),
                       "declare further columns as attributes");
     table.columns = {{ColumnKind::id, 1, "id"},
-                     {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate"},
-                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
-                     {ColumnKind::integer, static_cast<std::size_t>(markers), "marker"}};
+                     {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate", 0, {}, &points},
+                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute", 0, {}, &fields},
+                     {ColumnKind::integer, static_cast<std::size_t>(markers), "marker", 0, {}, &markers_of_nodes}};
     const std::vector<std::string_view> first = table.first_row();
     std::int64_t id = 0;
     table.base = !first.empty() && scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
-    check_room(table);
-    table.columns[1].reals = room_for(points, table.columns[1], table.rows);
-    make_attributes(table, fields);
-    table.columns[3].integers = room_for(markers_of_nodes, table.columns[3], table.rows);
+    make_room(table);
 }
 
 std::size_t TextTable::column_count() const {
@@ -220,11 +207,33 @@ TextTable open_table(const std::string& name, std::span<const char* const> heade
     return table;
 }
 
-void check_room(const TextTable& table) {
+void make_room(TextTable& table) {
     // Each field takes a character and something that ends it. Without that room rows are missing, or one is too short,
     // or the last has no line end: the first of these is told.
-    const auto room = static_cast<std::size_t>(table.end() - table.body);
-    if (table.rows * 2 * table.column_count() > room) parse_in_order(table);
+    const auto bytes = static_cast<std::size_t>(table.end() - table.body);
+    if (table.rows * 2 * table.column_count() > bytes) parse_in_order(table);
+    for (Columns& c : table.columns) {
+        if (c.step == 0) c.step = c.count;
+        const auto room = [&](auto* values, std::size_t width) {
+            base::resize_large(*values, table.rows * width);
+            return values->data();
+        };
+        if (auto* const* const reals = std::get_if<std::vector<double>*>(&c.to)) c.reals = room(*reals, c.step);
+        if (auto* const* const integers = std::get_if<std::vector<std::int64_t>*>(&c.to))
+            c.integers = room(*integers, c.step);
+        if (auto* const* const indices = std::get_if<std::vector<Mesh::Index>*>(&c.to))
+            c.indices = room(*indices, c.step);
+        if (c.more_to != nullptr) c.more_indices = room(c.more_to, c.count - c.step);
+        auto* const* const fields = std::get_if<std::vector<Field>*>(&c.to);
+        if (fields == nullptr) continue;
+        if (table.rows == 0) c.count = 0;  // a count that no row bears out may be anything
+        (*fields)->resize(c.count);
+        c.fields = (*fields)->data();
+        for (std::size_t k = 0; k < c.count; ++k) {
+            c.fields[k].name = "attribute" + std::to_string(k);
+            room(&c.fields[k].data, 1);
+        }
+    }
 }
 
 void parse_tables(std::span<TextTable* const> tables, int threads) {

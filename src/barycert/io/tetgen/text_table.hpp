@@ -12,10 +12,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/base/large_pages.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
@@ -33,8 +33,11 @@ enum class ColumnKind : std::uint8_t {
     real,
 };
 
-/// Some columns alike, and where their values go: those of row r to numbers r * step, r * step + 1, ... of an array.
-/// Without one they are checked alone.
+/// Where the values of some columns go: those of a row one behind the other, or to a field of each column.
+using ValuesTo = std::variant<std::monostate, std::vector<double>*, std::vector<std::int64_t>*,
+                              std::vector<Mesh::Index>*, std::vector<Field>*>;
+
+/// Some columns alike. Without a place for their values they are checked alone.
 struct Columns {
     ColumnKind kind = ColumnKind::id;
     std::size_t count = 0;
@@ -42,12 +45,15 @@ struct Columns {
     std::int64_t limit = 0;   ///< of an index
     std::string refers_to{};  ///< of an index: what it counts
 
-    std::size_t step = 0;
+    ValuesTo to{};
+    std::vector<Mesh::Index>* more_to = nullptr;  ///< indices of the columns from number `step` on
+    std::size_t step = 0;                         ///< values of a row that go to `to`; 0: all
+
+    // Where make_room() has made room; value k of row r stands at r * step + k.
     double* reals = nullptr;
-    Field* fields = nullptr;  ///< in place of it: a field for each column
+    Field* fields = nullptr;
     std::int64_t* integers = nullptr;
-    Mesh::Index* indices = nullptr;
-    Mesh::Index* more_indices = nullptr;  ///< of the columns from number `step` on: count - step in a row
+    Mesh::Index *indices = nullptr, *more_indices = nullptr;
 };
 
 struct TextTable {
@@ -83,22 +89,11 @@ struct TextTable {
 /// Reads the file and its header: non-negative integers up to 2^31 - 1, one for each of `header_names` or fewer.
 TextTable open_table(const std::string& path, std::span<const char* const> header_names, int threads);
 
-/// Refuses a count of rows that cannot stand in the file. Call before memory is taken for them.
-/// Needs the columns and the base.
-void check_room(const TextTable& table);
-
-/// Room for the values of these columns, of which `step` or all go there.
-template <class T>
-T* room_for(std::vector<T>& values, Columns& columns, std::size_t rows) {
-    base::resize_large(values, rows * (columns.step == 0 ? columns.step = columns.count : columns.step));
-    return values.data();
-}
-
-/// Makes the fields of the attributes, which are the columns number 2.
-void make_attributes(TextTable& table, std::vector<Field>& fields);
+/// Makes room for the values of all columns. Needs these and the base. Error: so many rows cannot stand in the file.
+void make_room(TextTable& table);
 
 /// Sets the columns and the base of a .node file of that dimension, by its header and its first row, and makes room for
-/// their values. Error: another number of markers; as check_room.
+/// their values. Error: another number of markers; as make_room().
 void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
                          std::vector<Field>& fields, std::vector<std::int64_t>& markers);
 
