@@ -140,8 +140,8 @@ template <std::size_t Corners>
 void read_chosen(const Target& to, std::span<const Run> runs) {
     const int version = to.file.version();
     std::int64_t* const tags = to.cells.tags.data();
-    Mesh::Index* const corners = to.cells.corners.data();
-    Mesh::Index* const mid_nodes = to.cells.mid_nodes.data();
+    Mesh::Index* const corners = to.cells.mesh.cells.data();
+    Mesh::Index* const mid_nodes = to.cells.mesh.mid_nodes.data();
     double* const physical = to.cells.physical.data();
     double* const geometrical = to.cells.geometrical.data();
     std::atomic<bool> more{false};
@@ -187,7 +187,7 @@ void read_chosen(const Target& to, std::span<const Run> runs) {
 void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
     const std::size_t count = cells.tags.size();
     const auto same_nodes = [&](std::size_t i) {
-        const Mesh::Index* const c = &cells.corners[i * corners];
+        const Mesh::Index* const c = &cells.mesh.cells[i * corners];
         return std::equal(c, c + corners, c - corners);
     };
     const auto repeats = [&](std::size_t i) {
@@ -206,14 +206,14 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
         for (std::size_t to = 0; to < kept.size(); ++to) std::copy_n(at(kept[to]), width, at(to));
         values.resize(kept.size() * width);
     };
-    if (cells.numbers.empty()) {
-        for (const std::size_t i : kept) cells.numbers.push_back(static_cast<Mesh::Index>(i));
+    if (cells.mesh.cell_numbers.empty()) {
+        for (const std::size_t i : kept) cells.mesh.cell_numbers.push_back(static_cast<Mesh::Index>(i));
     } else {
-        keep(cells.numbers, 1);
+        keep(cells.mesh.cell_numbers, 1);
     }
     cells.repeated = count - kept.size();
-    keep(cells.corners, corners);
-    keep(cells.mid_nodes, mids);
+    keep(cells.mesh.cells, corners);
+    keep(cells.mesh.mid_nodes, mids);
     keep(cells.tags, 1);
     keep(cells.physical, 1);
     keep(cells.geometrical, 1);
@@ -223,7 +223,7 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
 std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::size_t node_count) {
     std::vector<std::uint8_t> used(node_count);
     constexpr std::size_t step = std::size_t{1} << 16;
-    for (const std::vector<Mesh::Index>* nodes : {&cells.corners, &cells.mid_nodes}) {
+    for (const std::vector<Mesh::Index>* nodes : {&cells.mesh.cells, &cells.mesh.mid_nodes}) {
         base::share_work(file.threads(), (nodes->size() + step - 1) / step, [&](std::size_t part) {
             const std::size_t last = std::min(nodes->size(), (part + 1) * step);
             for (std::size_t i = part * step; i < last; ++i) {
@@ -271,7 +271,7 @@ const ElementType* element_type(std::int64_t number) {
 MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes) {
     const ElementType& type = choose(file, elements.counts);
     MshCells cells;
-    cells.dimension = type.dimension();
+    cells.mesh.dimension = type.dimension();
     std::vector<Run> runs, others;
     std::size_t count = 0;
     for (const ElementBlock& block : elements.blocks) {
@@ -281,10 +281,10 @@ MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const 
         runs.back().first = count;
         count += block.run.count;
     }
-    const auto corners = static_cast<std::size_t>(cells.dimension) + 1;
+    const auto corners = static_cast<std::size_t>(cells.mesh.dimension) + 1;
     const Target target{file, elements, nodes.index, cells, type.nodes - corners};
-    base::resize_large(cells.corners, count * corners);
-    base::resize_large(cells.mid_nodes, count * target.mids);
+    base::resize_large(cells.mesh.cells, count * corners);
+    base::resize_large(cells.mesh.mid_nodes, count * target.mids);
     base::resize_large(cells.tags, count);
     if (file.version() == 22) {
         base::resize_large(cells.geometrical, count);
@@ -293,10 +293,10 @@ MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const 
 
     corners == 4 ? read_chosen<4>(target, runs) : read_chosen<3>(target, runs);
     if (count != elements.count) {
-        cells.numbers.reserve(count);
+        cells.mesh.cell_numbers.reserve(count);
         for (const Run& run : runs) {
             for (std::size_t i = 0; i < run.count; ++i)
-                cells.numbers.push_back(static_cast<Mesh::Index>(elements.blocks[run.id].run.first + i));
+                cells.mesh.cell_numbers.push_back(static_cast<Mesh::Index>(elements.blocks[run.id].run.first + i));
         }
     }
     if (file.version() == 22) drop_repeats(cells, corners, target.mids);
@@ -307,8 +307,9 @@ MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const 
     return cells;
 }
 
-void note_cells(const MshCells& cells, bool partitioned, const std::string& path, Notes& notes) {
-    const std::string others = counted_types(cells.left_out, 0, cells.dimension - 1);
+void note_cells(MshCells& cells, bool partitioned, const std::string& path) {
+    Notes& notes = cells.mesh.notes;
+    const std::string others = counted_types(cells.left_out, 0, cells.mesh.dimension - 1);
     // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result, and to
     // tell it each time would teach users to look away. What has nodes of its own is another matter: a wire or a shell
     // beside the cells, of which nothing is left.

@@ -85,8 +85,7 @@ bool says_something(std::int64_t tag, std::int64_t first) {
 }
 
 /// 4.x: groups of cells by way of their entities. Nothing is filled in that would say nothing.
-void fill_from_entities(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells,
-                        Notes& notes) {
+void fill_from_entities(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells) {
     struct Piece {
         std::size_t count;
         std::int64_t physical, whole;
@@ -97,7 +96,7 @@ void fill_from_entities(const MshFile& file, const MshElements& elements, const 
     for (const ElementBlock& block : elements.blocks) {
         if (cells.left_out[static_cast<std::size_t>(block.type->number)] != 0 || block.run.count == 0) continue;
         Piece piece{block.run.count, 0, block.entity};
-        const auto found = groups.entities.find({cells.dimension, block.entity});
+        const auto found = groups.entities.find({cells.mesh.dimension, block.entity});
         if (found != groups.entities.end()) {
             const std::vector<std::int64_t>& physical = found->second.physical;
             piece.whole = found->second.whole;
@@ -115,10 +114,11 @@ void fill_from_entities(const MshFile& file, const MshElements& elements, const 
     if (grouped) fill(cells.physical, &Piece::physical);
     if (any_entity) fill(cells.geometrical, &Piece::whole);
     if (in_several.empty()) return;
-    notes.push_back({Note::Kind::left_out,
-                     "further physical groups of " + std::to_string(in_several.size()) + " entities, the first being " +
-                         std::to_string(*in_several.begin()) + ": gmsh:physical has the first group of each cell",
-                     file.path(), true});
+    cells.mesh.notes.push_back({Note::Kind::left_out,
+                                "further physical groups of " + std::to_string(in_several.size()) +
+                                    " entities, the first being " + std::to_string(*in_several.begin()) +
+                                    ": gmsh:physical has the first group of each cell",
+                                file.path(), true});
 }
 
 /// 2.x: the same for what was read with each cell.
@@ -142,7 +142,7 @@ std::vector<std::string> group_names(const MshCells& cells, const MshGroups& gro
     for (const double tag : cells.physical) {
         if (tag != last || names.empty()) {
             // A group that is turned around has its tag with a minus.
-            const auto found = groups.names.find({cells.dimension, static_cast<std::int64_t>(std::fabs(tag))});
+            const auto found = groups.names.find({cells.mesh.dimension, static_cast<std::int64_t>(std::fabs(tag))});
             name = found == groups.names.end() ? &nothing : &found->second;
             last = tag;
         }
@@ -163,12 +163,12 @@ MshGroups read_msh_groups(const MshFile& file) {
     return groups;
 }
 
-void label_cells(const MshFile& file, const MshElements& elements, MshCells cells, const MshGroups& groups,
-                 Mesh& mesh) {
+void label_cells(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells) {
+    Mesh& mesh = cells.mesh;
     if (file.version() == 22) {
         drop_what_says_nothing(cells);
     } else {
-        fill_from_entities(file, elements, groups, cells, mesh.notes);
+        fill_from_entities(file, elements, groups, cells);
     }
     bool in_sequence = true;
     for (std::size_t i = 0; i < cells.tags.size() && in_sequence; ++i) {

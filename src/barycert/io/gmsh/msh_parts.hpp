@@ -112,14 +112,12 @@ struct MshElements {
 MshElements find_msh_elements(const MshFile& file);
 
 struct MshCells {
-    int dimension = 3;
-    std::vector<Mesh::Index> corners, mid_nodes;  ///< in Gmsh's order
-    std::vector<std::int64_t> tags;               ///< of elements
-    std::vector<Mesh::Index> numbers;             ///< among all elements; empty if all are cells
-    std::vector<double> physical, geometrical;    ///< tags of groups and of entities; in 2.x only
-    TypeCounts left_out{};                        ///< of a lower dimension
-    bool apart = false;                           ///< one of these has a node that no cell has
-    bool partitioned = false;                     ///< there are further tags; 2.x only
+    Mesh mesh;                                  ///< its cells, with mid-edge nodes in Gmsh's order
+    std::vector<std::int64_t> tags;             ///< of elements
+    std::vector<double> physical, geometrical;  ///< tags of groups and of entities; in 2.x only
+    TypeCounts left_out{};                      ///< of a lower dimension
+    bool apart = false;                         ///< one of these has a node that no cell has
+    bool partitioned = false;                   ///< there are further tags; 2.x only
     std::size_t unused_nodes = 0;
     std::size_t repeated = 0;  ///< elements of further groups; 2.x only
 };
@@ -146,12 +144,12 @@ struct MshGroups {
 MshGroups read_msh_groups(const MshFile& file);
 
 /// Tells which elements are not among the cells, and which nodes are of no cell. `partitioned`: entities are.
-void note_cells(const MshCells& cells, bool partitioned, const std::string& path, Notes& notes);
+void note_cells(MshCells& cells, bool partitioned, const std::string& path);
 
 /// Appends the fields "gmsh:physical" and "gmsh:geometrical", and the labels "gmsh:tag" and "gmsh:physical_name". A
 /// cell field of one of these names that is there already stays: the writer makes such where groups cannot say the
 /// same.
-void label_cells(const MshFile& file, const MshElements& elements, MshCells cells, const MshGroups& groups, Mesh& mesh);
+void label_cells(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells);
 
 /// The header of a section $NodeData, $ElementData or $ElementNodeData: a field, or a step in time of it.
 struct MshView : GmshStep {

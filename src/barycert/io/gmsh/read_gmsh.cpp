@@ -43,22 +43,18 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options) {
     const MshGroups groups = read_msh_groups(file);
     const std::vector<MshView> views = find_msh_views(file);
 
-    Mesh mesh;
-    mesh.dimension = cells.dimension;
+    Mesh& mesh = cells.mesh;
     mesh.points = std::move(nodes.points);
-    mesh.cells = std::move(cells.corners);
-    mesh.mid_nodes = std::move(cells.mid_nodes);
     if (!mesh.mid_nodes.empty()) {
         // Of a triangle both orders are the same.
         mesh.mid_edge_order = mesh.dimension == 3 ? MidEdgeOrder::gmsh : MidEdgeOrder::vtk;
         mesh::normalise_mid_nodes(mesh);
     }
     mesh.index_base = 1;
-    mesh.cell_numbers = std::move(cells.numbers);
     if (mesh.dimension == 2)
         mesh.points =
             to_points(std::move(mesh.points), 2, file.path(), mesh.mid_nodes.empty() ? file.path() : "", "node");
-    note_cells(cells, groups.partitioned, file.path(), mesh.notes);
+    note_cells(cells, groups.partitioned, file.path());
     read_msh_fields(file, views, MshView::Of::nodes, {nodes.index, mesh.point_count(), "node", "nodes"}, options.step,
                     mesh.point_fields, mesh.notes);
     if (std::any_of(views.begin(), views.end(), [](const MshView& v) { return v.of == MshView::Of::elements; })) {
@@ -71,9 +67,9 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options) {
         read_msh_fields(file, views, MshView::Of::elements, {index, mesh.cell_count(), "cell", "cells"}, options.step,
                         mesh.cell_fields, mesh.notes);
     }
-    label_cells(file, elements, std::move(cells), groups, mesh);
+    label_cells(file, elements, groups, cells);
     note_sections(file, views, mesh.notes);
-    return mesh;
+    return std::move(mesh);
 }
 
 }  // namespace
