@@ -46,13 +46,8 @@ std::size_t quadratic_values_of(const CaseBlock& cases, const double* const* val
                                 std::uint32_t* undecided) {
     return for_padded_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
-        constexpr int n = vertex_count(s), d = space_dimension(s), nodes = quadratic_nodes<s>;
-        Absolute<s, hn::Vec<D>> c;
-        for (int k = 0; k < d; ++k) {
-            c.p[k] = hn::LoadU(tag, cases.point[k] + at);
-            for (int i = 0; i < n; ++i) c.v[i][k] = hn::LoadU(tag, cases.vertices[d * i + k] + at);
-        }
-        const auto w = quadratic_weights(tag, refine<s>(tag, c));
+        constexpr int nodes = quadratic_nodes<s>;
+        const auto w = quadratic_weights(tag, refine<s>(tag, load_absolute<s>(tag, cases.vertices, cases.point, at)));
         auto certain = w.valid;
         for (int component = 0; component < components; ++component) {
             hn::Vec<D> f[nodes];

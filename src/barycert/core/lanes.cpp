@@ -15,17 +15,11 @@ HWY_BEFORE_NAMESPACE();
 namespace barycert::core::HWY_NAMESPACE {
 
 /// out[n * l + i] = lane l of w[i].
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void store_interleaved(D tag, const V (&w)[2], double* out) {
-    hn::StoreInterleaved2(w[0], w[1], tag, out);
-}
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void store_interleaved(D tag, const V (&w)[3], double* out) {
-    hn::StoreInterleaved3(w[0], w[1], w[2], tag, out);
-}
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE void store_interleaved(D tag, const V (&w)[4], double* out) {
-    hn::StoreInterleaved4(w[0], w[1], w[2], w[3], tag, out);
+template <int n, class D, class V = hn::Vec<D>>
+HWY_INLINE void store_interleaved(D tag, const V (&w)[n], double* out) {
+    if constexpr (n == 2) hn::StoreInterleaved2(w[0], w[1], tag, out);
+    if constexpr (n == 3) hn::StoreInterleaved3(w[0], w[1], w[2], tag, out);
+    if constexpr (n == 4) hn::StoreInterleaved4(w[0], w[1], w[2], w[3], tag, out);
 }
 
 /// out[stride * l] = lane l of v.
@@ -55,27 +49,16 @@ std::size_t signs_of(const CaseBlock& cases, WeightSigns* out, std::uint32_t* un
     });
 }
 
-template <Simplex s, class D>
-HWY_INLINE Absolute<s, hn::Vec<D>> load_absolute(D tag, const CaseBlock& cases, std::size_t at) {
-    constexpr int n = vertex_count(s), d = space_dimension(s);
-    Absolute<s, hn::Vec<D>> c;
-    for (int k = 0; k < d; ++k) {
-        c.p[k] = hn::LoadU(tag, cases.point[k] + at);
-        for (int i = 0; i < n; ++i) c.v[i][k] = hn::LoadU(tag, cases.vertices[d * i + k] + at);
-    }
-    return c;
-}
-
 template <Simplex s>
 std::size_t weights_of(const CaseBlock& cases, double* out, std::uint32_t* undecided) {
     return for_lanes(cases.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
         using D = decltype(tag);
         constexpr int n = vertex_count(s);
-        const RefinedValues<s, D> refined(tag, load_absolute<s>(tag, cases, at));
+        const RefinedValues<s, D> refined(tag, load_absolute<s>(tag, cases.vertices, cases.point, at));
         auto certain = refined.certain();
         hn::Vec<D> w[n];
         for (int i = 0; i < n; ++i) w[i] = weight(tag, refined.r, i, certain);
-        store_interleaved(tag, w, out + at * n);
+        store_interleaved<n>(tag, w, out + at * n);
         return certain;
     });
 }
@@ -88,7 +71,7 @@ std::size_t values_of(const CaseBlock& cases, const double* const* f, int compon
         using D = decltype(tag);
         using V = hn::Vec<D>;
         constexpr int n = vertex_count(s);
-        const Values<s, D, V> values(tag, load_absolute<s>(tag, cases, at));
+        const Values<s, D, V> values(tag, load_absolute<s>(tag, cases.vertices, cases.point, at));
         auto certain = values.certain();
         for (int c = 0; c < components; ++c) {
             V nodal[n];

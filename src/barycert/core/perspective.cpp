@@ -38,34 +38,28 @@ Error unusable_error(const double* vertices, const double* point, const std::str
     return base::not_finite(which + "coordinate " + std::to_string(k) + " of the point", point[k]);
 }
 
-/// How the numbers of one point were found.
-struct Found {
-    bool degenerate = false;  ///< they are NaN
-    Tier tier = Tier::double_double;
-};
+double* numbers_of(PerspectiveWeights& w) {
+    return w.weights.data();
+}
+double* numbers_of(Value& v) {
+    return &v.value;
+}
 
-template <PerspectiveAnswer what>
-Result<Found> answer(const double* vertices, const double* point, const double* values, double* out) {
+template <PerspectiveAnswer what, class Numbers>
+Result<Numbers> answer(const double* vertices, const double* point, const double* values) {
+    const ExactEnvironment environment;
     constexpr std::size_t count = what == PerspectiveAnswer::weights ? 3 : 1;
+    Numbers found;
+    double* const out = numbers_of(found);
     double* to[count];
     for (std::size_t i = 0; i < count; ++i) to[i] = out + i;
     std::uint32_t undecided[1];
-    if (perspective_lanes(what, vertices, {point, point + 1, 1}, values, 1, to, undecided) == 0) return Found{};
+    if (perspective_lanes(what, vertices, {point, point + 1, 1}, values, 1, to, undecided) == 0) return found;
     if (!usable(vertices, point)) return unusable_error(vertices, point);
-    const bool proper = exact_perspective(what, vertices, point, values, 1, out);
-    if (!proper) std::fill_n(out, count, nan);
-    return Found{!proper, Tier::exact};
-}
-
-template <PerspectiveAnswer what>
-Result<Value> one_value(const double* vertices, const double* point, const double* values) {
-    const ExactEnvironment environment;
-    Value v;
-    const Result<Found> found = answer<what>(vertices, point, values, &v.value);
-    if (!found) return found.error();
-    v.degenerate = found->degenerate;
-    v.tier = found->tier;
-    return v;
+    found.tier = Tier::exact;
+    found.degenerate = !exact_perspective(what, vertices, point, values, 1, out);
+    if (found.degenerate) std::fill_n(out, count, nan);
+    return found;
 }
 
 }  // namespace
@@ -76,21 +70,15 @@ namespace barycert {
 using core::PerspectiveAnswer;
 
 Result<PerspectiveWeights> perspective_weights(const double* vertices, const double* point) {
-    const ExactEnvironment environment;
-    PerspectiveWeights w;
-    const auto found = core::answer<PerspectiveAnswer::weights>(vertices, point, nullptr, w.weights.data());
-    if (!found) return found.error();
-    w.degenerate = found->degenerate;
-    w.tier = found->tier;
-    return w;
+    return core::answer<PerspectiveAnswer::weights, PerspectiveWeights>(vertices, point, nullptr);
 }
 
 Result<Value> perspective_depth(const double* vertices, const double* point) {
-    return core::one_value<PerspectiveAnswer::depth>(vertices, point, nullptr);
+    return core::answer<PerspectiveAnswer::depth, Value>(vertices, point, nullptr);
 }
 
 Result<Value> perspective_value(const double* vertices, const double* point, const double* values) {
-    return core::one_value<PerspectiveAnswer::values>(vertices, point, values);
+    return core::answer<PerspectiveAnswer::values, Value>(vertices, point, values);
 }
 
 Status perspective_values(const double* vertices, std::span<const double> points, std::span<const double> values,

@@ -73,6 +73,19 @@ struct Absolute {
     V p[space_dimension(s)];
 };
 
+/// Loads coordinates of the cases from `at` on.
+template <Simplex s, class D>
+HWY_INLINE Absolute<s, hn::Vec<D>> load_absolute(D tag, const double* const* vertices, const double* const* point,
+                                                 std::size_t at) {
+    constexpr int n = vertex_count(s), d = space_dimension(s);
+    Absolute<s, hn::Vec<D>> c;
+    for (int k = 0; k < d; ++k) {
+        c.p[k] = hn::LoadU(tag, point[k] + at);
+        for (int i = 0; i < n; ++i) c.v[i][k] = hn::LoadU(tag, vertices[d * i + k] + at);
+    }
+    return c;
+}
+
 template <Simplex s, class D>
 struct Refined {
     using V = hn::Vec<D>;
