@@ -63,7 +63,7 @@ constexpr Formula exact_formula{"exact",
                                 "on no finite input; costs more than a plain formula",
                                 exact_weights<s>,
                                 Declares::yes,
-                                {.value = exact_value<s>, .certifies = true}};
+                                More{.value = exact_value<s>, .certifies = true}};
 
 /// Each formula, its variants that this CPU can run, `<name>.fast-math` and so on, and then in single precision.
 void add_formulas(std::vector<Kernel>& list, Simplex s, std::span<const Formula> formulas, bool perspective = false) {

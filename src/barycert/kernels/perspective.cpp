@@ -31,14 +31,14 @@ const Formula perspective_kernels[] = {
      "perspective-correct rasterisation notes",
      "alpha carries the rounding of both others, and where B and C are far and A is near its error is what is left of "
      "the weights",
-     perspective_textbook<double>, Declares::no, more(nullptr, nullptr, "", textbook_value<double>)},
+     perspective_textbook<double>, Declares::no, More{nullptr, nullptr, "", textbook_value<double>}},
     {"perspective-varying", "(sum alpha_i (I_i/w_i)) / (sum alpha_i (1/w_i)), alpha by signed areas",
      "varying variables of a pipeline: v/w and 1/w are linear in the window",
      "as triangle.signed-area: points within a few ulps of an edge get a wrong sign or a false zero",
      perspective_varying<double>, Declares::yes,
-     more(nullptr, in_float<in_window, perspective_varying<float>, 3>,
+     More{nullptr, in_float<in_window, perspective_varying<float>, 3>,
           "rounds coordinates to 24 bits first: points nearer to an edge than 2^-24 of their coordinates change sides",
-          varying_value<double>, value_in_float<in_window, varying_value<float>, 3>)},
+          varying_value<double>, value_in_float<in_window, varying_value<float>, 3>}},
     {"perspective-affine", "W_a = (bc x bp)/(ab x ac) and cyclic in the window, w left out",
      "texture mapping without division by w",
      "right where all w are equal: with w = 1 and 3 at the ends, the middle of an edge gets 1/2 in place of 3/4 and "
@@ -51,11 +51,8 @@ const Formula perspective_kernels[] = {
      perspective_projected_z<double>, Declares::no},
     {"perspective-exact",
      "W_i = n_i w_j w_k / sum n_m w_k w_l, V = sum W_i f_i exactly, each rounded once, ties to even",
-     "barycert/perspective.hpp: integers",
-     "on no finite input with w > 0; costs more than a plain formula",
-     exact_perspective,
-     Declares::yes,
-     {.value = exact_perspective_value, .certifies = true}},
+     "barycert/perspective.hpp: integers", "on no finite input with w > 0; costs more than a plain formula",
+     exact_perspective, Declares::yes, More{.value = exact_perspective_value, .certifies = true}},
 };
 
 }  // namespace

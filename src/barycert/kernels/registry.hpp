@@ -19,17 +19,6 @@ struct More {
     bool certifies = false;                                     ///< by barycert's own core
 };
 
-constexpr More more(WeightsFunction Variants::*variants, WeightsFunction single = nullptr, const char* fails = "",
-                    CaseValueFunction value = nullptr, CaseValueFunction single_value = nullptr) {
-    return {variants, single, fails, value, single_value};
-}
-constexpr More summed_by(ValueFunction sum) {
-    return {.sum = sum};
-}
-constexpr More tolerant(double tolerance) {
-    return {.tolerance = tolerance};
-}
-
 /// A row of the catalogue.
 struct Formula {
     const char *name, *formula, *source, *fails;
