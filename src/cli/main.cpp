@@ -89,7 +89,7 @@ int run(int argc, char** argv) {
     // Its options are those of barycert-tetgen, for help and completions; main() has handed all else over.
     auto* mesh =
         app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
-    OptionTable mesh_options;
+    barycert::Options mesh_options;
     add_options(*mesh, mesh_options);
     add_help(program);
     // After the subcommands, which would take it over.

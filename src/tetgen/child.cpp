@@ -22,6 +22,15 @@
 namespace barycert {
 namespace {
 
+void send(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t put = write(descriptor, text.data(), text.size());
+        if (put < 0 && errno == EINTR) continue;
+        if (put < 0) return;  // the parent is gone
+        text.remove_prefix(static_cast<std::size_t>(put));
+    }
+}
+
 /// noexcept: what `work` throws must end the child, not unwind into the parent's code.
 [[noreturn]] void be_child(const std::function<void(const Answer&)>& work, pid_t parent, int answer,
                            int print) noexcept {
@@ -36,7 +45,7 @@ namespace {
     setrlimit(RLIMIT_CORE, &no_core);
     dup2(print, STDOUT_FILENO);
     dup2(print, STDERR_FILENO);
-    work(Answer(answer));
+    work([answer](std::string_view text) { send(answer, text); });
     std::fflush(nullptr);
     _exit(finished_code);
 }
@@ -71,15 +80,6 @@ std::string contents(std::FILE* file) {
 }
 
 }  // namespace
-
-void Answer::send(std::string_view text) const {
-    while (!text.empty()) {
-        const ssize_t put = write(descriptor_, text.data(), text.size());
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) return;  // the parent is gone
-        text.remove_prefix(static_cast<std::size_t>(put));
-    }
-}
 
 ChildOutcome run_in_child(const std::function<void(const Answer&)>& work, double timeout_seconds) {
     ChildOutcome outcome;

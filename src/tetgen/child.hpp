@@ -8,16 +8,8 @@
 
 namespace barycert {
 
-/// How a child told its parent something, while it lived.
-class Answer {
-public:
-    explicit Answer(int descriptor) : descriptor_(descriptor) {}
-    /// The clock of the timeout stops at the first answer.
-    void send(std::string_view text) const;
-
-private:
-    int descriptor_;
-};
+/// Tells the parent something, while the child lives. The clock of the timeout stops at the first answer.
+using Answer = std::function<void(std::string_view text)>;
 
 struct ChildOutcome {
     std::string answer;   ///< everything sent

@@ -1,36 +1,90 @@
 #include "options.hpp"
 
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+#include "barycert/base/text.hpp"
 #include "options/parser.hpp"
 
 namespace barycert {
+namespace {
 
-void add_options(CLI::App& app, OptionTable& table) {
+/// Refuses what would go wrong silently: TetGen copies numbers and its command line into buffers of fixed size,
+/// ignores unknown switches, and some switches name files or outputs that do not exist here.
+void check_switches(const std::string& switches) {
+    constexpr std::string_view known = "pqaAYMDOoSTXCdVQJBlLbxcfen";
+    constexpr std::string_view numeric = "0123456789./,+-e";
+    constexpr std::size_t longest = 200;
+    if (switches.size() > longest) throw std::invalid_argument("--switches: longer than 200 characters");
+    if (switches.empty()) throw std::invalid_argument("--switches: expected TetGen's switches, found nothing");
+    if (switches.front() == '-') throw std::invalid_argument("--switches: expected no dash before TetGen's switches");
+    for (const char c : switches) {
+        if (known.find(c) != std::string_view::npos || numeric.find(c) != std::string_view::npos) continue;
+        throw std::invalid_argument(
+            fmt::format("--switches: expected letters of {} with their numbers, found '{}'; switches for other "
+                        "inputs and outputs than a PLC and a mesh are not supported",
+                        known, c));
+    }
+}
+
+/// A number of [low, high]; `range` says so in the error.
+double number_in(const char* option, const std::string& text, double low, double high, const char* range) {
+    const std::optional<double> value = base::parse_double(text);
+    if (value && *value >= low && *value <= high) return *value;
+    throw std::invalid_argument(fmt::format("{}: expected {}, found {}", option, range, text));
+}
+
+}  // namespace
+
+void add_options(CLI::App& app, Options& options) {
+    using Text = const std::string&;
+    const auto add = [&](const char* name, const char* type, const char* help, auto take) {
+        return app.add_option_function<std::string>(name, std::move(take), help)->type_name(type);
+    };
+    const auto number = [&](const char* name, const char* type, const char* help, auto& to, double low, double high,
+                            const char* range) {
+        return add(name, type, help,
+                   [&to, name, low, high, range](Text text) { to = number_in(name, text, low, high, range); });
+    };
+    constexpr double tiny = std::numeric_limits<double>::min(), unbounded = std::numeric_limits<double>::max();
     app.footer("Exit codes: 0 meshed; 2 usage or input error, or TetGen failed.");
     app.set_version_flag("--version", "barycert-tetgen " BARYCERT_VERSION " (TetGen 1.5)");
-    app.add_option("INPUT", table.input, "The PLC: .poly, .smesh, .off, .stl or .ply")->type_name("FILE")->required();
-    app.add_option("--output", table.output,
-                   "Stem of the output files, with or without .node; default: stem of INPUT plus .1")
-        ->type_name("FILE");
-    auto* quality = app.add_option("--quality", table.ratio, "Max radius-edge ratio, default 2 (TetGen -q)")
-                        ->expected(0, 1)
-                        ->type_name("[RATIO]");
-    auto* dihedral = app.add_option("--min-dihedral", table.min_dihedral, "Min dihedral angle to aim for, in degrees")
-                         ->type_name("DEGREES");
-    auto* volume = app.add_option("--max-volume", table.max_volume, "Max volume of a cell (TetGen -a)")->type_name("V");
-    auto* order = app.add_option("--order", table.order, "2: second-order cells of ten nodes (TetGen -o2)")
+    app.add_option("INPUT", options.input, "The PLC: .poly, .smesh, .off, .stl or .ply")->type_name("FILE")->required();
+    add("--output", "FILE", "Stem of the output files, with or without .node; default: stem of INPUT plus .1",
+        [&options](Text text) {
+            if (text.empty() || text == "-")
+                throw std::invalid_argument("--output: expected the stem of files, found \"" + text + '"');
+            options.output = text;
+        });
+    // A regular tetrahedron has the smallest ratio there is, 0.61, and the largest dihedral angle, 70.5 degrees.
+    auto* quality =
+        add("--quality", "[RATIO]", "Max radius-edge ratio, default 2 (TetGen -q)", [&options](Text text) {
+            if (options.input.empty() && !text.empty() && base::parse_double(text).value_or(0) == 0)
+                throw std::invalid_argument("--quality: expected a number, found " + text + "; put INPUT first");
+            options.ratio = text.empty() ? 2 : number_in("--quality", text, 1, 1e6, "a ratio of at least 1");
+        })->expected(0, 1);
+    auto* dihedral = number("--min-dihedral", "DEGREES", "Min dihedral angle to aim for, in degrees",
+                            options.min_dihedral, 0, 70, "an angle from 0 to 70 degrees");
+    auto* volume = number("--max-volume", "V", "Max volume of a cell (TetGen -a)", options.max_volume, tiny, unbounded,
+                          "a volume greater than 0");
+    auto* order = app.add_option("--order", options.order, "2: second-order cells of ten nodes (TetGen -o2)")
                       ->check(cli::one_of({"1", "2"}))
                       ->type_name("1|2");
-    auto* keep = app.add_flag("--keep-boundary", table.keep_boundary, "Add no nodes on the boundary (TetGen -Y)");
-    auto* raw = app.add_option("--switches", table.switches,
-                               "TetGen's own switches instead of these options, such as pq1.4a0.1")
-                    ->type_name("STRING");
-    app.add_option("--index-base", table.index_base, "Number from 0 or 1; default: as INPUT does")
+    auto* keep = app.add_flag("--keep-boundary", options.keep_boundary, "Add no nodes on the boundary (TetGen -Y)");
+    auto* raw = add("--switches", "STRING", "TetGen's own switches instead of these options, such as pq1.4a0.1",
+                    [&options](Text text) {
+                        check_switches(text);
+                        options.switches = text;
+                    });
+    app.add_option("--index-base", options.index_base, "Number from 0 or 1; default: as INPUT does")
         ->check(cli::one_of({"0", "1"}))
         ->type_name("0|1");
-    app.add_flag("--quiet", table.quiet, "Print no summary");
-    app.add_option("--timeout", table.timeout, "Stop after this time")->type_name("SECONDS");
+    app.add_flag("--quiet", options.quiet, "Print no summary");
+    number("--timeout", "SECONDS", "Stop after this time", options.timeout, 1e-3, 1e9, "a time of 0.001 to 1e9 s");
     for (auto* option : {quality, dihedral, volume, order, keep}) raw->excludes(option);
 }
 

@@ -10,22 +10,10 @@ class App;
 
 namespace barycert {
 
-/// The options as they are written: numbers are texts, to be judged later. `barycert` explains and completes them for
-/// its subcommand mesh, so TetGen has no part in this.
-struct OptionTable {
-    std::string input, output, ratio, min_dihedral, max_volume, switches, timeout;
-    std::string order = "1", index_base;
-    bool keep_boundary = false, quiet = false;
-};
-
-/// The table must live as long as the app.
-void add_options(CLI::App& app, OptionTable& table);
-
 struct Options {
     std::string input;
-    std::string output;  ///< the stem; never empty after parsing
-    bool quality = false;
-    double ratio = 2.0;  ///< largest radius-edge ratio; TetGen's own default
+    std::string output;           ///< the stem; never empty after parsing
+    std::optional<double> ratio;  ///< largest radius-edge ratio; 2 of cells to be refined, as TetGen has it
     std::optional<double> min_dihedral;
     std::optional<double> max_volume;
     int order = 1;
@@ -37,11 +25,17 @@ struct Options {
 
     /// TetGen's switches, without a dash.
     std::string tetgen_switches() const;
+    /// Cells are to be refined.
+    bool refines() const { return ratio || min_dihedral || max_volume; }
     /// Only looks for self-intersections (TetGen's -d).
     bool diagnoses() const;
     /// The command that makes this mesh, without folders and the output's name: the same on every machine.
     std::string described() const;
 };
+
+/// Tells the parser the options, which must live as long as it. `barycert` explains and completes them for its
+/// subcommand mesh, so TetGen has no part in this.
+void add_options(CLI::App& app, Options& options);
 
 /// The options, or the code to exit with: 0 after --help or --version, 2 after an error told on stderr.
 struct Parsed {
@@ -49,8 +43,5 @@ struct Parsed {
     std::optional<int> exit_code;
 };
 Parsed parse_options(int argc, char** argv);
-
-/// STEM.1 of STEM.poly; STEM.2 of STEM.1.poly, as TetGen counts.
-std::string default_output(const std::string& input);
 
 }  // namespace barycert

@@ -14,11 +14,11 @@ namespace {
 TEST(Child, ReturnsAnswersAndPrints) {
     const ChildOutcome outcome = run_in_child(
         [](const Answer& answer) {
-            answer.send("one\n");
+            answer("one\n");
             std::printf("to stdout ");
             std::fflush(stdout);
             std::fprintf(stderr, "to stderr");
-            answer.send("two\n");
+            answer("two\n");
         },
         10);
     EXPECT_EQ(outcome.answer, "one\ntwo\n");
@@ -60,9 +60,9 @@ TEST(Child, RunsOutOfTime) {
 TEST(Child, IsNotStoppedAfterItsFirstAnswer) {
     const ChildOutcome outcome = run_in_child(
         [](const Answer& answer) {
-            answer.send("meshed\n");
+            answer("meshed\n");
             usleep(200'000);
-            answer.send("written\n");
+            answer("written\n");
         },
         0.1);
     EXPECT_FALSE(outcome.timed_out);
