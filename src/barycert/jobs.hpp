@@ -50,8 +50,7 @@ struct MeshJob {
     std::vector<FieldFile> field_files = {};
     Curved curved = Curved::straight;  ///< what becomes of curved cells
 
-    /// Where the caller will write reports, after what it calls them: the job makes sure that they are no other files
-    /// of the job, and can be written.
+    /// Where the caller will write reports, after what it calls them: checked with the files of the job.
     std::vector<std::pair<std::string, std::string>> reports = {};
     std::string program = "barycert";  ///< how the user calls the program, for commands in messages
     /// Called by one thread at a time, which need not be the caller's.
@@ -70,15 +69,13 @@ struct MeshReport {
 /// What sampling and resampling have.
 struct SamplingJob : MeshJob {
     /// Of a mesh that is a series: without a `step`, where the output has {step} or {time} in its name, and there are
-    /// no series of fields, every step is sampled, each into an output of its own, in which its number or time takes
-    /// that place; points are located anew where the mesh is another one. With all_steps it is an Error where that is
-    /// not so.
+    /// no series of fields, every step is sampled into an output of its own, in which its number or time takes that
+    /// place; points are located anew where the mesh is another one. With all_steps an Error where that is not so.
     bool all_steps = false;
     /// Fields that change from step to step: each path has one *, and each file that it matches is a step, in natural
-    /// order (2 before 10); or it is a .pvd or .vtu.series file. Where the output has {step} in its name, each step has
-    /// an output of its own, in which what the * stood for, or the time, takes that place ({time} likewise); points are
-    /// located once, and values of one step at a time are in memory. Else the steps of NAME, 256 at most, are columns
-    /// NAME@STEP.
+    /// order (2 before 10); or it is a .pvd or .vtu.series file. Where the output has {step} or {time} in its name,
+    /// each step has an output of its own, in which what the * stood for, or the time, takes that place; points are
+    /// located once, and values of one step are in memory. Else the steps of NAME, 256 at most, are columns NAME@STEP.
     std::vector<FieldFile> series = {};
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: all
     std::string output;                    ///< the format goes by the suffix; "-" is CSV on stdout
@@ -122,23 +119,24 @@ constexpr std::string_view name(FoundBy f) {
 enum class PointsFrom : std::uint8_t { points, map, mesh, grid };
 
 constexpr std::string_view name(PointsFrom f) {
-    return f == PointsFrom::points ? "points" : f == PointsFrom::map ? "map" : f == PointsFrom::mesh ? "mesh" : "grid";
+    constexpr std::array<std::string_view, 4> names{"points", "map", "mesh", "grid"};
+    return names[static_cast<std::size_t>(f)];
 }
 
 /// Wall times of the stages. Points are read, sampled and written at the same time: of these each has the time in which
 /// somebody was busy with it, divided by the threads where several may be.
-struct SampleSeconds {
+struct JobSeconds {
     double mesh = 0;    ///< reading the mesh and the files of fields
-    double build = 0;   ///< of the locator and the sampler
+    double build = 0;   ///< of the locator and the sampler; of a contour the cut
     double read = 0;    ///< of points
-    double sample = 0;  ///< owners, features and values
+    double sample = 0;  ///< owners, features and values; of a picture the index, too
     double write = 0;
     double total = 0;
 };
 
-/// A column of a cell field over the cells of MESH, and over those of the mesh at whose nodes it was sampled, between
-/// which it is then linear (quadratic on second-order cells). Exact sums of value times volume (in the plane area; of
-/// straight sides, and positive whatever the orientation), rounded once; cells that overlap count twice.
+/// A column of a cell field over the cells of its mesh, and over those of the mesh at whose nodes it was sampled,
+/// between which it is linear (quadratic on second-order cells). Exact sums of value times volume (in the plane area;
+/// of straight sides, whatever the orientation), rounded once; cells that overlap count twice.
 struct FieldIntegral {
     std::string column;
     double source = 0, target = 0;
@@ -159,7 +157,7 @@ struct SampleReport : MeshReport {
     std::vector<FieldIntegral> integrals;  ///< of the cell fields that became values at nodes of another mesh
     OutsidePolicy outside;
     SampleCounts counts;  ///< locations: one a point
-    SampleSeconds seconds;
+    JobSeconds seconds;
     std::uint64_t degenerate_cells = 0;  ///< method `pass`: of the cells near the points
     std::uint64_t contested_cells = 0;   ///< see Locator::contested_cells
     std::uint64_t rows = 0;
@@ -176,8 +174,8 @@ struct SampleReport : MeshReport {
     bool all = false;                        ///< a row for each cell that holds a point
 };
 
-/// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input
-/// or cannot be written, or the policy for points outside is `error` and a point is outside.
+/// Return an Error, and write nothing, if the job contradicts itself, an input cannot be read, an output is an input or
+/// cannot be written, or the policy for points outside is `error` and a point is outside.
 Result<SampleReport> sample_files(const SampleJob& job);
 Result<SampleReport> resample_files(const ResampleJob& job);
 
@@ -188,8 +186,7 @@ struct CheckJob : MeshJob {
     std::string plc;            ///< a PLC, whose facets are to be unions of faces of cells
     std::string measures;       ///< a .vtu file: the mesh with measures and defects of each cell
     /// Where to write a repaired copy, one of them at most: VTK's or Gmsh's file, or a stem of TetGen's. `fix` merges
-    /// coincident nodes, drops degenerate and duplicate cells and turns negative ones; fix_orientation does the last
-    /// alone.
+    /// coincident nodes, drops degenerate and duplicate cells and turns negative ones; fix_orientation turns alone.
     std::string fix, fix_orientation;
     std::optional<double> merge_within = {};  ///< of `fix`: nodes of cells at most so far apart are merged
     std::optional<VtkData> vtk_data = {};     ///< of outputs in a format of VTK; not set: raw
@@ -221,7 +218,7 @@ struct CheckedMesh {
 /// input or cannot be written. What goes wrong once the mesh is checked does not cost the report: CheckedMesh::written.
 Result<CheckedMesh> check_files(const CheckJob& job);
 
-// A whole job: the results that some tool wrote into a file, held against the exact ones.
+// The results that some tool wrote into a file, held against the exact ones.
 
 /// A rule of --fail-on: more such rows than that fail.
 struct VerifyLimit {
@@ -238,13 +235,12 @@ Result<VerifyLimit> parse_verify_limit(std::string_view text);
 
 struct VerifyJob : MeshJob {
     std::vector<std::string> fields = {};  ///< names, see Sampler::build; empty: those that the results have
-
     /// Points with columns, as for open_points: .csv .npy .vtu .vtp .vti .vtk ...; "-" is CSV from stdin.
     std::string results;
     std::vector<std::string> columns = {};  ///< those of the coordinates: PointOptions::columns
 
-    /// Columns of values by the columns of the sampler (T, v.0, ...). Those that are not named here are looked for
-    /// under their own name, and as NAME:0 and NAME_0, as ParaView writes them.
+    /// Columns of values by those of the sampler (T, v.0, ...). Others are looked for under their own name, and as
+    /// NAME:0 and NAME_0, as ParaView writes them.
     std::map<std::string, std::string> values = {};
     /// The column that names cells, from cell_base. Empty: `cell`, if there is one; "none": none.
     std::string cell_column;
@@ -252,7 +248,7 @@ struct VerifyJob : MeshJob {
     /// The column that is 0 outside. Empty: vtkValidPointMask, if there is one; "none": none.
     std::string mask_column;
 
-    VerifyOptions options = {};             ///< but for tolerance
+    VerifyOptions options = {};            ///< but for tolerance
     std::optional<double> tolerance = {};  ///< not set: 1e-9, or 1e-6 where values are single precision throughout
     std::vector<VerifyLimit> limits = {};  ///< empty: none of any kind
 };
@@ -262,7 +258,6 @@ struct VerifyReport : MeshReport {
     std::string results;
     bool certified = false;
     std::uint64_t contested_cells = 0;
-
     std::vector<std::string> columns;      ///< of the sampler: what was compared
     std::vector<std::string> found_in;     ///< the column of the results for each
     std::string cell_column, mask_column;  ///< empty: none
@@ -271,17 +266,13 @@ struct VerifyReport : MeshReport {
     double tolerance = 0;
     bool exact = false;
     std::optional<double> outside_value;
-
     Verdicts verdicts;                ///< cells of examples are the file's own numbers
     std::vector<VerifyLimit> limits;  ///< of the job, or 0 of every kind
     std::string program;
-    SampleSeconds seconds;
+    JobSeconds seconds;
 
     /// Whether rows could be of that kind: wrong_cell takes a column of cells, wrong_value one of values.
-    bool compared(RowVerdict verdict) const {
-        if (verdict == RowVerdict::wrong_cell) return !cell_column.empty();
-        return verdict != RowVerdict::wrong_value || !columns.empty();
-    }
+    bool compared(RowVerdict verdict) const;
     std::vector<VerifyLimit> exceeded() const;
 };
 
@@ -289,7 +280,7 @@ struct VerifyReport : MeshReport {
 /// on what is not compared: nothing could exceed it.
 Result<VerifyReport> verify_files(const VerifyJob& job);
 
-// Pictures as jobs, files to files: what `barycert render` does and tells.
+// Pictures.
 
 /// The colours of a picture of values.
 struct ColourRange {
@@ -298,19 +289,17 @@ struct ColourRange {
     std::uint64_t without_value = 0;  ///< triangles, drawn in grey
 };
 
-/// The largest difference of an interpolated texture coordinate from the correctly rounded perspective-correct one,
-/// over all pixels, and where.
+/// The largest difference of a texture coordinate from the correctly rounded perspective-correct one, and where.
 struct TexelError {
     double texels = 0;
     std::int32_t column = 0, row = 0;  ///< row counted from the bottom
 };
 
 /// What was drawn.
-struct RenderReport {
+struct RenderReport : MeshReport {
     std::string picture;  ///< gradient, texture, cube, clip, mesh, scene
     std::string input;    ///< the scene, mesh or image; empty if there is none
     std::string output;
-    CurvedCells curved;  ///< of the mesh: drawn with straight sides
     RasterSize size;
     RenderCounts counts;
     FillMethod method = FillMethod::barycentric;
@@ -318,14 +307,12 @@ struct RenderReport {
     Rounding rounding = Rounding::plain;
     std::optional<ColourRange> colours;
     std::optional<TexelError> texel_error;
-    Notes notes;         ///< of the mesh
     double seconds = 0;  ///< from the options to the file
 };
 
-/// What a RenderJob draws. `scene`: that of a file. `gradient`: a triangle with a red, a green and a blue corner;
-/// `texture`: an image on a square or triangle; `cube`: a checkerboard on the faces of a cube in perspective, with the
-/// largest error of its texture coordinates; `clip`: a triangle and segments before and after they are clipped by a
-/// box; `mesh`: the boundary of a mesh of tetrahedra, or a mesh of triangles in the plane.
+/// What a RenderJob draws: the scene of a file; a triangle with a red, a green and a blue corner; an image on a square
+/// or triangle; a checkerboard on a cube in perspective, with the largest error of its texture coordinates; a triangle
+/// and segments before and after clipping by a box; the boundary of a mesh of tetrahedra, or a mesh of triangles.
 enum class PictureKind : std::uint8_t { scene, gradient, texture, cube, clip, mesh };
 
 constexpr std::string_view name(PictureKind p) {
@@ -338,15 +325,13 @@ struct RenderJob : MeshJob {
     PictureKind picture = PictureKind::scene;
     std::string output;     ///< must end in .png
     ViewOptions view = {};  ///< size, method and rounding of all pictures; the rest of that of a mesh
-
-    std::string scene;                                         ///< a file (.json)
+    std::string scene;      ///< a file (.json)
     Interpolation interpolation = Interpolation::perspective;  ///< of a cube
     std::string image;                                         ///< of a texture: .png; empty: one of 2 by 2 texels
     bool triangle = false;                                     ///< what that is put on; else a square
     std::pair<double, double> coordinates{0, 1};               ///< u and v at its lower left and upper right
     Wrap wrap = Wrap::clamp;
     Filter filter = Filter::nearest;
-
     std::string field;  ///< of a mesh: NAME, point:NAME, cell:NAME, each perhaps with .K for component K; empty: grey
     int threads = 0;    ///< 0: as many as the machine has
 };
@@ -356,8 +341,7 @@ struct RenderJob : MeshJob {
 /// render and draw_surface do, or if the file cannot be written.
 Result<RenderReport> render_files(const RenderJob& job);
 
-// Whole jobs, files to files: iso-surfaces, iso-lines and slices of meshes. What `barycert render iso` and `barycert
-// render slice` call. Output files appear whole or not at all.
+// Iso-surfaces, iso-lines and slices of meshes.
 
 struct ContourJob : MeshJob {
     // Either: the field of nodes and its value; a field of several components as NAME.0, NAME.1, ...
@@ -372,7 +356,6 @@ struct ContourJob : MeshJob {
     std::int64_t width = 800;  ///< of a picture of a section, in pixels, without bar and caption
     ViewOptions view = {};     ///< of a picture of an iso-surface, but for its range
     std::string colours;       ///< the field, of nodes or cells, that colours it; named as `field`; empty: grey
-
     std::optional<VtkData> vtk_data = {};  ///< of a .vtp file; not set: raw
     int threads = 0;                       ///< 0: as many as the machine has
 };
@@ -388,34 +371,24 @@ struct PixelGrid {
     std::array<double, 3> middle(std::int64_t i, std::int64_t j) const;
 };
 
-struct ContourSeconds {
-    double mesh = 0;  ///< reading the mesh and the files of fields
-    double cut = 0;
-    double sample = 0;  ///< of a picture: index and values
-    double write = 0;
-    double total = 0;
-};
-
 /// What a job did: what its reports are made of.
 struct ContourReport : MeshReport {
     std::string field, output;
     std::optional<double> value;
     std::optional<Plane> plane;
-
     std::uint64_t points = 0, parts = 0;  ///< of the surface; parts are triangles, in the plane segments
     CutCounts counts;
     std::vector<std::string> fields;  ///< in the file
     SurfaceFile file;
     /// Of what is cut, the field or normal.x: its least and greatest number at nodes of cells. NaN if there is none.
     double low = 0, high = 0;
-
     std::optional<PixelGrid> pixels;  ///< of a picture of a section
     SliceCounts picture;
     SampleCounts samples;
     std::optional<RasterSize> view;  ///< of a picture of an iso-surface
     ViewCounts drawn;
     std::string colours;
-    ContourSeconds seconds;
+    JobSeconds seconds;
 };
 
 /// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input

@@ -145,7 +145,7 @@ void add_audit(const Options& program) {
     o.text("MESH", a.meshes,
            "Meshes for the families mesh.*, in the formats of barycert sample; default: barycert's own")
         ->allow_extra_args(true);
-    add_kernels(o, job.kernels, "Audit only kernels that match; may be repeated");
+    o.text("--kernel", job.kernels.names, "Audit only kernels that match; may be repeated", "KERNEL|GLOB");
     o.text("--family", job.families, "Use only families that match; may be repeated", "FAMILY|GLOB");
     o.text("--kernel-library", job.kernels.libraries,
            "A shared library with a kernel of yours (see barycert/kernel.h); audited alone unless --kernel is given");

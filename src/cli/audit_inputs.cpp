@@ -73,10 +73,6 @@ std::string words_of(const KernelChoice& kernels) {
     return words;
 }
 
-void add_kernels(const Options& o, KernelChoice& kernels, const std::string& help) {
-    o.text("--kernel", kernels.names, help, "KERNEL|GLOB");
-}
-
 void add_count(const Options& o, std::uint64_t& count, int most_bits, const std::string& help) {
     o.integer("--count", count, std::uint64_t{1}, std::uint64_t{1} << most_bits, help);
 }

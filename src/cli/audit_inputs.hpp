@@ -20,9 +20,6 @@ void add_kernel_rules(const Options& o, KernelChoice& kernels);
 /// As words to repeat: " --in-process --class-tolerance 1e-10"; empty if all are as without options.
 std::string words_of(const KernelChoice& kernels);
 
-/// --kernel, may be repeated.
-void add_kernels(const Options& o, KernelChoice& kernels, const std::string& help);
-
 /// --count and --seed.
 void add_count(const Options& o, std::uint64_t& count, int most_bits, const std::string& help);
 void add_seed(const Options& o, std::uint64_t& seed, const std::string& help);

@@ -61,7 +61,8 @@ void add_gaps(const Options& program) {
         "Exit codes: 0 done; 1 a limit of --fail-on is exceeded; 2 usage or input error.", run_gaps);
     GapsOptions& options = a.job.options;
     o.text("MESH", a.job.mesh, "A mesh, as for barycert sample")->required();
-    add_kernels(o, a.kernels, "Kernels that match, those for the cells of the mesh; may be repeated");
+    o.text("--kernel", a.kernels.names, "Kernels that match, those for the cells of the mesh; may be repeated",
+           "KERNEL|GLOB");
     o.text("--kernel-library", a.kernels.libraries,
            "A shared library with a kernel of yours (see barycert/kernel.h); alone unless --kernel is given");
     o.text("--rule", a.rules, "Show only this rule; may be repeated", joined(names_of(all_claim_rules)))

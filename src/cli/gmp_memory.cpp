@@ -22,16 +22,6 @@ void* or_end(void* memory) {
     ::_exit(fail_for_want_of_memory());
 }
 
-void* allocate(std::size_t size) {
-    return or_end(std::malloc(size));
-}
-void* resize(void* old, std::size_t /*old_size*/, std::size_t size) {
-    return or_end(std::realloc(old, size));
-}
-void release(void* memory, std::size_t /*size*/) {
-    std::free(memory);
-}
-
 /// As early as what the loader does, for it needs memory.
 const bool loaded = [] {
     try {
@@ -46,7 +36,10 @@ const bool loaded = [] {
 }  // namespace
 
 void prepare_for_want_of_memory() {
-    mp_set_memory_functions(allocate, resize, release);
+    mp_set_memory_functions(
+        [](std::size_t size) { return or_end(std::malloc(size)); },
+        [](void* old, std::size_t /*old_size*/, std::size_t size) { return or_end(std::realloc(old, size)); },
+        [](void* memory, std::size_t /*size*/) { std::free(memory); });
 }
 
 }  // namespace barycert::cli

@@ -53,9 +53,10 @@ void add_render_tables(const Options& render) {
     a.count = 10000;
     a.reports.file(drift, "--output", "Plot the errors over the size of the triangle, as SVG; - is stdout");
     a.reports.file(drift, "--json", json_figures);
-    add_kernels(drift, a.kernels,
-                "Kernels on triangles (not triangle.perspective-*); may be repeated; default: increments in float and "
-                "double, bilinear, signed-area, exact");
+    drift.text("--kernel", a.kernels.names,
+               "Kernels on triangles (not triangle.perspective-*); may be repeated; default: increments in float and "
+               "double, bilinear, signed-area, exact",
+               "KERNEL|GLOB");
     drift.text("--kernel-library", a.kernels.libraries,
                "A shared library with a kernel of yours; alone without --kernel");
     add_containment(drift, a.kernels);

@@ -44,10 +44,6 @@ const std::string& Reports::path(std::string_view option) const {
     return named == files_.end() ? none : named->path;
 }
 
-bool Reports::any_file() const {
-    return std::any_of(files_.begin(), files_.end(), [](const File& f) { return !f.path.empty(); });
-}
-
 bool Reports::table() const {
     const bool rows = rows_ != nullptr && *rows_ == "-";
     return !quiet_ && !rows && std::none_of(files_.begin(), files_.end(), [](const File& f) { return f.path == "-"; });

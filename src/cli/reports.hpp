@@ -60,7 +60,6 @@ public:
     void rows(const std::string& path) { rows_ = &path; }
 
     bool is_quiet() const { return quiet_; }
-    bool any_file() const;
     const std::string& path(std::string_view option) const;
 
     /// Throws where an output is one of these, or cannot be written.

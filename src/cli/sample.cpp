@@ -66,7 +66,7 @@ void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) 
 
 template <class Job, Result<SampleReport> (*files)(const Job&)>
 int run_sampling(Arguments<Job>& a) {
-    a.job.count_degenerate = !a.reports.is_quiet() || a.reports.any_file();
+    a.job.count_degenerate = !a.reports.is_quiet() || !a.reports.path("--json").empty();
     return a.reports.summarise(a.job, files, sample_json, sample_text);
 }
 
@@ -75,15 +75,14 @@ int run_sampling(Arguments<Job>& a) {
 void add_sample(const Options& program) {
     const auto& [o, a] = program.command(
         "sample", "Sample the fields of a mesh at points, correctly rounded",
-        "Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...): node\n"
-        "fields, cell fields, lengths; then with --outside nearest or extrapolate the distance to the mesh, then "
-        "labels of cells named\n"
-        "in --fields (texts, large integers), then columns of the points (--keep). cell: the number in the file, from\n"
-        "0, of the first cell that contains the point; -1 outside. feature: interior, face, edge, vertex or outside,\n"
-        "exact. TetGen's node attributes are named attribute0, attribute1, ... Rows are points again: --points takes\n"
-        "the output of another run.\n"
-        "Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input\n"
-        "error.",
+        R"(Rows: x,y,z,cell,feature, then one column per component of each field (NAME, or NAME.0, NAME.1, ...): node
+fields, cell fields, lengths; then with --outside nearest or extrapolate the distance to the mesh, then labels of cells named
+in --fields (texts, large integers), then columns of the points (--keep). cell: the number in the file, from
+0, of the first cell that contains the point; -1 outside. feature: interior, face, edge, vertex or outside,
+exact. TetGen's node attributes are named attribute0, attribute1, ... Rows are points again: --points takes
+the output of another run.
+Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input
+error.)",
         run_sampling<SampleJob, sample_files>);
     SampleJob& job = a.job;
     o.mesh(job.mesh);
@@ -112,14 +111,12 @@ void add_sample(const Options& program) {
 void add_resample(const Options& program) {
     const auto& [o, a] = program.command(
         "resample", "Sample the fields of a mesh on a regular grid, or onto another mesh, correctly rounded",
-        "Grids go, by the suffix, to .vti (an array a field, and vtkValidPointMask and cell), .npy (an array of shape\n"
-        "nz,ny,nx, or nz,ny,nx,columns), .csv (rows as of `barycert sample`; - is stdout), .png (one layer of one\n"
-        "column). With --onto to .vtu or .vtk (MESH2, its fields of nodes replaced by those sampled, "
-        "vtkValidPointMask\n"
-        "and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's, with attributes), .csv, "
-        ".npy.\n"
-        "Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input\n"
-        "error.",
+        R"(Grids go, by the suffix, to .vti (an array a field, and vtkValidPointMask and cell), .npy (an array of shape
+nz,ny,nx, or nz,ny,nx,columns), .csv (rows as of `barycert sample`; - is stdout), .png (one layer of one
+column). With --onto to .vtu or .vtk (MESH2, its fields of nodes replaced by those sampled, vtkValidPointMask
+and cell), .msh (Gmsh's, the same without the mask), STEM or STEM.node (TetGen's, with attributes), .csv, .npy.
+Values are those of `barycert sample` at the same points, bit for bit. Exit codes: 0 done, 2 usage or input
+error.)",
         run_sampling<ResampleJob, resample_files>);
     ResampleJob& job = a.job;
     o.mesh(job.mesh);

@@ -32,14 +32,11 @@ int run_verify(Arguments<VerifyJob>& a) {
 void add_verify(const Options& program) {
     const auto& [o, a] = program.command(
         "verify", "Compare results of any tool with the exact ones: cells, inside or outside, values",
-        "RESULTS: points with columns, as written by barycert sample, ParaView, pyvista, pandas or NumPy. A row is "
-        "inside\n"
-        "or outside by vtkValidPointMask if there is one, else by the cell (negative: outside), else by the values "
-        "(all\n"
-        "NaN: outside). Any cell that contains "
-        "the\n"
-        "point is a right cell. Errors of values are told in ulps and in parts of the range of the field (max - min).\n"
-        "Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or input error.",
+        R"(RESULTS: points with columns, as written by barycert sample, ParaView, pyvista, pandas or NumPy. A row is inside
+or outside by vtkValidPointMask if there is one, else by the cell (negative: outside), else by the values (all
+NaN: outside). Any cell that contains the
+point is a right cell. Errors of values are told in ulps and in parts of the range of the field (max - min).
+Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or input error.)",
         run_verify);
     VerifyJob& job = a.job;
     o.mesh(job.mesh);

@@ -19,10 +19,10 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-Error no_column(const VerifyJob& job, const std::string& what, const std::string& name,
-                const std::vector<std::string>& there) {
-    return refusal(job.results, what + ": the results have no such column", listed(there, base::quoted),
-                   base::quoted(name), base::did_you_mean(name, there, "name one of these"));
+[[noreturn]] void refuse_column(const VerifyJob& job, const std::string& what, const std::string& name,
+                                const std::vector<std::string>& there) {
+    refuse(job.results, what + ": the results have no such column", listed(there, base::quoted), base::quoted(name),
+           base::did_you_mean(name, there, "name one of these"));
 }
 
 /// The columns that a choice has in rows.
@@ -42,23 +42,22 @@ std::string column_of(const VerifyJob& job, const TableField& field, int c, cons
     return "";
 }
 
-Status check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
-                   const std::vector<std::string>& there) {
+void check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
+                 const std::vector<std::string>& there) {
     std::vector<TableField> all;
     for (const FieldChoice& choice : fields) all.push_back(columns_of(mesh, choice));
     const std::vector<std::string> known = column_names(all);
     for (const auto& [value, column] : job.values) {
         if (!has(known, value))
-            return refusal("", "job.values: the mesh has no such value",
-                           listed(known, base::quoted, "no field at all: give one with job.field_files"),
-                           base::quoted(value), base::did_you_mean(value, known));
-        if (!has(there, column)) return no_column(job, "job.values", column, there);
+            refuse("", "job.values: the mesh has no such value",
+                   listed(known, base::quoted, "no field at all: give one with job.field_files"), base::quoted(value),
+                   base::did_you_mean(value, known));
+        if (!has(there, column)) refuse_column(job, "job.values", column, there);
     }
     for (const auto& [member, column] :
          {std::pair("job.cell_column", job.cell_column), {"job.mask_column", job.mask_column}}) {
-        if (!column.empty() && column != none && !has(there, column)) return no_column(job, member, column, there);
+        if (!column.empty() && column != none && !has(there, column)) refuse_column(job, member, column, there);
     }
-    return Done{};
 }
 
 std::string chosen(const std::string& asked, const std::string& usual, const std::vector<std::string>& there) {
@@ -69,8 +68,8 @@ std::string chosen(const std::string& asked, const std::string& usual, const std
 
 /// As doubles; NaN for an empty text. Of a mask the bytes 0 and 1 are these numbers, as vtkDelimitedTextWriter writes
 /// them.
-Result<std::vector<double>> numbers_of(const std::vector<Column>& columns, const std::string& name,
-                                       const VerifyJob& job, std::uint64_t first_row, bool mask = false) {
+std::vector<double> numbers_of(const std::vector<Column>& columns, const std::string& name, const VerifyJob& job,
+                               std::uint64_t first_row, bool mask = false) {
     const Column& column =
         *std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == name; });
     if (const auto* const numbers = std::get_if<std::vector<double>>(&column.values)) return *numbers;
@@ -85,11 +84,10 @@ Result<std::vector<double>> numbers_of(const std::vector<Column>& columns, const
         if (text.empty()) x = std::numeric_limits<double>::quiet_NaN();
         if (mask && text.size() == 1 && (text[0] == '\0' || text[0] == '\1')) x = text[0];
         if (!x)
-            return refusal(
-                job.results,
-                "row " + std::to_string(first_row + out.size()) + " (from 0), column " + base::quoted(column.name),
-                "a number, nan, or nothing", base::quoted(text),
-                "choose the columns to compare: job.fields, job.values, job.cell_column");
+            refuse(job.results,
+                   "row " + std::to_string(first_row + out.size()) + " (from 0), column " + base::quoted(column.name),
+                   "a number, nan, or nothing", base::quoted(text),
+                   "choose the columns to compare: job.fields, job.values, job.cell_column");
         out.push_back(*x);
     }
     return out;
@@ -115,11 +113,11 @@ std::vector<std::string> ClaimedColumns::names() const {
     return once;
 }
 
-Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
-                                       const std::vector<ColumnFormat>& formats, Notes& notes) {
+ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
+                               const std::vector<ColumnFormat>& formats, Notes& notes) {
     std::vector<std::string> there;
     for (const ColumnFormat& column : formats) there.push_back(column.name);
-    if (Status ok = check_named(job, mesh, fields, there); !ok) return ok.error();
+    check_named(job, mesh, fields, there);
     ClaimedColumns out;
     for (const FieldChoice& choice : fields) {
         const TableField own = columns_of(mesh, choice);
@@ -129,7 +127,7 @@ Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, c
             out.fields.push_back(choice);
             out.values.insert(out.values.end(), columns.begin(), columns.end());
         } else if (!job.fields.empty()) {
-            return no_column(job, "field " + base::quoted(own.name), own.name, there);
+            refuse_column(job, "field " + base::quoted(own.name), own.name, there);
         } else {
             notes.push_back(
                 {Note::Kind::left_out,
@@ -139,56 +137,47 @@ Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, c
     }
     out.cell = chosen(job.cell_column, "cell", there);
     out.mask = chosen(job.mask_column, "vtkValidPointMask", there);
-    std::string unused;
     const std::vector<std::string> used = out.names();
-    for (const std::string& name : there) {
-        if (!has(used, name)) unused += (unused.empty() ? "" : ", ") + name;
-    }
+    std::vector<std::string> unused = there;
+    std::erase_if(unused, [&](const std::string& name) { return has(used, name); });
     if (!unused.empty())
-        notes.push_back({Note::Kind::left_out, "columns that are not compared: " + unused, job.results});
+        notes.push_back({Note::Kind::left_out,
+                         "columns that are not compared: " + listed(unused, [](const auto& name) { return name; }),
+                         job.results});
     if (!used.empty()) return out;
     std::vector<std::string> names;
     for (const FieldChoice& choice : fields) names.push_back(choice.field->name);
-    return refusal(
-        job.results, "the results have no column to compare",
-        "columns named as fields of the mesh (" + listed(names, base::quoted, "it has none") +
-            "), `cell` or vtkValidPointMask",
-        listed(there, base::quoted),
-        "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not in the mesh "
-        "file: job.field_files NAME=FILE");
+    refuse(job.results, "the results have no column to compare",
+           "columns named as fields of the mesh (" + listed(names, base::quoted, "it has none") +
+               "), `cell` or vtkValidPointMask",
+           listed(there, base::quoted),
+           "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not in the mesh "
+           "file: job.field_files NAME=FILE");
 }
 
-Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
-                         const VerifyJob& job, std::uint64_t first_row) {
+Claims claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
+                 const VerifyJob& job, std::uint64_t first_row) {
     Claims out;
-    std::vector<std::vector<double>> values;
-    for (const std::string& name : which.values) {
-        auto numbers = numbers_of(columns, name, job, first_row);
-        if (!numbers) return numbers.error();
-        values.push_back(std::move(*numbers));
-    }
-    const std::size_t rows = columns.empty() ? 0 : columns.front().size();
-    out.values.resize(rows * values.size());
-    for (std::size_t c = 0; c < values.size(); ++c) {
-        for (std::size_t i = 0; i < rows; ++i) out.values[values.size() * i + c] = values[c][i];
+    const std::size_t rows = columns.empty() ? 0 : columns.front().size(), width = which.values.size();
+    out.values.resize(rows * width);
+    for (std::size_t c = 0; c < width; ++c) {
+        const std::vector<double> numbers = numbers_of(columns, which.values[c], job, first_row);
+        for (std::size_t i = 0; i < rows; ++i) out.values[width * i + c] = numbers[i];
     }
     if (!which.cell.empty()) {
-        const auto numbers = numbers_of(columns, which.cell, job, first_row);
-        if (!numbers) return numbers.error();
+        const std::vector<double> numbers = numbers_of(columns, which.cell, job, first_row);
         for (std::size_t i = 0; i < rows; ++i) {
-            const double x = (*numbers)[i];
+            const double x = numbers[i];
             if (!std::isnan(x) && (std::floor(x) != x || std::fabs(x) > 0x1p53))
-                return refusal(job.results, "the cell of row " + std::to_string(first_row + i) + " (from 0)",
-                               "an integer", base::shortest(x),
-                               "name the column of cells: job.cell_column NAME, or none");
+                refuse(job.results, "the cell of row " + std::to_string(first_row + i) + " (from 0)", "an integer",
+                       base::shortest(x), "name the column of cells: job.cell_column NAME, or none");
             const std::int64_t number = std::isnan(x) ? -1 : static_cast<std::int64_t>(x);
             out.cells.push_back(number < 0 ? -1 : index_of(number - job.cell_base, mesh));
         }
     }
     if (!which.mask.empty()) {
-        const auto numbers = numbers_of(columns, which.mask, job, first_row, true);
-        if (!numbers) return numbers.error();
-        for (const double x : *numbers) out.inside.push_back(x != 0 && !std::isnan(x) ? 1 : 0);
+        for (const double x : numbers_of(columns, which.mask, job, first_row, true))
+            out.inside.push_back(x != 0 && !std::isnan(x) ? 1 : 0);
     }
     return out;
 }

@@ -7,7 +7,6 @@
 
 #include "barycert/jobs.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert::jobs {
@@ -22,10 +21,10 @@ struct ClaimedColumns {
     std::vector<std::string> names() const;
 };
 
-/// Chooses among the columns that the results have. Adds to `notes` which fields and columns are not compared. Returns
-/// an Error if a column that the job names is not there, or if nothing is left to compare.
-Result<ClaimedColumns> claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
-                                       const std::vector<ColumnFormat>& there, Notes& notes);
+/// Chooses among the columns that the results have. Adds to `notes` which fields and columns are not compared. Refused:
+/// a column that the job names is not there, or nothing is left to compare.
+ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
+                               const std::vector<ColumnFormat>& there, Notes& notes);
 
 /// A block of claims.
 struct Claims {
@@ -35,9 +34,9 @@ struct Claims {
 };
 
 /// What the columns say. Cells are indices in the mesh: those that the file numbers otherwise are translated, and those
-/// that the mesh does not have are beyond its last one. Returns an Error, which counts rows from `first_row`, if a text
-/// is no number, or a cell no integer. An empty text is NaN.
-Result<Claims> claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
-                         const VerifyJob& job, std::uint64_t first_row);
+/// that the mesh does not have are beyond its last one. Refused, with rows counted from `first_row`: a text that is
+/// no number, a cell that is no integer. An empty text is NaN.
+Claims claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
+                 const VerifyJob& job, std::uint64_t first_row);
 
 }  // namespace barycert::jobs

@@ -24,7 +24,7 @@ namespace barycert {
 namespace {
 
 using base::shortest;
-using jobs::refusal;
+using jobs::refuse;
 using jobs::Stopwatch;
 using jobs::tell_stage;
 
@@ -32,26 +32,25 @@ bool is_picture(const ContourJob& job) {
     return io::has_suffix(job.output, ".png");
 }
 
-Status check_job(const ContourJob& job) {
+void check_job(const ContourJob& job) {
     if (job.value.has_value() == job.plane.has_value())
-        return refusal("", "what to cut at", "a value or a plane", job.value ? "both" : "neither");
+        refuse("", "what to cut at", "a value or a plane", job.value ? "both" : "neither");
     const bool picture = is_picture(job);
     if (!picture && !jobs::has_suffix_of(job.output, ".vtp .ply .off"))
-        return jobs::unknown_output(job.output, ".vtp, .ply, .off or .png");
+        jobs::refuse_output(job.output, ".vtp, .ply, .off or .png");
     for (const auto& [member, given] : {std::pair("job.colours", !job.colours.empty()), {"job.range", !!job.range}}) {
         if (!picture && given)
-            return refusal("", std::string(member) + " is for pictures", "", "", "leave it out, or name a .png file");
+            refuse("", std::string(member) + " is for pictures", "", "", "leave it out, or name a .png file");
     }
     if (job.field.empty() && (picture || job.value))
-        return refusal("", picture ? "a picture shows a field" : "which field has the value", "job.field NAME", "none");
+        refuse("", picture ? "a picture shows a field" : "which field has the value", "job.field NAME", "none");
     if (job.plane && !picture && !job.field.empty() && !job.fields.empty())
-        return refusal("", "job.field and job.fields", "one of them", "", "job.fields names several");
+        refuse("", "job.field and job.fields", "one of them", "", "job.fields names several");
     if (picture && !job.fields.empty())
-        return Error{.what = "job.fields cannot be combined with a picture", .remedy = "job.field names what it shows"};
-    if (Status data = jobs::check_vtk_data(job.vtk_data, job.output); !data) return data;
-    if (job.width < 1 || job.width > 1000000)
-        return refusal("", "job.width", "1 to 1000000", std::to_string(job.width));
-    return jobs::check_files(job, {}, {{"job.output", job.output}});
+        refuse("", "job.fields cannot be combined with a picture", "", "", "job.field names what it shows");
+    jobs::check_vtk_data(job.vtk_data, job.output);
+    if (job.width < 1 || job.width > 1000000) refuse("", "job.width", "1 to 1000000", std::to_string(job.width));
+    jobs::check_files(job, {}, {{"job.output", job.output}});
 }
 
 /// Sets low and high to those of at(node) over the nodes of cells.
@@ -83,38 +82,36 @@ class Contour {
 public:
     explicit Contour(const ContourJob& job) : job_(job) {}
 
-    Result<ContourReport> run() {
+    ContourReport run() {
         Stopwatch whole, watch;
-        ContourReport& s = report_;
-        if (Status opened = jobs::open_mesh_with_fields(job_, job_.threads, mesh_, s); !opened) return opened.error();
-        s.seconds.mesh = watch.lap();
-        s.field = job_.field;
-        s.output = job_.output;
-        s.value = job_.value;
-        s.plane = job_.plane;
+        mesh_ = jobs::open_mesh_with_fields(job_, job_.threads, report_);
+        report_.seconds.mesh = watch.lap();
+        report_.field = job_.field;
+        report_.output = job_.output;
+        report_.value = job_.value;
+        report_.plane = job_.plane;
         const bool picture = is_picture(job_);
         if (job_.plane && mesh_.dimension == 2)
-            return refusal(job_.mesh, "a plane cuts meshes of tetrahedra", "", "triangles in the plane",
-                           "draw a mesh of triangles by `" + job_.program + " resample --grid`");
+            refuse(job_.mesh, "a plane cuts meshes of tetrahedra", "", "triangles in the plane",
+                   "draw a mesh of triangles by `" + job_.program + " resample --grid`");
         if (picture && job_.value && mesh_.dimension == 2)
-            return refusal(job_.output, "iso-lines cannot be written as a picture", ".vtp or .ply", "",
-                           "choose another name");
-        Result<Cut> cut = picture && job_.plane ? cut_plane({}) : cut_with_fields();
-        if (!cut) return cut.error();
-        s.counts = cut->counts;
-        s.points = cut->surface.point_count();
-        s.parts = cut->surface.cell_count();
-        s.seconds.cut = watch.lap();
-        const Status written = !picture     ? write(cut->surface)
-                               : job_.plane ? draw(cut->surface)
-                                            : draw_view(cut->surface);
-        if (!written) return written.error();
-        s.seconds.total = whole.lap();
+            refuse(job_.output, "iso-lines cannot be written as a picture", ".vtp or .ply", "", "choose another name");
+        Cut cut = picture && job_.plane ? cut_plane({}) : cut_with_fields();
+        report_.counts = cut.counts;
+        report_.points = cut.surface.point_count();
+        report_.parts = cut.surface.cell_count();
+        report_.seconds.build = watch.lap();
+        if (!picture) {
+            write(cut.surface);
+        } else {
+            job_.plane ? draw(cut.surface) : draw_view(cut.surface);
+        }
+        report_.seconds.total = whole.lap();
         return std::move(report_);
     }
 
 private:
-    Result<Cut> cut_plane(CutOptions options) {
+    Cut cut_plane(CutOptions options) {
         tell_stage(job_, "cutting");
         options.threads = job_.threads;
         const std::array<double, 3>& n = job_.plane->normal;
@@ -123,10 +120,10 @@ private:
             return n[0] * x[0] + n[1] * x[1] + n[2] * x[2];
         };
         set_range(mesh_, height, report_);
-        return slice(mesh_, *job_.plane, options);
+        return slice(mesh_, *job_.plane, options).value();
     }
 
-    Result<Cut> cut_with_fields() {
+    Cut cut_with_fields() {
         CutOptions options;
         options.threads = job_.threads;
         const auto carry = [&](const FieldChoice& c, const std::string& name) {
@@ -134,124 +131,117 @@ private:
             report_.fields.push_back(name);
         };
         // To carry along, a field need not be one number.
-        auto chosen =
-            sample::quantities_named(mesh_, job_.plane && !job_.field.empty() ? std::vector{job_.field} : job_.fields);
-        if (!chosen) return chosen.error();
-        if (Status made = sample::make_all_fields(mesh_, *chosen, made_, report_.notes); !made) return made.error();
+        std::vector<FieldChoice> chosen =
+            sample::quantities_named(mesh_, job_.plane && !job_.field.empty() ? std::vector{job_.field} : job_.fields)
+                .value();
+        sample::make_all_fields(mesh_, chosen, made_, report_.notes).value();
         // A picture of an iso-surface needs the field that colours it, and no other.
         if (!is_picture(job_)) {
-            for (const FieldChoice& c : *chosen) carry(c, c.field->name);
+            for (const FieldChoice& c : chosen) carry(c, c.field->name);
         } else if (!job_.colours.empty()) {
-            const Result<FieldChoice> colours = jobs::field_of_numbers(mesh_, job_.colours, made_, report_.notes);
-            if (!colours) return colours.error();
-            carry(*colours, job_.colours);
+            carry(jobs::field_of_numbers(mesh_, job_.colours, made_, report_.notes), job_.colours);
         }
         if (job_.plane) return cut_plane(std::move(options));
-        const Result<FieldChoice> column = jobs::field_of_numbers(mesh_, job_.field, made_, report_.notes);
-        if (!column) return column.error();
-        const Field& field = *column->field;
-        if (column->of_cells)
-            return refusal("", "field \"" + job_.field + "\" is one of cells", "a field of nodes",
-                           "a number for each cell",
-                           "a field of cells jumps from cell to cell: there is no surface on which it has a value");
+        const FieldChoice column = jobs::field_of_numbers(mesh_, job_.field, made_, report_.notes);
+        const Field& field = *column.field;
+        if (column.of_cells)
+            refuse("", "field \"" + job_.field + "\" is one of cells", "a field of nodes", "a number for each cell",
+                   "a field of cells jumps from cell to cell: there is no surface on which it has a value");
         tell_stage(job_, "cutting");
         const auto value = [&](std::size_t i) { return field.data[i]; };
         set_range(mesh_, value, report_);
-        return mesh_.dimension == 2 ? isoline(mesh_, field, *job_.value, options)
-                                    : isosurface(mesh_, field, *job_.value, options);
+        Result<Cut> cut = mesh_.dimension == 2 ? isoline(mesh_, field, *job_.value, options)
+                                               : isosurface(mesh_, field, *job_.value, options);
+        return std::move(cut).value();
     }
 
-    Status write(Surface& surface) {
+    void write(Surface& surface) {
         Stopwatch watch;
         for (Mesh::Index& cell : surface.mesh_cells) cell = mesh_.cell_number(cell);
         tell_stage(job_, "writing " + job_.output);
-        Result<SurfaceFile> file = write_surface(surface, job_.output, job_.vtk_data.value_or(VtkData::raw));
-        if (!file) return file.error();
-        report_.file = std::move(*file);
+        report_.file = write_surface(surface, job_.output, job_.vtk_data.value_or(VtkData::raw)).value();
         std::erase_if(report_.fields, [&](const std::string& name) {
             const auto& out = report_.file.left_out;
             return std::find(out.begin(), out.end(), name) != out.end();
         });
         report_.seconds.write = watch.lap();
-        return Done{};
     }
 
-    Status draw(const Surface& section) {
-        Stopwatch watch;
-        const Result<FieldChoice> column = sample::number_named(mesh_, job_.field);
-        if (!column) return column.error();
+    /// The section has no area, or too much: told with planes that cut the mesh.
+    [[noreturn]] void refuse_section(const Surface& section, Error error) const {
+        error.file = job_.mesh;
+        if (!section.points.empty()) throw Exception(error);
         const auto& [n, at] = *job_.plane;
-        const std::string normal = fmt::format("{},{},{}", shortest(n[0]), shortest(n[1]), shortest(n[2]));
-        Result<PixelGrid> pixels = jobs::pixels_over(*job_.plane, section.points, job_.width);
-        if (!pixels) {
-            Error e = pixels.error();
-            e.file = job_.mesh;
-            if (!section.points.empty()) return e;
-            const double low = report_.low, high = report_.high;
-            const bool touches = at == low || at == high;
-            e.found = fmt::format("D = {}, {} the cells are from {} to {}", shortest(at),
-                                  touches ? "a plane that only touches the boundary:" : "where", shortest(low),
-                                  shortest(high));
-            const double inwards = at == low ? low + (high - low) / 1000 : high - (high - low) / 1000;
-            const auto axis = static_cast<std::size_t>(std::find(n.begin(), n.end(), 1.0) - n.begin());
-            const bool along_axis = axis < 3 && std::count(n.begin(), n.end(), 0.0) == 2;
-            e.remedy = fmt::format("{}: job.plane {}{}", touches ? "move it inwards" : "choose D between them",
-                                   along_axis ? std::string{"xyz"[axis], '='} : normal + ',',
+        const double low = report_.low, high = report_.high;
+        const bool touches = at == low || at == high;
+        error.found =
+            fmt::format("D = {}, {} the cells are from {} to {}", shortest(at),
+                        touches ? "a plane that only touches the boundary:" : "where", shortest(low), shortest(high));
+        const double inwards = at == low ? low + (high - low) / 1000 : high - (high - low) / 1000;
+        const auto axis = static_cast<std::size_t>(std::find(n.begin(), n.end(), 1.0) - n.begin());
+        const bool along_axis = axis < 3 && std::count(n.begin(), n.end(), 0.0) == 2;
+        error.remedy = fmt::format("{}: job.plane {}{}", touches ? "move it inwards" : "choose D between them",
+                                   along_axis ? std::string{"xyz"[axis], '='} : normal_text() + ',',
                                    shortest(touches ? inwards : low / 2 + high / 2));
-            return e;
-        }
-        const auto count = static_cast<std::uint64_t>(pixels->width * pixels->height);
-        const Result<Locator> locator = jobs::build_locator(job_, mesh_, job_.threads);
-        if (!locator) return locator.error();
-        const Result<Sampler> sampler = Sampler::build(*locator, {*column});
-        if (!sampler) return sampler.error();
+        throw Exception(error);
+    }
+
+    std::string normal_text() const {
+        const std::array<double, 3>& n = job_.plane->normal;
+        return fmt::format("{},{},{}", shortest(n[0]), shortest(n[1]), shortest(n[2]));
+    }
+
+    void draw(const Surface& section) {
+        Stopwatch watch;
+        const FieldChoice column = sample::number_named(mesh_, job_.field).value();
+        const Result<PixelGrid> over = jobs::pixels_over(*job_.plane, section.points, job_.width);
+        if (!over) refuse_section(section, over.error());
+        const PixelGrid& pixels = report_.pixels.emplace(*over);
+        const auto count = static_cast<std::uint64_t>(pixels.width * pixels.height);
+        const Locator locator = jobs::build_locator(job_, mesh_, job_.threads);
+        const Sampler sampler = Sampler::build(locator, {column}).value();
         std::vector<double> values(count);
         std::vector<std::uint8_t> valid(count);
-        if (Status done = sample(*pixels, *sampler, values, valid); !done) return done;
+        sample(pixels, sampler, values, valid);
         report_.seconds.sample = watch.lap();
         if (std::none_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
-            return refusal(job_.output, "nothing to draw",
-                           "a pixel whose middle is in the mesh, where the field is finite",
-                           fmt::format("{} x {} pixels without one", pixels->width, pixels->height),
-                           "give more pixels, job.width N, or another field");
+            refuse(job_.output, "nothing to draw", "a pixel whose middle is in the mesh, where the field is finite",
+                   fmt::format("{} x {} pixels without one", pixels.width, pixels.height),
+                   "give more pixels, job.width N, or another field");
         tell_stage(job_, "writing " + job_.output);
         Slice slice;
-        slice.width = static_cast<std::size_t>(pixels->width);
-        slice.height = static_cast<std::size_t>(pixels->height);
+        slice.width = static_cast<std::size_t>(pixels.width);
+        slice.height = static_cast<std::size_t>(pixels.height);
         slice.values = values;
         slice.valid = valid;
         slice.range = job_.range;
-        slice.title = fmt::format("{}, plane {},{}", job_.field, normal, shortest(at));
-        slice.pixel_length = pixels->pixel;
-        report_.pixels = *pixels;
+        slice.title = fmt::format("{}, plane {},{}", job_.field, normal_text(), shortest(job_.plane->offset));
+        slice.pixel_length = pixels.pixel;
         report_.fields = {job_.field};
-        Status written = write_png(job_.output, slice, &report_.picture);
+        write_png(job_.output, slice, &report_.picture).value();
         report_.seconds.write = watch.lap();
-        return written;
     }
 
-    Status draw_view(const Surface& surface) {
+    void draw_view(const Surface& surface) {
         if (surface.cells.empty())
-            return refusal(job_.output, "the iso-surface is empty",
-                           fmt::format("a value from {} to {}", shortest(report_.low), shortest(report_.high)),
-                           shortest(*job_.value), "choose another value");
+            refuse(job_.output, "the iso-surface is empty",
+                   fmt::format("a value from {} to {}", shortest(report_.low), shortest(report_.high)),
+                   shortest(*job_.value), "choose another value");
         Stopwatch watch;
         tell_stage(job_, "drawing");
         ViewOptions options = job_.view;
         if (job_.range) options.range = job_.range;
-        const Result<Image> image = draw_surface(jobs::view_of(surface), options, &report_.drawn);
-        if (!image) return image.error();
+        const Image image = draw_surface(jobs::view_of(surface), options, &report_.drawn).value();
         report_.view = options.size;
         report_.colours = job_.colours;
         report_.seconds.sample = watch.lap();
-        Status written = write_png(job_.output, *image);
+        write_png(job_.output, image).value();
         report_.seconds.write = watch.lap();
-        return written;
     }
 
     /// Lines of pixels at a time, so that memory is that of the values.
-    Status sample(const PixelGrid& pixels, const Sampler& sampler, std::vector<double>& values,
-                  std::vector<std::uint8_t>& valid) {
+    void sample(const PixelGrid& pixels, const Sampler& sampler, std::vector<double>& values,
+                std::vector<std::uint8_t>& valid) {
         const std::int64_t lines = std::max<std::int64_t>(1, (std::int64_t{1} << 18) / pixels.width);
         SampleOptions options;
         options.threads = job_.threads;
@@ -267,7 +257,7 @@ private:
                     points.insert(points.end(), x.begin(), x.end());
                 }
             }
-            if (Status done = sampler.sample(points, options, rows); !done) return done;
+            sampler.sample(points, options, rows).value();
             report_.samples.add(rows.counts);
             for (std::size_t r = 0; r < rows.row_count(); ++r, ++at) {
                 values[at] = rows.value(r, 0);
@@ -275,7 +265,6 @@ private:
             }
             tell_stage(job_, fmt::format("pixels of {}", values.size()), at);
         }
-        return Done{};
     }
 
     const ContourJob& job_;
@@ -286,12 +275,14 @@ private:
 
 }  // namespace
 
-Result<ContourReport> contour_files(const ContourJob& job) {
+Result<ContourReport> contour_files(const ContourJob& job) try {
     const ExactEnvironment environment;
     const base::RunFiles run_files;
-    if (Status good = check_job(job); !good) return good.error();
+    check_job(job);
     const jobs::ThreadLimit limit(job.threads);
     return Contour(job).run();
+} catch (const Exception& e) {
+    return e.error();
 }
 
 }  // namespace barycert

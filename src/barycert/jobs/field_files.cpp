@@ -23,24 +23,19 @@ constexpr std::string_view of_cells = "cell:", of_points = "point:";
 constexpr const char* say_which =
     "say which: FieldFile::Of::points or FieldFile::Of::cells instead of FieldFile::Of::either";
 
-std::string count(std::size_t n, const std::string& what) {
-    return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 /// Whether the rows of the field are for cells.
-Result<bool> is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& mesh) {
+bool is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& mesh) {
     const std::size_t nodes = mesh.point_count(), cells = mesh.cell_count();
     const bool fits_nodes = rows == nodes && file.of != FieldFile::Of::cells;
     const bool fits_cells = rows == cells && file.of != FieldFile::Of::points;
     if (fits_nodes != fits_cells) return fits_cells;
     if (fits_nodes)
-        return refusal(file.path, "rows of field \"" + file.name + "\" could belong to nodes or to cells", "",
-                       "a mesh of " + std::to_string(nodes) + " nodes and the same number of cells", say_which);
-    std::string expected = count(nodes, "row") + ", one for each node";
-    if (file.of == FieldFile::Of::cells) expected = count(cells, "row") + ", one for each cell";
+        refuse(file.path, "rows of field \"" + file.name + "\" could belong to nodes or to cells", "",
+               "a mesh of " + std::to_string(nodes) + " nodes and the same number of cells", say_which);
+    std::string expected = counted(nodes, "row") + ", one for each node";
+    if (file.of == FieldFile::Of::cells) expected = counted(cells, "row") + ", one for each cell";
     if (file.of == FieldFile::Of::either) expected += ", or " + std::to_string(cells) + ", one for each cell";
-    return refusal(file.path, "field \"" + file.name + '"', expected, count(rows, "row"),
-                   "use a file made for this mesh");
+    refuse(file.path, "field \"" + file.name + '"', expected, counted(rows, "row"), "use a file made for this mesh");
 }
 
 std::string names_of(const std::vector<Field>& fields) {
@@ -83,35 +78,33 @@ bool is_solution(const std::string& path) {
 }
 
 /// The array file.column of the mesh in the file; file.of becomes what it is of.
-Result<Field> read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
+Field read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
     const bool solution = is_solution(file.path);
-    Result<Mesh> other = solution ? io::read_medit_fields(file.path, mesh.dimension)
-                                  : read_mesh(file.path, {.faces = false, .neighbours = false});
-    if (!other) other = points_as_mesh(file.path, mesh.dimension, other.error());
-    if (!other) return other.error();
+    Result<Mesh> read = solution ? io::read_medit_fields(file.path, mesh.dimension)
+                                 : read_mesh(file.path, {.faces = false, .neighbours = false});
+    const Mesh other = (read ? std::move(read) : points_as_mesh(file.path, mesh.dimension, read.error())).value();
     if (solution) {
-        notes.insert(notes.end(), other->notes.begin(), other->notes.end());
-        const std::vector<std::string> names = sample::all_field_names(*other);
+        notes.insert(notes.end(), other.notes.begin(), other.notes.end());
+        const std::vector<std::string> names = sample::all_field_names(other);
         if (file.column.empty() && names.size() == 1) file.column = names.front();
     }
     const Field* const of_nodes =
-        file.of == FieldFile::Of::cells ? nullptr : sample::field_named(other->point_fields, file.column);
+        file.of == FieldFile::Of::cells ? nullptr : sample::field_named(other.point_fields, file.column);
     const Field* const of_cells =
-        file.of == FieldFile::Of::points ? nullptr : sample::field_named(other->cell_fields, file.column);
+        file.of == FieldFile::Of::points ? nullptr : sample::field_named(other.cell_fields, file.column);
     if (of_nodes != nullptr && of_cells != nullptr)
-        return refusal(file.path, "there is an array of nodes and one of cells of that name", "",
-                       base::quoted(file.column), say_which);
+        refuse(file.path, "there is an array of nodes and one of cells of that name", "", base::quoted(file.column),
+               say_which);
     if (of_nodes == nullptr && of_cells == nullptr)
-        return refusal(file.path,
-                       file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
-                       file.column.empty() ? "" : base::quoted(file.column),
-                       "of nodes " + names_of(other->point_fields) + "; of cells " + names_of(other->cell_fields),
-                       base::did_you_mean(file.column, sample::all_field_names(*other),
-                                          "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY"));
+        refuse(file.path, file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
+               file.column.empty() ? "" : base::quoted(file.column),
+               "of nodes " + names_of(other.point_fields) + "; of cells " + names_of(other.cell_fields),
+               base::did_you_mean(file.column, sample::all_field_names(other),
+                                  "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY"));
     const bool nodes = of_nodes != nullptr;
     file.of = nodes ? FieldFile::Of::points : FieldFile::Of::cells;
     Field field = nodes ? *of_nodes : *of_cells;
-    const bool same = solution || (other->points == mesh.points && (nodes || other->cells == mesh.cells));
+    const bool same = solution || (other.points == mesh.points && (nodes || other.cells == mesh.cells));
     const std::size_t rows = field.data.size() / static_cast<std::size_t>(field.components);
     if (rows == (nodes ? mesh.point_count() : mesh.cell_count()) && !same)
         notes.push_back({Note::Kind::guessed,
@@ -140,16 +133,15 @@ const Column* label_named(const Mesh& mesh, std::string_view name) {
     return nullptr;
 }
 
-Status check_label(const Mesh& mesh, const Column& label) {
+void check_label(const Mesh& mesh, const Column& label) {
     if (label.size() != mesh.cell_count())
-        return refusal("", "a label of cells does not fit the mesh", std::to_string(mesh.cell_count()) + " values",
-                       std::to_string(label.size()) + " of " + base::quoted(label.name));
+        refuse("", "a label of cells does not fit the mesh", std::to_string(mesh.cell_count()) + " values",
+               std::to_string(label.size()) + " of " + base::quoted(label.name));
     const auto* const integers = std::get_if<std::vector<std::int64_t>>(&label.values);
     if (integers != nullptr && std::find(integers->begin(), integers->end(), mesh::no_label) != integers->end())
-        return refusal("", "a label of cells has the integer that stands for points outside",
-                       "integers above " + std::to_string(mesh::no_label), base::quoted(label.name),
-                       "leave it out of job.fields");
-    return Done{};
+        refuse("", "a label of cells has the integer that stands for points outside",
+               "integers above " + std::to_string(mesh::no_label), base::quoted(label.name),
+               "leave it out of job.fields");
 }
 
 }  // namespace
@@ -166,30 +158,28 @@ bool is_name_of_rows(const std::string& name) {
     return std::find(taken.begin(), taken.end(), name) != taken.end();
 }
 
-Result<Field> read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {
+Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {
     if (is_file_of_a_mesh(file.path) || is_solution(file.path)) return read_array(mesh, file, notes);
-    return io::read_field_file(file.name, file.path, file.column, notes);
+    return io::read_field_file(file.name, file.path, file.column, notes).value();
 }
 
-Result<FieldPlace> add_field(const FieldFile& file, Mesh& mesh, bool replace) {
+FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace) {
     FieldFile of = file;
-    Result<Field> field = read_field(mesh, of, mesh.notes);
-    if (!field) return field.error();
-    const auto cells = is_of_cells(of, field->data.size() / static_cast<std::size_t>(field->components), mesh);
-    if (!cells) return cells.error();
-    std::vector<Field>& fields = *cells ? mesh.cell_fields : mesh.point_fields;
-    const std::string full = std::string(*cells ? of_cells : of_points) + file.name;
+    Field field = read_field(mesh, of, mesh.notes);
+    const bool cells = is_of_cells(of, field.data.size() / static_cast<std::size_t>(field.components), mesh);
+    std::vector<Field>& fields = cells ? mesh.cell_fields : mesh.point_fields;
+    const std::string full = std::string(cells ? of_cells : of_points) + file.name;
     for (std::size_t i = 0; replace && i < fields.size(); ++i) {
         if (fields[i].name != file.name && fields[i].name != full) continue;
-        field->name = fields[i].name;
-        fields[i] = std::move(*field);
-        return FieldPlace{*cells, i};
+        field.name = fields[i].name;
+        fields[i] = std::move(field);
+        return {cells, i};
     }
     if (sample::field_named(fields, file.name) != nullptr)
-        return refusal(file.path, "a field of this name exists already", "", '"' + file.name + '"',
-                       "give it another name: job.field_files OTHER=" + file.path);
-    fields.push_back(std::move(*field));
-    return FieldPlace{*cells, fields.size() - 1};
+        refuse(file.path, "a field of this name exists already", "", '"' + file.name + '"',
+               "give it another name: job.field_files OTHER=" + file.path);
+    fields.push_back(std::move(field));
+    return {cells, fields.size() - 1};
 }
 
 void give_each_a_name(Mesh& mesh) {
@@ -205,51 +195,52 @@ void give_each_a_name(Mesh& mesh) {
         rename(label.name, of_cells, there(mesh.point_fields, label.name) || there(mesh.cell_fields, label.name));
 }
 
-Status add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
-    for (const FieldFile& file : files) {
-        if (const Result<FieldPlace> added = add_field(file, mesh, false); !added) return added.error();
-    }
+void add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
+    for (const FieldFile& file : files) add_field(file, mesh, false);
     give_each_a_name(mesh);
-    return Done{};
 }
 
-Result<FieldChoice> field_of_numbers(const Mesh& mesh, const std::string& name, std::deque<Field>& made, Notes& notes) {
-    const Result<FieldChoice> column = sample::number_named(mesh, name);
-    if (!column) return column;
-    std::vector<FieldChoice> one{*column};
-    if (Status done = sample::make_all_fields(mesh, one, made, notes); !done) return done.error();
+FieldChoice field_of_numbers(const Mesh& mesh, const std::string& name, std::deque<Field>& made, Notes& notes) {
+    std::vector<FieldChoice> one{sample::number_named(mesh, name).value()};
+    sample::make_all_fields(mesh, one, made, notes).value();
     return one.front();
 }
 
-Result<std::vector<const Column*>> take_labels(const Mesh& mesh, std::vector<std::string>& names) {
+std::vector<std::string> with_other_names(const std::vector<std::string>& names, const OtherNames& other) {
+    std::vector<std::string> all;
+    for (const std::string& text : names) {
+        std::vector<std::string> parts;
+        bool some = false;
+        const auto add = [&](const std::string& name) {
+            const auto others = other(name);
+            some = some || others;
+            others ? parts.insert(parts.end(), others->begin(), others->end()) : parts.insert(parts.end(), name);
+            return true;
+        };
+        add(text);
+        if (!some) parts.clear();
+        if (!some) sample::for_names(text, add);
+        if (!some) parts = {text};
+        all.insert(all.end(), parts.begin(), parts.end());
+    }
+    return all;
+}
+
+std::vector<const Column*> take_labels(const Mesh& mesh, std::vector<std::string>& names) {
     std::vector<const Column*> taken;
     if (mesh.cell_labels.empty()) return taken;
-    std::vector<std::string> rest;
-    for (const std::string& text : names) {
-        if (const Column* const label = label_named(mesh, text)) {
-            taken.push_back(label);
-            continue;
-        }
-        std::string others;
-        const std::size_t before = taken.size();
-        sample::for_names(text, [&](const std::string& part) {
-            if (const Column* const label = label_named(mesh, part)) {
-                taken.push_back(label);
-            } else {
-                others += (others.empty() ? "" : ",") + part;
-            }
-            return true;
-        });
-        if (taken.size() == before) others = text;
-        if (taken.size() == before || !others.empty()) rest.push_back(std::move(others));
-    }
+    names = with_other_names(names, [&](const std::string& name) -> std::optional<std::vector<std::string>> {
+        const Column* const label = label_named(mesh, name);
+        if (label == nullptr) return std::nullopt;
+        taken.push_back(label);
+        return std::vector<std::string>();
+    });
     for (auto label = taken.begin(); label != taken.end(); ++label) {
         if (std::find(taken.begin(), label, *label) != label)
-            return refusal("", "a label of cells is named twice", "", base::quoted((*label)->name),
-                           "name it once in job.fields");
-        if (Status fits = check_label(mesh, **label); !fits) return fits.error();
+            refuse("", "a label of cells is named twice", "", base::quoted((*label)->name),
+                   "name it once in job.fields");
+        check_label(mesh, **label);
     }
-    names = std::move(rest);
     return taken;
 }
 

@@ -121,32 +121,30 @@ std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& 
 }  // namespace
 
 void note_cell_fields(SampledMesh& mesh, bool of_series) {
-    std::string names, made;
-    std::size_t count = 0;
+    std::vector<std::string> names, made;
     for (const FieldChoice& choice : mesh.fields()) {
-        if (!choice.of_cells) continue;
-        names += (count++ == 0 ? "" : ", ") + base::quoted(name_of(choice));
-        if (!choice.steps.empty()) made += (made.empty() ? "" : ", ") + base::quoted(name_of(choice));
+        if (choice.of_cells) names.push_back(name_of(choice));
+        if (choice.of_cells && !choice.steps.empty()) made.push_back(name_of(choice));
     }
-    if (count == 0) return;
-    const std::string without = of_series      ? "; their integrals are printed for one step alone: job.step N"
-                                : made.empty() ? ""
-                                               : "; integrals are printed of whole fields, not of " + made;
-    mesh.report.notes.push_back(
-        {Note::Kind::converted,
-         std::to_string(count) + (count == 1 ? " field" : " fields") +
-             " of cells into values at nodes, each that of the cell that owns the node: " + names + without,
-         mesh.job.mesh, true});
+    if (names.empty()) return;
+    std::string without;
+    if (!made.empty()) without = "; integrals are printed of whole fields, not of " + listed(made, base::quoted);
+    if (of_series) without = "; their integrals are printed for one step alone: job.step N";
+    mesh.report.notes.push_back({Note::Kind::converted,
+                                 counted(names.size(), "field") +
+                                     " of cells into values at nodes, each that of the cell that owns the node: " +
+                                     listed(names, base::quoted) + without,
+                                 mesh.job.mesh, true});
 }
 
-OpenedSink with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
-                          const std::function<OpenedSink()>& open) {
+Sink with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
+                    const std::function<Sink()>& open) {
     const std::vector<std::size_t> columns = integrate_source(mesh, format);
     if (columns.empty()) return open();
     struct Kept {
         Mesh geometry;
         std::vector<std::vector<double>> values;  ///< of these columns, one a node
-        std::unique_ptr<TableSink> sink;
+        Sink sink;
     };
     const auto kept = std::make_shared<Kept>();
     kept->geometry.dimension = other.dimension;
@@ -154,7 +152,7 @@ OpenedSink with_integrals(SampledMesh& mesh, const TableFormat& format, const Me
     kept->geometry.cells = other.cells;
     kept->geometry.mid_nodes = other.mid_nodes;
     kept->values.resize(columns.size());
-    if (Status opened = into(kept->sink, open()); !opened) return opened.error();
+    kept->sink = open();
     const auto write = [kept, columns](const TableView& rows) {
         const std::size_t all = rows.row_count() == 0 ? 0 : rows.values.size() / rows.row_count();
         for (std::size_t i = 0; i < rows.row_count(); ++i) {

@@ -11,18 +11,18 @@
 namespace barycert::jobs {
 namespace {
 
-Status check_steps(const SamplingJob& job, const std::vector<Step>& steps) {
+void check_steps(const SamplingJob& job, const std::vector<Step>& steps) {
     std::set<std::string> names;
     for (const FieldFile& file : job.field_files) names.insert(file.name);
     for (const FieldFile& file : job.series) {
-        if (names.insert(file.name).second) continue;
-        return refusal(file.path, "a field of this name exists already", "", '"' + file.name + '"',
-                       "give it another name: job.field OTHER@" + file.path);
+        if (!names.insert(file.name).second)
+            refuse(file.path, "a field of this name exists already", "", '"' + file.name + '"',
+                   "give it another name: job.field OTHER@" + file.path);
     }
-    if (has_step_place(job.output) || steps.size() <= most_steps_of_columns) return Done{};
-    return refusal(job.output, "too many steps for columns of one output",
-                   "at most " + std::to_string(most_steps_of_columns), std::to_string(steps.size()),
-                   "write each step to a file of its own: job.output 'rows-{step}.npy'");
+    if (!has_step_place(job.output) && steps.size() > most_steps_of_columns)
+        refuse(job.output, "too many steps for columns of one output",
+               "at most " + std::to_string(most_steps_of_columns), std::to_string(steps.size()),
+               "write each step to a file of its own: job.output 'rows-{step}.npy'");
 }
 
 void add_input(std::vector<base::NamedFile>& inputs, const std::string& what, const std::string& path) {
@@ -40,22 +40,20 @@ void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done)
     if (job.progress) job.progress({.stage = what, .done = done});
 }
 
-Result<Mesh> open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved) {
+Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved) {
     tell_stage(job, "reading " + job.mesh);
-    Result<Mesh> mesh = read_mesh(job.mesh, {.faces = false, .neighbours = false, .threads = threads, .step = step});
-    if (!mesh) return mesh;
-    const auto straight = take_as_straight(*mesh, job.mesh, job.curved);
-    if (!straight) return straight.error();
+    Mesh mesh = read_mesh(job.mesh, {.faces = false, .neighbours = false, .threads = threads, .step = step}).value();
+    const CurvedCells straight = take_as_straight(mesh, job.mesh, job.curved).value();
     // Of steps, that with the largest deviation.
-    if (straight->max_deviation >= curved.max_deviation) curved = *straight;
+    if (straight.max_deviation >= curved.max_deviation) curved = straight;
     return mesh;
 }
 
-Status open_mesh_with_fields(const MeshJob& job, int threads, Mesh& mesh, MeshReport& report) {
-    if (Status opened = into(mesh, open_mesh(job, threads, job.step, report.curved)); !opened) return opened;
-    if (Status added = add_fields(job.field_files, mesh); !added) return added;
+Mesh open_mesh_with_fields(const MeshJob& job, int threads, MeshReport& report) {
+    Mesh mesh = open_mesh(job, threads, job.step, report.curved);
+    add_fields(job.field_files, mesh);
     report_mesh(job, mesh, threads, report);
-    return Done{};
+    return mesh;
 }
 
 void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& report) {
@@ -67,12 +65,12 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
     report.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-Result<Locator> build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove) {
+Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove) {
     BuildOptions options;
     options.prove = prove;
     options.threads = threads;
     options.progress = [&](const char* stage) { tell_stage(job, stage); };
-    return Locator::build(mesh, options);
+    return Locator::build(mesh, options).value();
 }
 
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more) {
@@ -82,43 +80,43 @@ std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<b
     return inputs;
 }
 
-Status check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
-                     std::vector<base::NamedFile> outputs) {
+void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
+                   std::vector<base::NamedFile> outputs) {
     for (const auto& [what, path] : job.reports) outputs.push_back({what, path});
-    return base::check_outputs(inputs, std::move(outputs));
+    base::check_outputs(inputs, std::move(outputs)).value();
 }
 
-Status check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
-                   const std::vector<base::NamedFile>& unread) {
+void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
+                 const std::vector<base::NamedFile>& unread) {
     std::vector<base::NamedFile> inputs = input_files(job, more_inputs);
     inputs.insert(inputs.end(), unread.begin(), unread.end());
     // The reader of meshes has hints at what may be meant: it tells of those that cannot be read.
     std::erase_if(more_inputs, [](const base::NamedFile& f) { return f.what.starts_with("the mesh"); });
     for (const FieldFile& f : job.field_files) more_inputs.push_back({"field " + f.name, f.path});
-    if (Status readable = base::check_inputs(more_inputs); !readable) return readable;
-    return check_outputs(job, inputs, std::move(outputs));
+    base::check_inputs(more_inputs).value();
+    check_outputs(job, inputs, std::move(outputs));
 }
 
-Status check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
-                   std::vector<base::NamedFile> outputs) {
+void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
+                 std::vector<base::NamedFile> outputs) {
     if (!job.weights.empty() && !io::has_suffix(job.weights, ".npz"))
-        return refusal(job.weights, "unknown suffix of job.weights", ".npz", "", "choose another name");
-    if (Status data = check_vtk_data(job.vtk_data, job.output); !data) return data;
+        refuse(job.weights, "unknown suffix of job.weights", ".npz", "", "choose another name");
+    check_vtk_data(job.vtk_data, job.output);
     std::vector<base::NamedFile> of_steps;
     add_fields_to(of_steps, job.series);
     for (const Step& step : steps) add_fields_to(of_steps, step.files);
     if (!steps.empty()) {
-        if (Status few = check_steps(job, steps); !few) return few;
+        check_steps(job, steps);
         std::vector<base::NamedFile> inputs = input_files(job, more_inputs);
         inputs.insert(inputs.end(), of_steps.begin(), of_steps.end());
         for (base::NamedFile& output : outputs) {
             if (output.what != "job.output" || !has_step_place(output.path)) continue;
-            if (Status distinct = check_step_outputs(inputs, output.path, steps); !distinct) return distinct;
+            check_step_outputs(inputs, output.path, steps);
             output.path = output_of_step(output.path, steps.front());
         }
     }
     outputs.push_back({"job.weights", job.weights});
-    return check_files(job, std::move(more_inputs), std::move(outputs), of_steps);
+    check_files(job, std::move(more_inputs), std::move(outputs), of_steps);
 }
 
 bool has_suffix_of(const std::string& path, std::string_view suffixes) {
@@ -130,22 +128,22 @@ bool has_suffix_of(const std::string& path, std::string_view suffixes) {
     }
 }
 
-Status check_vtk_data(std::optional<VtkData> data, const std::string& path) {
-    if (!data) return Done{};
+void check_vtk_data(std::optional<VtkData> data, const std::string& path) {
+    if (!data) return;
     const bool legacy = io::has_suffix(path, ".vtk");
     if (legacy && *data != VtkData::raw && *data != VtkData::ascii)
-        return refusal(path, "job.vtk_data: legacy files of VTK know no compression", "raw or ascii",
-                       std::string(name(*data)), "name a .vtu file");
-    if (legacy || has_suffix_of(path, ".vtu .vtp .vti")) return Done{};
-    return refusal(path, "job.vtk_data is for files of VTK", ".vtu, .vtk, .vtp or .vti", "",
-                   "leave it out, or name such a file");
+        refuse(path, "job.vtk_data: legacy files of VTK know no compression", "raw or ascii", std::string(name(*data)),
+               "name a .vtu file");
+    if (!legacy && !has_suffix_of(path, ".vtu .vtp .vti"))
+        refuse(path, "job.vtk_data is for files of VTK", ".vtu, .vtk, .vtp or .vti", "",
+               "leave it out, or name such a file");
 }
 
-Error unknown_output(const std::string& path, const std::string& expected) {
+void refuse_output(const std::string& path, const std::string& expected) {
     const std::size_t dot = path.find_last_of("./");
     const bool suffix = dot != std::string::npos && path[dot] == '.';
-    return refusal(path, "unknown suffix of job.output", expected, suffix ? '"' + path.substr(dot) + '"' : "no suffix",
-                   "choose another name");
+    refuse(path, "unknown suffix of job.output", expected, suffix ? '"' + path.substr(dot) + '"' : "no suffix",
+           "choose another name");
 }
 
 }  // namespace barycert::jobs

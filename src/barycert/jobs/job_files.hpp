@@ -1,11 +1,15 @@
-/// How all jobs open their meshes and fields, and what can be known of their files before the work.
+/// How all jobs open their meshes and fields, and what can be known of their files before the work. What goes wrong
+/// within a job is thrown as an Exception: its public function returns the Error.
 #pragma once
 
 #include <tbb/global_control.h>
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "barycert/jobs/series.hpp"
@@ -39,18 +43,16 @@ private:
     std::optional<tbb::global_control> limit_;
 };
 
-/// The value goes to `to`; or the Error comes back.
-template <class To, class T>
-Status into(To& to, Result<T> from) {
-    if (!from) return from.error();
-    to = std::move(*from);
-    return Done{};
-}
-
 /// In the order of the message; empty parts are left out.
 inline Error refusal(std::string file, std::string what, std::string expected = {}, std::string found = {},
                      std::string remedy = {}) {
     return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
+}
+
+/// Throws it.
+template <class... Parts>
+[[noreturn]] void refuse(Parts&&... parts) {
+    throw Exception(refusal(std::forward<Parts>(parts)...));
 }
 
 /// text(item) of each, with commas between them.
@@ -64,46 +66,51 @@ std::string listed(const Items& items, Text text, const char* if_empty = "none")
     return items.empty() ? if_empty : all;
 }
 
+/// "1 row", "2 rows".
+inline std::string counted(std::uint64_t n, const std::string& what) {
+    return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+}
+
 /// Tells what the job is doing, and how much of it is done.
 void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0);
 
 /// Reads the mesh of the job, and takes its cells as straight, as far as it may: `curved` says which are not.
-Result<Mesh> open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved);
+Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved);
 
 /// The same at the step of the job, with the fields from files.
-Status open_mesh_with_fields(const MeshJob& job, int threads, Mesh& mesh, MeshReport& report);
+Mesh open_mesh_with_fields(const MeshJob& job, int threads, MeshReport& report);
 
 /// What a report says of the mesh.
 void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& report);
 
 /// What finds points in the mesh.
-Result<Locator> build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove = true);
+Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove = true);
 
 /// The mesh, the files of fields, and `more`; of VTK's files that name others, those.
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more = {});
 
 /// The outputs and the reports of the job, held against the inputs by base::check_outputs.
-Status check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
-                     std::vector<base::NamedFile> outputs);
-
-/// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
-/// inputs; `unread`: inputs, too, but who reads them tells what is wrong. Error: an output is an input or another
-/// output, or cannot be written; an input cannot be read.
-Status check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
-                   const std::vector<base::NamedFile>& unread = {});
-
-/// The same of a job of sampling. Outputs that are called job.output are one for each step, where they have a place for
-/// it. Error also: more steps than can be columns.
-Status check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
+void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
                    std::vector<base::NamedFile> outputs);
 
+/// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
+/// inputs; `unread`: inputs, too, but who reads them tells what is wrong. Refused: an output that is an input or
+/// another output, or cannot be written; an input that cannot be read.
+void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
+                 const std::vector<base::NamedFile>& unread = {});
+
+/// The same of a job of sampling. Outputs that are called job.output are one for each step, where they have a place for
+/// it. Refused also: more steps than can be columns.
+void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
+                 std::vector<base::NamedFile> outputs);
+
 /// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
-Status check_vtk_data(std::optional<VtkData> data, const std::string& path);
+void check_vtk_data(std::optional<VtkData> data, const std::string& path);
 
 /// Whether the path ends as one of these, in any case: ".csv .npy".
 bool has_suffix_of(const std::string& path, std::string_view suffixes);
 
-/// That the suffix of the output is none of those `expected`.
-Error unknown_output(const std::string& path, const std::string& expected);
+/// Refuses an output whose suffix is none of those `expected`.
+[[noreturn]] void refuse_output(const std::string& path, const std::string& expected);
 
 }  // namespace barycert::jobs

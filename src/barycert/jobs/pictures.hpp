@@ -9,9 +9,6 @@
 
 namespace barycert::jobs {
 
-/// What the job draws where that is no file: a triangle, a texture, a cube, or shapes that are clipped by a box.
-Result<Scene> small_picture(const RenderJob& job);
-
 /// A surface in the colours of its first field, if it has one. It must stay.
 SurfaceView view_of(const Surface& surface);
 

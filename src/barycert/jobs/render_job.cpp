@@ -1,12 +1,17 @@
-// Pictures of scenes and of meshes.
+// Pictures of scenes and of meshes, and small ones that show what rasterising does.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <deque>
+#include <vector>
 
 #include "barycert/environment.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/jobs/pictures.hpp"
+#include "barycert/raster.hpp"
 
 namespace barycert {
 namespace jobs {
@@ -25,59 +30,198 @@ SurfaceView view_of(const Surface& s) {
 
 namespace {
 
+using jobs::refuse;
+
+void set_texture(const RenderJob& job, Scene& scene) {
+    scene.texture = Texture{four_colours(), job.wrap, job.filter};
+    if (!job.image.empty()) scene.texture->image = read_png(job.image).value();
+    const auto [low, high] = job.coordinates;
+    if (job.triangle) {
+        scene.positions = {-1, -1, 0, 1, 1, -1, 0, 1, 0, 1, 0, 1};
+        scene.texture_coordinates = {low, low, high, low, 0.5 * low + 0.5 * high, high};
+        scene.triangles = {0, 1, 2};
+    } else {
+        scene.positions = {-1, -1, 0, 1, 1, -1, 0, 1, 1, 1, 0, 1, -1, 1, 0, 1};
+        scene.texture_coordinates = {low, low, high, low, high, high, low, high};
+        scene.triangles = {0, 1, 2, 0, 2, 3};
+    }
+}
+
+void set_cube(const RenderJob& job, Scene& scene) {
+    scene.interpolation = job.interpolation;
+    scene.texture = Texture{checkerboard(8, 8).value(), Wrap::clamp, Filter::nearest};
+    // Faces of the cube from -1 to 1: their middles, and two axes on which u and v go from 0 to 1.
+    constexpr Vector3 faces[6][3] = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},  {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+                                     {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}}, {{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}},
+                                     {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}}, {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+    constexpr double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (const auto& [middle, u, v] : faces) {
+        const auto first = static_cast<std::int32_t>(scene.positions.size() / 4);
+        for (const auto& c : corners) {
+            for (std::size_t k = 0; k < 3; ++k) scene.positions.push_back(middle[k] + c[0] * u[k] + c[1] * v[k]);
+            scene.positions.push_back(1);
+            for (const double x : c) scene.texture_coordinates.push_back(x > 0 ? 1 : 0);
+        }
+        for (const std::int32_t k : {0, 1, 2, 0, 2, 3}) scene.triangles.push_back(first + k);
+    }
+    const Matrix4 view = look_at({1.6, 1.5, 2.4}, {0, -0.1, 0.13}, {0, 1, 0}).value();
+    scene.to_clip = perspective(62, 1.0 * scene.size.width / scene.size.height, 0.5, 10).value() * view;
+}
+
+/// x, y, red, green, blue.
+using ColouredPoint = std::array<double, 5>;
+
+constexpr std::array<ColouredPoint, 3> triangle{{{-1.5, -0.9, 1, 0, 0}, {1.35, -1.4, 0, 1, 0}, {0.35, 1.6, 0, 0, 1}}};
+constexpr std::array<std::array<ColouredPoint, 2>, 4> segments{{
+    {{{-1.7, 0.2, 1, 0.6, 0}, {-0.1, 1.7, 0.5, 0, 0.8}}},   // cuts a corner
+    {{{-1.6, -1.3, 1, 0.6, 0}, {1.7, 1.25, 0.5, 0, 0.8}}},  // goes through
+    {{{0.6, -0.7, 1, 0.6, 0}, {0.85, 0.5, 0.5, 0, 0.8}}},   // inside
+    {{{1.2, 1.7, 1, 0.6, 0}, {1.75, -0.4, 0.5, 0, 0.8}}},   // outside
+}};
+
+/// Draws into two square panels beside each other, as large as they fit; later triangles in front.
+class ClipScene {
+public:
+    explicit ClipScene(Scene& scene) : scene_(scene) {
+        const double aspect = 1.0 * scene.size.width / scene.size.height;
+        const double half = std::max(2 * half_panel / aspect, half_panel);
+        scene.to_clip = scaling({1 / (half * aspect), 1 / half, 1});
+        pixel_ = 2 * half / scene.size.height;
+    }
+
+    void begin_panel(bool right) {
+        left_ = right ? half_panel : -half_panel;
+        z_ = 0.9;
+    }
+
+    void add_triangle(const ColouredPoint& a, const ColouredPoint& b, const ColouredPoint& c) {
+        for (const ColouredPoint* p : {&a, &b, &c}) {
+            scene_.positions.insert(scene_.positions.end(), {left_ + (*p)[0], (*p)[1], z_, 1});
+            scene_.colours.insert(scene_.colours.end(), p->begin() + 2, p->end());
+            scene_.triangles.push_back(static_cast<std::int32_t>(scene_.triangles.size()));
+        }
+        z_ -= 0x1p-8;
+    }
+
+    /// A line some pixels wide.
+    void add_line(const ColouredPoint& a, const ColouredPoint& b, double pixels) {
+        const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
+        if (!(length > 0)) return;
+        const double part = 0.5 * pixels * pixel_ / length;
+        const auto moved = [&](ColouredPoint p, double side) {
+            p[0] -= side * part * dy;
+            p[1] += side * part * dx;
+            return p;
+        };
+        add_triangle(moved(a, 1), moved(a, -1), moved(b, -1));
+        add_triangle(moved(a, 1), moved(b, -1), moved(b, 1));
+    }
+
+    void end_panel() {
+        constexpr ColouredPoint box[5] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+        for (std::size_t i = 0; i < 4; ++i) add_line(box[i], box[i + 1], 2);
+    }
+
+private:
+    static constexpr double half_panel = 1.9;  ///< half the side of a panel
+    Scene& scene_;
+    double left_ = 0, z_ = 0, pixel_ = 0;
+};
+
+/// The shapes as they are, and beside them what is left in the box: that of the clip volume with w = 1.
+void set_clip(Scene& scene) {
+    ClipScene s(scene);
+    s.begin_panel(false);
+    s.add_triangle(triangle[0], triangle[1], triangle[2]);
+    for (const auto& [a, b] : segments) s.add_line(a, b, 4);
+    s.end_panel();
+    s.begin_panel(true);
+    std::vector<double> rows, polygon;
+    for (const ColouredPoint& p : triangle) rows.insert(rows.end(), {p[0], p[1], 0, 1, p[2], p[3], p[4]});
+    clip_triangle(rows, polygon).value();
+    const auto corner = [&](std::size_t i) {
+        const double* const row = polygon.data() + 7 * i;
+        return ColouredPoint{row[0], row[1], row[4], row[5], row[6]};
+    };
+    for (std::size_t i = 1; i + 1 < polygon.size() / 7; ++i) s.add_triangle(corner(0), corner(i), corner(i + 1));
+    for (const auto& [a, b] : segments) {
+        const ClippedSegment part = clip_segment(2, a, b, ClipBox{{-1, -1, 0}, {1, 1, 0}}).value();
+        const auto end = [](const std::vector<double>& row) {
+            return ColouredPoint{row[0], row[1], row[2], row[3], row[4]};
+        };
+        if (!part.empty) s.add_line(end(part.a), end(part.b), 4);
+    }
+    s.end_panel();
+}
+
+/// What the job draws where that is no file.
+Scene small_picture(const RenderJob& job) {
+    Scene scene;
+    scene.size = job.view.size;
+    if (job.picture != PictureKind::clip) {
+        scene.method = job.view.method;
+        scene.rounding = job.view.rounding;
+    }
+    if (job.picture == PictureKind::clip) set_clip(scene);
+    if (job.picture == PictureKind::texture) set_texture(job, scene);
+    if (job.picture == PictureKind::cube) set_cube(job, scene);
+    if (job.picture == PictureKind::gradient) {
+        scene.positions = {-0.9, -0.8, 0, 1, 0.9, -0.8, 0, 1, 0, 0.9, 0, 1};
+        scene.colours = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+        scene.triangles = {0, 1, 2};
+    }
+    return scene;
+}
+
 /// The cells of a mesh in the plane, or the boundary of one in space, in the colours of the field; what is told of them
 /// goes into the report.
-Result<Image> image_of(const RenderJob& job, const Mesh& mesh, RenderReport& report) {
+Image image_of(const RenderJob& job, const Mesh& mesh, RenderReport& report) {
     CutOptions options{.threads = job.threads};
     std::deque<Field> made;
     if (!job.field.empty()) {
-        const Result<FieldChoice> found = jobs::field_of_numbers(mesh, job.field, made, report.notes);
-        if (!found) return found.error();
-        (found->of_cells ? options.cell_fields : options.point_fields).push_back(found->field);
+        const FieldChoice found = jobs::field_of_numbers(mesh, job.field, made, report.notes);
+        (found.of_cells ? options.cell_fields : options.point_fields).push_back(found.field);
     }
-    Result<Surface> surface = mesh.dimension == 3 ? boundary(mesh, options) : Surface();
-    if (!surface) return surface.error();
-    if (mesh.dimension == 2) {
-        surface->points = mesh.points;
-        surface->cells = mesh.cells;
-        for (const Field* f : options.point_fields) surface->point_fields.push_back(*f);
-        for (const Field* f : options.cell_fields) surface->cell_fields.push_back(*f);
+    Surface surface;
+    if (mesh.dimension == 3) {
+        surface = boundary(mesh, options).value();
+    } else {
+        surface.points = mesh.points;
+        surface.cells = mesh.cells;
+        for (const Field* f : options.point_fields) surface.point_fields.push_back(*f);
+        for (const Field* f : options.cell_fields) surface.cell_fields.push_back(*f);
     }
-    SurfaceView view = jobs::view_of(*surface);
+    SurfaceView view = jobs::view_of(surface);
     view.dimension = mesh.dimension;
     ViewCounts counts;
-    Result<Image> image = draw_surface(view, job.view, &counts);
+    Image image = draw_surface(view, job.view, &counts).value();
     report.counts = counts.render;
     if (!job.field.empty()) report.colours = {job.field, counts.low, counts.high, counts.without_value};
     return image;
 }
 
-Result<Image> draw_mesh(const RenderJob& job, RenderReport& report) {
+Image draw_mesh(const RenderJob& job, RenderReport& report) try {
     const jobs::ThreadLimit limit(job.threads);
-    Mesh mesh;
-    MeshReport opened;
-    if (Status done = jobs::open_mesh_with_fields(job, job.threads, mesh, opened); !done) return done.error();
-    if (mesh.cells.empty()) return jobs::refusal(job.mesh, "the mesh has no cells", "", "", "there is nothing to draw");
+    const Mesh mesh = jobs::open_mesh_with_fields(job, job.threads, report);
+    if (mesh.cells.empty()) refuse(job.mesh, "the mesh has no cells", "", "", "there is nothing to draw");
     report.input = job.mesh;
-    report.curved = opened.curved;
-    report.notes = opened.notes;
     report.size = job.view.size;
     report.method = job.view.method;
     report.rounding = job.view.rounding;
-    Result<Image> image = image_of(job, mesh, report);
-    if (image || !image.error().file.empty()) return image;
-    Error error = image.error();
-    error.file = job.mesh;
-    return error;
+    return image_of(job, mesh, report);
+} catch (const Exception& e) {
+    Error error = e.error();
+    if (error.file.empty()) error.file = job.mesh;
+    throw Exception(error);
 }
 
 /// The largest difference of u or v at a pixel from the correctly rounded one.
-Result<TexelError> texel_error(Scene scene, const PixelValues& drawn) {
+TexelError texel_error(Scene scene, const PixelValues& drawn) {
     scene.method = FillMethod::barycentric;
     scene.interpolation = Interpolation::perspective;
     scene.rounding = Rounding::correct;
     PixelValues exact;
-    if (const Result<Image> done = render(scene, nullptr, &exact); !done) return done.error();
+    render(scene, nullptr, &exact).value();
     const double texels[2] = {1.0 * scene.texture->image.width, 1.0 * scene.texture->image.height};
     TexelError worst;
     for (std::size_t i = 0; i < drawn.data.size(); ++i) {
@@ -89,21 +233,17 @@ Result<TexelError> texel_error(Scene scene, const PixelValues& drawn) {
     return worst;
 }
 
-Result<Image> draw_scene(const RenderJob& job, RenderReport& report) {
+Image draw_scene(const RenderJob& job, RenderReport& report) {
     const bool of_file = job.picture == PictureKind::scene, cube = job.picture == PictureKind::cube;
-    const Result<Scene> scene = of_file ? read_scene(job.scene) : jobs::small_picture(job);
-    if (!scene) return scene.error();
+    const Scene scene = of_file ? read_scene(job.scene).value() : small_picture(job);
     report.input = of_file ? job.scene : job.image;
-    report.size = scene->size;
-    report.method = scene->method;
-    report.interpolation = scene->interpolation;
-    report.rounding = scene->rounding;
+    report.size = scene.size;
+    report.method = scene.method;
+    report.interpolation = scene.interpolation;
+    report.rounding = scene.rounding;
     PixelValues coordinates;
-    Result<Image> image = render(*scene, &report.counts, cube ? &coordinates : nullptr);
-    if (!image || !cube) return image;
-    const Result<TexelError> error = texel_error(*scene, coordinates);
-    if (!error) return error.error();
-    report.texel_error = *error;
+    Image image = render(scene, &report.counts, cube ? &coordinates : nullptr).value();
+    if (cube) report.texel_error = texel_error(scene, coordinates);
     return image;
 }
 
@@ -118,22 +258,22 @@ std::vector<base::NamedFile> inputs_of(const RenderJob& job) {
 
 }  // namespace
 
-Result<RenderReport> render_files(const RenderJob& job) {
+Result<RenderReport> render_files(const RenderJob& job) try {
     const ExactEnvironment environment;
     if (!job.output.ends_with(".png"))
-        return jobs::refusal(job.output, "pictures are PNG files", "a name that ends in .png", "",
-                             "choose another name for job.output");
-    if (const Status ok = jobs::check_outputs(job, inputs_of(job), {{"job.output", job.output}}); !ok)
-        return ok.error();
+        refuse(job.output, "pictures are PNG files", "a name that ends in .png", "",
+               "choose another name for job.output");
+    jobs::check_outputs(job, inputs_of(job), {{"job.output", job.output}});
     jobs::Stopwatch time;
     RenderReport report;
-    const Result<Image> image = job.picture == PictureKind::mesh ? draw_mesh(job, report) : draw_scene(job, report);
-    if (!image) return image.error();
-    if (Status written = write_png(job.output, *image); !written) return written.error();
+    const Image image = job.picture == PictureKind::mesh ? draw_mesh(job, report) : draw_scene(job, report);
+    write_png(job.output, image).value();
     report.picture = name(job.picture);
     report.output = job.output;
     report.seconds = time.lap();
     return report;
+} catch (const Exception& e) {
+    return e.error();
 }
 
 }  // namespace barycert

@@ -11,19 +11,19 @@
 namespace barycert {
 namespace {
 
-using jobs::refusal;
+using jobs::refuse;
 using jobs::SampledMesh;
 using jobs::Stopwatch;
 
-Result<Grid> grid_of(const ResampleJob& a, const Mesh& mesh) {
+Grid grid_of(const ResampleJob& a, const Mesh& mesh) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
     Bounds3 box = bounds_of_cells(mesh);
-    const auto wrong_axes = [&](const char* member, const std::string& expected, std::size_t found) {
-        return refusal("", std::string(member) + " does not fit the mesh",
-                       fmt::format("{} for a mesh of dimension {}", expected, d), std::to_string(found));
+    const auto refuse_axes = [&](const char* member, const std::string& expected, std::size_t found) {
+        refuse("", std::string(member) + " does not fit the mesh",
+               fmt::format("{} for a mesh of dimension {}", expected, d), std::to_string(found));
     };
     if (!a.bounds.empty() && a.bounds.size() != 2 * d)
-        return wrong_axes("job.bounds", fmt::format("{} numbers", 2 * d), a.bounds.size());
+        refuse_axes("job.bounds", fmt::format("{} numbers", 2 * d), a.bounds.size());
     for (std::size_t k = 0; !a.bounds.empty() && k < d; ++k) {
         box.low[k] = a.bounds[2 * k];
         box.high[k] = a.bounds[2 * k + 1];
@@ -31,38 +31,37 @@ Result<Grid> grid_of(const ResampleJob& a, const Mesh& mesh) {
     if (!a.counts.empty()) {
         const bool one_layer = d == 2 && a.counts.size() == 3 && a.counts[2] == 1;
         if (a.counts.size() != d && !one_layer)
-            return wrong_axes("job.counts", fmt::format("{} numbers of points", d), a.counts.size());
+            refuse_axes("job.counts", fmt::format("{} numbers of points", d), a.counts.size());
         std::array<std::int64_t, 3> counts{1, 1, 1};
         std::copy_n(a.counts.begin(), d, counts.begin());
-        return grid_over(mesh.dimension, counts, box.low, box.high);
+        return grid_over(mesh.dimension, counts, box.low, box.high).value();
     }
     if (a.spacing.size() != 1 && a.spacing.size() != d)
-        return wrong_axes("job.spacing", fmt::format("one number or {}", d), a.spacing.size());
+        refuse_axes("job.spacing", fmt::format("one number or {}", d), a.spacing.size());
     std::array<double, 3> spacing{};
     for (std::size_t k = 0; k < d; ++k) spacing[k] = a.spacing[a.spacing.size() == 1 ? 0 : k];
-    return grid_spaced(mesh.dimension, spacing, box.low, box.high);
+    return grid_spaced(mesh.dimension, spacing, box.low, box.high).value();
 }
 
-Status check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
+void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     const int targets = (job.counts.empty() ? 0 : 1) + (job.spacing.empty() ? 0 : 1) + (job.onto.empty() ? 0 : 1);
     if (targets != 1)
-        return refusal("", targets == 0 ? "no target" : "more than one target",
-                       "one of job.counts, job.spacing and job.onto", targets == 0 ? "none" : "several",
-                       "`barycert resample --help` explains them");
+        refuse("", targets == 0 ? "no target" : "more than one target", "one of job.counts, job.spacing and job.onto",
+               targets == 0 ? "none" : "several", "`barycert resample --help` explains them");
     if (!job.bounds.empty() && !job.onto.empty())
-        return refusal("", "job.bounds cannot be combined with job.onto", "", "",
-                       "bounds are for job.counts and job.spacing: leave them out");
+        refuse("", "job.bounds cannot be combined with job.onto", "", "",
+               "bounds are for job.counts and job.spacing: leave them out");
     if (!job.weights.empty() && job.onto.empty())
-        return refusal(job.weights, "job.weights needs job.onto here", "", "",
-                       "for the points of a grid, write them to a file first (job.output grid.csv), and use "
-                       "`barycert sample --points grid.csv --weights`");
+        refuse(job.weights, "job.weights needs job.onto here", "", "",
+               "for the points of a grid, write them to a file first (job.output grid.csv), and use "
+               "`barycert sample --points grid.csv --weights`");
     if (job.onto.empty()) {
-        if (Status known = jobs::check_grid_output(job); !known) return known;
+        jobs::check_grid_output(job);
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
-    if (Status known = jobs::check_mesh_output(job); !known) return known;
-    return jobs::check_files(job, steps, base::named_files("the mesh of job.onto", mesh_files(job.onto)),
-                             base::named_files("job.output", jobs::files_of_mesh_output(job)));
+    jobs::check_mesh_output(job);
+    jobs::check_files(job, steps, base::named_files("the mesh of job.onto", mesh_files(job.onto)),
+                      base::named_files("job.output", jobs::files_of_mesh_output(job)));
 }
 
 /// What its reader told, and the fields of nodes that the sampled ones replace.
@@ -77,19 +76,18 @@ void note_the_other(SampledMesh& mesh, const ResampleJob& job, const Mesh& other
 }
 
 /// The fields as they are now, into the output of that name. Points of a new mesh are counted.
-Status onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& path, bool new_mesh) {
+void onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& path, bool new_mesh) {
     SampleReport& report = mesh.report;
     const Grid& grid = *report.grid;
     Stopwatch watch, within;
-    auto output = open_user_rows(mesh, mesh.format(), {}, false, [&](const TableFormat& format) {
+    const jobs::Sink output = open_user_rows(mesh, mesh.format(), {}, false, [&](const TableFormat& format) {
         return jobs::open_grid_sink(job, path, format, grid, report.picture);
     });
-    if (!output) return output.error();
     double writing = 0;
-    const bool refuse = job.options.outside.kind == Outside::error;
+    const bool none_outside = job.options.outside.kind == Outside::error;
     const std::string what = fmt::format("points of {}", grid.point_count());
     const auto sink = [&](const TableView& rows) -> Status {
-        const auto outside = refuse ? std::find(rows.cells.begin(), rows.cells.end(), -1) : rows.cells.end();
+        const auto outside = none_outside ? std::find(rows.cells.begin(), rows.cells.end(), -1) : rows.cells.end();
         if (outside != rows.cells.end()) {
             const std::uint64_t i =
                 rows.first_row + static_cast<std::uint64_t>(std::distance(rows.cells.begin(), outside));
@@ -99,88 +97,76 @@ Status onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& p
         }
         report.nan_values += jobs::count_nan(rows);
         within.lap();
-        Status written = (*output)->write(rows);
+        Status written = output->write(rows);
         writing += within.lap();
         mesh.tell(what, rows.first_row + rows.row_count());
         return written;
     };
-    SampleCounts counts;
-    Status done = jobs::into(counts, resample(mesh.sampler(), grid, jobs::without_refusal(job.options), sink));
-    if (!done) return done;
+    const SampleCounts counts = resample(mesh.sampler(), grid, jobs::without_refusal(job.options), sink).value();
     if (new_mesh) {
         report.counts.add(counts);
         report.rows += grid.point_count();
     }
     report.seconds.sample += watch.lap() - writing;
-    done = (*output)->commit();
+    output->commit().value();
     report.seconds.write += writing + watch.lap();
-    return done;
 }
 
-Status onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
-    Grid& grid = mesh.report.grid.emplace();
-    if (Status made = jobs::into(grid, grid_of(job, mesh.mesh())); !made) return made;
+void onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
+    Grid& grid = mesh.report.grid.emplace(grid_of(job, mesh.mesh()));
     if (io::has_suffix(job.output, ".vti")) grid = as_in_vti(grid);
     mesh.report.from = PointsFrom::grid;
-    return mesh.for_outputs([&](const std::string& path, bool, bool anew) -> Status {
-        if (anew) {
-            Status ready = mesh.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds");
-            if (!ready) return ready;
-        }
+    mesh.for_outputs([&](const std::string& path, bool, bool anew) {
+        if (anew) mesh.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds");
         if (anew && mesh.report.meshes == 2 && job.bounds.empty())
             mesh.report.notes.push_back(
                 {Note::Kind::guessed,
                  "the grid of all steps lies in the box of the mesh of the first one: job.bounds names another box",
                  job.mesh, true});
-        return onto_grid(mesh, job, path, anew);
+        onto_grid(mesh, job, path, anew);
     });
 }
 
-Status onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
+void onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
     mesh.tell("reading " + job.onto);
     Stopwatch watch;
     const bool to_rows = jobs::is_rows_output(job.output);
-    Result<Mesh> other =
-        read_mesh(job.onto, {.faces = !to_rows, .neighbours = !to_rows, .threads = job.options.threads});
-    if (!other) return other.error();
+    Mesh other =
+        read_mesh(job.onto, {.faces = !to_rows, .neighbours = !to_rows, .threads = job.options.threads}).value();
     const int d = mesh.mesh().dimension;
-    if (other->dimension != d)
-        return refusal(job.onto, "the meshes have different dimensions", fmt::format("{}, as {} has", d, job.mesh),
-                       std::to_string(other->dimension),
-                       "resample between meshes of triangles, or between meshes of tetrahedra");
+    if (other.dimension != d)
+        refuse(job.onto, "the meshes have different dimensions", fmt::format("{}, as {} has", d, job.mesh),
+               std::to_string(other.dimension),
+               "resample between meshes of triangles, or between meshes of tetrahedra");
     SampleReport& report = mesh.report;
-    Status straight = jobs::into(report.onto_curved, take_as_straight(*other, job.onto, job.curved));
-    if (!straight) return straight;
+    report.onto_curved = take_as_straight(other, job.onto, job.curved).value();
     report.from = PointsFrom::mesh;
     report.points = job.onto;
-    const bool further = mesh.step_by_step() && mesh.steps.size() > 1;
-    auto points = memory_points(other->points, d);
+    const bool further = mesh.has_further_steps();
+    auto points = memory_points(other.points, d);
     jobs::RowSource nodes = jobs::rows_of_points(points);
-    nodes.begin_again = [&](const SampledMesh&) -> Status {
-        points = memory_points(other->points, d);
-        return Done{};
-    };
+    nodes.begin_again = [&](const SampledMesh&) { points = memory_points(other.points, d); };
     report.seconds.read = watch.lap();
-    note_the_other(mesh, job, *other);
+    note_the_other(mesh, job, other);
     jobs::note_cell_fields(mesh, further);
     // Files of the other mesh with the fields, or rows. Of a series there would be integrals of each step.
     const auto open = [&](const TableFormat& format, const std::string& path) {
         const auto open_sink = [&](const TableFormat& shown) {
             return to_rows ? jobs::open_rows(path, shown)
-                           : jobs::mesh_sink(further ? *other : std::move(*other), path, shown, mesh.report.notes);
+                           : jobs::mesh_sink(further ? other : std::move(other), path, shown, mesh.report.notes);
         };
         const auto open_rows = [&] { return open_user_rows(mesh, format, {}, false, open_sink); };
-        return further ? open_rows() : jobs::with_integrals(mesh, format, *other, open_rows);
+        return further ? open_rows() : jobs::with_integrals(mesh, format, other, open_rows);
     };
-    return sample_rows(mesh, nodes, open);
+    sample_rows(mesh, nodes, open);
 }
 
 }  // namespace
 
 Result<SampleReport> resample_files(const ResampleJob& job) {
     return jobs::sample_mesh(
-        job, "resample", [&](const auto& steps) { return check_job(job, steps); },
-        [&](SampledMesh& mesh) { return job.onto.empty() ? onto_grid_in_steps(mesh, job) : onto_mesh(mesh, job); });
+        job, "resample", [&](const auto& steps) { check_job(job, steps); },
+        [&](SampledMesh& mesh) { job.onto.empty() ? onto_grid_in_steps(mesh, job) : onto_mesh(mesh, job); });
 }
 
 }  // namespace barycert

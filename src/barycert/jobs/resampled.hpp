@@ -12,34 +12,33 @@ namespace barycert::jobs {
 /// The point of that number; in 2D without a third coordinate.
 std::array<double, 3> point_of(const Grid& grid, std::uint64_t i);
 
-/// What is wrong with the output of a grid, as far as its name and the options tell.
-Status check_grid_output(const ResampleJob& job);
+/// Refuses what is wrong with the output of a grid, as far as its name and the options tell.
+void check_grid_output(const ResampleJob& job);
 
 /// A sink of the blocks of a grid, in order, whose views have no points: the output `path` of the job, by its suffix.
-/// `picture` gets what became of the values of a picture, with the commit. Errors: a format that cannot hold these
-/// fields or that grid; a path that cannot be written.
-OpenedSink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
-                          std::optional<SliceCounts>& picture);
+/// `picture` gets what became of the values of a picture, with the commit. Refused: a format that cannot hold
+/// these fields or that grid; a path that cannot be written.
+Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
+                    std::optional<SliceCounts>& picture);
 
-/// The files that such an output has; what is wrong with it, as far as its name tells.
+/// The files that an output at the nodes of another mesh has; what is wrong with it, as far as its name tells.
 std::vector<std::string> files_of_mesh_output(const ResampleJob& job);
-Status check_mesh_output(const ResampleJob& job);
+void check_mesh_output(const ResampleJob& job);
 
 /// True if the output is rows: CSV or NPY.
 bool is_rows_output(const std::string& path);
 
-/// Takes one row a node, and writes the mesh when all is there: VTK's files, or TetGen's by their stem. Error: columns
-/// that are carried through, for which meshes have no place. `notes` gets the names that a .node file cannot hold,
-/// once.
-OpenedSink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes);
+/// Takes one row a node, and writes the mesh when all is there: VTK's files, or TetGen's by their stem. Refused:
+/// columns that are carried through, for which meshes have no place. `notes` gets the names that a .node file cannot
+/// hold, once.
+Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes);
 
 // What becomes of cell fields that are sampled at the nodes of another mesh.
 
 /// Gives the rows of all nodes of `other` to the sink that is opened. Integrals of cell fields that are sampled as they
 /// are go into the report: over the mesh, which is prepared, and with the commit over the other one. `other` is not
 /// read any more when the sink is opened.
-OpenedSink with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
-                          const std::function<OpenedSink()>& open);
+Sink with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other, const std::function<Sink()>& open);
 
 /// That cell fields become values at nodes, if there are some, and of which there are no integrals: a note of the
 /// report.

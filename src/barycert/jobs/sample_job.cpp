@@ -16,30 +16,29 @@
 namespace barycert {
 namespace {
 
-using jobs::refusal;
+using jobs::refuse;
 using jobs::SampledMesh;
 
-Status check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
+void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
     if (job.points.empty() == job.map.empty())
-        return refusal("", job.points.empty() ? "no points" : "job.points and job.map",
-                       "one of job.points FILE and job.map FILE", job.points.empty() ? "neither" : "both",
-                       "a map contains its points");
+        refuse("", job.points.empty() ? "no points" : "job.points and job.map",
+               "one of job.points FILE and job.map FILE", job.points.empty() ? "neither" : "both",
+               "a map contains its points");
     if (!job.map.empty() && !job.save_map.empty())
-        return refusal(job.save_map, "job.save_map cannot be combined with job.map", "", "", "copy the map");
+        refuse(job.save_map, "job.save_map cannot be combined with job.map", "", "", "copy the map");
     if (!job.map.empty() && !(job.columns.empty() && job.keep.empty()))
-        return refusal(job.map,
-                       std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.map",
-                       "", "", "a map has points and cells alone: name the file of the points by job.points");
+        refuse(job.map, std::string(job.keep.empty() ? "job.columns" : "job.keep") + " cannot be combined with job.map",
+               "", "", "a map has points and cells alone: name the file of the points by job.points");
     if (job.map == "-" || job.save_map == "-")
-        return Error{.what = "a map cannot come from stdin or go to stdout", .remedy = "name a file"};
+        refuse("", "a map cannot come from stdin or go to stdout", "", "", "name a file");
     if (job.output.empty() && job.weights.empty())
-        return refusal("", "no output", "job.output FILE, job.weights FILE, or both", "neither");
+        refuse("", "no output", "job.output FILE, job.weights FILE, or both", "neither");
     if (job.output.empty() &&
         !(job.fields.empty() && job.field_files.empty() && job.series.empty() && job.keep.empty()))
-        return refusal("", "fields or columns without job.output", "", "",
-                       "weights depend on no field: leave fields out, or name job.output too");
+        refuse("", "fields or columns without job.output", "", "",
+               "weights depend on no field: leave fields out, or name job.output too");
     if (!job.output.empty() && job.output != "-" && !jobs::has_suffix_of(job.output, ".csv .npy .vtu"))
-        return jobs::unknown_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
+        jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
     std::vector<base::NamedFile> inputs{{"job.map", job.map}};
     if (job.map.empty()) inputs = {{"job.points", job.points}};
     std::error_code ignored;
@@ -47,7 +46,7 @@ Status check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
     if (job.map.empty() && job.points != "-" && !std::filesystem::exists(job.points, ignored) &&
         !io::format_of_points(job.points))
         inputs = base::named_files("the mesh of job.points", mesh_files(job.points));
-    return jobs::check_files(job, steps, inputs, {{"job.output", job.output}, {"job.save_map", job.save_map}});
+    jobs::check_files(job, steps, inputs, {{"job.output", job.output}, {"job.save_map", job.save_map}});
 }
 
 /// Rows of a map. Those of one point follow one another, their cells ascending.
@@ -56,19 +55,17 @@ public:
     explicit MapRows(MapReader map) : map_(std::move(map)) {}
 
     jobs::RowSource source() {
-        const auto read = [this](std::size_t most, jobs::Block& block) { return this->read(most, block); };
+        const auto read = [this](std::size_t most, jobs::Block& block) { this->read(most, block); };
         // The reader tells that the map is of another mesh.
-        const auto again = [this](const SampledMesh& mesh) -> Status {
-            return jobs::into(map_, MapReader::open(mesh.report.points, mesh.mesh()));
+        const auto again = [this](const SampledMesh& mesh) {
+            map_ = MapReader::open(mesh.report.points, mesh.mesh()).value();
         };
         return {.located = true, .count = map_.rows(), .read = read, .begin_again = again};
     }
 
 private:
-    Status read(std::size_t most, jobs::Block& block) {
-        const Result<std::size_t> count = map_.read(most, block.rows);
-        if (!count) return count.error();
-        block.size = *count;
+    void read(std::size_t most, jobs::Block& block) {
+        block.size = map_.read(most, block.rows).value();
         LocationCounts& locations = block.locations.emplace();
         const Table& rows = block.rows;
         const auto d = static_cast<std::size_t>(rows.dimension);
@@ -80,7 +77,6 @@ private:
             std::copy(at, at + d, at_.begin());
             cell_ = rows.cells[i];
         }
-        return Done{};
     }
 
     MapReader map_;
@@ -91,55 +87,53 @@ private:
 /// The outputs of the job; `carried`: columns of the points.
 jobs::OpenRows outputs_of(SampledMesh& mesh, const SampleJob& job, const std::vector<ColumnFormat>& carried) {
     return [&mesh, &job, carried](const TableFormat& format, const std::string& path) {
-        if (path.empty()) return Result(std::unique_ptr<TableSink>());
+        if (path.empty()) return jobs::Sink();
         const bool all = job.keep == std::vector<std::string>{"all"};
         return open_user_rows(mesh, format, carried, all,
                               [&](const TableFormat& shown) { return jobs::open_rows(path, shown); });
     };
 }
 
-Status at_points(SampledMesh& mesh, const SampleJob& job) {
+void at_points(SampledMesh& mesh, const SampleJob& job) {
     const auto open = [&] {
         const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
         return open_points(job.points, mesh.mesh().dimension,
                            {.columns = job.columns,
                             .keep = job.keep,
                             .nonfinite_points = job.options.nonfinite_points,
-                            .typed = !csv});
+                            .typed = !csv})
+            .value();
     };
     jobs::Stopwatch watch;
-    auto points = open();
-    if (!points) return points.error();
+    std::unique_ptr<PointSource> points = open();
     SampleReport& report = mesh.report;
     report.seconds.read += watch.lap();  // some files are read as a whole, and some twice
-    const Notes notes = (*points)->notes();
+    const Notes notes = points->notes();
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());
     report.points = job.points;
     report.all = job.all.value_or(false);
-    jobs::RowSource rows = jobs::rows_of_points(*points);
-    rows.begin_again = [&](const SampledMesh&) -> Status {
-        std::error_code ignored;
-        if (job.points == "-" || std::filesystem::is_fifo(job.points, ignored))
-            return refusal(job.points, "the mesh changes from step to step, and points of a pipe can be read once", "",
-                           "", "save the points to a file, or choose one step: job.step N");
-        return jobs::into(*points, open());
+    jobs::RowSource rows = jobs::rows_of_points(points);
+    rows.begin_again = [&](const SampledMesh&) {
+        if (jobs::is_read_once(job.points))
+            refuse(job.points, "the mesh changes from step to step, and points of a pipe can be read once", "", "",
+                   "save the points to a file, or choose one step: job.step N");
+        points = open();
     };
-    return sample_rows(mesh, rows, outputs_of(mesh, job, (*points)->carried()), job.save_map);
+    sample_rows(mesh, rows, outputs_of(mesh, job, points->carried()), job.save_map);
 }
 
-Status at_points_of_map(SampledMesh& mesh, const SampleJob& job) {
-    auto map = MapReader::open(job.map, mesh.mesh());
-    if (!map) return map.error();
+void at_points_of_map(SampledMesh& mesh, const SampleJob& job) {
+    MapReader map = MapReader::open(job.map, mesh.mesh()).value();
     const auto word = [](bool all) { return all ? "all" : "lowest"; };
-    if (job.all && *job.all != map->all())
-        return refusal(job.map, "job.all differs from the map", word(map->all()), word(*job.all),
-                       "leave the option out, or save another map");
+    if (job.all && *job.all != map.all())
+        refuse(job.map, "job.all differs from the map", word(map.all()), word(*job.all),
+               "leave the option out, or save another map");
     mesh.report.from = PointsFrom::map;
     mesh.report.points = job.map;
-    mesh.report.all = map->all();
-    if (Status ready = mesh.prepare_without_search(FoundBy::map, "cells are those of the map"); !ready) return ready;
-    MapRows rows(std::move(*map));
-    return sample_rows(mesh, rows.source(), outputs_of(mesh, job, {}));
+    mesh.report.all = map.all();
+    mesh.prepare_without_search(FoundBy::map, "cells are those of the map");
+    MapRows rows(std::move(map));
+    sample_rows(mesh, rows.source(), outputs_of(mesh, job, {}));
 }
 
 }  // namespace
@@ -149,8 +143,8 @@ Result<SampleReport> sample_files(const SampleJob& asked) {
     // What a map holds was let in when it was made.
     if (!job.map.empty()) job.options.nonfinite_points = NonfinitePoints::nan;
     return jobs::sample_mesh(
-        job, "sample", [&](const auto& steps) { return check_job(job, steps); },
-        [&](SampledMesh& mesh) { return job.map.empty() ? at_points(mesh, job) : at_points_of_map(mesh, job); });
+        job, "sample", [&](const auto& steps) { check_job(job, steps); },
+        [&](SampledMesh& mesh) { job.map.empty() ? at_points(mesh, job) : at_points_of_map(mesh, job); });
 }
 
 }  // namespace barycert

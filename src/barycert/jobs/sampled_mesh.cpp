@@ -48,10 +48,6 @@ bool gives_distances(const OutsidePolicy& policy) {
     return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
 }
 
-std::string counted(std::uint64_t n, const char* what) {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
 /// Why points are found by walks, and where not.
 std::string reason_of(const Locator& locator, std::uint64_t degenerate, bool curved, const std::string& program) {
     const std::uint64_t contested = locator.contested_cells();
@@ -78,60 +74,55 @@ SampledMesh::SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std
     report.outside = job.options.outside;
 }
 
-Status SampledMesh::open() {
+void SampledMesh::open() {
     Stopwatch watch;
-    Status done = into(mesh_, read(steps.empty() ? nullptr : &steps.front()));
-    if (done) done = add_fields_of_job();
-    if (done) done = choose_fields();
-    if (!done) return done;
+    mesh_ = read(steps.empty() ? nullptr : &steps.front());
+    add_fields_of_job();
+    choose_fields();
     names_of_first_ = names_of_chosen();
     report_mesh(job, mesh_, job.options.threads, report);
     note_labels(mesh_, job.fields, report.notes);
     report.seconds.mesh = watch.lap();
-    return Done{};
 }
 
 /// That of the step, where it has one, or the one that the job asks for.
-Result<Mesh> SampledMesh::read(const Step* step) {
+Mesh SampledMesh::read(const Step* step) {
     const bool of_step = step != nullptr && step->of_mesh.has_value();
     return open_mesh(job, job.options.threads, of_step ? StepChoice{.number = step->of_mesh} : job.step, report.curved);
 }
 
-Status SampledMesh::add_fields_of_job() {
-    if (Status added = add_fields(job.field_files, mesh_); !added) return added;
+void SampledMesh::add_fields_of_job() {
+    add_fields(job.field_files, mesh_);
     for (const Step& step : steps) {
         for (FieldFile file : step.files) {
             if (!step_by_step()) file.name = name_of_step(file.name, step);
-            FieldPlace& place = places_of_series_.emplace_back();
-            if (Status added = into(place, add_field(file, mesh_, step_by_step())); !added) return added;
+            places_of_series_.push_back(add_field(file, mesh_, step_by_step()));
         }
         if (step_by_step()) break;
     }
     give_each_a_name(mesh_);
-    return Done{};
 }
 
 /// Reads what another step has, and samples that from now on.
-Status SampledMesh::go_to(const Step& step) {
+void SampledMesh::go_to(const Step& step) try {
     Stopwatch watch;
-    Status done = step.of_mesh ? read_mesh_of(step) : read_fields(step);
+    step.of_mesh ? read_mesh_of(step) : read_fields(step);
     report.seconds.mesh += watch.lap();
-    if (done) {
-        sampler_.reset();
-        made_.clear();
-        done = choose_fields();
-    }
-    if (const std::string names = done ? names_of_chosen() : names_of_first_; names != names_of_first_)
+    sampler_.reset();
+    made_.clear();
+    choose_fields();
+    if (const std::string names = names_of_chosen(); names != names_of_first_)
         tell_once({{Note::Kind::left_out,
                     fmt::format("in step {} the fields of the first step: there they are {}, here {}", step.label,
                                 names_of_first_, names),
                     job.mesh, true}});
-    if (done && !another_mesh_) done = build_sampler(part_ ? fields_of_part() : fields_);
+    if (!another_mesh_) build_sampler(part_ ? fields_of_part() : fields_);
     report.seconds.build += watch.lap();
-    if (done || !step.of_mesh) return done;
-    Error error = done.error();
+} catch (const Exception& e) {
+    if (!step.of_mesh) throw;
+    Error error = e.error();
     error.what = "step " + step.label + ": " + error.what;
-    return error;
+    throw Exception(error);
 }
 
 bool SampledMesh::is_another(const Mesh& mesh) const {
@@ -139,65 +130,56 @@ bool SampledMesh::is_another(const Mesh& mesh) const {
            mesh.cell_numbers != mesh_.cell_numbers;
 }
 
-Status SampledMesh::check_one_mesh(const std::string& path, const char* member) {
+void SampledMesh::check_one_mesh(const std::string& path, const char* member) {
     for (const Step& step : steps) {
-        if (!step.of_mesh || &step == &steps.front()) continue;
-        const Result<Mesh> mesh = read(&step);
-        if (!mesh) return mesh.error();
-        if (is_another(*mesh))
-            return refusal(path, "the mesh changes from step to step, and " + std::string(member) + " is of one mesh",
-                           "", "another mesh in step " + step.label, "choose one step: job.step N");
+        if (!step.of_mesh || &step == &steps.front() || !is_another(read(&step))) continue;
+        refuse(path, "the mesh changes from step to step, and " + std::string(member) + " is of one mesh", "",
+               "another mesh in step " + step.label, "choose one step: job.step N");
     }
-    return Done{};
 }
 
-Status SampledMesh::read_mesh_of(const Step& step) {
-    Result<Mesh> mesh = read(&step);
-    if (!mesh) return mesh.error();
-    if (mesh->dimension != mesh_.dimension)
-        return refusal(job.mesh, "step " + step.label + " has cells of another dimension",
-                       std::to_string(mesh_.dimension) + ", as the first one has", std::to_string(mesh->dimension));
-    another_mesh_ = is_another(*mesh);
+void SampledMesh::read_mesh_of(const Step& step) {
+    Mesh mesh = read(&step);
+    if (mesh.dimension != mesh_.dimension)
+        refuse(job.mesh, "step " + step.label + " has cells of another dimension",
+               std::to_string(mesh_.dimension) + ", as the first one has", std::to_string(mesh.dimension));
+    another_mesh_ = is_another(mesh);
     if (another_mesh_) {
         sampler_.reset();
         locator_.reset();
         part_.reset();
         ++report.meshes;
-        mesh_ = std::move(*mesh);
+        mesh_ = std::move(mesh);
     } else {  // where the locator is, the mesh stays
-        mesh_.point_fields = std::move(mesh->point_fields);
-        mesh_.cell_fields = std::move(mesh->cell_fields);
-        mesh_.cell_labels = std::move(mesh->cell_labels);
-        mesh_.notes = std::move(mesh->notes);
+        mesh_.point_fields = std::move(mesh.point_fields);
+        mesh_.cell_fields = std::move(mesh.cell_fields);
+        mesh_.cell_labels = std::move(mesh.cell_labels);
+        mesh_.notes = std::move(mesh.notes);
     }
-    Status added = add_fields_of_job();
+    add_fields_of_job();
     tell_once(mesh_.notes);
-    return added;
 }
 
-Status SampledMesh::read_fields(const Step& step) {
+void SampledMesh::read_fields(const Step& step) {
     Notes notes;
     for (std::size_t i = 0; i < step.files.size(); ++i) {
         const FieldPlace place = places_of_series_[i];
         Field& field = (place.of_cells ? mesh_.cell_fields : mesh_.point_fields)[place.number];
         FieldFile file = step.files[i];
         file.of = place.of_cells ? FieldFile::Of::cells : FieldFile::Of::points;
-        Result<Field> read = read_field(mesh_, file, notes);
-        if (!read) return read.error();
+        Field read = read_field(mesh_, file, notes);
         const auto shape = [](const Field& f) {
             const auto components = static_cast<std::size_t>(f.components);
             return fmt::format("{} rows of {}", f.data.size() / components, counted(components, "component"));
         };
-        if (read->data.size() != field.data.size() || read->components != field.components)
-            return refusal(step.files[i].path, "the steps of field \"" + step.files[i].name + "\" differ",
-                           shape(field) + ", as in the first step", shape(*read));
-        field.data = std::move(read->data);
+        if (read.data.size() != field.data.size() || read.components != field.components)
+            refuse(step.files[i].path, "the steps of field \"" + step.files[i].name + "\" differ",
+                   shape(field) + ", as in the first step", shape(read));
+        field.data = std::move(read.data);
     }
     tell_once(std::move(notes));
-    return Done{};
 }
 
-/// What is told of every step is told once.
 void SampledMesh::tell_once(Notes notes) {
     for (Note& note : notes) {
         Notes& told = report.notes;
@@ -211,51 +193,35 @@ void SampledMesh::tell_once(Notes notes) {
 /// With columns for all steps, what is asked of a series is asked of each step.
 std::vector<std::string> SampledMesh::names_of_fields() const {
     if (step_by_step() || steps.empty()) return job.fields;
-    std::vector<std::string> names;
-    const auto of_steps = [&](const std::string& text) {
+    return with_other_names(job.fields, [&](const std::string& text) -> std::optional<std::vector<std::string>> {
         for (const FieldFile& series : steps.front().files) {
             if (!sample::with_other_name(text, series.name, series.name)) continue;
+            std::vector<std::string> names;
             for (const Step& step : steps)
                 names.push_back(*sample::with_other_name(text, series.name, name_of_step(series.name, step)));
-            return true;
+            return names;
         }
-        return false;
-    };
-    for (const std::string& text : job.fields) {
-        if (of_steps(text)) continue;
-        bool some = false;
-        const std::size_t before = names.size();
-        sample::for_names(text, [&](const std::string& name) {
-            const bool series = of_steps(name);
-            if (!series) names.push_back(name);
-            some = some || series;
-            return true;
-        });
-        if (some) continue;
-        names.resize(before);  // one name may hold commas
-        names.push_back(text);
-    }
-    return names;
+        return std::nullopt;
+    });
 }
 
-Status SampledMesh::choose_fields() {
+void SampledMesh::choose_fields() {
     fields_.clear();
-    if (job.output.empty() && !job.weights.empty()) return Done{};
+    if (job.output.empty() && !job.weights.empty()) return;
     std::vector<std::string> names = names_of_fields();
-    if (Status taken = into(labels_, take_labels(mesh_, names)); !taken) return taken;
+    labels_ = take_labels(mesh_, names);
     // No name at all means every field; labels alone mean none.
-    if (!labels_.empty() && names.empty()) return Done{};
-    if (Status chosen = into(fields_, sample::quantities_named(mesh_, names)); !chosen) return chosen;
+    if (!labels_.empty() && names.empty()) return;
+    fields_ = sample::quantities_named(mesh_, names).value();
     for (const FieldChoice& choice : fields_) count_not_finite(*choice.field, choice.of_cells, report.not_finite);
     // What depends on all cells is made before some of them are looked at.
     for (FieldChoice& choice : fields_) {
         const std::size_t steps = sample::steps_of_whole_mesh(choice);
         if (steps == 0) continue;
         if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
-            return Error{.what = std::string("the mesh is inconsistent: ") + wrong, .file = job.mesh};
-        if (Status done = sample::make_fields(mesh_, choice, steps, made_); !done) return done;
+            refuse(job.mesh, std::string("the mesh is inconsistent: ") + wrong);
+        sample::make_fields(mesh_, choice, steps, made_).value();
     }
-    return Done{};
 }
 
 std::string SampledMesh::names_of_chosen() const {
@@ -268,20 +234,17 @@ TableFormat SampledMesh::format() const {
     return format;
 }
 
-Status SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove) {
+void SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove) {
     Stopwatch watch;
-    Status built = into(locator_, build_locator(job, mesh, job.options.threads, prove));
-    if (built) built = build_sampler(fields);
-    if (!built) return built;
+    locator_ = build_locator(job, mesh, job.options.threads, prove);
+    build_sampler(fields);
     if (job.count_degenerate) report.degenerate_cells += prove ? locator_->degenerate_cells() : count_degenerate(mesh);
     report.seconds.build += watch.lap();
-    return Done{};
 }
 
-Status SampledMesh::build_sampler(const std::vector<FieldChoice>& fields) {
-    if (Status built = into(sampler_, Sampler::build(*locator_, fields)); !built) return built;
+void SampledMesh::build_sampler(const std::vector<FieldChoice>& fields) {
+    sampler_ = Sampler::build(*locator_, fields).value();
     report.columns = sampler_->columns();
-    return Done{};
 }
 
 std::vector<FieldChoice> SampledMesh::fields_of_part() {
@@ -298,41 +261,45 @@ std::vector<FieldChoice> SampledMesh::fields_of_part() {
     return fields;
 }
 
-Status SampledMesh::prepare() {
-    if (locator_) return Done{};
-    if (Status built = build(mesh_, fields_, true); !built) return built;
+void SampledMesh::prepare(std::span<const double> all_points) {
+    if (locator_) return;
+    std::vector<Mesh::Index> near;
+    if (find_cells_near(all_points, near)) {
+        part_ = mesh::part_of(mesh_, std::move(near));
+        report.method = FoundBy::pass;
+        report.reason = fmt::format("no index for {}: {} of {} may hold some",
+                                    counted(all_points.size() / static_cast<std::size_t>(mesh_.dimension), "point"),
+                                    part_->cells.size(), counted(mesh_.cell_count(), "cell"));
+        return build(part_->mesh, fields_of_part(), false);
+    }
+    build(mesh_, fields_, true);
     report.method = FoundBy::walk;
     report.contested_cells += locator_->contested_cells();
     // Of several meshes, that all are certified, or why one is not.
-    if (report.verdict == Verdict::not_certified) return Done{};
+    if (report.verdict == Verdict::not_certified) return;
     report.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
     report.reason = reason_of(*locator_, locator_->degenerate_cells(), report.curved.cells != 0, job.program);
-    return Done{};
 }
 
-Status SampledMesh::prepare_for_all(std::span<const double> points) {
+/// True if points are few, and in `near` the cells that may hold some of them.
+bool SampledMesh::find_cells_near(std::span<const double> points, std::vector<Mesh::Index>& near) {
     const ExactEnvironment environment;
     const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
-    const bool asked = !gives_distances(job.options.outside);
     const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {
         const std::size_t entities = choice.of_cells ? cells : mesh_.point_count();
         return choice.field->data.size() == entities * static_cast<std::size_t>(choice.field->components);
     });
     // What is wrong with fields or points is told by the usual way.
-    if (!asked || !needs_no_index(count, cells) || !fit || !base::all_finite(points)) return prepare();
+    if (gives_distances(job.options.outside) || !needs_no_index(count, cells) || !fit || !base::all_finite(points))
+        return false;
     Stopwatch watch;
     tell("looking for the cells of the points");
-    std::optional<std::vector<Mesh::Index>> near;
-    base::in_arena(job.options.threads, mesh_.cell_count(),
-                   [&] { near = locate::cells_at_points(mesh_, points, most_cells(cells)); });
-    if (!near) return prepare();
-    part_ = mesh::part_of(mesh_, std::move(*near));
-    const std::vector<FieldChoice> fields = fields_of_part();
-    report.method = FoundBy::pass;
-    report.reason = fmt::format("no index for {}: {} of {} may hold some", counted(count, "point"), part_->cells.size(),
-                                counted(cells, "cell"));
+    std::optional<std::vector<Mesh::Index>> found;
+    base::in_arena(job.options.threads, cells,
+                   [&] { found = locate::cells_at_points(mesh_, points, most_cells(cells)); });
     report.seconds.build += watch.lap();
-    return build(part_->mesh, fields, false);
+    if (found) near = std::move(*found);
+    return found.has_value();
 }
 
 void SampledMesh::let_go_of_mesh() {
@@ -344,12 +311,11 @@ void SampledMesh::let_go_of_mesh() {
     for (Field& field : mesh_.point_fields) give_back(field.data);
 }
 
-Result<NodeWeights> SampledMesh::weights_of(const TableView& rows) const {
-    Result<NodeWeights> weights = node_weights(*locator_, rows, job.options.outside);
+NodeWeights SampledMesh::weights_of(const TableView& rows) const {
+    NodeWeights weights = node_weights(*locator_, rows, job.options.outside).value();
     // Nodes of a part are in the order of the mesh.
-    if (weights && part_) {
-        for (Mesh::Index& node : weights->nodes) node = part_->nodes[static_cast<std::size_t>(node)];
-    }
+    if (!part_) return weights;
+    for (Mesh::Index& node : weights.nodes) node = part_->nodes[static_cast<std::size_t>(node)];
     return weights;
 }
 
@@ -360,10 +326,10 @@ void SampledMesh::name_cells(Table& rows) const {
     }
 }
 
-Status SampledMesh::prepare_without_search(FoundBy method, const std::string& reason) {
+void SampledMesh::prepare_without_search(FoundBy method, const std::string& reason) {
     report.method = method;
     report.reason = reason;
-    return build(mesh_, fields_, false);
+    build(mesh_, fields_, false);
 }
 
 }  // namespace barycert::jobs

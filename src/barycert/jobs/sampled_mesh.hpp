@@ -41,7 +41,7 @@ public:
     SampleReport report = {};
 
     /// Reads the mesh and the files of fields, and chooses fields.
-    Status open();
+    void open();
 
     /// The report, when all is done.
     SampleReport finish() {
@@ -53,40 +53,40 @@ public:
 
     /// Whether each step has outputs of its own.
     bool step_by_step() const { return !steps.empty() && has_step_place(job.output); }
+    bool has_further_steps() const { return step_by_step() && steps.size() > 1; }
 
     void tell(const std::string& what, std::uint64_t done = 0) const { tell_stage(job, what, done); }
 
-    /// Prepares for points one by one. A second call does nothing.
-    Status prepare();
+    /// What would be told of every step is told once.
+    void tell_once(Notes notes);
 
-    /// The same for points that are all there are. Few of them need no index of the mesh: then it is prepared for these
-    /// points alone.
-    Status prepare_for_all(std::span<const double> points);
+    /// Prepares for points one by one. `all_points`: all that there are, if that is known. Few of them need no index of
+    /// the mesh: then it is prepared for these points alone. A second call does nothing.
+    void prepare(std::span<const double> all_points = {});
 
     /// Prepares where no owner is asked of a point alone: they are known, or the cells find their points.
-    Status prepare_without_search(FoundBy method, const std::string& reason);
+    void prepare_without_search(FoundBy method, const std::string& reason);
 
     /// Precondition: prepared.
     const Locator& locator() const { return *locator_; }
     const Sampler& sampler() const { return *sampler_; }
 
     /// Calls each(output, first, anew) for every step that has an output of its own, else once; `anew`: the mesh is
-    /// another than before, and is to be prepared. Errors: a file cannot be read, or has other numbers of rows or
-    /// components than that of the first step. Precondition: prepared, after the first call.
+    /// another than before, and is to be prepared. Refused: a file that cannot be read, or has other numbers of rows
+    /// or components than that of the first step. Precondition: prepared, after the first call.
     template <class Each>
-    Status for_outputs(Each each) {
+    void for_outputs(Each each) {
         if (!step_by_step()) return each(job.output, true, true);
         for (std::size_t i = 0; i < steps.size(); ++i) {
             if (i != 0) tell("steps", i);
-            if (Status ready = i == 0 ? Status(Done{}) : go_to(steps[i]); !ready) return ready;
-            Status done = each(output_of_step(job.output, steps[i]), i == 0, i == 0 || another_mesh_);
-            if (!done) return done;
+            if (i != 0) go_to(steps[i]);
+            each(output_of_step(job.output, steps[i]), i == 0, i == 0 || another_mesh_);
         }
-        return Done{};
     }
 
-    /// Reads the meshes of all steps. Error: one is another than the first, and `member`, the output `path`, is of one.
-    Status check_one_mesh(const std::string& path, const char* member);
+    /// Reads the meshes of all steps. Refused: one is another than the first, and `member`, the output `path`, is of
+    /// one.
+    void check_one_mesh(const std::string& path, const char* member);
 
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
     /// nearest cell or other steps follow, all but the values of cell fields, labels and numbers of cells.
@@ -94,7 +94,7 @@ public:
     void let_go_of_mesh();
 
     /// The weights of rows as the locator names their cells, on the nodes of the mesh. Not after let_go_of_mesh().
-    Result<NodeWeights> weights_of(const TableView& rows) const;
+    NodeWeights weights_of(const TableView& rows) const;
 
     /// Sampled rows name cells as the locator counts them; afterwards, as the mesh does.
     void name_cells(Table& rows) const;
@@ -109,19 +109,19 @@ public:
     const std::vector<const Column*>& labels() const { return labels_; }
 
 private:
-    Result<Mesh> read(const Step* step);
+    Mesh read(const Step* step);
     bool is_another(const Mesh& mesh) const;
     std::string names_of_chosen() const;
-    Status add_fields_of_job();
-    Status go_to(const Step& step);
-    Status read_fields(const Step& step);
-    Status read_mesh_of(const Step& step);
-    void tell_once(Notes notes);
-    Status choose_fields();
+    void add_fields_of_job();
+    void go_to(const Step& step);
+    void read_fields(const Step& step);
+    void read_mesh_of(const Step& step);
+    void choose_fields();
     std::vector<std::string> names_of_fields() const;
     std::vector<FieldChoice> fields_of_part();
-    Status build_sampler(const std::vector<FieldChoice>& fields);
-    Status build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove);
+    bool find_cells_near(std::span<const double> points, std::vector<Mesh::Index>& near);
+    void build_sampler(const std::vector<FieldChoice>& fields);
+    void build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove);
 
     Stopwatch whole_;
     Mesh mesh_;
@@ -138,18 +138,17 @@ private:
 
 /// A whole job: its files checked by check(steps), the mesh opened, points sampled by sample(mesh).
 template <class Check, class Sample>
-Result<SampleReport> sample_mesh(const SamplingJob& job, const char* command, Check check, Sample sample) {
+Result<SampleReport> sample_mesh(const SamplingJob& job, const char* command, Check check, Sample sample) try {
     const base::RunFiles files;
-    std::vector<Step> steps;
-    Status done = into(steps, find_steps(job));
-    if (done) done = check(steps);
-    if (!done) return done.error();
+    std::vector<Step> steps = find_steps(job);
+    check(steps);
     const ThreadLimit limit(job.options.threads);
     SampledMesh mesh(job, std::move(steps), command);
-    done = mesh.open();
-    if (done) done = sample(mesh);
-    if (!done) return done.error();
+    mesh.open();
+    sample(mesh);
     return mesh.finish();
+} catch (const Exception& e) {
+    return e.error();
 }
 
 }  // namespace barycert::jobs

@@ -53,15 +53,11 @@ bool naturally_before(std::string_view a, std::string_view b) {
     return a.size() != b.size() ? a.size() < b.size() : a < b;
 }
 
-/// A step of one series.
-using LabelledFile = std::pair<std::string, FieldFile>;
-
-/// The array has the name of the field, unless another one is given.
-LabelledFile labelled(const std::string& label, const FieldFile& series, const std::string& path) {
-    LabelledFile step{label, series};
-    step.second.path = path;
-    if (series.column.empty() && is_file_of_a_mesh(path)) step.second.column = series.name;
-    return step;
+/// The step of one series. The array has the name of the field, unless another one is given.
+Step step_of(const std::string& label, FieldFile series, const std::string& path) {
+    series.path = path;
+    if (series.column.empty() && is_file_of_a_mesh(path)) series.column = series.name;
+    return {.label = label, .files = {std::move(series)}};
 }
 
 /// FILE and COLUMN of FILE:COLUMN, split at the last colon; nothing where there is none.
@@ -74,41 +70,40 @@ std::optional<FieldFile> without_column(FieldFile series) {
 }
 
 /// The steps of a .pvd or .vtu.series file, by their times.
-Result<std::vector<LabelledFile>> steps_of_file(const FieldFile& series) {
-    const auto steps = read_series(series.path);
-    if (!steps) return steps.error();
-    std::vector<LabelledFile> found;
-    for (const SeriesStep& step : *steps) {
+std::vector<Step> steps_of_file(const FieldFile& series) {
+    const std::vector<SeriesStep> steps = read_series(series.path).value();
+    std::vector<Step> found;
+    for (const SeriesStep& step : steps) {
         const std::string label = base::shortest(step.time);
         const bool twice =
-            std::any_of(found.begin(), found.end(), [&](const LabelledFile& other) { return other.first == label; });
+            std::any_of(found.begin(), found.end(), [&](const Step& other) { return other.label == label; });
         if (step.files.size() != 1 || twice)
-            return refusal(series.path, "step " + label + " of the series \"" + series.name + '"', "one file",
-                           twice ? "another one of the same time" : std::to_string(step.files.size()) + " files",
-                           "gather the parts of a step in a .pvtu file");
-        found.push_back(labelled(label, series, step.files.front()));
+            refuse(series.path, "step " + label + " of the series \"" + series.name + '"', "one file",
+                   twice ? "another one of the same time" : std::to_string(step.files.size()) + " files",
+                   "gather the parts of a step in a .pvtu file");
+        found.push_back(step_of(label, series, step.files.front()));
+        found.back().time = label;
     }
-    if (found.empty()) return refusal(series.path, "no step in the series \"" + series.name + '"');
+    if (found.empty()) refuse(series.path, "no step in the series \"" + series.name + '"');
     return found;
 }
 
 /// Label and path of each file that the pattern matches.
-Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
+std::vector<Step> matches_of(const FieldFile& series) {
     const std::string& pattern = series.path;
     const auto stars = std::count(pattern.begin(), pattern.end(), '*');
     if (stars != 1)
-        return refusal(
-            pattern, "pattern of the series \"" + series.name + '"',
-            "one *, where the files of the steps differ, such as 'step-*.npy', or a .pvd or .vtu.series file",
-            std::to_string(stars),
-            "quote the pattern, so that the shell leaves it as it is; for one file write NAME=FILE");
+        refuse(pattern, "pattern of the series \"" + series.name + '"',
+               "one *, where the files of the steps differ, such as 'step-*.npy', or a .pvd or .vtu.series file",
+               std::to_string(stars),
+               "quote the pattern, so that the shell leaves it as it is; for one file write NAME=FILE");
     // FOLDER/BEFORE*AFTER/REST: entries of one folder are looked at.
     const std::size_t star = pattern.find('*'), slash = pattern.rfind('/', star), next = pattern.find('/', star);
     const std::string folder = slash == std::string::npos ? "" : pattern.substr(0, slash + 1);
     const std::string before = pattern.substr(folder.size(), star - folder.size());
     const std::string after = pattern.substr(star + 1, next == std::string::npos ? next : next - star - 1);
     const std::string rest = next == std::string::npos ? "" : pattern.substr(next);
-    std::vector<LabelledFile> found;
+    std::vector<Step> found;
     std::error_code failed, unknown;
     for (const std::string& entry : base::names_in_folder(folder.empty() ? "." : folder, failed)) {
         if (entry.size() < before.size() + after.size() || !entry.starts_with(before) || !entry.ends_with(after) ||
@@ -117,16 +112,16 @@ Result<std::vector<LabelledFile>> matches_of(const FieldFile& series) {
         const std::string path = fmt::format("{}{}{}", folder, entry, rest);
         if (!rest.empty() && !fs::exists(path, unknown)) continue;
         found.push_back(
-            labelled(entry.substr(before.size(), entry.size() - before.size() - after.size()), series, path));
+            step_of(entry.substr(before.size(), entry.size() - before.size() - after.size()), series, path));
     }
     const auto split = without_column(series);
     if (found.empty() && failed.value() == 0 && series.column.empty() && split && split->path.size() > star)
         return matches_of(*split);
     if (found.empty() || failed)
-        return refusal(pattern, "no file of the series \"" + series.name + '"', "at least one file for the pattern",
-                       failed ? failed.message() : "none", "check the folder and the pattern");
+        refuse(pattern, "no file of the series \"" + series.name + '"', "at least one file for the pattern",
+               failed ? failed.message() : "none", "check the folder and the pattern");
     std::sort(found.begin(), found.end(),
-              [](const auto& a, const auto& b) { return naturally_before(a.first, b.first); });
+              [](const auto& a, const auto& b) { return naturally_before(a.label, b.label); });
     return found;
 }
 
@@ -141,79 +136,69 @@ std::optional<FieldFile> file_of_steps(const FieldFile& series) {
     return split && names_steps(split->path) ? split : std::nullopt;
 }
 
-/// Error: a word in braces that is nearly one of the places of steps.
-Status check_places(const std::string& output) {
+/// Refuses a word in braces that is nearly one of the places of steps.
+void check_places(const std::string& output) {
     for (std::size_t open = output.find('{'); open != std::string::npos; open = output.find('{', open + 1)) {
         const std::string word = output.substr(open + 1, output.find('}', open) - open - 1);
         const std::string meant = base::nearest_name(word, {"step", "time"});
         if (!meant.empty())
-            return refusal(output, "a place that is not known in job.output", "{step} or {time}", '{' + word + '}',
-                           "did you mean {" + meant + "}?");
+            refuse(output, "a place that is not known in job.output", "{step} or {time}", '{' + word + '}',
+                   "did you mean {" + meant + "}?");
     }
-    return Done{};
 }
 
 }  // namespace
 
-Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series) {
+std::vector<Step> find_steps(const std::vector<FieldFile>& series) {
     std::vector<Step> steps;
-    for (std::size_t s = 0; s < series.size(); ++s) {
-        const auto file = file_of_steps(series[s]);
-        auto found = file ? steps_of_file(*file) : matches_of(series[s]);
-        if (!found) return found.error();
-        if (s == 0) steps.resize(found->size());
-        for (std::size_t i = 0; i < std::max(found->size(), steps.size()); ++i) {
-            const bool both = i < found->size() && i < steps.size();
-            if (s == 0) steps[i].label = (*found)[i].first;
-            if (s == 0 && file) steps[i].time = steps[i].label;
-            if (!both || steps[i].label != (*found)[i].first) {
-                // Both are sorted alike: the first that differ are not in the other one.
-                const auto name = [](bool there, const std::string& label) {
-                    return there ? "step \"" + label + '"' : std::string("no further step");
-                };
-                return refusal(
-                    series[s].path,
-                    "the series \"" + series[s].name + "\" and \"" + series[0].name + "\" have different steps",
-                    name(i < steps.size(), i < steps.size() ? steps[i].label : ""),
-                    name(i < found->size(), i < found->size() ? (*found)[i].first : ""),
-                    "name files that differ alike");
-            }
-            steps[i].files.push_back((*found)[i].second);
+    for (const FieldFile& one : series) {
+        const auto file = file_of_steps(one);
+        std::vector<Step> found = file ? steps_of_file(*file) : matches_of(one);
+        if (steps.empty()) {
+            steps = std::move(found);
+            continue;
+        }
+        for (std::size_t i = 0; i < std::max(found.size(), steps.size()); ++i) {
+            const auto name = [i](const std::vector<Step>& all) {
+                return i < all.size() ? "step \"" + all[i].label + '"' : "no further step";
+            };
+            // Both are sorted alike: the first that differ are not in the other one.
+            if (name(steps) != name(found))
+                refuse(one.path,
+                       "the series \"" + one.name + "\" and \"" + series.front().name + "\" have different steps",
+                       name(steps), name(found), "name files that differ alike");
+            steps[i].files.push_back(std::move(found[i].files.front()));
         }
     }
     return steps;
 }
 
-Result<std::vector<Step>> find_steps(const SamplingJob& job) {
+std::vector<Step> find_steps(const SamplingJob& job) {
     const bool place = has_step_place(job.output), series = names_steps(job.mesh);
-    if ((series || !job.series.empty()) && !place) {
-        if (const Status spelt = check_places(job.output); !spelt) return spelt.error();
-    }
+    if ((series || !job.series.empty()) && !place) check_places(job.output);
     // The steps of which of them? And which mesh would be that of a step of the fields?
     const bool both = !job.series.empty() && (job.all_steps || (place && series && !job.step.made()));
     if (!job.series.empty() && !both) return find_steps(job.series);
     if (both)
-        return refusal(job.mesh, "all steps of the mesh, and of series of fields", "", "",
-                       "choose one step of the mesh: job.step N");
-    if (job.all_steps && !series) return io::no_series(job.mesh);
+        refuse(job.mesh, "all steps of the mesh, and of series of fields", "", "",
+               "choose one step of the mesh: job.step N");
+    if (job.all_steps && !series) throw Exception(io::no_series(job.mesh));
     if (job.all_steps && !place)
-        return refusal(job.output, "no name for the output of each step", "{step} or {time} in job.output", "",
-                       "such as job.output 'rows-{step}.csv'");
-    if (!place || !series) return std::vector<Step>();
-    const auto all = read_series(job.mesh);
-    if (!all) return all.error();
-    const Result<std::size_t> chosen = io::chosen_step(*all, job.step, job.mesh);
-    if (!chosen) return chosen.error();
+        refuse(job.output, "no name for the output of each step", "{step} or {time} in job.output", "",
+               "such as job.output 'rows-{step}.csv'");
     std::vector<Step> steps;
-    for (std::size_t i = 0; i < all->size(); ++i) {
-        if (job.step.made() && i != *chosen) continue;
+    if (!place || !series) return steps;
+    const std::vector<SeriesStep> all = read_series(job.mesh).value();
+    const std::size_t chosen = io::chosen_step(all, job.step, job.mesh).value();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (job.step.made() && i != chosen) continue;
         // Before there is an output of any step.
-        for (const std::string& file : (*all)[i].files) {
+        for (const std::string& file : all[i].files) {
             if (std::error_code failed; !fs::exists(file, failed))
-                return refusal(file, "no such file, which step " + std::to_string(i) + " of the series names", "", "",
-                               "restore it, or choose one step: job.step N");
+                refuse(file, "no such file, which step " + std::to_string(i) + " of the series names", "", "",
+                       "restore it, or choose one step: job.step N");
         }
-        steps.push_back({.label = std::to_string(i), .time = base::shortest((*all)[i].time), .of_mesh = i});
+        steps.push_back({.label = std::to_string(i), .time = base::shortest(all[i].time), .of_mesh = i});
     }
     return steps;
 }
@@ -236,8 +221,8 @@ std::string name_of_step(const std::string& name, const Step& step) {
     return name + '@' + step.label;
 }
 
-Status check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,
-                          const std::vector<Step>& steps) {
+void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,
+                        const std::vector<Step>& steps) {
     // By device and inode: there may be thousands of each. What does not exist is no input.
     std::map<std::pair<dev_t, ino_t>, std::string> known;
     const auto add = [&](const std::string& path, const std::string& what) -> const std::string* {
@@ -251,11 +236,10 @@ Status check_step_outputs(const std::vector<base::NamedFile>& inputs, const std:
     for (const Step& step : steps) {
         const std::string path = output_of_step(output, step);
         if (!names.insert(path).second)
-            return refusal(path, "two steps have the same output", "", "", "put {step} into the name of job.output");
+            refuse(path, "two steps have the same output", "", "", "put {step} into the name of job.output");
         if (const std::string* const before = add(path, "job.output of another step"))
-            return refusal(path, "job.output would overwrite " + *before, "", "", "choose another name for the output");
+            refuse(path, "job.output would overwrite " + *before, "", "", "choose another name for the output");
     }
-    return Done{};
 }
 
 }  // namespace barycert::jobs

@@ -8,7 +8,6 @@
 
 #include "barycert/base/named_file.hpp"
 #include "barycert/jobs.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::jobs {
 
@@ -29,13 +28,13 @@ struct Step {
 };
 
 /// The steps of all series of a job in natural order (2 before 10), or that of a .pvd file; none if there is no series.
-/// A path may end in :COLUMN; of a mesh file the array of the field's name is read without it. Errors: a pattern
-/// without exactly one *, or that no file matches; those of read_series; a step that not all series have.
-Result<std::vector<Step>> find_steps(const std::vector<FieldFile>& series);
+/// A path may end in :COLUMN; of a mesh file the array of the field's name is read without it. Refused: a pattern
+/// without exactly one *, or that no file matches; what read_series refuses; a step that not all series have.
+std::vector<Step> find_steps(const std::vector<FieldFile>& series);
 
 /// The same of a job; where it has no series of fields, the steps of its mesh that are to have outputs of their own.
-/// Error: all steps are asked for, and there are none, or no name for an output of each.
-Result<std::vector<Step>> find_steps(const SamplingJob& job);
+/// Refused: all steps are asked for, and there are none, or no name for an output of each.
+std::vector<Step> find_steps(const SamplingJob& job);
 
 /// Whether each step has outputs of its own.
 bool has_step_place(const std::string& output);
@@ -46,8 +45,8 @@ std::string output_of_step(const std::string& output, const Step& step);
 /// The name of a field of one step among those of others: NAME@LABEL.
 std::string name_of_step(const std::string& name, const Step& step);
 
-/// Error: an output of a step is an input or another output. Precondition: has_step_place(output).
-Status check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,
-                          const std::vector<Step>& steps);
+/// Refuses an output of a step that is an input or another output. Precondition: has_step_place(output).
+void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,
+                        const std::vector<Step>& steps);
 
 }  // namespace barycert::jobs

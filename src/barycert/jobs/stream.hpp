@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "barycert/jobs/sampled_mesh.hpp"
@@ -24,6 +26,7 @@ struct Block {
     bool last = false;                        ///< as far as was known when it was read
     std::uint64_t nan_values = 0;
     std::optional<std::size_t> outside;  ///< the first row without a cell, where there may be none
+    Verdicts found;                      ///< of results that are verified
 };
 
 /// Where rows come from.
@@ -32,43 +35,82 @@ struct RowSource {
     bool counted = false;  ///< whether the report has these rows already
     std::optional<std::uint64_t> count = {};
     /// Fills rows and size of the block: at most `most`, 0 at the end.
-    std::function<Status(std::size_t most, Block& block)> read = {};
+    std::function<void(std::size_t most, Block& block)> read = {};
     /// From the beginning, for a step with another mesh.
-    std::function<Status(const SampledMesh& mesh)> begin_again = {};
+    std::function<void(const SampledMesh& mesh)> begin_again = {};
 };
 
 /// Points that are to be located, to be read once. They must stay.
 RowSource rows_of_points(std::unique_ptr<PointSource>& points);
 
-using OpenedSink = Result<std::unique_ptr<TableSink>>;
+/// Whether the file is standard input or a pipe.
+bool is_read_once(const std::string& path);
+
+/// The rows of a source, which must stay, in blocks: few enough that all of `threads` threads (0: as many as the
+/// machine has) have some, and enough points that sorting them brings near ones together. `seconds` gets those of
+/// reading and work.
+class Blocks {
+public:
+    using Stage = std::function<void(Block& block)>;
+
+    Blocks(const RowSource& source, int threads, JobSeconds& seconds)
+        : source_(source), threads_(threads), seconds_(seconds) {}
+
+    /// Reads the first block, with which run() will begin.
+    Block& first();
+
+    /// Whether there may be others.
+    bool have_more() const { return more_; }
+
+    /// Prepares the locator for all points; from now on blocks are as large as its mesh asks for.
+    void locate_in(const Locator& locator);
+
+    /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in
+    /// which they were read. At most one block a thread, and two more, are in memory, and filled again. What is thrown
+    /// ends it all: the first in the order of blocks is thrown on.
+    void run(const Stage& work, const Stage& write);
+
+private:
+    void read(Block& block);
+
+    const RowSource& source_;
+    int threads_;
+    JobSeconds& seconds_;
+    std::size_t cells_ = 0;  ///< among which points are looked for
+    std::uint64_t taken_ = 0;
+    bool more_ = true;
+    std::optional<Block> first_;
+};
+
+using Sink = std::unique_ptr<TableSink>;
 
 /// Opens what takes rows of that format, into an output of that name; nullptr: they go nowhere.
-using OpenRows = std::function<OpenedSink(const TableFormat& format, const std::string& path)>;
+using OpenRows = std::function<Sink(const TableFormat& format, const std::string& path)>;
 
 /// All rows of the source into the output, and into a map and a matrix of weights where these are named; of a job that
 /// goes step by step, those of all steps, each into an output of its own. Rows come in the order of the points. Adds to
-/// the report. Error besides those of its parts: the policy is `error`, and a point is outside; it names the point and
-/// the file.
-Status sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& open, const std::string& map = {});
+/// the report. Refused besides what its parts refuse: the policy is `error`, and a point is outside; the message names
+/// the point and the file.
+void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& open, const std::string& map = {});
 
 // Rows as users know them.
 
-using OpenFormat = std::function<OpenedSink(const TableFormat& format)>;
+using OpenFormat = std::function<Sink(const TableFormat& format)>;
 
 /// Opens an output by open(format of its rows) and returns what takes rows whose cells are those of the mesh, and gives
 /// it what users are to see: cells by the numbers that they have in their file, labels that the job asked for, and
 /// `carried` columns of the points. The report gets the names of these. The mesh must stay. A carried column that has
-/// the name of another one is an Error; with `all`, one that rows have anyway, as rows that another run wrote, is left
+/// the name of another one is refused; with `all`, one that rows have anyway, as rows that another run wrote, is left
 /// out, and noted.
-OpenedSink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
-                          const OpenFormat& open);
+Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
+                    const OpenFormat& open);
 
 /// A sink of two functions.
 template <class Write, class Commit>
-std::unique_ptr<TableSink> sink_of(Write write, Commit commit) {
-    class Sink final : public TableSink {
+Sink sink_of(Write write, Commit commit) {
+    class Functions final : public TableSink {
     public:
-        Sink(Write w, Commit c) : write_(std::move(w)), commit_(std::move(c)) {}
+        Functions(Write w, Commit c) : write_(std::move(w)), commit_(std::move(c)) {}
         Status write(const TableView& rows) override { return write_(rows); }
         Status commit() override { return commit_(); }
 
@@ -76,12 +118,12 @@ std::unique_ptr<TableSink> sink_of(Write write, Commit commit) {
         Write write_;
         Commit commit_;
     };
-    return std::make_unique<Sink>(std::move(write), std::move(commit));
+    return std::make_unique<Functions>(std::move(write), std::move(commit));
 }
 
 /// Takes rows, lets change(rows) put others in their place, which it keeps, and gives these to the sink.
 template <class Change>
-std::unique_ptr<TableSink> changed(std::shared_ptr<TableSink> sink, Change change) {
+Sink changed(std::shared_ptr<TableSink> sink, Change change) {
     const auto write = [sink, change](TableView rows) mutable {
         change(rows);
         return sink->write(rows);
@@ -90,7 +132,7 @@ std::unique_ptr<TableSink> changed(std::shared_ptr<TableSink> sink, Change chang
 }
 
 /// An output of rows; a terminal shows names and texts without control characters.
-OpenedSink open_rows(const std::string& path, const TableFormat& format);
+Sink open_rows(const std::string& path, const TableFormat& format);
 
 /// The policy `error` is looked at where the point and its file are known: options without it.
 SampleOptions without_refusal(SampleOptions options);

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -10,8 +9,9 @@
 #include "barycert/mesh/columns.hpp"
 
 namespace barycert::jobs {
-OpenedSink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
-                          const OpenFormat& open) {
+
+Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
+                    const OpenFormat& open) {
     const std::vector<std::string> columns = format.columns();
     std::set<std::string> names(columns.begin(), columns.end());
     mesh.report.carried.clear();
@@ -22,8 +22,8 @@ OpenedSink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vect
     };
     for (const Column* const label : mesh.labels()) {
         if (!add(mesh::format_of(*label)))
-            return refusal("", "a label of cells has the name of another column", "", base::quoted(label->name),
-                           "leave it, or the other one, out of job.fields");
+            refuse("", "a label of cells has the name of another column", "", base::quoted(label->name),
+                   "leave it, or the other one, out of job.fields");
     }
     const std::set<std::string> of_rows = names;
     std::vector<bool> kept;
@@ -35,19 +35,19 @@ OpenedSink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vect
             if (left_out.empty()) first = name;
             left_out += (left_out.empty() ? "" : ",") + name;
         } else if (!add(column)) {
-            return refusal("", "a column to keep has the name of another column of the rows", "",
-                           base::quoted(column.name),
-                           "name the columns to keep, with another name for this one: job.keep OTHER=" + name);
+            refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(column.name),
+                   "name the columns to keep, with another name for this one: job.keep OTHER=" + name);
         }
     }
-    if (left_out.empty()) kept.clear();
-    const Note note{Note::Kind::left_out,
-                    "columns " + left_out + ": the rows have columns of these names; job.keep OTHER=" + first +
-                        " carries one through under another name",
-                    mesh.report.points};
-    Notes& notes = mesh.report.notes;
-    if (!left_out.empty() && std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
-    auto sink = open(format);
+    if (left_out.empty()) {
+        kept.clear();
+    } else {
+        mesh.tell_once({{Note::Kind::left_out,
+                         "columns " + left_out + ": the rows have columns of these names; job.keep OTHER=" + first +
+                             " carries one through under another name",
+                         mesh.report.points}});
+    }
+    Sink sink = open(format);
     // A sink of its own only where users see something else.
     if (!sink || (kept.empty() && mesh.labels().empty() && mesh.mesh().cell_numbers.empty())) return sink;
     const auto as_users_see_them = [&mesh, kept, shown = std::vector<Column>(),
@@ -65,18 +65,18 @@ OpenedSink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vect
         for (Mesh::Index& cell : cells) cell = mesh.mesh().cell_number(cell);
         rows.cells = cells;
     };
-    return changed(std::move(*sink), as_users_see_them);
+    return changed(std::move(sink), as_users_see_them);
 }
 
-OpenedSink open_rows(const std::string& path, const TableFormat& format) {
-    if (path != "-" || isatty(STDOUT_FILENO) != 1) return open_table(path, format);
+Sink open_rows(const std::string& path, const TableFormat& format) {
+    if (path != "-" || isatty(STDOUT_FILENO) != 1) return open_table(path, format).value();
     // Texts on a terminal move no cursor.
     TableFormat shown = format;
     for (TableField& field : shown.fields) field.name = base::printable(field.name);
     for (ColumnFormat& column : shown.carried) column.name = base::printable(column.name);
-    OpenedSink sink = open_table(path, shown);
-    if (!sink || shown.carried.empty()) return sink;
-    return changed(std::move(*sink), [carried = std::vector<Column>()](TableView& rows) mutable {
+    Sink sink = open_table(path, shown).value();
+    if (shown.carried.empty()) return sink;
+    return changed(std::move(sink), [carried = std::vector<Column>()](TableView& rows) mutable {
         carried.assign(rows.carried.begin(), rows.carried.end());
         for (Column& column : carried) {
             auto* const texts = std::get_if<std::vector<std::string>>(&column.values);

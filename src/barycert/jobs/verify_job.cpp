@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <numeric>
 #include <optional>
@@ -15,27 +14,19 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/jobs/claimed_columns.hpp"
-#include "barycert/jobs/stages.hpp"
-#include "barycert/locate/locator_data.hpp"
+#include "barycert/jobs/stream.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert {
 namespace {
 
 using jobs::Claims;
-using jobs::refusal;
+using jobs::refuse;
 using jobs::Stopwatch;
 
 constexpr double tolerance_of_floats = 1e-6;
-
-/// Rows on their way through the stages.
-struct ResultBlock {
-    std::vector<double> points;
-    std::vector<Column> columns;
-    std::uint64_t first = 0, size = 0;
-    Verdicts found;
-};
 
 /// Is every number of the columns of values single precision? False if there is none.
 bool are_floats(const Claims& claims) {
@@ -84,16 +75,15 @@ class Verification {
 public:
     explicit Verification(const VerifyJob& job) : job_(job) {}
 
-    Result<VerifyReport> run() {
+    VerifyReport run() {
         Stopwatch whole;
-        Status done = read_all();
-        if (done) done = build();
-        if (done) done = compare();
-        if (!done) return done.error();
+        read_all();
+        build();
+        check_limits();
+        compare();
         if (report_.verdicts.rows == 0)
-            return refusal(job_.results == "-" ? "standard input" : job_.results, "there are no results to verify",
-                           "a row for each point", "no row",
-                           "look at what should have written them: nothing was compared");
+            refuse(job_.results == "-" ? "standard input" : job_.results, "there are no results to verify",
+                   "a row for each point", "no row", "look at what should have written them: nothing was compared");
         for (WrongRow& row : report_.verdicts.examples) {
             row.exact.cell = mesh_.cell_number(row.exact.cell);
             if (row.claimed_cell >= static_cast<std::int64_t>(mesh_.cell_count())) continue;
@@ -104,37 +94,26 @@ public:
     }
 
 private:
-    Status read_all() {
+    void read_all() {
         Stopwatch watch;
-        if (Status opened = jobs::open_mesh_with_fields(job_, job_.options.threads, mesh_, report_); !opened)
-            return opened;
-        auto fields = sample::quantities_named(mesh_, job_.fields);
-        if (!fields) return fields.error();
+        mesh_ = jobs::open_mesh_with_fields(job_, job_.options.threads, report_);
+        const std::vector<FieldChoice> fields = sample::quantities_named(mesh_, job_.fields).value();
         report_.seconds.mesh = watch.lap();
         report_.results = job_.results;
         report_.program = job_.program;
         PointOptions options{
             .columns = job_.columns, .keep = {"all"}, .nonfinite_points = job_.options.nonfinite_points};
-        const auto open = [&] { return jobs::into(source_, open_points(job_.results, mesh_.dimension, options)); };
-        Status opened = open();
-        if (opened)
-            opened =
-                jobs::into(columns_, jobs::claimed_columns(job_, mesh_, *fields, source_->carried(), report_.notes));
-        if (!opened) return opened;
-        // Standard input and pipes cannot be read twice; others are read again with fewer columns.
-        std::error_code ignored;
-        const bool once = job_.results == "-" || (std::filesystem::exists(job_.results, ignored) &&
-                                                  !std::filesystem::is_regular_file(job_.results, ignored));
+        const auto open = [&] { source_ = open_points(job_.results, mesh_.dimension, options).value(); };
+        open();
+        columns_ = jobs::claimed_columns(job_, mesh_, fields, source_->carried(), report_.notes);
         options.keep = columns_.names();
-        if (!once) return open();
-        return Done{};
+        if (!jobs::is_read_once(job_.results)) open();
     }
 
-    Status build() {
+    void build() {
         Stopwatch watch;
-        Status built = jobs::into(locator_, jobs::build_locator(job_, mesh_, job_.options.threads));
-        if (built) built = jobs::into(sampler_, Sampler::build(*locator_, columns_.fields));
-        if (!built) return built;
+        locator_ = jobs::build_locator(job_, mesh_, job_.options.threads);
+        sampler_ = Sampler::build(*locator_, columns_.fields).value();
         report_.certified = locator_->certified();
         report_.contested_cells = locator_->contested_cells();
         report_.columns = sampler_->columns();
@@ -142,6 +121,9 @@ private:
         report_.cell_column = columns_.cell;
         report_.mask_column = columns_.mask;
         report_.seconds.build = watch.lap();
+    }
+
+    void check_limits() {
         report_.limits = job_.limits;
         for (const RowVerdict kind : kinds_of_wrong) {
             if (job_.limits.empty()) report_.limits.push_back({kind, 0});
@@ -149,24 +131,11 @@ private:
         for (const VerifyLimit& limit : job_.limits) {
             if (report_.compared(limit.verdict)) continue;
             const bool cells = limit.verdict == RowVerdict::wrong_cell;
-            return refusal(job_.results, "a rule that nothing could break: " + std::string(handle(limit.verdict)),
-                           cells ? "a column that names cells" : "a column of values of a field", "none",
-                           cells ? "name it with job.cell_column, or leave the rule out"
-                                 : "name it with job.values, or leave the rule out");
+            refuse(job_.results, "a rule that nothing could break: " + std::string(handle(limit.verdict)),
+                   cells ? "a column that names cells" : "a column of values of a field", "none",
+                   cells ? "name it with job.cell_column, or leave the rule out"
+                         : "name it with job.values, or leave the rule out");
         }
-        return Done{};
-    }
-
-    Status read(ResultBlock& block) {
-        Stopwatch watch;
-        block.points.clear();
-        block.columns.clear();
-        block.first = taken_;
-        if (Status done = jobs::into(block.size, source_->read(size_, block.points)); !done) return done;
-        source_->take_carried(block.columns);
-        taken_ += block.size;
-        report_.seconds.read += watch.lap();
-        return Done{};
     }
 
     void guess(std::string text) {
@@ -174,27 +143,30 @@ private:
     }
 
     /// Single precision is told by the first block.
-    void choose_tolerance(const ResultBlock& first, VerifyOptions& options) {
+    void choose_tolerance(const jobs::Block& first, VerifyOptions& options) {
         if (job_.tolerance) options.tolerance = *job_.tolerance;
         if (job_.tolerance || options.exact) return;
-        const auto claims = jobs::claims_of(columns_, first.columns, mesh_, job_, 0);
-        if (!claims) return;
-        cut_ = are_cut_to_six_digits(*claims);
+        const Claims claims = claims_of(first);
+        cut_ = are_cut_to_six_digits(claims);
         if (cut_)
             return guess(
                 "values have six digits: what was cut off counts as an error; let the tool write 17 digits, of "
                 "coordinates as well, or see job.tolerance");
-        if (!are_floats(*claims)) return;
+        if (!are_floats(claims)) return;
         options.tolerance = tolerance_of_floats;
         guess(
             "values are single precision: errors up to 1e-6 of the range count as right; job.tolerance says otherwise");
     }
 
-    Status compare() {
-        const int threads = job_.options.threads;
-        size_ = jobs::block_size(source_->count(), threads, mesh_.cell_count());
-        ResultBlock first;
-        if (Status first_read = read(first); !first_read) return first_read;
+    Claims claims_of(const jobs::Block& block) const {
+        return jobs::claims_of(columns_, block.rows.carried, mesh_, job_, block.first);
+    }
+
+    void compare() {
+        const jobs::RowSource rows = jobs::rows_of_points(source_);
+        jobs::Blocks blocks(rows, job_.options.threads, report_.seconds);
+        const jobs::Block& first = blocks.first();
+        blocks.locate_in(*locator_);
         VerifyOptions options = job_.options;
         options.threads = 1;  // blocks go side by side
         choose_tolerance(first, options);
@@ -205,31 +177,24 @@ private:
         report_.exact = options.exact;
         report_.outside_value = options.outside_value;
         report_.verdicts.columns.resize(report_.columns.size());
-        base::in_arena(threads, locator_->mesh().cell_count(),
-                       [&] { locate::LocatorData::of(*locator_).prepare(source_->count().value_or(taken_)); });
-        const auto work = [&](ResultBlock& block) -> Status {
-            const auto claims = jobs::claims_of(columns_, block.columns, mesh_, job_, block.first);
-            if (!claims) return claims.error();
-            return jobs::into(block.found, verifier.verify({block.points, claims->cells, claims->inside, claims->values,
-                                                            block.first}));
+        const auto work = [&](jobs::Block& block) {
+            const Claims claims = claims_of(block);
+            block.found =
+                verifier.verify({block.rows.points, claims.cells, claims.inside, claims.values, block.first}).value();
         };
-        const auto write = [&](const ResultBlock& block) -> Status {
+        const auto write = [&](const jobs::Block& block) {
             report_.verdicts.add(block.found, job_.options.examples);
             jobs::tell_stage(job_, "rows", block.first + block.size);
-            return Done{};
         };
-        Status done = jobs::in_stages<ResultBlock>(
-            threads, std::move(first), [&](ResultBlock& block) { return read(block); }, work, write,
-            report_.seconds.sample);
+        blocks.run(work, write);
         Stopwatch watch;
-        if (done) done = Verifier(*sampler_, job_.options).measure(report_.verdicts);
+        Verifier(*sampler_, job_.options).measure(report_.verdicts).value();
         for (const Note& note : source_->notes()) {
             // Which columns are not compared has been told.
             if (note.kind != Note::Kind::left_out) report_.notes.push_back(note);
         }
         note_iteration();
         report_.seconds.sample += watch.lap();
-        return done;
     }
 
     /// Curved sides and cut digits explain errors of that size as well, and are told.
@@ -253,21 +218,20 @@ private:
     std::unique_ptr<PointSource> source_;
     std::optional<Locator> locator_;
     std::optional<Sampler> sampler_;
-    std::uint64_t taken_ = 0;
-    std::size_t size_ = 0;
     bool cut_ = false;  ///< values have six digits
     VerifyReport report_;
 };
 
 }  // namespace
 
-Result<VerifyReport> verify_files(const VerifyJob& job) {
+Result<VerifyReport> verify_files(const VerifyJob& job) try {
     const base::RunFiles run;
-    if (job.cell_base != 0 && job.cell_base != 1)
-        return Error{.what = "job.cell_base", .expected = "0 or 1", .found = std::to_string(job.cell_base)};
-    if (Status ok = jobs::check_files(job, {{"job.results", job.results}}, {}); !ok) return ok.error();
+    if (job.cell_base != 0 && job.cell_base != 1) refuse("", "job.cell_base", "0 or 1", std::to_string(job.cell_base));
+    jobs::check_files(job, {{"job.results", job.results}}, {});
     const jobs::ThreadLimit limit(job.options.threads);
     return Verification(job).run();
+} catch (const Exception& e) {
+    return e.error();
 }
 
 Result<VerifyLimit> parse_verify_limit(std::string_view text) {
@@ -279,8 +243,13 @@ Result<VerifyLimit> parse_verify_limit(std::string_view text) {
         if (names.back() == limit.name && limit.most && std::floor(*limit.most) == *limit.most && *limit.most <= 0x1p53)
             return VerifyLimit{kind, static_cast<std::uint64_t>(*limit.most)};
     }
-    return refusal("", "unknown rule", "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
-                   '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
+    return jobs::refusal("", "unknown rule", "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
+                         '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
+}
+
+bool VerifyReport::compared(RowVerdict verdict) const {
+    if (verdict == RowVerdict::wrong_cell) return !cell_column.empty();
+    return verdict != RowVerdict::wrong_value || !columns.empty();
 }
 
 std::vector<VerifyLimit> VerifyReport::exceeded() const {

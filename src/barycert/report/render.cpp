@@ -174,11 +174,11 @@ Document contour_document(const ContourReport& s, const Environment& environment
     }
     tell_notes(d, s);
     d.name("mesh", counted(s.cells, "cell") + ", " + counted(s.nodes, "node"));
-    const ContourSeconds& t = s.seconds;
-    std::vector<std::pair<std::string_view, double>> parts{{"mesh", t.mesh}, {"cutting", t.cut}};
+    const JobSeconds& t = s.seconds;
+    std::vector<std::pair<std::string_view, double>> parts{{"mesh", t.mesh}, {"cutting", t.build}};
     if (s.pixels || s.view) parts.emplace_back(s.pixels ? "sampling" : "drawing", t.sample);
     parts.emplace_back("writing", t.write);
-    d.figure("seconds", record(MEMBERS(t, mesh, cut, sample, write, total)), "time",
+    d.figure("seconds", record(MEMBERS(t, mesh), "cut", t.build, MEMBERS(t, sample, write, total)), "time",
              time_text(t.total, s.threads, parts));
     put(d.data, MEMBERS(s, threads), "environment", environment);
     return d;

@@ -103,7 +103,7 @@ void tell_mesh(Document& d, const SampleReport& s) {
 }
 
 void tell_times(Document& d, const SampleReport& s) {
-    const SampleSeconds& t = s.seconds;
+    const JobSeconds& t = s.seconds;
     std::vector<std::pair<std::string_view, double>> parts{
         {"mesh", t.mesh}, {"locator", t.build}, {"sampling", t.sample}, {"writing", t.write}};
     if (s.from != PointsFrom::grid) parts.insert(parts.begin() + 2, {"points", t.read});

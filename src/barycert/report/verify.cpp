@@ -197,7 +197,7 @@ Json example_json(const VerifyReport& s, const WrongRow& row) {
 Json verify_data(const VerifyReport& s, const Environment& environment) {
     const auto text = [](const std::string& column) { return column.empty() ? Json() : Json(column); };
     const Verdicts& v = s.verdicts;
-    const SampleSeconds& t = s.seconds;
+    const JobSeconds& t = s.seconds;
     return record(
         "schema", verify_schema, "command", "verify",
         MEMBERS(s, mesh, results, curved, dimension, nodes, cells, certified, contested_cells), "cell_column",
@@ -238,7 +238,7 @@ Document verify_document(const VerifyReport& s, const Environment& environment) 
     d.name("mesh", fmt::format("{} cells, {} nodes: {}", s.cells, s.nodes, of));
     for (const Note& note : s.notes)
         d.name(std::string(name(note.kind)), note.text + (note.file.empty() ? "" : " (" + note.file + ")"));
-    const SampleSeconds& t = s.seconds;
+    const JobSeconds& t = s.seconds;
     d.name("time", time_text(t.total, s.threads,
                              {{"mesh", t.mesh}, {"locator", t.build}, {"results", t.read}, {"comparing", t.sample}}));
     return d;

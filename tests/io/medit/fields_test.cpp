@@ -73,8 +73,12 @@ TEST(MeditFields, named_as_field_files) {
     const TemporaryFolder folder;
     Mesh mesh = read_medit_bytes(medit_bytes(two_of_medit(), 2, Form::text)).value();
     const auto add = [&](const std::string& name, const std::string& file, const std::string& column,
-                         FieldFile::Of of = FieldFile::Of::either) {
-        return jobs::add_field({of, name, folder / file, column}, mesh, false);
+                         FieldFile::Of of = FieldFile::Of::either) -> Result<jobs::FieldPlace> {
+        try {
+            return jobs::add_field({of, name, folder / file, column}, mesh, false);
+        } catch (const Exception& e) {
+            return e.error();
+        }
     };
     Medit one = solution();
     one.parts = {one.parts[1]};

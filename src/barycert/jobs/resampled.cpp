@@ -24,14 +24,14 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "NPY files are written as numbers stand in memory");
 
-/// That the format holds no such column.
-Error no_place(const ColumnFormat& column, const std::string& path, const char* expected, const char* remedy) {
-    return refusal(path, "the format has no place for a label of cells", expected,
-                   base::quoted(column.name) + (column.type == Column::Type::text ? ", texts" : ", integers"), remedy);
+[[noreturn]] void refuse_label(const ColumnFormat& column, const std::string& path, const char* expected,
+                               const char* remedy) {
+    refuse(path, "the format has no place for a label of cells", expected,
+           base::quoted(column.name) + (column.type == Column::Type::text ? ", texts" : ", integers"), remedy);
 }
 
 /// VTK's image data: an array for each field, and what VTK's own probes give besides.
-OpenedSink open_vti(const std::string& path, const TableFormat& format, const Grid& grid) {
+Sink open_vti(const std::string& path, const TableFormat& format, const Grid& grid) {
     std::vector<io::ArrayFormat> arrays;
     std::vector<std::size_t> components;
     std::size_t columns = 0;
@@ -45,13 +45,12 @@ OpenedSink open_vti(const std::string& path, const TableFormat& format, const Gr
     arrays.push_back({"cell", 1, io::NumberType::int32});
     for (const ColumnFormat& column : format.carried) {
         if (column.type == Column::Type::text)
-            return no_place(column, path, "numbers", "write .csv, or leave the label out of job.fields");
+            refuse_label(column, path, "numbers", "write .csv, or leave the label out of job.fields");
         const bool integer = column.type == Column::Type::integer;
         arrays.push_back({column.name, 1, integer ? io::NumberType::int64 : io::NumberType::float64});
     }
-    auto opened = io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays, format.vtk_data);
-    if (!opened) return opened.error();
-    const std::shared_ptr<io::VtiWriter> file = std::move(*opened);
+    const std::shared_ptr<io::VtiWriter> file =
+        io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays, format.vtk_data).value();
     const auto write = [=, numbers = std::vector<double>(),
                         mask = std::vector<std::int8_t>()](const TableView& rows) mutable {
         std::size_t array = 0, first = 0;
@@ -85,7 +84,7 @@ OpenedSink open_vti(const std::string& path, const TableFormat& format, const Gr
 }
 
 /// One array of float64, z slowest: its bytes are the values as they come.
-std::unique_ptr<TableSink> open_array(const std::string& path, const Grid& grid, std::size_t columns) {
+Sink open_array(const std::string& path, const Grid& grid, std::size_t columns) {
     std::vector<std::uint64_t> shape(grid.counts.rend() - grid.dimension, grid.counts.rend());
     if (columns > 1) shape.push_back(columns);
     const auto file = std::make_shared<base::OutputFile>(path);
@@ -99,27 +98,26 @@ std::unique_ptr<TableSink> open_array(const std::string& path, const Grid& grid,
 }
 
 /// A picture of one column. It is kept in memory: its colours depend on all of it.
-OpenedSink open_picture(const ResampleJob& a, const std::string& path, const std::vector<std::string>& columns,
-                        const Grid& grid, std::optional<SliceCounts>& counts) {
+Sink open_picture(const ResampleJob& a, const std::string& path, const std::vector<std::string>& columns,
+                  const Grid& grid, std::optional<SliceCounts>& counts) {
     // The two axes of a grid in a plane.
     std::vector<std::size_t> axes;
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k) {
         if (grid.counts[k] > 1 || grid.dimension == 2) axes.push_back(k);
     }
     if (axes.size() != 2)
-        return refusal(path, "a picture shows one layer",
-                       "one point along exactly one axis, such as job.counts 800x600x1",
-                       fmt::format("{} points", fmt::join(grid.counts, " x ")),
-                       "choose the layer with job.bounds: it lies in the middle of the bounds");
+        refuse(path, "a picture shows one layer", "one point along exactly one axis, such as job.counts 800x600x1",
+               fmt::format("{} points", fmt::join(grid.counts, " x ")),
+               "choose the layer with job.bounds: it lies in the middle of the bounds");
     constexpr std::int64_t max = 1000000;
     const std::size_t w = axes[0], h = axes[1];
     if (grid.counts[w] > max || grid.counts[h] > max)
-        return refusal(path, "too many points for a picture", "at most 1000000 along each axis",
-                       fmt::format("{} x {}", grid.counts[w], grid.counts[h]), "choose a coarser grid");
+        refuse(path, "too many points for a picture", "at most 1000000 along each axis",
+               fmt::format("{} x {}", grid.counts[w], grid.counts[h]), "choose a coarser grid");
     if (columns.size() != 1)
-        return refusal(path, "a picture shows one column", "a field of one component, chosen by job.fields",
-                       columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
-                       columns.empty() ? "add one by job.field_files NAME=FILE" : "name one in job.fields");
+        refuse(path, "a picture shows one column", "a field of one component, chosen by job.fields",
+               columns.empty() ? "no field" : fmt::format("{}", fmt::join(columns, ", ")),
+               columns.empty() ? "add one by job.field_files NAME=FILE" : "name one in job.fields");
     Slice slice;
     slice.width = static_cast<std::size_t>(grid.counts[w]);
     slice.height = static_cast<std::size_t>(grid.counts[h]);
@@ -146,6 +144,36 @@ OpenedSink open_picture(const ResampleJob& a, const std::string& path, const std
     });
 }
 
+/// The other mesh, and what was sampled at its nodes besides its fields.
+struct SampledNodes {
+    Mesh mesh;
+    Field mask{"vtkValidPointMask", 1, {}}, cell{"cell", 1, {}}, distance{"distance", 1, {}};
+};
+
+Status write_tetgen_files(const Mesh& mesh, const std::string& path) {
+    for (const Field& f : mesh.point_fields) {
+        const auto it = std::find_if(f.data.begin(), f.data.end(), [](double x) { return !std::isfinite(x); });
+        if (it == f.data.end()) continue;
+        const auto node = static_cast<std::size_t>(it - f.data.begin()) / static_cast<std::size_t>(f.components);
+        return refusal(path, fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
+                       "finite attributes: a .node file cannot hold NaN or infinity", "",
+                       "choose job.outside nearest, extrapolate or fill=V for nodes outside, or another format");
+    }
+    return write_tetgen(mesh, tetgen_stem(path));
+}
+
+Status write_all(SampledNodes& of, const std::string& path, VtkData data) {
+    const Result<io::MeshFormat> format = io::mesh_output_format(path);
+    if (!format) return format.error();
+    if (*format == io::MeshFormat::tetgen) return write_tetgen_files(of.mesh, path);
+    // Where there is room for what else is known of each node. In Gmsh each field is a picture of its own: `cell` tells
+    // what the mask does, too.
+    if (!of.distance.data.empty()) of.mesh.point_fields.push_back(std::move(of.distance));
+    if (*format == io::MeshFormat::vtk) of.mesh.point_fields.push_back(std::move(of.mask));
+    of.mesh.point_fields.push_back(std::move(of.cell));
+    return write_mesh(of.mesh, path, {.comment = {}, .data = data});
+}
+
 }  // namespace
 
 std::array<double, 3> point_of(const Grid& grid, std::uint64_t i) {
@@ -157,31 +185,28 @@ std::array<double, 3> point_of(const Grid& grid, std::uint64_t i) {
     return point;
 }
 
-Status check_grid_output(const ResampleJob& job) {
+void check_grid_output(const ResampleJob& job) {
     if (job.range && !io::has_suffix(job.output, ".png"))
-        return refusal(job.output, "job.range needs a picture", "", "",
-                       "use job.output FILE.png, or leave job.range out");
-    if (job.output == "-" || has_suffix_of(job.output, ".csv .npy .vti .png")) return Done{};
-    return unknown_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
+        refuse(job.output, "job.range needs a picture", "", "", "use job.output FILE.png, or leave job.range out");
+    if (job.output != "-" && !has_suffix_of(job.output, ".csv .npy .vti .png"))
+        refuse_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
 }
 
-OpenedSink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
-                          std::optional<SliceCounts>& picture) {
+Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
+                    std::optional<SliceCounts>& picture) {
     const std::vector<std::string> columns = format.columns();
     const bool png = io::has_suffix(path, ".png"), array = io::has_suffix(path, ".npy");
     if (!format.carried.empty() && (png || array))
-        return no_place(format.carried.front(), path, "fields",
-                        "write .csv, or integers to .vti, or leave the label out of job.fields");
+        refuse_label(format.carried.front(), path, "fields",
+                     "write .csv, or integers to .vti, or leave the label out of job.fields");
     if (png) return open_picture(job, path, columns, grid, picture);
     if (array && columns.empty())
-        return refusal(path, "no field to write", "", "",
-                       "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields");
+        refuse(path, "no field to write", "", "",
+               "add one by job.field_files NAME=FILE; .vti and .csv can be written without fields");
     if (array) return open_array(path, grid, columns.size());
     if (io::has_suffix(path, ".vti")) return open_vti(path, format, grid);
-    OpenedSink rows = open_rows(path, format);
-    if (!rows) return rows;
     // With the points of the grid, as rows of points from a file have them.
-    return changed(std::move(*rows), [grid, points = std::vector<double>()](TableView& block) mutable {
+    return changed(open_rows(path, format), [grid, points = std::vector<double>()](TableView& block) mutable {
         const auto d = static_cast<std::size_t>(grid.dimension);
         points.clear();
         for (std::size_t i = 0; i < block.cells.size(); ++i) {
@@ -190,6 +215,46 @@ OpenedSink open_grid_sink(const ResampleJob& job, const std::string& path, const
         }
         block.points = points;
     });
+}
+
+bool is_rows_output(const std::string& path) {
+    return path == "-" || has_suffix_of(path, ".csv .npy");
+}
+
+std::vector<std::string> files_of_mesh_output(const ResampleJob& job) {
+    const Result<io::MeshFormat> format = io::mesh_output_format(job.output);
+    if (is_rows_output(job.output) || (format && *format != io::MeshFormat::tetgen)) return {job.output};
+    const std::string stem = tetgen_stem(job.output);
+    return {stem + ".node", stem + ".ele"};
+}
+
+void check_mesh_output(const ResampleJob& job) {
+    if (job.range) refuse("", "job.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
+    if (!is_rows_output(job.output) && !io::mesh_output_format(job.output))
+        refuse_output(job.output,
+                      ".vtu, .vtk, .msh, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
+}
+
+Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes) {
+    if (!format.carried.empty())
+        refuse(path, "a mesh has no labels of nodes", "fields", "label " + base::quoted(format.carried.front().name),
+               "leave labels out of job.fields, or write rows: .csv or .npy");
+    const Result<io::MeshFormat> kind = io::mesh_output_format(path);
+    if (kind && *kind == io::MeshFormat::tetgen) io::note_lost_names(format.columns(), "a .node", notes);
+    mesh.point_fields.clear();
+    for (const TableField& f : format.fields) mesh.point_fields.push_back({f.name, f.components, {}});
+    const auto of = std::make_shared<SampledNodes>();
+    of->mesh = std::move(mesh);
+    const auto write = [of](const TableView& rows) -> Status {
+        append_rows(rows, of->mesh.point_fields);
+        for (const Mesh::Index cell : rows.cells) {
+            of->mask.data.push_back(cell >= 0 ? 1 : 0);
+            of->cell.data.push_back(cell);
+        }
+        of->distance.data.insert(of->distance.data.end(), rows.distances.begin(), rows.distances.end());
+        return Done{};
+    };
+    return sink_of(write, [of, path, data = format.vtk_data] { return write_all(*of, path, data); });
 }
 
 }  // namespace barycert::jobs
