@@ -91,11 +91,13 @@ def audit(
     Args:
         kernel: a callable of (vertices (n, d), point (d,)) that returns n weights, or None for a simplex that it declares
             degenerate; the path of a shared library with the functions of barycert/kernel.h; or a name of the catalogue,
-            * and ? allowed ("tetrahedron.*"). Or several paths and names.
+            * and ? allowed ("tetrahedron.*"). Or several paths and names: libraries need names that differ. Kernels of
+            the catalogue are reported in its order.
         simplex: of a callable: "segment" (2, 3), "triangle" (3, 2), "triangle3d" (3, 3) or "tetrahedron" (4, 3).
         name: of a callable; None: its own.
         declares_degenerate: the callable may return None.
-        tolerance: a point is inside if every weight is at least -tolerance; None: the signs of the weights tell.
+        tolerance: a point is inside if every weight is at least -tolerance; None: the signs of the weights tell. Not for
+            libraries that certify their answers.
         against: kernels of the catalogue to be asked the same.
         contained: a shared library runs in a process of its own, where accidents become findings.
         count: cases a family. seed: of the random numbers.
