@@ -20,7 +20,8 @@ int run_verify(Arguments<VerifyJob>& a) {
                   .notes = r.notes,
                   .curved = {r.curved},
                   .clean = failures.empty()};
-        for (const VerifyLimit& limit : a.job.limits.empty() ? std::vector<VerifyLimit>() : failures)
+        if (a.job.limits.empty()) return told;
+        for (const VerifyLimit& limit : failures)
             told.failures += failure(fmt::format("{}: {}", base::printable(r.results), handle(limit.verdict)),
                                      std::to_string(r.verdicts.of(limit.verdict)), std::to_string(limit.most));
         return told;

@@ -36,8 +36,10 @@ void check_job(const CheckJob& job) {
                "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
     std::vector<base::NamedFile> plc, outputs;
     outputs.push_back({"job.measures", job.measures});
-    for (const std::string& path : copy.empty() ? std::vector<std::string>() : written_mesh_files(copy).value())
-        outputs.push_back({member_of_copy(job), path});
+    if (!copy.empty()) {
+        const std::vector<std::string> written = written_mesh_files(copy).value();
+        for (const std::string& path : written) outputs.push_back({member_of_copy(job), path});
+    }
     if (job.merge_within && job.fix.empty())
         refuse("", "job.merge_within is for job.fix", "", "", "leave it out, or give job.fix FILE");
     if (job.vtk_data && job.measures.empty() && !copy.ends_with(".vtu") && !copy.ends_with(".vtk"))

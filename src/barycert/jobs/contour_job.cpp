@@ -1,8 +1,6 @@
 // Iso-surfaces, iso-lines and slices, to files of surfaces and pictures.
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
@@ -58,19 +57,17 @@ template <class At>
 void set_range(const Mesh& mesh, At at, ContourReport& report) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     using Range = std::pair<double, double>;
-    const Range range = tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, mesh.cells.size(), std::size_t{1} << 15), Range{infinity, -infinity},
-        [&](const auto& part, Range so_far) {
+    const Range range = base::parallel_reduce(
+        mesh.cells.size(), std::size_t{1} << 15, Range{infinity, -infinity},
+        [&](std::size_t begin, std::size_t end, Range& so_far) {
             const ExactEnvironment environment;  // threads that were there before have theirs
-            for (std::size_t i = part.begin(); i != part.end(); ++i) {
+            for (std::size_t i = begin; i != end; ++i) {
                 const double x = at(static_cast<std::size_t>(mesh.cells[i]));
-                if (!std::isfinite(x)) continue;
-                so_far = {std::min(so_far.first, x), std::max(so_far.second, x)};
+                if (std::isfinite(x)) so_far = {std::min(so_far.first, x), std::max(so_far.second, x)};
             }
-            return so_far;
         },
-        [](const Range& a, const Range& b) {
-            return Range{std::min(a.first, b.first), std::max(a.second, b.second)};
+        [](Range& all, const Range& part) {
+            all = {std::min(all.first, part.first), std::max(all.second, part.second)};
         });
     const bool none = range.first > range.second;
     // A zero may come with either sign, as threads come.

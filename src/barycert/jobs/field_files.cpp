@@ -214,12 +214,18 @@ std::vector<std::string> with_other_names(const std::vector<std::string>& names,
         const auto add = [&](const std::string& name) {
             const auto others = other(name);
             some = some || others;
-            others ? parts.insert(parts.end(), others->begin(), others->end()) : parts.insert(parts.end(), name);
+            if (others) {
+                parts.insert(parts.end(), others->begin(), others->end());
+            } else {
+                parts.push_back(name);
+            }
             return true;
         };
         add(text);
-        if (!some) parts.clear();
-        if (!some) sample::for_names(text, add);
+        if (!some) {
+            parts.clear();
+            sample::for_names(text, add);
+        }
         if (!some) parts = {text};
         all.insert(all.end(), parts.begin(), parts.end());
     }

@@ -1,8 +1,5 @@
 #include "barycert/jobs/resampled.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/core/quotient.hpp"
@@ -78,14 +76,14 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
             part.sum = volume.sign() < 0 ? part.sum - product : part.sum + product;
         }
     };
-    const PartialIntegral whole = tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 12), PartialIntegral(),
-        [&](const tbb::blocked_range<std::size_t>& range, PartialIntegral part) {
-            for (std::size_t c = range.begin(); c != range.end(); ++c) add_cell(c, part);
-            return part;
+    const PartialIntegral whole = base::parallel_reduce(
+        mesh.cell_count(), 1 << 12, PartialIntegral(),
+        [&](std::size_t begin, std::size_t end, PartialIntegral& part) {
+            for (std::size_t c = begin; c != end; ++c) add_cell(c, part);
         },
-        [](const PartialIntegral& a, const PartialIntegral& b) {
-            return PartialIntegral{a.sum + b.sum, a.left_out + b.left_out};
+        [](PartialIntegral& all, const PartialIntegral& part) {
+            all.sum = all.sum + part.sum;
+            all.left_out += part.left_out;
         });
     const std::array<std::uint64_t, 1> denominator{(mesh.dimension == 2 ? 2 : 6) * rule.denominator};
     // Without a value but zeros the unit has no exponent, and the sum is zero in any.

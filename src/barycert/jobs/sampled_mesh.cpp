@@ -1,12 +1,9 @@
 #include "barycert/jobs/sampled_mesh.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <utility>
 
 #include "barycert/base/arena.hpp"
@@ -29,13 +26,12 @@ std::uint64_t count_degenerate(const Mesh& mesh) {
             at[i] = mesh.points.data() + d * static_cast<std::size_t>(mesh.cells[(d + 1) * cell + i]);
         return (d == 2 ? orient2d(at[0], at[1], at[2]) : orient3d(at[0], at[1], at[2], at[3])) == Sign::zero;
     };
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 14), std::uint64_t{0},
-        [&](const tbb::blocked_range<std::size_t>& range, std::uint64_t n) {
-            for (std::size_t c = range.begin(); c != range.end(); ++c) n += is_degenerate(c) ? 1 : 0;
-            return n;
+    return base::parallel_reduce(
+        mesh.cell_count(), 1 << 14, std::uint64_t{0},
+        [&](std::size_t begin, std::size_t end, std::uint64_t& count) {
+            for (std::size_t c = begin; c != end; ++c) count += is_degenerate(c) ? 1 : 0;
         },
-        std::plus<>());
+        [](std::uint64_t& all, std::uint64_t part) { all += part; });
 }
 
 /// Clearing alone would keep the memory.
@@ -294,9 +290,8 @@ bool SampledMesh::find_cells_near(std::span<const double> points, std::vector<Me
         return false;
     Stopwatch watch;
     tell("looking for the cells of the points");
-    std::optional<std::vector<Mesh::Index>> found;
-    base::in_arena(job.options.threads, cells,
-                   [&] { found = locate::cells_at_points(mesh_, points, most_cells(cells)); });
+    auto found = base::in_arena(job.options.threads, cells,
+                                [&] { return locate::cells_at_points(mesh_, points, most_cells(cells)); });
     report.seconds.build += watch.lap();
     if (found) near = std::move(*found);
     return found.has_value();
