@@ -2,6 +2,7 @@
 /// answer; and the figures of many answers.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "barycert/audit.hpp"
@@ -20,6 +21,11 @@ inline constexpr std::array<double, 4> unset_weights = [] {
 /// Interior or boundary.
 constexpr bool is_inside(Region r) {
     return r == Region::interior || r == Region::boundary;
+}
+
+/// Float32 and the like: names with a second dot.
+inline bool is_variant(const Kernel& kernel) {
+    return std::ranges::count(kernel.name, '.') > 1;
 }
 
 struct Statement {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "barycert/audit.hpp"
 #include "barycert/base/input_file.hpp"
@@ -43,6 +45,15 @@ inline std::string text_in(const nlohmann::json& object, const std::string& key,
 
 inline const nlohmann::json& list_in(const nlohmann::json& object, const std::string& key, const std::string& where) {
     return member(object, key, where, &nlohmann::json::is_array, "an array");
+}
+
+/// null where nothing could be measured.
+inline std::optional<double> figure_in(const nlohmann::json& object, const std::string& key, const std::string& where) {
+    const nlohmann::json& j = member(object, key, where);
+    if (j.is_null()) return std::nullopt;
+    if (!j.is_number() || !(j.get<double>() >= 0))
+        throw Exception({.what = where + ", " + key, .expected = "a number >= 0 or null", .found = found_json(j)});
+    return j.get<double>();
 }
 
 /// A kind of file, in the words of errors.

@@ -93,11 +93,6 @@ void add_cases(const PreparedMesh& m, Mesh::Index cell, std::uint64_t seed, std:
     }
 }
 
-/// Float32 and the like: names with a second dot.
-bool is_variant(const std::string& name) {
-    return std::count(name.begin(), name.end(), '.') > 1;
-}
-
 void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::Index>& cells,
                  const std::vector<Kernel>& kernels, std::uint64_t seed, int threads) {
     const std::size_t cases_a_cell = 1 + 2 * m.mesh.corners(), cells_a_piece = 256 / cases_a_cell;
@@ -167,7 +162,7 @@ std::vector<MeshMap> mesh_maps(const std::vector<Kernel>& kernels, const MeshSou
                      [&](const Kernel& k) { return k.simplex == simplex && !k.perspective; });
         if (fit.empty()) continue;
         const std::size_t all = fit.size();
-        if (all > MeshMap::max_kernels) std::erase_if(fit, [](const Kernel& k) { return is_variant(k.name); });
+        if (all > MeshMap::max_kernels) std::erase_if(fit, is_variant);
         fit.resize(std::min(fit.size(), MeshMap::max_kernels));
         MeshMap map;
         map.mesh = m->name;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,6 +31,7 @@ double number(const Json& at, const std::string& where) {
     return *x;
 }
 
+/// The array of so many entries.
 const Json& array_of(const Json& object, const char* key, std::size_t n, const std::string& where) {
     const Json& a = member(object, key, where);
     if (!a.is_array() || a.size() != n) {
@@ -38,6 +40,10 @@ const Json& array_of(const Json& object, const char* key, std::size_t n, const s
                          .found = a.is_array() ? std::to_string(a.size()) + " entries" : found_json(a)});
     }
     return a;
+}
+
+void set_numbers(double* to, const Json& from, const std::string& where) {
+    std::ranges::transform(from, to, [&](const Json& j) { return number(j, where); });
 }
 
 std::uint64_t count_or(const Json& object, const char* key, std::uint64_t otherwise) {
@@ -92,16 +98,12 @@ Witness witness_from(const Json& j, const std::string& where) {
                              .expected = std::to_string(d) + " coordinates" + (w.c.perspective ? " and w" : ""),
                              .found = vertices[i].dump().substr(0, 80)});
         }
-        for (std::size_t k = 0; k < stride; ++k) w.c.vertices[stride * i + k] = number(vertices[i][k], vertex);
+        set_numbers(&w.c.vertices[stride * i], vertices[i], vertex);
         if (w.c.perspective && !(w.c.depth(static_cast<int>(i)) > 0))
             throw Exception({.what = vertex, .expected = "a depth w above 0", .found = vertices[i][d].dump()});
     }
-    const Json& point = array_of(j, "point", d, where);
-    for (std::size_t k = 0; k < d; ++k) w.c.point[k] = number(point[k], where + ", point");
-    if (j.contains("values")) {
-        const Json& values = array_of(j, "values", n, where);
-        for (std::size_t i = 0; i < n; ++i) w.c.values[i] = number(values[i], where + ", values");
-    }
+    set_numbers(w.c.point.data(), array_of(j, "point", d, where), where + ", point");
+    if (j.contains("values")) set_numbers(w.c.values.data(), array_of(j, "values", n, where), where + ", values");
     return w;
 }
 

@@ -9,6 +9,9 @@ namespace barycert {
 
 using namespace report;
 
+JSON_OF(ColourRange, field, low, high, without_value)
+JSON_OF(TexelError, texels, column, row)
+
 namespace {
 
 std::string range_text(double low, double high) {
@@ -47,8 +50,7 @@ void tell_colours(Document& d, const ColourRange& c) {
     std::string text =
         c.field + " " + (std::isnan(c.low) ? "none: no value is finite" : "from " + range_text(c.low, c.high));
     if (c.without_value != 0) text += fmt::format("; {} triangles without a value, grey", c.without_value);
-    d.figure("colours", record(MEMBERS(c, field, low, high, without_value)), "colours", text,
-             c.without_value == 0 ? Tone::plain : Tone::strong);
+    d.figure("colours", c, "colours", text, c.without_value == 0 ? Tone::plain : Tone::strong);
 }
 
 Document render_document(const RenderReport& s, const Environment& environment) {
@@ -68,7 +70,7 @@ Document render_document(const RenderReport& s, const Environment& environment) 
     if (s.colours) tell_colours(d, *s.colours);
     if (s.texel_error) {
         const TexelError& e = *s.texel_error;
-        d.figure("texel_error", record(MEMBERS(e, texels, column, row)), "error",
+        d.figure("texel_error", e, "error",
                  fmt::format("at most {:.3g} texels, in column {}, row {} from the bottom", e.texels, e.column, e.row));
     }
     put(d.data, MEMBERS(s, notes));

@@ -10,6 +10,9 @@ namespace barycert {
 
 using namespace report;
 
+JSON_OF(FieldIntegral, column, source, target, source_left_out, target_left_out)
+JSON_OF(WayCounts, no_cell_near, walk, contested, candidates)
+
 namespace {
 
 void tell_inside(Document& d, const LocationCounts& n) {
@@ -82,9 +85,7 @@ void tell_picture(Document& d, const SliceCounts& n) {
 
 void tell_integrals(Document& d, const std::vector<FieldIntegral>& all) {
     if (all.empty()) return;
-    d.data["integrals"] = list(all, [](const FieldIntegral& of) {
-        return record(MEMBERS(of, column, source, target, source_left_out, target_left_out));
-    });
+    put(d.data, "integrals", all);
     const auto over = [](double sum, const char* where, std::uint64_t left_out) {
         return fmt::format("{} over {}", base::shortest(sum), where) +
                (left_out == 0 ? "" : fmt::format(" ({} without a finite value left out)", counted(left_out, "cell")));
@@ -152,7 +153,7 @@ Document sample_document(const SampleReport& s, const Environment& environment) 
     d.figure("method", name(s.method), "method", fmt::format("{}: {}", name(s.method), s.reason));
     put(d.data, MEMBERS(s, reason));
     if (const WayCounts& w = s.counts.locations.ways; w.points() != 0)
-        d.figure("ways", record(MEMBERS(w, no_cell_near, walk, contested, candidates)), "found",
+        d.figure("ways", w, "found",
                  clauses({{w.walk, "by a walk"},
                           {w.contested, "in contested cells"},
                           {w.candidates, "by testing every candidate"},

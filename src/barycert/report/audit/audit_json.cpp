@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit/json_members.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/json_text.hpp"
@@ -14,12 +15,16 @@ using namespace report;
 namespace {
 
 void put_statistics(Json& j, const KernelStatistics& s) {
-    put(j, MEMBERS(s, cases, wrong_cases, not_run));
-    for (std::size_t f = 0; f < finding_count; ++f) put(j, finding_texts[f].name, s.counts[f]);
-    put(j, "worst_error", magnitude(s.errors.worst.value), "by_error", s.errors.counts, "worst_weight_ulp",
-        magnitude(s.weight_ulp.value), "p999_weight_ulp", magnitude(s.p999_weight_ulp()), "worst_value_ulp",
-        magnitude(s.value_ulp.value), "p999_value_ulp", magnitude(s.p999_value_ulp()), "worst_partition_residual",
-        magnitude(s.partition_residual.value), "worst_reproduction_residual", magnitude(s.reproduction_residual.value));
+    put(j, MEMBERS(s, cases));
+    for (std::size_t f = 0; f < audit::figures().size(); ++f) {
+        const auto& [name, value] = audit::figures()[f];
+        if (f == audit::first_error)
+            put(j, "worst_error", magnitude(s.errors.worst.value), "by_error", s.errors.counts);
+        if (f < audit::first_error)
+            put(j, name, static_cast<std::uint64_t>(value(s)));
+        else
+            put(j, name, magnitude(value(s)));
+    }
     Json& confusion = j["confusion"];
     for (const Region exact : all_regions) {
         for (const Region claimed : all_regions) {

@@ -41,13 +41,9 @@ std::uint64_t part_in(const OthersJson& object, const std::string& key, std::uin
     return n;
 }
 
-/// A number >= 0, "inf", or null: nothing.
-std::optional<double> figure_or_null(const OthersJson& object, const std::string& key, const std::string& where) {
-    const OthersJson& j = member(object, key, where);
-    if (j.is_null()) return std::nullopt;
-    if (j == "inf") return HUGE_VAL;
-    if (!j.is_number() || !(j.get<double>() >= 0)) refuse(where + ", " + key, "a number >= 0 or null", found_json(j));
-    return j.get<double>();
+/// "inf" where an answer was not finite.
+std::optional<double> figure_or_inf(const OthersJson& object, const std::string& key, const std::string& where) {
+    return member(object, key, where) == "inf" ? HUGE_VAL : figure_in(object, key, where);
 }
 
 FlagsMatrix::Cell cell_from(const OthersJson& j, const std::string& where) {
@@ -102,8 +98,8 @@ SystemsLeague::Standing standing_from(const OthersJson& j, const std::string& wh
     s.outside_called_inside = part_in(t, "outside_called_inside", s.outside, total);
     if (!member(t, "owner_does_not_contain", total).is_null())
         s.wrong_owner = part_in(t, "owner_does_not_contain", s.points, total);
-    s.max_value_error = figure_or_null(t, "max_value_error", total);
-    s.ns = figure_or_null(j, "ns_a_random_point", s.name);
+    s.max_value_error = figure_or_inf(t, "max_value_error", total);
+    s.ns = figure_or_inf(j, "ns_a_random_point", s.name);
     s.failures = texts_in(j, "failures", s.name);
     if (j.contains("not_timed")) {
         for (const std::string& text : texts_in(j, "not_timed", s.name)) s.failures.push_back("not timed: " + text);

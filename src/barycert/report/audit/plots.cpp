@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/report/common/picture.hpp"
@@ -95,12 +96,9 @@ std::vector<const KernelResult*> candidates(const AuditReport& report, Simplex s
     return list;
 }
 
-bool is_variant(const KernelResult* k) {
-    return std::count(k->kernel.name.begin(), k->kernel.name.end(), '.') > 1;
-}
-
 std::vector<const KernelResult*> chosen(std::vector<const KernelResult*> list) {
-    if (list.size() > max_curves && !std::all_of(list.begin(), list.end(), is_variant)) std::erase_if(list, is_variant);
+    const auto variant = [](const KernelResult* k) { return audit::is_variant(k->kernel); };
+    if (list.size() > max_curves && !std::ranges::all_of(list, variant)) std::erase_if(list, variant);
     if (list.size() <= max_curves) return list;
     std::vector<const KernelResult*> some;
     for (std::size_t i = 0; i < max_curves; ++i) some.push_back(list[i * (list.size() - 1) / (max_curves - 1)]);

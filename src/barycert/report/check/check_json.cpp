@@ -10,6 +10,19 @@ namespace barycert {
 
 using namespace report;
 
+JSON_OF(BoundaryReport, facets, pieces, closed, manifold, cavities, tunnels)
+JSON_OF(VolumeReport, cells, boundary, equal)
+JSON_OF(ViolatedFacet, facet, covered)
+JSON_OF(MergedNode, node, into, moved)
+
+inline void to_json(Json& j, const DroppedCell& c) {
+    put(j, MEMBERS(c, cell), "why", defect_text(c.why).name);
+}
+
+inline void to_json(Json& j, const MergedField& f) {
+    put(j, MEMBERS(f, name, differ), "largest_difference", f.max_difference);
+}
+
 namespace {
 
 Json conditions_json(const CheckReport& r) {
@@ -79,16 +92,11 @@ Json measures_json(const CheckReport& r) {
 
 Json fix_json(const FixedMesh& fixed) {
     const FixReport& done = fixed.done;
-    const auto differing = [](const MergedField& f) {
-        return record(MEMBERS(f, name, differ), "largest_difference", f.max_difference);
-    };
-    return record(
-        MEMBERS(fixed, file), "merged",
-        list(done.merged, [](const MergedNode& m) { return record(MEMBERS(m, node, into, moved)); }), "dropped",
-        list(done.dropped, [](const DroppedCell& c) { return record("cell", c.cell, "why", defect_text(c.why).name); }),
-        MEMBERS(done, collapsed, turned, dropped_faces, differing_markers, differing_face_markers, changed_neighbours),
-        "fields", list(done.fields, differing), "cell_fields", list(done.cell_fields, differing), MEMBERS(fixed, notes),
-        "verdict", fixed.after.certificate.verdict(), "remaining", defects_json(fixed.after));
+    return record(MEMBERS(fixed, file),
+                  MEMBERS(done, merged, dropped, collapsed, turned, dropped_faces, differing_markers,
+                          differing_face_markers, changed_neighbours, fields, cell_fields),
+                  MEMBERS(fixed, notes), "verdict", fixed.after.certificate.verdict(), "remaining",
+                  defects_json(fixed.after));
 }
 
 /// "40 text: place; place; and 38 more. Remedy: remedy".
@@ -116,9 +124,8 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
         record("schema", check_schema, "mesh", name, MEMBERS(r, curved), "verdict", r.certificate.verdict(),
                MEMBERS(r, dimension, nodes, cells, notes, not_finite), "conditions", conditions_json(r), "findings",
                defects_json(r), "contacts", list(r.contacts, [&](const CellContact& c) { return contact_json(r, c); }),
-               "orientation", record(MEMBERS(r, positive, negative, degenerate)), MEMBERS(r, parts), "boundary",
-               record(MEMBERS(r.boundary, facets, pieces, closed, manifold, cavities, tunnels)), "volume",
-               record(MEMBERS(r.volume, cells, boundary, equal)), "measures", measures_json(r));
+               "orientation", record(MEMBERS(r, positive, negative, degenerate)), MEMBERS(r, parts, boundary, volume),
+               "measures", measures_json(r));
     if (const auto& d = r.delaunay) {
         const auto index = [](std::int64_t i) { return i < 0 ? Json() : Json(i); };
         put(j, "delaunay",
@@ -128,8 +135,7 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
     if (const auto& c = r.conformity)
         put(j, "conformity",
             record(MEMBERS(*c, facets, exact, rounded, violated, missing_vertices), "largest_distance", c->max_distance,
-                   MEMBERS(*c, relative_distance), "examples",
-                   list(c->examples, [](const ViolatedFacet& f) { return record(MEMBERS(f, facet, covered)); })));
+                   MEMBERS(*c, relative_distance, examples)));
     if (fixed != nullptr) put(j, "fix", fix_json(*fixed));
     put(j, "problem_bits", list(defect_texts, [](const DefectText& t) { return t.name; }), MEMBERS(r, seconds, threads),
         "environment", environment);
