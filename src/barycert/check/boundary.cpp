@@ -1,47 +1,13 @@
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <numeric>
 #include <span>
-#include <tuple>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"
+#include "barycert/index/ridges.hpp"
 
 namespace barycert::check {
 namespace {
-
-/// A ridge as one boundary facet has it: nodes first -> second (2D: a node, twice, at which the facet starts or ends).
-struct FacetRidge {
-    Mesh::Index low = 0, high = 0;
-    std::uint32_t facet = 0;
-    std::uint8_t at = 0;  ///< position in the facet's nodes where it starts
-    bool forward = true;  ///< from the lower node to the higher (2D: the facet starts there)
-
-    auto key() const { return std::tie(low, high); }
-};
-
-std::vector<FacetRidge> ridges_of(int d, const std::vector<BoundaryFacet>& facets) {
-    std::vector<FacetRidge> ridges;
-    ridges.reserve(facets.size() * static_cast<std::size_t>(d));
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-        const auto& n = facets[f].nodes;
-        const auto facet = static_cast<std::uint32_t>(f);
-        if (d == 2) {
-            ridges.push_back({n[0], n[0], facet, 0, true});
-            ridges.push_back({n[1], n[1], facet, 1, false});
-        } else {
-            for (std::uint8_t i = 0; i < 3; ++i) {
-                const Mesh::Index from = n[i], to = n[(i + 1U) % 3];
-                ridges.push_back({std::min(from, to), std::max(from, to), facet, i, from < to});
-            }
-        }
-    }
-    tbb::parallel_sort(ridges.begin(), ridges.end(), [](const FacetRidge& a, const FacetRidge& b) {
-        return std::tie(a.low, a.high, a.facet, a.at) < std::tie(b.low, b.high, b.facet, b.at);
-    });
-    return ridges;
-}
 
 class BoundaryChecker {
 public:
@@ -49,19 +15,16 @@ public:
         : c_(c), d_(c.mesh.dimension), facets_(c.boundary), piece_(facets_.size()), fans_(facets_.size() * 3) {}
 
     std::vector<std::uint32_t> run() {
-        const std::vector<FacetRidge> ridges = ridges_of(d_, facets_);
         std::size_t distinct = 0;
-        for (std::size_t i = 0; i < ridges.size(); ++distinct) {
-            std::size_t next = i + 1;
-            while (next < ridges.size() && ridges[next].key() == ridges[i].key()) ++next;
-            at_ridge({ridges.data() + i, next - i});
-            i = next;
-        }
+        for_each_ridge(ridges_of(d_, facets_), [&](std::span<const Ridge> same) {
+            at_ridge(same);
+            ++distinct;
+        });
         const std::size_t fans = d_ == 3 ? find_pinched_nodes() : distinct;
         summary_.facets = facets_.size();
         std::vector<std::uint32_t> pieces = gather_pieces();
         summary_.pieces = pieces.size();
-        const bool counted = summary_.closed && c_.defects.count(DefectKind::pinched_ridge) == 0;
+        const bool counted = summary_.closed && c_.defects[DefectKind::pinched_ridge].count == 0;
         if (counted) summary_.cavities = cavities_;
         // Vertices - edges + faces is 2 - 2 tunnels, summed over closed surfaces.
         if (d_ == 3 && counted) {
@@ -73,15 +36,17 @@ public:
     }
 
 private:
-    void at_ridge(std::span<const FacetRidge> same) {
+    void at_ridge(std::span<const Ridge> same) {
         std::size_t forward = 0;
         bool oriented = true;
-        for (const FacetRidge& r : same) {
-            forward += r.forward ? 1 : 0;
+        for (const Ridge& r : same) {
+            forward += is_forward(r) ? 1 : 0;
             oriented = oriented && facets_[r.facet].oriented;
         }
-        const DefectPlace place{.cells = {cell(same.front()), cell(same.back())},
-                                .nodes = {same[0].low, d_ == 2 ? -1 : same[0].high, -1}};
+        // In 2D the only node, in 3D the higher one, are the lower half of the number.
+        const auto low = static_cast<Mesh::Index>(same[0].nodes >> 32), high = static_cast<Mesh::Index>(same[0].nodes);
+        const DefectPlace place{.cells = {facets_[same.front().facet].cell, facets_[same.back().facet].cell},
+                                .nodes = {d_ == 2 ? high : low, d_ == 2 ? -1 : high, -1}};
         if (oriented ? 2 * forward != same.size() : same.size() % 2 != 0) {
             summary_.closed = false;
             c_.defects.add(DefectKind::open_boundary, place);
@@ -91,23 +56,22 @@ private:
             c_.defects.add(DefectKind::pinched_ridge, place);
         }
         if (same.size() == 2) piece_.join(same[0].facet, same[1].facet);
-        if (d_ == 3) {
-            for (std::size_t i = 1; i < same.size(); ++i) join_fans(same[i - 1], same[i]);
+        // Two facets at a ridge belong to one fan at each of its nodes.
+        for (std::size_t i = 1; d_ == 3 && i < same.size(); ++i) {
+            for (const bool high_end : {false, true})
+                fans_.join(corner(same[i - 1], high_end), corner(same[i], high_end));
         }
     }
 
-    Mesh::Index cell(const FacetRidge& r) const { return facets_[r.facet].cell; }
-
-    /// The corner of the facet, among all corners of all facets, at the lower or higher end of the ridge.
-    static std::size_t corner(const FacetRidge& r, bool high) {
-        const std::size_t end = r.forward == high ? 1 : 0;
-        return r.facet * std::size_t{3} + (r.at + end) % 3;
+    /// The facet has it from the lower node to the higher (2D: starts there).
+    bool is_forward(const Ridge& r) const {
+        const auto& nodes = facets_[r.facet].nodes;
+        return d_ == 2 ? r.other == 1 : nodes[(r.other + 1) % 3] < nodes[(r.other + 2) % 3];
     }
 
-    /// Two facets at a ridge belong to one fan at each of its nodes.
-    void join_fans(const FacetRidge& a, const FacetRidge& b) {
-        fans_.join(corner(a, false), corner(b, false));
-        fans_.join(corner(a, true), corner(b, true));
+    /// The corner of the facet, among all corners of all facets, at the lower or higher end of the ridge.
+    std::size_t corner(const Ridge& r, bool high) const {
+        return r.facet * std::size_t{3} + (r.other + (is_forward(r) == high ? 2 : 1)) % 3;
     }
 
     /// A node with more than one fan of boundary facets. Returns the number of all fans.

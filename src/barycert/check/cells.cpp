@@ -14,19 +14,12 @@ namespace {
 
 /// The sign of the volume as plain double arithmetic has it.
 int plain_sign(int d, const double* const* p) {
-    double e[3][3]{};
+    base::Vector3<double> e[3]{};
     for (int i = 0; i < d; ++i) {
-        for (int k = 0; k < d; ++k) e[i][k] = p[i + 1][k] - p[0][k];
+        for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) e[i][k] = p[i + 1][k] - p[0][k];
     }
-    const double det = d == 2 ? e[0][0] * e[1][1] - e[0][1] * e[1][0]
-                              : e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-                                    e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                                    e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    const double det = d == 2 ? e[0][0] * e[1][1] - e[0][1] * e[1][0] : base::dot(e[0], base::cross(e[1], e[2]));
     return det > 0 ? 1 : det < 0 ? -1 : 0;
-}
-
-bool same_place(int d, const double* a, const double* b) {
-    return std::equal(a, a + d, b);
 }
 
 /// On one line, exactly: no projection to an axis plane has an area.
@@ -43,7 +36,7 @@ bool collinear(int d, const double* a, const double* b, const double* c) {
 const char* kind(int d, const double* const* p) {
     const double* other = nullptr;  // a second place
     for (int i = 1; i <= d; ++i) {
-        if (!same_place(d, p[0], p[i])) other = p[i];
+        if (!std::equal(p[0], p[0] + d, p[i])) other = p[i];
     }
     if (other == nullptr) return "a point";
     for (int i = 1; i <= d; ++i) {
@@ -75,30 +68,27 @@ Real length(const Vector<Real>& x) {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-template <class Real>
-Shape rounded(Real radius_edge, Real aspect, Real min_angle, Real max_angle) {
-    const Real degrees = 180 / std::numbers::pi_v<Real>;
-    return {static_cast<double>(radius_edge), static_cast<double>(aspect), static_cast<double>(min_angle * degrees),
-            static_cast<double>(max_angle * degrees)};
-}
-
 /// The regular simplex has aspect 1: its longest edge is 2 sqrt(6) inradii, in 2D 2 sqrt(3).
 template <class Real>
-Real aspect(Real longest, Real inradius, int d) {
-    return longest / (2 * std::sqrt(static_cast<Real>(d == 2 ? 3 : 6)) * inradius);
+Shape shape_of_lengths(int d, Real radius, Real inradius, Real shortest, Real longest, Real min_angle, Real max_angle) {
+    const Real degrees = 180 / std::numbers::pi_v<Real>;
+    const Real aspect = longest / (2 * std::sqrt(static_cast<Real>(d == 2 ? 3 : 6)) * inradius);
+    return {static_cast<double>(radius / shortest), static_cast<double>(aspect),
+            static_cast<double>(min_angle * degrees), static_cast<double>(max_angle * degrees)};
 }
 
 template <class Real>
 Shape triangle(const Real* e, Real area) {
     const Vector<Real> sides[] = {{e[0], e[1], 0}, {e[2], e[3], 0}, {e[2] - e[0], e[3] - e[1], 0}};
     const Real l[] = {length(sides[0]), length(sides[1]), length(sides[2])};
+    const auto [shortest, longest] = std::minmax({l[0], l[1], l[2]});
     // Angles from twice the area and a scalar product: accurate near 0 and 180 degrees, where a cosine is not.
     const Real angles[] = {std::atan2(2 * area, dot(sides[0], sides[1])),
                            std::atan2(2 * area, -dot(sides[0], sides[2])),
                            std::atan2(2 * area, dot(sides[1], sides[2]))};
     const auto [min, max] = std::minmax({angles[0], angles[1], angles[2]});
     const Real radius = l[0] * l[1] * l[2] / (4 * area), inradius = 2 * area / (l[0] + l[1] + l[2]);
-    return rounded(radius / std::min({l[0], l[1], l[2]}), aspect(std::max({l[0], l[1], l[2]}), inradius, 2), min, max);
+    return shape_of_lengths(2, radius, inradius, shortest, longest, min, max);
 }
 
 template <class Real>
@@ -134,12 +124,12 @@ Shape tetrahedron(const Real* e, Real volume) {
         return std::atan2(6 * volume * std::sqrt(edge.squared), -product);
     };
     const Vector<Real> x = cross(b, c), y = cross(c, a), z = cross(a, b);
-    const Vector<Real> centre{aa * x[0] + bb * y[0] + cc * z[0], aa * x[1] + bb * y[1] + cc * z[1],
-                              aa * x[2] + bb * y[2] + cc * z[2]};
+    Vector<Real> centre;
+    for (std::size_t k = 0; k < 3; ++k) centre[k] = aa * x[k] + bb * y[k] + cc * z[k];
     const Real radius = length(centre) / (12 * volume);
     const Real inradius = 3 * volume / (area[0] + area[1] + area[2] + area[3]);
-    return rounded(radius / std::sqrt(shortest), aspect(std::sqrt(longest), inradius, 3),
-                   angle(*sharpest, sharpest_dot), angle(*flattest, flattest_dot));
+    return shape_of_lengths(3, radius, inradius, std::sqrt(shortest), std::sqrt(longest),
+                            angle(*sharpest, sharpest_dot), angle(*flattest, flattest_dot));
 }
 
 /// Corners 1, 2 (and 3) less corner 0, d numbers each; |volume|, 0 for a degenerate cell.

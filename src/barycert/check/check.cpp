@@ -15,10 +15,6 @@ using namespace check;
 
 namespace {
 
-bool all_set(const std::vector<std::uint8_t>& flags) {
-    return std::find(flags.begin(), flags.end(), 0) == flags.end();
-}
-
 /// Sets of usable cells connected over facets.
 std::uint64_t count_parts(const Checked& c) {
     base::DisjointSets parts(c.usable.size());
@@ -37,20 +33,17 @@ std::uint64_t count_parts(const Checked& c) {
 std::vector<CellContact> contacts(const Checked& c, std::vector<CellPair> overlapping, std::vector<CellPair> touching) {
     std::vector<CellPair> pairs;
     for (auto* list : {&overlapping, &touching}) {
-        for (CellPair& p : *list) std::sort(p.begin(), p.end());
-        std::sort(list->begin(), list->end());
+        for (CellPair& p : *list) std::ranges::sort(p);
+        std::ranges::sort(*list);
         for (const CellPair& p : *list) {
-            if (std::find(pairs.begin(), pairs.end(), p) == pairs.end() && pairs.size() < c.options.contacts)
-                pairs.push_back(p);
+            if (std::ranges::find(pairs, p) == pairs.end() && pairs.size() < c.options.contacts) pairs.push_back(p);
         }
     }
     std::vector<CellContact> all;
     for (const CellPair& p : pairs) {
-        const auto a = static_cast<std::size_t>(p[0]), b = static_cast<std::size_t>(p[1]);
-        if (c.orientation[a] == 0 || c.orientation[b] == 0) continue;
-        const int d = c.mesh.dimension;
-        const CommonPart common = common_part(d, corner_points(c.mesh, a), corner_points(c.mesh, b));
-        all.push_back({p, common.dimension == d, common.dimension, common.point});
+        if (std::ranges::all_of(p,
+                                [&](Mesh::Index cell) { return c.orientation[static_cast<std::size_t>(cell)] != 0; }))
+            all.push_back(common_part(c.mesh, p));
     }
     return all;
 }
@@ -112,10 +105,7 @@ private:
         check_cells(c);
         if (enough()) return;
         stage("facets");
-        // Where the proof fails, what is wrong is found by the slower search.
-        const bool proved =
-            report_.degenerate == 0 && all_set(c.finite) && all_set(c.usable) && find_facets_of_partition(c);
-        if (!proved) check_facets(c);
+        const bool proved = check_facets(c);
         if (enough()) return;
         // What one thread does alone is done beside the rest.
         tbb::task_group parts;
@@ -167,19 +157,18 @@ private:
 
     /// Where the cause of what breaks the certificate is known.
     void tell_remedies() {
-        const bool merge = defects_.is_cause(DefectKind::coincident_nodes) || defects_.is_cause(DefectKind::near_nodes);
-        const bool split = defects_.count(DefectKind::hanging_node) != 0 || defects_.is_cause(DefectKind::near_hanging);
+        const bool merge = defects_[DefectKind::coincident_nodes].cause || defects_[DefectKind::near_nodes].cause;
+        const bool split = defects_[DefectKind::hanging_node].count != 0 || defects_[DefectKind::near_hanging].cause;
         if (!merge && !split) return;
-        constexpr std::string_view
-            merging = "merge the coincident and near nodes below",
-            splitting = "split the cells at the hanging nodes below",
-            both = "merge coincident and near nodes, and split the cells at hanging nodes: both below";
-        defects_.remedy(DefectKind::boundary_contact, merge && split ? both : merge ? merging : splitting);
-        defects_.remedy(DefectKind::nested_part,
-                        "first merge nodes or split cells as said below; remove a part that "
-                        "lies inside another one even then");
-        defects_.remedy(DefectKind::overlapping_cells,
-                        "remove the other defects, those below included: this one follows from them");
+        constexpr std::string_view merging = "merge the coincident and near nodes below";
+        constexpr std::string_view splitting = "split the cells at the hanging nodes below";
+        constexpr std::string_view both =
+            "merge coincident and near nodes, and split the cells at hanging nodes: both below";
+        defects_[DefectKind::boundary_contact].better_remedy = merge && split ? both : merge ? merging : splitting;
+        defects_[DefectKind::nested_part].better_remedy =
+            "first merge nodes or split cells as said below; remove a part that lies inside another one even then";
+        defects_[DefectKind::overlapping_cells].better_remedy =
+            "remove the other defects, those below included: this one follows from them";
     }
 
     /// The verdict is known, and nothing else is asked for.

@@ -1,6 +1,11 @@
+#include <algorithm>
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <cstdlib>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
@@ -31,6 +36,17 @@ public:
             }
         }
     }
+    std::vector<Vector> corners(const Corners& cell) const {
+        std::vector<Vector> all;
+        for (std::size_t i = 0; i <= d_; ++i) all.push_back(at(cell[i]));
+        return all;
+    }
+    /// The unit of an axis as a power of two; any if all is zero.
+    int exponent(std::size_t k) const {
+        return units_[k].exponent == core::ScaledDouble::none ? 0 : units_[k].exponent - 1074;
+    }
+
+private:
     Vector at(const double* p) const {
         Vector v{};
         for (std::size_t k = 0; k < d_; ++k) {
@@ -42,12 +58,7 @@ public:
         }
         return v;
     }
-    /// The unit of an axis as a power of two; any if all is zero.
-    int exponent(std::size_t k) const {
-        return units_[k].exponent == core::ScaledDouble::none ? 0 : units_[k].exponent - 1074;
-    }
 
-private:
     std::size_t d_;
     std::array<core::Unit, 3> units_;
 };
@@ -58,39 +69,31 @@ struct Point {
     Number weight;
 };
 
-struct Cell {
-    std::vector<Vector> corners;
-
-    Cell(int d, const Corners& at, const Lattice& lattice) {
-        for (std::size_t i = 0; i <= static_cast<std::size_t>(d); ++i) corners.push_back(lattice.at(at[i]));
-    }
-
-    /// [i][j]: corner j of `other` over the side opposite to corner i: not negative for all i if it is in this cell.
-    std::vector<std::vector<Number>> over_sides(const Cell& other) const {
-        const std::size_t n = corners.size();
-        std::vector<std::vector<Number>> over(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            const Vector &a = corners[(i + 1) % n], &b = corners[(i + 2) % n];
-            const Vector up{0, 0, 1};
-            Vector normal = cross(minus(b, a), n == 3 ? up : minus(corners[(i + 3) % n], a));
-            if (dot(normal, minus(corners[i], a)) < 0) {
-                for (Number& x : normal) x = -x;
-            }
-            for (const Vector& p : other.corners) over[i].push_back(dot(normal, minus(p, a)));
+/// [i][j]: corner j of `other` over the side of the cell opposite to corner i: not negative for all i if it is in the
+/// cell.
+std::vector<std::vector<Number>> over_sides(const std::vector<Vector>& cell, const std::vector<Vector>& other) {
+    const std::size_t n = cell.size();
+    std::vector<std::vector<Number>> over(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vector &a = cell[(i + 1) % n], &b = cell[(i + 2) % n];
+        const Vector up{0, 0, 1};
+        Vector normal = cross(minus(b, a), n == 3 ? up : minus(cell[(i + 3) % n], a));
+        if (dot(normal, minus(cell[i], a)) < 0) {
+            for (Number& x : normal) x = -x;
         }
-        return over;
+        for (const Vector& p : other) over[i].push_back(dot(normal, minus(p, a)));
     }
-};
+    return over;
+}
 
 /// Corners of a in b, and where edges of a pass through sides of b into or out of b. On an edge from p to q that passes
 /// through a side at (q u - p v) / (u - v), u and v the heights of p and q over it, any height is the same mean of
 /// those at p and q.
-void add_extreme_points(const Cell& a, const Cell& b, std::vector<Point>& points) {
-    const auto over = b.over_sides(a);
-    const std::size_t n = a.corners.size();
+void add_extreme_points(const std::vector<Vector>& a, const std::vector<Vector>& b, std::vector<Point>& points) {
+    const auto over = over_sides(b, a);
+    const std::size_t n = a.size();
     for (std::size_t i = 0; i < n; ++i) {
-        if (std::all_of(over.begin(), over.end(), [&](const auto& side) { return side[i] >= 0; }))
-            points.push_back({a.corners[i], 1});
+        if (std::ranges::all_of(over, [&](const auto& side) { return side[i] >= 0; })) points.push_back({a[i], 1});
         for (std::size_t j = 0; j < i; ++j) {
             for (std::size_t s = 0; s < n; ++s) {
                 const Number &u = over[s][i], &v = over[s][j];
@@ -103,7 +106,7 @@ void add_extreme_points(const Cell& a, const Cell& b, std::vector<Point>& points
                 for (std::size_t t = 0; t < n && inside; ++t) inside = t == s || mean(over[t][i], over[t][j]) >= 0;
                 if (!inside) continue;
                 Point x{{}, positive ? u - v : v - u};
-                for (std::size_t k = 0; k < 3; ++k) x.x[k] = mean(a.corners[i][k], a.corners[j][k]);
+                for (std::size_t k = 0; k < 3; ++k) x.x[k] = mean(a[i][k], a[j][k]);
                 points.push_back(std::move(x));
             }
         }
@@ -126,8 +129,8 @@ std::vector<Point> spanning(int d, const std::vector<Point>& points) {
             if (factor == 0) continue;
             for (std::size_t k = 0; k < 4; ++k) v[k] = v[k] * row.at[row.pivot] - row.at[k] * factor;
         }
-        const auto pivot = static_cast<std::size_t>(
-            std::find_if(v.begin(), v.end(), [](const Number& x) { return x != 0; }) - v.begin());
+        const auto pivot =
+            static_cast<std::size_t>(std::ranges::find_if(v, [](const Number& x) { return x != 0; }) - v.begin());
         if (pivot == 4) continue;
         rows.push_back({v, pivot});
         chosen.push_back(p);
@@ -163,21 +166,16 @@ public:
     /// Bits of the longer of both.
     std::size_t size() const { return std::max(numerator_ == 0 ? 0 : msb(abs(numerator_)) + 1, msb(denominator_) + 1); }
 
-    std::string text() const {
-        return denominator_ == 1 ? numerator_.str() : numerator_.str() + "/" + denominator_.str();
-    }
+    std::string text() const { return numerator_.str() + (denominator_ == 1 ? "" : "/" + denominator_.str()); }
 
     double rounded() const {
         if (numerator_ == 0) return 0;
         // A quotient of 63 or 64 bits, and one that tells whether anything was cut off.
         const Number magnitude = abs(numerator_);
         const int shift = 63 + static_cast<int>(msb(denominator_)) - static_cast<int>(msb(magnitude));
-        Number quotient, rest;
-        if (shift >= 0) {
-            divide_qr(Number(magnitude << static_cast<unsigned>(shift)), denominator_, quotient, rest);
-        } else {
-            divide_qr(magnitude, Number(denominator_ << static_cast<unsigned>(-shift)), quotient, rest);
-        }
+        Number dividend = magnitude, divisor = denominator_, quotient, rest;
+        (shift >= 0 ? dividend : divisor) <<= static_cast<unsigned>(std::abs(shift));
+        divide_qr(dividend, divisor, quotient, rest);
         const std::array<std::uint64_t, 2> limbs{
             static_cast<std::uint64_t>(quotient << 1 & ~std::uint64_t{0}) | (rest != 0 ? 1U : 0U),
             static_cast<std::uint64_t>(quotient >> 63)};
@@ -200,25 +198,26 @@ Fraction dyadic(double x) {
 bool lies_in(int d, const Corners& cell, const double* point, bool inside) {
     const Simplex s = d == 2 ? Simplex::triangle : Simplex::tetrahedron;
     double vertices[12];
-    for (int i = 0; i <= d; ++i) {
-        for (int k = 0; k < d; ++k) vertices[i * d + k] = cell[static_cast<std::size_t>(i)][k];
-    }
+    for (int i = 0; i <= d; ++i) std::copy_n(cell[static_cast<std::size_t>(i)], d, vertices + i * d);
     const auto signs = checked_weight_signs(s, vertices, point);
     return signs && (inside ? signs->feature(s) == Feature::interior : signs->contains());
 }
 
 }  // namespace
 
-CommonPart common_part(int d, const Corners& a, const Corners& b) {
+CellContact common_part(const Mesh& mesh, const CellPair& cells) {
+    const int d = mesh.dimension;
+    const Corners a = corner_points(mesh, static_cast<std::size_t>(cells[0]));
+    const Corners b = corner_points(mesh, static_cast<std::size_t>(cells[1]));
     const Lattice lattice(d, a, b);
-    const Cell p(d, a, lattice), q(d, b, lattice);
+    const std::vector<Vector> p = lattice.corners(a), q = lattice.corners(b);
     std::vector<Point> all;
     add_extreme_points(p, q, all);
     add_extreme_points(q, p, all);
     const std::vector<Point> points = spanning(d, all);
-    CommonPart common;
-    common.dimension = static_cast<int>(points.size()) - 1;
-    if (points.empty()) return common;
+    const int dimension = static_cast<int>(points.size()) - 1;
+    CellContact contact{cells, dimension == d, dimension, {}};
+    if (points.empty()) return contact;
     // What the two have in common is the convex hull of all points: the mean of some that span it is in its relative
     // interior. Over the product of their weights, each counts with the product of the others'.
     std::vector<Number> factors(points.size(), 1);
@@ -229,24 +228,24 @@ CommonPart common_part(int d, const Corners& a, const Corners& b) {
             if (i != j) factors[i] *= points[j].weight;
         }
     }
-    CommonPoint& w = common.point;
+    CommonPoint& common = contact.common;
     bool finite = true, short_enough = true;
     std::vector<Fraction> means;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
         Number sum = 0;
         for (std::size_t i = 0; i < points.size(); ++i) sum += points[i].x[k] * factors[i];
         const Fraction& mean = means.emplace_back(sum, denominator, lattice.exponent(k));
-        w.point[k] = mean.rounded();
-        finite = finite && std::isfinite(w.point[k]);
+        common.point[k] = mean.rounded();
+        finite = finite && std::isfinite(common.point[k]);
         short_enough = short_enough && mean.size() <= max_bits;
     }
-    const bool inside = common.dimension == d;
-    w.exact = finite && lies_in(d, a, w.point.data(), inside) && lies_in(d, b, w.point.data(), inside);
+    common.exact = finite && lies_in(d, a, common.point.data(), contact.overlap) &&
+                   lies_in(d, b, common.point.data(), contact.overlap);
     for (std::size_t k = 0; k < means.size(); ++k) {
         // Where the doubles do as well, nobody wants a number of thousands of digits.
-        w.fraction[k] = !short_enough && w.exact ? dyadic(w.point[k]).text() : means[k].text();
+        common.fraction[k] = !short_enough && common.exact ? dyadic(common.point[k]).text() : means[k].text();
     }
-    return common;
+    return contact;
 }
 
 }  // namespace barycert::check

@@ -4,17 +4,20 @@
 // close to its plane and their centroid in its region. It is respected
 //   exactly        if all these nodes lie in its plane, no side of these faces crosses a side of its polygons, the
 //                  polygons' vertices are nodes, and the faces add up to its area, all exactly. In a certified mesh
-//                  then each of the faces lies in the region, for a side of a polygon that entered it would have to
-//                  end in a node inside it or cross one of its sides; faces do not overlap; so equal areas mean equal
-//                  sets;
+//                  then each of the faces lies in the region, for a side of a polygon that entered it would have to end
+//                  in a node inside it or cross one of its sides; faces do not overlap; so equal areas mean equal sets;
 //   by rounding    if that fails by little: a mesher that puts new nodes on slanted facets has to round them. Nodes
 //                  within 2^-40 of the PLC's extent from the plane, crossings within that of an end, areas that agree
 //                  to 2^-30. How far the farthest node is off the plane is measured;
 // else it is violated. The share of it that is covered is then the area of what faces close to its plane, wherever
 // their centroids lie, have in common with it. Facets without area (single segments) are left out.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "barycert/check/plc_facet.hpp"
 #include "barycert/environment.hpp"
@@ -32,15 +35,13 @@ struct Candidate {
 
 /// Half of the largest extent of the PLC: a difference may overflow.
 double half_extent_of(const Plc& plc) {
-    double extent = 0;
-    for (std::size_t k = 0; k < 3 && plc.points.size() >= 3; ++k) {
-        double low = plc.points[k], high = low;
-        for (std::size_t i = k; i < plc.points.size(); i += 3) {
-            low = std::min(low, plc.points[i]);
-            high = std::max(high, plc.points[i]);
-        }
-        extent = std::max(extent, high / 2 - low / 2);
+    Box box = empty_box;
+    for (std::size_t i = 0; i + 3 <= plc.points.size(); i += 3) {
+        const std::array<double, 3> at{plc.points[i], plc.points[i + 1], plc.points[i + 2]};
+        box.add({at, at});
     }
+    double extent = 0;
+    for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, box.high[k] / 2 - box.low[k] / 2);
     return extent;
 }
 
@@ -76,9 +77,7 @@ private:
     static std::vector<double> project(const PlcRegion& region, std::span<const Candidate> faces) {
         const auto [x, y] = region.axes();
         std::vector<double> all;
-        for (const PlcRegion::Ring& ring : region.rings()) {
-            for (const double* p : ring.points) all.insert(all.end(), {p[x], p[y]});
-        }
+        for (const double* p : region.vertices()) all.insert(all.end(), {p[x], p[y]});
         for (const Candidate& face : faces) {
             for (const double* p : face.nodes) all.insert(all.end(), {p[x], p[y]});
         }
@@ -103,13 +102,12 @@ public:
         missing_ = find_missing();
         const std::vector<Candidate> candidates = find_candidates();
         ConformityReport out;
-        auto at = candidates.begin();
         for (std::size_t i = 0; i < regions_.size(); ++i) {
-            const auto beside =
-                std::find_if(at, candidates.end(), [&](const Candidate& c) { return c.facet != i || c.beside; });
-            const auto end = std::find_if(beside, candidates.end(), [&](const Candidate& c) { return c.facet != i; });
-            if (regions_[i].proper()) judge(i, {at, beside}, {beside, end}, out);
-            at = end;
+            const auto faces = [&](bool beside) {
+                return std::ranges::equal_range(candidates, std::pair(static_cast<std::uint32_t>(i), beside), {},
+                                                order);
+            };
+            if (regions_[i].proper()) judge(i, faces(false), faces(true), out);
         }
         out.max_distance = std::scalbn(out.relative_distance, exponent_);
         if (half_extent_ > 0) out.relative_distance /= std::scalbn(half_extent_, 1 - exponent_);
@@ -146,11 +144,11 @@ private:
                 });
             },
             [&](const std::vector<Candidate>& part) { all.insert(all.end(), part.begin(), part.end()); });
-        std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
-            return std::tie(a.facet, a.beside) < std::tie(b.facet, b.beside);
-        });
+        std::ranges::stable_sort(all, {}, order);
         return all;
     }
+
+    static std::pair<std::uint32_t, bool> order(const Candidate& c) { return {c.facet, c.beside}; }
 
     std::array<const double*, 3> nodes_of(const mesh::CellFacet& f) const {
         std::array<const double*, 3> nodes{};
@@ -162,7 +160,7 @@ private:
     }
 
     static bool close(const PlcRegion& region, const std::array<const double*, 3>& nodes) {
-        return std::all_of(nodes.begin(), nodes.end(), [&](const double* p) { return region.distance(p) <= slack; });
+        return std::ranges::all_of(nodes, [&](const double* p) { return region.distance(p) <= slack; });
     }
 
     static PlcRegion::PlcPosition centroid(const PlcRegion& region, const std::array<const double*, 3>& nodes) {
@@ -181,19 +179,18 @@ private:
         if (areas.none()) return;
         ++out.facets;
         bool in_plane = true;
-        double farthest = 0;
-        auto crossing = PlcRegion::Crossing::none;
+        double farthest = 0, crossing = -1;
         for (const Candidate& face : faces) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const double* const p = face.nodes[k];
                 in_plane = in_plane && region.in_plane(p);
                 farthest = std::max(farthest, region.distance(p));
-                crossing = std::max(crossing, region.crossing(p, face.nodes[(k + 1) % 3], slack));
+                crossing = std::max(crossing, region.crossing(p, face.nodes[(k + 1) % 3]));
             }
         }
-        if (in_plane && crossing == PlcRegion::Crossing::none && areas.equal() && !misses_vertex(region)) {
+        if (in_plane && crossing < 0 && areas.equal() && !misses_vertex(region)) {
             ++out.exact;
-        } else if (crossing != PlcRegion::Crossing::deep && std::fabs(areas.share() - 1) <= 0x1p-30) {
+        } else if (crossing <= slack && std::fabs(areas.share() - 1) <= 0x1p-30) {
             ++out.rounded;
             out.relative_distance = std::max(out.relative_distance, farthest);
         } else {
@@ -211,13 +208,9 @@ private:
     static Point point(const double* p) { return {p[0], p[1], p[2]}; }
 
     bool misses_vertex(const PlcRegion& region) const {
-        if (missing_.empty()) return false;
-        for (const PlcRegion::Ring& ring : region.rings()) {
-            for (const double* p : ring.points) {
-                if (std::binary_search(missing_.begin(), missing_.end(), point(p))) return true;
-            }
-        }
-        return false;
+        return !missing_.empty() && std::ranges::any_of(region.vertices(), [&](const double* p) {
+            return std::ranges::binary_search(missing_, point(p));
+        });
     }
 
     /// Vertices of polygons that are no node, bit for bit (0 and -0 are the same); sorted.
@@ -227,15 +220,13 @@ private:
             if (c_.finite[i] != 0) nodes.push_back(point(&c_.mesh.points[3 * i]));
         }
         for (const PlcRegion& region : regions_) {
-            for (const PlcRegion::Ring& ring : region.rings()) {
-                for (const double* p : ring.points) vertices.push_back(point(p));
-            }
+            for (const double* p : region.vertices()) vertices.push_back(point(p));
         }
         for (auto* list : {&nodes, &vertices}) {
-            std::sort(list->begin(), list->end());
+            std::ranges::sort(*list);
             list->erase(std::unique(list->begin(), list->end()), list->end());
         }
-        std::set_difference(vertices.begin(), vertices.end(), nodes.begin(), nodes.end(), std::back_inserter(missing));
+        std::ranges::set_difference(vertices, nodes, std::back_inserter(missing));
         return missing;
     }
 

@@ -24,7 +24,7 @@ public:
                 for (std::size_t j = i + 1; j < d_; ++j) add_edge(f.nodes[i], f.nodes[j]);
             }
         }
-        std::sort(nodes.begin(), nodes.end());
+        std::ranges::sort(nodes);
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
         for (const auto& [first, second] : coincident_nodes(c.mesh, nodes)) {
             double& kept = shortest_[index(first)];
@@ -39,7 +39,6 @@ public:
     /// The near ones, of no common cell: merging would make it collapse.
     Found<NearPair> find_near() {
         std::vector<double> radius;
-        radius.reserve(places_.size());
         for (const Mesh::Index node : places_) radius.push_back(reach(node, c_.options.near));
         Found<NearPair> found;
         std::vector<NearPair>& pairs = found.list;
@@ -82,7 +81,7 @@ public:
 
     /// The node is to be merged with one of the face.
     bool nearly_coincides(const HangingNode& h) {
-        return std::any_of(h.face.begin(), h.face.end(), [&](Mesh::Index n) { return n >= 0 && of(n) == of(h.node); });
+        return std::ranges::any_of(h.face, [&](Mesh::Index n) { return n >= 0 && of(n) == of(h.node); });
     }
 
     void merge(Mesh::Index a, Mesh::Index b) {
@@ -102,10 +101,10 @@ public:
                 some = some || merged_[index(key[i])] != 0;
                 key[i] = of(key[i]);
             }
-            std::sort(key.begin(), key.end());
-            if (some && std::adjacent_find(key.begin(), key.end()) == key.end()) keys.emplace_back(key, f);
+            std::ranges::sort(key);
+            if (some && std::ranges::adjacent_find(key) == key.end()) keys.emplace_back(key, f);
         }
-        std::sort(keys.begin(), keys.end());
+        std::ranges::sort(keys);
         for (std::size_t i = 1; i < keys.size(); ++i) {
             if (keys[i - 1].first == keys[i].first) found(c_.boundary[keys[i - 1].second], c_.boundary[keys[i].second]);
         }
@@ -145,7 +144,7 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
             cracks.merge(p.first, p.second);
         }
         if (!found.complete) {
-            for (const DefectKind kind : {DefectKind::near_nodes, DefectKind::crack}) defects.add_at_least(kind);
+            for (const DefectKind kind : {DefectKind::near_nodes, DefectKind::crack}) defects[kind].at_least = true;
         }
     }
     std::vector<HangingNode> hanging = touching.hanging, nearly;
@@ -158,16 +157,15 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
                                   .relative = h.distance / cracks.shortest_edge(h.node, h.node)});
     };
     for (const HangingNode& h : hanging) tell(h, DefectKind::hanging_node);
-    if (!touching.complete) defects.add_at_least(DefectKind::hanging_node);
+    if (!touching.complete) defects[DefectKind::hanging_node].at_least = true;
     if (c.options.near > 0) {
         auto found = nearly_hanging(c, cracks.reach_of_faces(), 10 * pair_limit);
         nearly = std::move(found.list);
         std::erase_if(nearly, [&](const HangingNode& h) {
-            return cracks.nearly_coincides(h) ||
-                   std::any_of(hanging.begin(), hanging.end(), [&](const HangingNode& g) { return g.node == h.node; });
+            return cracks.nearly_coincides(h) || std::ranges::count(hanging, h.node, &HangingNode::node) != 0;
         });
         for (const HangingNode& h : nearly) tell(h, DefectKind::near_hanging);
-        if (!found.complete) defects.add_at_least(DefectKind::near_hanging);
+        if (!found.complete) defects[DefectKind::near_hanging].at_least = true;
     }
     // Of cells that meet where they must not, one with a node and one with its twin, or with what it hangs on.
     std::vector<std::uint8_t> twin(mesh.point_count(), 0);
@@ -177,21 +175,24 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
             for (const Mesh::Index b : others) {
                 if (a == b || cracks.of(a) != cracks.of(b)) continue;
                 twin[static_cast<std::size_t>(a)] = twin[static_cast<std::size_t>(b)] = 1;
-                if (node_distance(mesh, a, b) != 0) defects.cause(DefectKind::near_nodes);
+                if (node_distance(mesh, a, b) != 0) defects[DefectKind::near_nodes].cause = true;
             }
-            const auto has = [&](Mesh::Index n) { return n < 0 || std::count(others.begin(), others.end(), n) != 0; };
+            const auto has = [&](Mesh::Index n) { return n < 0 || std::ranges::count(others, n) != 0; };
             auto h = std::ranges::lower_bound(nearly, a, {}, &HangingNode::node);
             for (; h != nearly.end() && h->node == a; ++h) {
-                if (std::all_of(h->face.begin(), h->face.end(), has)) defects.cause(DefectKind::near_hanging);
+                if (std::ranges::all_of(h->face, has)) defects[DefectKind::near_hanging].cause = true;
             }
         }
     };
-    for (const CellPair& p : meeting) find_cause(p[0], p[1]), find_cause(p[1], p[0]);
+    for (const CellPair& p : meeting) {
+        find_cause(p[0], p[1]);
+        find_cause(p[1], p[0]);
+    }
     const auto is_twin = [&](Mesh::Index n) { return n >= 0 && twin[static_cast<std::size_t>(n)] != 0; };
     cracks.for_each_crack([&](const BoundaryFacet& f, const BoundaryFacet& g) {
         defects.add_marked(DefectKind::crack, {.cells = {f.cell, g.cell}, .nodes = f.nodes, .other_nodes = g.nodes});
         if (std::ranges::any_of(f.nodes, is_twin) || std::ranges::any_of(g.nodes, is_twin))
-            defects.cause(DefectKind::crack);
+            defects[DefectKind::crack].cause = true;
     });
 }
 

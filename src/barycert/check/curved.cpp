@@ -5,8 +5,10 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "barycert/check.hpp"
@@ -30,16 +32,12 @@ LastPlace last_place(const std::vector<double>& coordinates) {
         if (x == 0 || !std::isfinite(x)) continue;
         single = single && static_cast<double>(static_cast<float>(x)) == x;
         if (decimal) {
-            std::array<char, 32> text{};  // d.ddde-xx
-            const char* const end =
-                std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific).ptr;
-            const char* const e = std::find(static_cast<const char*>(text.data()), end, 'e');
-            const auto count = static_cast<int>(
-                std::count_if(static_cast<const char*>(text.data()), e, [](char c) { return c >= '0' && c <= '9'; }));
-            int exponent = 0;
-            std::from_chars(e + (e[1] == '+' ? 2 : 1), end, exponent);
+            std::array<char, 32> text{};  // d.ddde-xx, and zero bytes
+            std::to_chars(text.data(), text.data() + text.size(), std::fabs(x), std::chars_format::scientific);
+            const auto e = std::ranges::find(text, 'e');
+            const int count = std::max(1, static_cast<int>(e - text.begin()) - 1);
             digits = std::max(digits, count);
-            lowest = std::min(lowest, exponent - count + 1);
+            lowest = std::min(lowest, std::atoi(&*e + 1) - count + 1);
             decimal = digits <= 15;
         }
         if (!single && !decimal) return {};
@@ -57,12 +55,9 @@ constexpr double max_rounded_part = 1e-3;  ///< of an edge: units beyond it woul
 /// motion there and back (4e-13).
 constexpr double computed_part = 1e-10;
 
-/// Deviations of the nodes of one cell, 0 where there is none.
-struct Bend {
-    double curved = 0, rounded = 0;
-};
-
-void look_at_edge(const double* a, const double* b, const double* m, std::size_t d, const LastPlace& last, Bend& bend) {
+/// Adds the deviation of one node to those of its cell.
+void look_at_edge(const double* a, const double* b, const double* m, std::size_t d, const LastPlace& last,
+                  CurvedCells& bend) {
     double largest = 0;
     for (std::size_t k = 0; k < d; ++k) largest = std::max({largest, std::fabs(a[k]), std::fabs(b[k])});
     const double scale = largest > 0x1p1000 ? 0.25 : 1;  // no sum below overflows, and no subnormal number is lost
@@ -83,51 +78,50 @@ void look_at_edge(const double* a, const double* b, const double* m, std::size_t
     const bool written =
         most <= 2 * std::max(last.relative * largest, last.absolute * scale) && deviation <= max_rounded_part;
     const bool rounded = written || deviation <= computed_part;
-    double& most_so_far = rounded ? bend.rounded : bend.curved;
+    double& most_so_far = rounded ? bend.max_rounded : bend.max_deviation;
     most_so_far = std::max(most_so_far, deviation);
+}
+
+CurvedCells sum(const CurvedCells& x, const CurvedCells& y) {
+    return {x.cells + y.cells, std::max(x.max_deviation, y.max_deviation), x.rounded_cells + y.rounded_cells,
+            std::max(x.max_rounded, y.max_rounded)};
 }
 
 CurvedCells measure(const Mesh& mesh, const LastPlace& last, std::vector<std::uint8_t>* each) {
     const auto edges = mesh::edges_of(mesh.dimension);
     const std::size_t d = static_cast<std::size_t>(mesh.dimension), nodes = mesh.point_count();
+    const auto point = [&](Mesh::Index node) -> const double* {
+        const auto at = static_cast<std::size_t>(node);
+        return node < 0 || at >= nodes ? nullptr : &mesh.points[d * at];
+    };
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 12), CurvedCells{},
         [&](const tbb::blocked_range<std::size_t>& range, CurvedCells found) {
             const ExactEnvironment of_task;
             for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
-                const auto point = [&](Mesh::Index node) -> const double* {
-                    const auto at = static_cast<std::size_t>(node);
-                    return node < 0 || at >= nodes ? nullptr : &mesh.points[d * at];
-                };
-                Bend bend;
+                CurvedCells bend;
                 for (std::size_t e = 0; e < edges.size(); ++e) {
                     const double* const a = point(mesh.cells[(d + 1) * cell + edges[e][0]]);
                     const double* const b = point(mesh.cells[(d + 1) * cell + edges[e][1]]);
                     const double* const m = point(mesh.mid_nodes[edges.size() * cell + e]);
                     if (a != nullptr && b != nullptr && m != nullptr) look_at_edge(a, b, m, d, last, bend);
                 }
-                if (each != nullptr && bend.curved > 0) (*each)[cell] = 1;
-                found.cells += bend.curved > 0 ? 1 : 0;
-                found.rounded_cells += bend.rounded > 0 && !(bend.curved > 0) ? 1 : 0;
-                found.max_deviation = std::max(found.max_deviation, bend.curved);
-                found.max_rounded = std::max(found.max_rounded, bend.rounded);
+                bend.cells = bend.max_deviation > 0 ? 1 : 0;
+                bend.rounded_cells = bend.max_rounded > 0 && bend.cells == 0 ? 1 : 0;
+                if (each != nullptr && bend.cells != 0) (*each)[cell] = 1;
+                found = sum(found, bend);
             }
             return found;
         },
-        [](const CurvedCells& x, const CurvedCells& y) {
-            return CurvedCells{x.cells + y.cells, std::max(x.max_deviation, y.max_deviation),
-                               x.rounded_cells + y.rounded_cells, std::max(x.max_rounded, y.max_rounded)};
-        });
+        sum);
 }
 
 /// What CurvedCells says, without what became of it.
 std::string deviations(const CurvedCells& c) {
     const bool curved = c.cells != 0;
     const std::uint64_t cells = curved ? c.cells : c.rounded_cells;
-    const std::string which = fmt::format("{} cell{}", cells,
-                                          !curved      ? cells == 1 ? "" : "s"
-                                          : cells == 1 ? " is curved"
-                                                       : "s are curved");
+    const char* const verb = !curved ? "" : cells == 1 ? " is curved" : " are curved";
+    const std::string which = fmt::format("{} cell{}{}", cells, cells == 1 ? "" : "s", verb);
     if (curved && std::isinf(c.max_deviation)) return which + ": mid-edge nodes lie off edges of length 0";
     return fmt::format("{}: mid-edge nodes lie up to {:.2g} of the edge off its middle{}", which,
                        curved ? c.max_deviation : c.max_rounded, curved ? "" : ", by rounding");

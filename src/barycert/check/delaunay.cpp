@@ -41,17 +41,28 @@ double depth(int d, const double* const* p, const double* apex) {
     return std::isfinite(value) ? std::max(value, 0.0) : 0;
 }
 
+/// Of equal depths the first counts.
+void add(const DelaunayReport& part, DelaunayReport& all) {
+    all.facets += part.facets;
+    all.violations += part.violations;
+    all.cospherical += part.cospherical;
+    if (part.worst_cell < 0 || (all.worst_cell >= 0 && part.worst_depth <= all.worst_depth)) return;
+    all.worst_depth = part.worst_depth;
+    all.worst_cell = part.worst_cell;
+    all.worst_node = part.worst_node;
+}
+
 struct FacetTester {
-    const Mesh& mesh;
-    const std::vector<Mesh::Index>& neighbours;
-    const std::vector<std::int8_t>& orientation;
+    const Checked& c;
+    const Mesh& mesh = c.mesh;
+    const std::vector<std::int8_t>& orientation = c.orientation;
 
     /// The facets of `cell` to cells of higher number.
     void operator()(std::size_t cell, DelaunayReport& out) const {
         if (orientation[cell] == 0) return;
         const auto p = corner_points(mesh, cell);
         for (std::size_t i = 0; i < mesh.corners(); ++i) {
-            const Mesh::Index other = neighbours[cell * mesh.corners() + i];
+            const Mesh::Index other = c.neighbours[cell * mesh.corners() + i];
             if (other <= static_cast<Mesh::Index>(cell) || orientation[static_cast<std::size_t>(other)] == 0) continue;
             ++out.facets;
             const auto there = static_cast<std::size_t>(other);
@@ -87,18 +98,14 @@ struct FacetTester {
 
     void note_depth(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node,
                     DelaunayReport& out) const {
-        const double in = depth(mesh.dimension, p.data(), node_at(mesh, node));
-        if (out.worst_cell >= 0 && in <= out.worst_depth) return;
-        out.worst_depth = in;
-        out.worst_cell = static_cast<Mesh::Index>(cell);
-        out.worst_node = node;
+        add({0, 0, 0, depth(mesh.dimension, p.data(), node_at(mesh, node)), static_cast<Mesh::Index>(cell), node}, out);
     }
 
     /// The node of `cell` that is opposite to its facet to `to`.
     Mesh::Index apex(std::size_t cell, Mesh::Index to) const {
         const std::size_t n = mesh.corners();
         std::size_t i = 0;
-        while (i + 1 < n && neighbours[cell * n + i] != to) ++i;
+        while (i + 1 < n && c.neighbours[cell * n + i] != to) ++i;
         return mesh.cells[cell * n + i];
     }
 };
@@ -107,21 +114,13 @@ struct FacetTester {
 
 DelaunayReport check_delaunay(const Checked& c) {
     DelaunayReport all;
-    const FacetTester test{c.mesh, c.neighbours, c.orientation};
+    const FacetTester test{c};
     in_blocks(
         c.mesh.cell_count(), 8192, [] { return DelaunayReport(); },
         [&](std::size_t first, std::size_t last, DelaunayReport& part) {
             for (std::size_t cell = first; cell < last; ++cell) test(cell, part);
         },
-        [&](const DelaunayReport& part) {
-            all.facets += part.facets;
-            all.violations += part.violations;
-            all.cospherical += part.cospherical;
-            if (part.worst_cell < 0 || (all.worst_cell >= 0 && part.worst_depth <= all.worst_depth)) return;
-            all.worst_depth = part.worst_depth;
-            all.worst_cell = part.worst_cell;
-            all.worst_node = part.worst_node;
-        });
+        [&](const DelaunayReport& part) { add(part, all); });
     return all;
 }
 

@@ -12,37 +12,24 @@ namespace {
 
 namespace formulas = core::HWY_NAMESPACE;
 
-template <class T>
-Integer determinant(const T (&x)[2], const T (&y)[2]) {
-    return core::as_integer(formulas::cross(x, y));
-}
-
-template <class T>
-Integer determinant(const T (&x)[3], const T (&y)[3], const T (&z)[3]) {
-    formulas::Product<T> minors[3];
-    formulas::cross(y, z, minors);
-    return core::as_integer(formulas::dot(x, minors));
-}
-
-/// Coordinates of a point as integers.
-template <int d, class T>
-void load(const core::Unit (&units)[3], const double* p, T (&out)[d]) {
-    for (int k = 0; k < d; ++k) out[k] = units[k].template multiple<T>(core::scaled(p[k]));
-}
-
 /// Of the rows p[0], ..., p[d - 1], less `origin` if there is one.
 template <int d, class T>
 Integer determinant_of(const core::Unit (&units)[3], const double* const* p, const double* origin) {
-    T rows[d][d], less[d];
-    if (origin != nullptr) load(units, origin, less);
-    for (int i = 0; i < d; ++i) {
-        load(units, p[i], rows[i]);
-        for (int k = 0; k < d && origin != nullptr; ++k) rows[i][k] = rows[i][k] - less[k];
+    T rows[d][d];
+    for (int k = 0; k < d; ++k) {
+        const auto integer = [&](double x) { return units[k].template multiple<T>(core::scaled(x)); };
+        for (int i = 0; i < d; ++i) rows[i][k] = integer(p[i][k]);
+        if (origin == nullptr) continue;
+        const T less = integer(origin[k]);
+        for (int i = 0; i < d; ++i) rows[i][k] = rows[i][k] - less;
     }
-    if constexpr (d == 2)
-        return determinant(rows[0], rows[1]);
-    else
-        return determinant(rows[0], rows[1], rows[2]);
+    if constexpr (d == 2) {
+        return core::as_integer(formulas::cross(rows[0], rows[1]));
+    } else {
+        formulas::Product<T> minors[3];
+        formulas::cross(rows[1], rows[2], minors);
+        return core::as_integer(formulas::dot(rows[0], minors));
+    }
 }
 
 }  // namespace

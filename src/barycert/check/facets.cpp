@@ -1,6 +1,9 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "barycert/base/large_pages.hpp"
@@ -12,22 +15,26 @@
 namespace barycert::check {
 namespace {
 
+using Triple = std::array<Mesh::Index, 3>;
+
+Triple ascending(Triple nodes) {
+    std::ranges::sort(nodes);
+    return nodes;
+}
+
 /// The nodes of the facet opposite to `corner`, in the order that turns its normal outward, if the cell is not
 /// degenerate. 2D: two of them.
-std::array<Mesh::Index, 3> outward_nodes(const Checked& c, Mesh::Index cell, std::int32_t corner) {
-    // Seen from outside a positive cell these turn counter-clockwise.
-    static constexpr std::size_t faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-    static constexpr std::size_t edges[3][3] = {{1, 2}, {2, 0}, {0, 1}};
+Triple outward_nodes(const Checked& c, Mesh::Index cell, std::int32_t corner) {
     const std::span nodes = nodes_of(c.mesh, static_cast<std::size_t>(cell));
-    const auto& order = (c.mesh.dimension == 2 ? edges : faces)[corner];
-    std::array<Mesh::Index, 3> out{-1, -1, -1};
+    const auto order = mesh::outward_corners(c.mesh.dimension, static_cast<std::size_t>(corner));
+    Triple out{-1, -1, -1};
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) out[i] = nodes[order[i]];
     if (c.orientation[static_cast<std::size_t>(cell)] < 0) std::swap(out[0], out[1]);
     return out;
 }
 
 /// +1 if the nodes are an even permutation of the ascending ones, else -1.
-int parity(int d, const std::array<Mesh::Index, 3>& n) {
+int parity(int d, const Triple& n) {
     int inversions = n[0] > n[1] ? 1 : 0;
     if (d == 3) inversions += (n[0] > n[2] ? 1 : 0) + (n[1] > n[2] ? 1 : 0);
     return inversions % 2 == 0 ? 1 : -1;
@@ -35,7 +42,7 @@ int parity(int d, const std::array<Mesh::Index, 3>& n) {
 
 struct FacetPart {
     DefectList defects;
-    std::vector<BoundaryFacet> boundary;
+    std::vector<BoundaryFacet> boundary = {};
 };
 
 /// Looks at equal facets, those of the same nodes.
@@ -58,7 +65,7 @@ struct FacetChecker {
 
     std::int8_t orientation(const mesh::CellFacet& f) const { return c.orientation[static_cast<std::size_t>(f.cell)]; }
 
-    std::array<Mesh::Index, 3> outward(const mesh::CellFacet& f) const { return outward_nodes(c, f.cell, f.corner); }
+    Triple outward(const mesh::CellFacet& f) const { return outward_nodes(c, f.cell, f.corner); }
 
     /// On which side of the facet, taken with its nodes ascending, the cell lies: -1 or 1; 0 if it is degenerate.
     int side(const mesh::CellFacet& f) const { return orientation(f) == 0 ? 0 : parity(c.mesh.dimension, outward(f)); }
@@ -71,9 +78,7 @@ struct FacetChecker {
     /// their highest node.
     void find_duplicates(std::span<const mesh::CellFacet> equal, FacetPart& part) const {
         std::vector<mesh::CellFacet> by_apex(equal.begin(), equal.end());
-        std::sort(by_apex.begin(), by_apex.end(), [&](const mesh::CellFacet& a, const mesh::CellFacet& b) {
-            return std::pair(apex(a), a.cell) < std::pair(apex(b), b.cell);
-        });
+        std::ranges::sort(by_apex, {}, [&](const mesh::CellFacet& f) { return std::pair(apex(f), f.cell); });
         for (std::size_t i = 1, first = 0; i < by_apex.size(); ++i) {
             const mesh::CellFacet &original = by_apex[first], &copy = by_apex[i];
             if (apex(copy) != apex(original)) {
@@ -100,28 +105,55 @@ std::vector<Mesh::Index> neighbours_of(const Mesh& mesh, const index::CellIndex&
     return neighbours;
 }
 
-/// The nodes sorted; in 2D the first is none.
-std::array<Mesh::Index, 3> ascending(const BoundaryFacet& facet) {
-    std::array<Mesh::Index, 3> n = facet.nodes;
-    std::sort(n.begin(), n.end());
-    return n;
+void search_facets(Checked& c) {
+    base::resize_large(c.neighbours, c.mesh.cells.size());
+    std::fill(c.neighbours.begin(), c.neighbours.end(), -1);
+    const mesh::FacetTable table(c.mesh, c.usable);
+    const FacetChecker check{c};
+    in_blocks(
+        table.node_count(), 4096, [&] { return FacetPart{c.defects.part()}; },
+        [&](std::size_t first, std::size_t last, FacetPart& part) {
+            table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) { check(equal, part); });
+        },
+        [&](const FacetPart& part) {
+            c.defects.append(part.defects);
+            c.boundary.insert(c.boundary.end(), part.boundary.begin(), part.boundary.end());
+        });
 }
 
-using Triple = std::array<Mesh::Index, 3>;
+/// False if it is not proved that the cells partition a domain. Precondition: all are usable, none degenerate.
+bool find_facets_of_partition(Checked& c) {
+    index::CellIndex index = index::make_cell_index(c.mesh);
+    const index::FacetLinks links = index::link_facets(index);
+    std::optional<index::CellTree> tree;
+    const auto tree_of_cells = [&]() -> const index::CellTree& {
+        return tree ? *tree : tree.emplace(index::make_cell_tree(index));
+    };
+    if (!index::is_partition(index, links, tree_of_cells)) return false;
+    c.neighbours = neighbours_of(c.mesh, index);
+    c.boundary.reserve(links.open.size());
+    for (const index::CellFacet& open : links.open) {
+        const Mesh::Index cell = index.original[static_cast<std::size_t>(open.cell)];
+        c.boundary.push_back({cell, open.corner, outward_nodes(c, cell, open.corner), true});
+    }
+    tbb::parallel_sort(c.boundary.begin(), c.boundary.end(), [](const BoundaryFacet& a, const BoundaryFacet& b) {
+        return ascending(a.nodes) < ascending(b.nodes);
+    });
+    return true;
+}
 
 Triple nodes_of_face(const Mesh& mesh, std::size_t f) {
     return {mesh.faces[3 * f], mesh.faces[3 * f + 1], mesh.faces[3 * f + 2]};
 }
 
 bool has_nodes(const Mesh& mesh, const Triple& face) {
-    return std::all_of(face.begin(), face.end(),
-                       [&](Mesh::Index n) { return n >= 0 && static_cast<std::size_t>(n) < mesh.point_count(); });
+    return std::ranges::all_of(
+        face, [&](Mesh::Index n) { return n >= 0 && static_cast<std::size_t>(n) < mesh.point_count(); });
 }
 
 void check_neighbours(Checked& c) {
     const std::vector<Mesh::Index>& given = c.mesh.neighbours;
-    if (given.empty()) return;
-    if (given.size() != c.mesh.cells.size())
+    if (!given.empty() && given.size() != c.mesh.cells.size())
         return c.defects.add(DefectKind::wrong_neighbour, {.detail = "not one for each facet of each cell"});
     for (std::size_t i = 0; i < given.size(); ++i) {
         if (given[i] == c.neighbours[i]) continue;
@@ -148,42 +180,13 @@ void check_faces(Checked& c) {
 
 }  // namespace
 
-void check_facets(Checked& c) {
-    base::resize_large(c.neighbours, c.mesh.cells.size());
-    std::fill(c.neighbours.begin(), c.neighbours.end(), -1);
-    const mesh::FacetTable table(c.mesh, c.usable);
-    const FacetChecker check{c};
-    in_blocks(
-        table.node_count(), 4096,
-        [&] {
-            return FacetPart{c.defects.part(), {}};
-        },
-        [&](std::size_t first, std::size_t last, FacetPart& part) {
-            table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) { check(equal, part); });
-        },
-        [&](const FacetPart& part) {
-            c.defects.append(part.defects);
-            c.boundary.insert(c.boundary.end(), part.boundary.begin(), part.boundary.end());
-        });
-}
-
-bool find_facets_of_partition(Checked& c) {
-    index::CellIndex index = index::make_cell_index(c.mesh);
-    const index::FacetLinks links = index::link_facets(index);
-    std::optional<index::CellTree> tree;
-    const auto tree_of_cells = [&]() -> const index::CellTree& {
-        return tree ? *tree : tree.emplace(index::make_cell_tree(index));
-    };
-    if (!index::is_partition(index, links, tree_of_cells)) return false;
-    c.neighbours = neighbours_of(c.mesh, index);
-    c.boundary.reserve(links.open.size());
-    for (const index::CellFacet& open : links.open) {
-        const Mesh::Index cell = index.original[static_cast<std::size_t>(open.cell)];
-        c.boundary.push_back({cell, open.corner, outward_nodes(c, cell, open.corner), true});
-    }
-    tbb::parallel_sort(c.boundary.begin(), c.boundary.end(),
-                       [](const BoundaryFacet& a, const BoundaryFacet& b) { return ascending(a) < ascending(b); });
-    return true;
+bool check_facets(Checked& c) {
+    const bool good =
+        c.report.degenerate == 0 && std::ranges::count(c.finite, 0) == 0 && std::ranges::count(c.usable, 0) == 0;
+    const bool proved = good && find_facets_of_partition(c);
+    // Where the proof fails, what is wrong is found by the slower search.
+    if (!proved) search_facets(c);
+    return proved;
 }
 
 std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std::uint8_t>& usable) {
@@ -195,14 +198,13 @@ std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std
     std::vector<Face> faces;
     std::vector<std::size_t> begin(mesh.point_count() + 1, 0);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        Face face{nodes_of_face(mesh, f), f};
-        if (!has_nodes(mesh, face.nodes)) continue;
-        std::sort(face.nodes.begin(), face.nodes.end());
-        ++begin[static_cast<std::size_t>(face.nodes[0]) + 1];
-        faces.push_back(face);
+        const Triple nodes = ascending(nodes_of_face(mesh, f));
+        if (!has_nodes(mesh, nodes)) continue;
+        ++begin[static_cast<std::size_t>(nodes[0]) + 1];
+        faces.push_back({nodes, f});
     }
-    for (std::size_t n = 1; n < begin.size(); ++n) begin[n] += begin[n - 1];
-    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.nodes < b.nodes; });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::ranges::sort(faces, {}, &Face::nodes);
     std::vector<std::uint8_t> found(mesh.face_count(), 0);
     const auto meet = [&](const Triple& sorted) {
         const auto node = static_cast<std::size_t>(sorted[0]);

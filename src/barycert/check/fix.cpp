@@ -1,5 +1,5 @@
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -112,7 +112,7 @@ private:
             if (x == y || (merged[at(a)] == 0 && merged[at(b)] == 0) || role[at(old_.mid_nodes[i])] == 2) continue;
             all.push_back({{std::min(x, y), std::max(x, y)}, {std::min(a, b), std::max(a, b)}, old_.mid_nodes[i]});
         }
-        std::sort(all.begin(), all.end());
+        std::ranges::sort(all);
         for (std::size_t i = 0, next = 0; i < all.size(); i = next) {
             while (next < all.size() && all[next].ends == all[i].ends) ++next;
             if (all[next - 1].given == all[i].given) continue;  // they were one before
@@ -155,15 +155,13 @@ private:
     }
 
     static void compare_values(const Field& f, const std::vector<Twin>& twins, std::vector<MergedField>& to) {
-        const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
         MergedField told{f.name};
         for (const auto& [gone, kept] : twins) {
             bool differs = false;
             for (std::size_t c = 0; c < at(f.components); ++c) {
                 const double a = f.data[at(gone) * at(f.components) + c];
                 const double b = f.data[at(kept) * at(f.components) + c];
-                if (same(a, b)) continue;
-                differs = true;
+                differs |= a != b && !(std::isnan(a) && std::isnan(b));
                 if (std::isfinite(a) && std::isfinite(b))
                     told.max_difference = std::max(told.max_difference, std::fabs(a - b));
             }
@@ -176,42 +174,39 @@ private:
     template <class T>
     static std::uint64_t count_differing(const std::vector<T>& values, const std::vector<Twin>& twins) {
         if (values.empty()) return 0;
-        return static_cast<std::uint64_t>(std::count_if(
-            twins.begin(), twins.end(), [&](const Twin& t) { return values[at(t.gone)] != values[at(t.kept)]; }));
+        return static_cast<std::uint64_t>(
+            std::ranges::count_if(twins, [&](const Twin& t) { return values[at(t.gone)] != values[at(t.kept)]; }));
     }
 
     int sign(std::size_t cell) const { return check::exact_sign(mesh_.dimension, check::corner_points(mesh_, cell)); }
 
     Nodes sorted_nodes(std::size_t cell) const {
         Nodes nodes{-1, -1, -1, -1};
-        std::copy_n(&mesh_.cells[cell * mesh_.corners()], mesh_.corners(), nodes.begin());
-        std::sort(nodes.begin(), nodes.end());  // a triangle's first is -1
+        std::ranges::copy(check::nodes_of(mesh_, cell), nodes.begin());
+        std::ranges::sort(nodes);  // a triangle's first is -1
         return nodes;
-    }
-
-    bool has_merged_node(std::size_t cell) {
-        return std::ranges::any_of(check::nodes_of(old_, cell), [&](Index n) {
-            return std::ranges::binary_search(report_.merged, n, {}, &MergedNode::node);
-        });
     }
 
     void drop_cells() {
         std::vector<std::pair<Nodes, Index>> good;
+        const auto is_merged = [&](Index n) {
+            return std::ranges::binary_search(report_.merged, n, {}, &MergedNode::node);
+        };
         const auto drop = [&](Index cell, DefectKind why) {
             report_.dropped.push_back({cell, why});
-            report_.collapsed += has_merged_node(at(cell)) ? 1 : 0;
+            report_.collapsed += std::ranges::any_of(check::nodes_of(old_, at(cell)), is_merged) ? 1 : 0;
         };
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
             const Nodes nodes = sorted_nodes(cell);
             const auto number = static_cast<Index>(cell);
-            if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end())
+            if (std::ranges::adjacent_find(nodes) != nodes.end())
                 drop(number, DefectKind::repeated_node);
             else if (sign(cell) == 0)
                 drop(number, DefectKind::degenerate_cell);
             else
                 good.emplace_back(nodes, number);
         }
-        std::sort(good.begin(), good.end());
+        std::ranges::sort(good);
         std::vector<Index> kept;
         std::vector<Twin> twins;
         split(good, true, kept, twins);
@@ -222,7 +217,7 @@ private:
             if (differ != 0) report_.cell_fields.push_back({labels.name, differ});
         }
         if (report_.dropped.empty()) return;
-        std::sort(kept.begin(), kept.end());
+        std::ranges::sort(kept);
         std::ranges::sort(report_.dropped, {}, &DroppedCell::cell);
         keep(mesh_.cells, mesh_.corners(), kept);
         keep(mesh_.mid_nodes, mesh::edges_of(mesh_.dimension).size(), kept);
@@ -236,23 +231,22 @@ private:
 
     /// Those that no cell has, and of those that merging made the same all but the first.
     void drop_faces() {
-        using Triple = std::array<Index, 3>;
         if (mesh_.faces.empty()) return;
         const auto found = check::faces_of_cells(mesh_, std::vector<std::uint8_t>(mesh_.cell_count(), 1));
-        std::vector<std::pair<Triple, Index>> faces;
+        std::vector<std::pair<std::array<Index, 3>, Index>> faces;
         for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
-            Triple face{mesh_.faces[3 * f], mesh_.faces[3 * f + 1], mesh_.faces[3 * f + 2]};
-            std::sort(face.begin(), face.end());
+            std::array<Index, 3> face{mesh_.faces[3 * f], mesh_.faces[3 * f + 1], mesh_.faces[3 * f + 2]};
+            std::ranges::sort(face);
             if (found[f] != 0) faces.emplace_back(face, static_cast<Index>(f));
         }
-        std::sort(faces.begin(), faces.end());
+        std::ranges::sort(faces);
         std::vector<Index> kept;
         std::vector<Twin> twins;
         split(faces, !report_.merged.empty(), kept, twins);
         report_.differing_face_markers = count_differing(mesh_.face_markers, twins);
         report_.dropped_faces = mesh_.face_count() - kept.size();
         if (report_.dropped_faces == 0) return;
-        std::sort(kept.begin(), kept.end());
+        std::ranges::sort(kept);
         keep(mesh_.faces, 3, kept);
         keep(mesh_.face_mid_nodes, 3, kept);
         keep(mesh_.face_markers, 1, kept);
@@ -260,30 +254,20 @@ private:
 
     /// The last two vertices of negative cells swapped, and their mid-edge nodes and neighbours with them.
     void turn_cells() {
-        const std::size_t corners = mesh_.corners(), last = corners - 1;
-        const auto swapped = [&](std::size_t corner) {
-            return corner == last ? last - 1 : corner == last - 1 ? last : corner;
-        };
-        // Which edge lies, after the swap, where edge e lay.
-        const auto edges = mesh::edges_of(mesh_.dimension);
-        std::array<std::size_t, 6> edge_from{};
-        for (std::size_t e = 0; e < edges.size(); ++e) {
-            const std::size_t a = swapped(edges[e][0]), b = swapped(edges[e][1]);
-            const auto same = std::find_if(edges.begin(), edges.end(), [&](const std::array<std::size_t, 2>& f) {
-                return (f[0] == a && f[1] == b) || (f[0] == b && f[1] == a);
-            });
-            edge_from[e] = static_cast<std::size_t>(same - edges.begin());
-        }
+        const std::size_t corners = mesh_.corners(), edges = mesh::edges_of(mesh_.dimension).size();
         for (std::size_t cell = 0; cell < mesh_.cell_count(); ++cell) {
             if (sign(cell) >= 0) continue;
             ++report_.turned;
             for (auto* list : {&mesh_.cells, &mesh_.neighbours}) {
-                if (!list->empty()) std::swap((*list)[cell * corners + last - 1], (*list)[cell * corners + last]);
+                if (list->empty()) continue;
+                Index* const end = list->data() + (cell + 1) * corners;
+                std::swap(end[-2], end[-1]);
             }
             if (mesh_.mid_nodes.empty()) continue;
-            std::array<Index, 6> mid{};
-            for (std::size_t e = 0; e < edges.size(); ++e) mid[e] = mesh_.mid_nodes[cell * edges.size() + edge_from[e]];
-            std::copy_n(mid.begin(), edges.size(), &mesh_.mid_nodes[cell * edges.size()]);
+            // Edges that change places, by the order of edges_of: 12 and 13, 02 and 03; of a triangle 01 and 02.
+            Index* const mid = &mesh_.mid_nodes[cell * edges];
+            std::swap(mid[mesh_.dimension == 3 ? 1 : 0], mid[mesh_.dimension == 3 ? 4 : 2]);
+            if (mesh_.dimension == 3) std::swap(mid[2], mid[3]);
         }
     }
 

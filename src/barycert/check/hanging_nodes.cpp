@@ -150,12 +150,12 @@ void leave_out_right_ones(const Checked& c, const NearFaces& faces, std::vector<
     std::ranges::sort(all, {}, &HangingNode::face);
     for (std::size_t cell = 0; cell < c.usable.size() && !all.empty(); ++cell) {
         const std::span nodes = nodes_of(c.mesh, cell);
-        const auto has = [&](Index n) { return n < 0 || std::find(nodes.begin(), nodes.end(), n) != nodes.end(); };
+        const auto has = [&](Index n) { return n < 0 || std::ranges::count(nodes, n) != 0; };
         for (const Index node : nodes) {
             if (c.usable[cell] == 0) break;
             auto h = std::ranges::lower_bound(all, node, {}, [](const HangingNode& a) { return a.face[0]; });
             for (; h != all.end() && h->face[0] == node; ++h) {
-                if (h->node < 0 || !std::all_of(h->face.begin(), h->face.end(), has)) continue;
+                if (h->node < 0 || !std::ranges::all_of(h->face, has)) continue;
                 if (has(h->node))
                     h->node = -1;
                 else if (h->cell < 0 && faces.is_in(h->node, cell))

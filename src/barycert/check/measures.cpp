@@ -2,6 +2,8 @@
 #include <bit>
 #include <cmath>
 #include <span>
+#include <tuple>
+#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/check.hpp"
@@ -12,18 +14,19 @@ namespace barycert {
 Distribution distribution(const std::vector<double>& values) {
     const ExactEnvironment environment;
     Distribution d;
-    std::vector<double> sorted;
-    sorted.reserve(values.size());
+    std::vector<double> known;
+    known.reserve(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double x = values[i];
+        const auto cell = static_cast<std::int64_t>(i);
         if (std::isnan(x)) continue;
-        sorted.push_back(x);
-        if (d.min_cell < 0 || x < d.min) d.min = x, d.min_cell = static_cast<std::int64_t>(i);
-        if (d.max_cell < 0 || x > d.max) d.max = x, d.max_cell = static_cast<std::int64_t>(i);
+        if (known.empty() || x < d.min) std::tie(d.min, d.min_cell) = std::pair(x, cell);
+        if (known.empty() || x > d.max) std::tie(d.max, d.max_cell) = std::pair(x, cell);
+        known.push_back(x);
     }
-    if (sorted.empty()) return d;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
+    if (known.empty()) return d;
+    const auto middle = known.begin() + static_cast<std::ptrdiff_t>((known.size() - 1) / 2);
+    std::ranges::nth_element(known, middle);
     d.median = *middle;
     return d;
 }
@@ -37,11 +40,10 @@ std::vector<Field> measure_fields(const CellMeasures& measures) {
 
 void count_not_finite(const Field& field, bool of_cells, std::vector<NotFinite>& to) {
     if (base::all_finite(field.data)) return;
-    const bool known = std::any_of(to.begin(), to.end(), [&](const NotFinite& other) {
-        return other.field == field.name && other.of_cells == of_cells;
-    });
-    if (known) return;
-    const auto count = std::count_if(field.data.begin(), field.data.end(), [](double x) { return !std::isfinite(x); });
+    for (const NotFinite& known : to) {
+        if (known.field == field.name && known.of_cells == of_cells) return;
+    }
+    const auto count = std::ranges::count_if(field.data, [](double x) { return !std::isfinite(x); });
     to.push_back({field.name, of_cells, static_cast<std::uint64_t>(count), field.data.size()});
 }
 

@@ -15,21 +15,6 @@ std::array<double, 3> node_place(const Mesh& mesh, Mesh::Index node) {
     return at;
 }
 
-/// Nodes at the place of another one. Two that cells have for vertices are why these cells do not meet in a common
-/// face.
-void find_coincident(Checked& c, const std::vector<std::uint8_t>& vertex) {
-    std::vector<Mesh::Index> nodes;
-    nodes.reserve(c.finite.size());
-    for (std::size_t i = 0; i < c.finite.size(); ++i) {
-        if (c.finite[i] != 0) nodes.push_back(static_cast<Mesh::Index>(i));
-    }
-    for (const auto& [first, second] : coincident_nodes(c.mesh, nodes)) {
-        c.defects.add(DefectKind::coincident_nodes, {.nodes = {first, second, -1}});
-        if (vertex[static_cast<std::size_t>(first)] != 0 && vertex[static_cast<std::size_t>(second)] != 0)
-            c.defects.cause(DefectKind::coincident_nodes);
-    }
-}
-
 void mark_used(const std::vector<Mesh::Index>& indices, std::vector<std::uint8_t>& used) {
     for (const Mesh::Index i : indices) {
         if (i >= 0 && static_cast<std::size_t>(i) < used.size()) used[static_cast<std::size_t>(i)] = 1;
@@ -49,12 +34,22 @@ void check_nodes(Checked& c) {
     mark_used(c.mesh.cells, used);
     const std::vector<std::uint8_t> vertex = used;
     mark_used(c.mesh.mid_nodes, used);
+    std::vector<Mesh::Index> nodes;
+    nodes.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const DefectPlace place{.nodes = {static_cast<Mesh::Index>(i), -1, -1}};
-        if (c.finite[i] == 0) c.defects.add(DefectKind::not_finite, place);
-        if (used[i] == 0) c.defects.add(DefectKind::unused_node, place);
+        const auto node = static_cast<Mesh::Index>(i);
+        if (used[i] == 0) c.defects.add(DefectKind::unused_node, {.nodes = {node, -1, -1}});
+        if (c.finite[i] == 0)
+            c.defects.add(DefectKind::not_finite, {.nodes = {node, -1, -1}});
+        else
+            nodes.push_back(node);
     }
-    find_coincident(c, vertex);
+    for (const auto& [first, second] : coincident_nodes(c.mesh, nodes)) {
+        c.defects.add(DefectKind::coincident_nodes, {.nodes = {first, second, -1}});
+        // Two that cells have for vertices are why these cells do not meet in a common face.
+        if (vertex[static_cast<std::size_t>(first)] != 0 && vertex[static_cast<std::size_t>(second)] != 0)
+            c.defects[DefectKind::coincident_nodes].cause = true;
+    }
 }
 
 Box box_around(const Mesh& mesh, Mesh::Index node, double radius) {
@@ -84,13 +79,12 @@ std::vector<std::array<Mesh::Index, 2>> coincident_nodes(const Mesh& mesh, const
     });
     std::vector<std::array<Mesh::Index, 2>> pairs;
     for (std::size_t i = 1, first = 0; i < placed.size(); ++i) {
-        if (placed[i].at != placed[first].at) {
+        if (placed[i].at != placed[first].at)
             first = i;
-        } else {
+        else
             pairs.push_back({placed[first].node, placed[i].node});
-        }
     }
-    std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
+    std::ranges::sort(pairs, {}, [](const auto& pair) { return pair[1]; });
     return pairs;
 }
 

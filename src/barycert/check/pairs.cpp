@@ -1,22 +1,18 @@
 #include <algorithm>
+#include <atomic>
+#include <limits>
+#include <span>
 #include <tuple>
+#include <variant>
 
 #include "barycert/check/stages.hpp"
-#include "barycert/index/candidates.hpp"
+#include "barycert/index/open_sheets.hpp"
 
 namespace barycert::check {
 namespace {
 
-struct Pair {
-    std::uint32_t first, second;
-};
-
-Item item_of(const PlacedFacet& f, int d) {
-    Item item{.count = d};
-    std::copy(f.nodes.begin(), f.nodes.end(), item.nodes.begin());
-    std::copy(f.at.begin(), f.at.end(), item.at.begin());
-    return item;
-}
+/// Two items, by their numbers, the lower one first.
+using Pair = std::array<std::uint32_t, 2>;
 
 Item item_of(const Mesh& mesh, std::size_t cell) {
     Item item{.count = mesh.dimension + 1, .at = corner_points(mesh, cell)};
@@ -24,7 +20,7 @@ Item item_of(const Mesh& mesh, std::size_t cell) {
     return item;
 }
 
-/// Pairs (i, j), i < j, of the items for which `conflict` holds, up to `limit`; ascending.
+/// The pairs of items for which `conflict` holds, up to `limit`; ascending.
 template <class Conflict>
 Found<Pair> conflicts(int d, const std::vector<Item>& items, Conflict conflict, std::size_t limit) {
     const Candidates candidates(d, items);
@@ -35,23 +31,9 @@ Found<Pair> conflicts(int d, const std::vector<Item>& items, Conflict conflict, 
                 if (j > i && conflict(i, j)) part.push_back({static_cast<std::uint32_t>(i), j});
                 return part.size() <= limit;
             });
-            std::ranges::sort(std::span(part).subspan(begin), {}, &Pair::second);
+            std::ranges::sort(std::span(part).subspan(begin));
         }
     });
-}
-
-std::vector<std::uint8_t> outcodes(const Mesh& mesh, const Box& box) {
-    std::vector<std::uint8_t> codes(mesh.point_count());
-    for (std::size_t i = 0; i < codes.size(); ++i)
-        codes[i] = outcode(mesh.dimension, box, &mesh.points[i * static_cast<std::size_t>(mesh.dimension)]);
-    return codes;
-}
-
-unsigned common_outcode(const Mesh& mesh, const std::vector<std::uint8_t>& codes, std::size_t cell) {
-    unsigned common = ~0U;
-    for (std::size_t i = 0; i < mesh.corners(); ++i)
-        common &= codes[static_cast<std::size_t>(mesh.cells[cell * mesh.corners() + i])];
-    return common;
 }
 
 /// The nodes of f within g, or within an edge of it: not those at the place of a node of g.
@@ -65,11 +47,12 @@ void add_hanging(int d, const PlacedFacet& f, const PlacedFacet& g, Mesh::Index 
 }  // namespace
 
 void sort_hanging(std::vector<HangingNode>& all) {
-    std::sort(all.begin(), all.end(), [](const HangingNode& a, const HangingNode& b) {
+    const auto place = [](const HangingNode& h) { return std::tie(h.node, h.face); };
+    std::ranges::sort(all, [](const HangingNode& a, const HangingNode& b) {
         return std::tie(a.node, a.face, a.cell) < std::tie(b.node, b.face, b.cell);
     });
-    const auto same = [](const HangingNode& a, const HangingNode& b) { return a.node == b.node && a.face == b.face; };
-    all.erase(std::unique(all.begin(), all.end(), same), all.end());
+    const auto copies = std::ranges::unique(all, {}, place);
+    all.erase(copies.begin(), copies.end());
 }
 
 BoundaryContacts find_boundary_contacts(Checked& c, std::size_t limit) {
@@ -84,79 +67,83 @@ BoundaryContacts find_boundary_contacts(Checked& c, std::size_t limit) {
         cells.push_back(facet.cell);
         items.push_back(item_of(f, d));
     }
-    const auto conflict = [&](std::size_t i, std::size_t j) {
-        return facets_conflict(d, proper_facets[i], proper_facets[j]);
-    };
+    const Found<Pair> found = conflicts(
+        d, items, [&](std::size_t i, std::size_t j) { return facets_conflict(d, proper_facets[i], proper_facets[j]); },
+        limit);
     BoundaryContacts out;
-    const Found<Pair> found = conflicts(d, items, conflict, limit);
     out.complete = found.complete;
-    for (const Pair& p : found.list) {
-        const PlacedFacet &f = proper_facets[p.first], &g = proper_facets[p.second];
-        out.cells.push_back({cells[p.first], cells[p.second]});
+    for (const auto& [i, j] : found.list) {
+        const PlacedFacet &f = proper_facets[i], &g = proper_facets[j];
+        out.cells.push_back({cells[i], cells[j]});
         c.defects.add_marked(DefectKind::boundary_contact,
                              {.cells = out.cells.back(), .nodes = f.nodes, .other_nodes = g.nodes});
-        add_hanging(d, f, g, cells[p.second], out.hanging);
-        add_hanging(d, g, f, cells[p.first], out.hanging);
+        add_hanging(d, f, g, cells[j], out.hanging);
+        add_hanging(d, g, f, cells[i], out.hanging);
     }
     sort_hanging(out.hanging);
-    if (!out.complete) c.defects.add_at_least(DefectKind::boundary_contact);
+    if (!out.complete) c.defects[DefectKind::boundary_contact].at_least = true;
     return out;
 }
 
 std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint32_t>& pieces, std::size_t limit) {
     const Mesh& mesh = c.mesh;
-    std::vector<std::size_t> inner;  // a cell at each piece
+    const int d = mesh.dimension;
+    std::vector<Mesh::Index> inner;  // a cell at each piece
     std::vector<Item> items;
     for (const std::uint32_t piece : pieces) {
-        const auto cell = static_cast<std::size_t>(c.boundary[piece].cell);
-        if (c.orientation[cell] == 0) continue;  // degenerate, and told
+        const Mesh::Index cell = c.boundary[piece].cell;
+        if (c.orientation[static_cast<std::size_t>(cell)] == 0) continue;  // degenerate, and told
         inner.push_back(cell);
-        items.push_back(item_of(mesh, cell));
+        items.push_back(item_of(mesh, static_cast<std::size_t>(cell)));
     }
-    const Candidates candidates(mesh.dimension, items);
+    const Candidates candidates(d, items);
     if (candidates.bounds() == nullptr) return {};
     // Most cells are far from the few that are asked for: one byte a node tells.
-    const std::vector<std::uint8_t> codes = outcodes(mesh, *candidates.bounds());
+    std::vector<std::uint8_t> codes(mesh.point_count());
+    for (std::size_t i = 0; i < codes.size(); ++i)
+        codes[i] = outcode(d, *candidates.bounds(), node_at(mesh, static_cast<Mesh::Index>(i)));
+    const auto is_far = [&](std::size_t cell) {
+        unsigned common = ~0U;
+        for (const Mesh::Index node : nodes_of(mesh, cell)) common &= codes[static_cast<std::size_t>(node)];
+        return common != 0;
+    };
     // For each piece the lowest cell that overlaps: no cell above it needs to be asked, and threads agree on it.
-    constexpr std::uint32_t none = ~std::uint32_t{0};
-    std::vector<std::uint32_t> lowest(inner.size(), none);
-    const auto ask = [&](std::size_t cell, std::size_t piece, const Corners& corners) {
-        const std::atomic_ref<std::uint32_t> known(lowest[piece]);
-        const auto number = static_cast<std::uint32_t>(cell);
-        if (inner[piece] == cell || known.load(std::memory_order_relaxed) <= number ||
-            !interiors_meet(mesh.dimension, items[piece].at, corners))
+    constexpr Mesh::Index none = std::numeric_limits<Mesh::Index>::max();
+    std::vector<Mesh::Index> lowest(inner.size(), none);
+    const auto ask = [&](Mesh::Index cell, std::size_t piece, const Corners& corners) {
+        const std::atomic_ref<Mesh::Index> known(lowest[piece]);
+        if (inner[piece] == cell || known.load(std::memory_order_relaxed) <= cell ||
+            !interiors_meet(d, items[piece].at, corners))
             return;
-        std::uint32_t now = known.load(std::memory_order_relaxed);
-        while (now > number && !known.compare_exchange_weak(now, number, std::memory_order_relaxed)) {
+        Mesh::Index now = known.load(std::memory_order_relaxed);
+        while (now > cell && !known.compare_exchange_weak(now, cell, std::memory_order_relaxed)) {
         }
     };
     bool complete = true;
-    struct Nothing {};
     in_waves(
-        mesh.cell_count(), 1024, [] { return Nothing(); },
-        [&](std::size_t first, std::size_t last, Nothing&) {
+        mesh.cell_count(), 1024, [] { return std::monostate(); },
+        [&](std::size_t first, std::size_t last, std::monostate) {
             for (std::size_t cell = first; cell < last; ++cell) {
-                if (c.orientation[cell] == 0 || common_outcode(mesh, codes, cell) != 0) continue;
+                if (c.orientation[cell] == 0 || is_far(cell)) continue;
                 const Item item = item_of(mesh, cell);
-                candidates.for_each(item, [&](std::uint32_t i) {
-                    ask(cell, i, item.at);
+                candidates.for_each(item, [&](std::uint32_t piece) {
+                    ask(static_cast<Mesh::Index>(cell), piece, item.at);
                     return true;
                 });
             }
         },
-        [](const Nothing&) {},
+        [](std::monostate) {},
         [&] {
-            const auto found = lowest.size() - static_cast<std::size_t>(std::count(lowest.begin(), lowest.end(), none));
+            const auto found = lowest.size() - static_cast<std::size_t>(std::ranges::count(lowest, none));
             return complete = found <= limit;
         });
     std::vector<CellPair> pairs;
     for (std::size_t i = 0; i < inner.size() && pairs.size() < limit; ++i) {
         if (lowest[i] == none) continue;
-        const DefectPlace place{.cells = {static_cast<Mesh::Index>(inner[i]), static_cast<Mesh::Index>(lowest[i])}};
-        c.defects.add_marked(DefectKind::nested_part, place);
-        pairs.push_back(place.cells);
+        pairs.push_back({inner[i], lowest[i]});
+        c.defects.add_marked(DefectKind::nested_part, {.cells = pairs.back()});
     }
-    if (!complete) c.defects.add_at_least(DefectKind::nested_part);
+    if (!complete) c.defects[DefectKind::nested_part].at_least = true;
     return pairs;
 }
 
@@ -169,14 +156,15 @@ std::vector<CellPair> find_overlapping_cells(Checked& c) {
         cells.push_back(static_cast<Mesh::Index>(cell));
         items.push_back(item_of(c.mesh, cell));
     }
-    const auto conflict = [&](std::size_t i, std::size_t j) { return interiors_meet(d, items[i].at, items[j].at); };
+    const Found<Pair> found = conflicts(
+        d, items, [&](std::size_t i, std::size_t j) { return interiors_meet(d, items[i].at, items[j].at); },
+        pair_limit);
     std::vector<CellPair> pairs;
-    const Found<Pair> found = conflicts(d, items, conflict, pair_limit);
-    for (const Pair& p : found.list) {
-        pairs.push_back({cells[p.first], cells[p.second]});
+    for (const auto& [i, j] : found.list) {
+        pairs.push_back({cells[i], cells[j]});
         c.defects.add_marked(DefectKind::overlapping_cells, {.cells = pairs.back()});
     }
-    if (!found.complete) c.defects.add_at_least(DefectKind::overlapping_cells);
+    if (!found.complete) c.defects[DefectKind::overlapping_cells].at_least = true;
     return pairs;
 }
 

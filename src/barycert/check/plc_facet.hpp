@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
@@ -29,9 +31,9 @@ public:
     PlcRegion(const Plc& plc, const PlcFacet& facet, int exponent) : exponent_(exponent) {
         for (const auto& polygon : facet.polygons) {
             if (polygon.size() < 3) continue;
-            Ring ring;
+            Ring& ring = rings_.emplace_back();
             for (const auto node : polygon) ring.points.push_back(&plc.points[static_cast<std::size_t>(node) * 3]);
-            rings_.push_back(std::move(ring));
+            vertices_.insert(vertices_.end(), ring.points.begin(), ring.points.end());
         }
         if (rings_.empty()) return;
         set_plane();
@@ -41,6 +43,8 @@ public:
     /// It has an area.
     bool proper() const { return proper_; }
     const std::vector<Ring>& rings() const { return rings_; }
+    /// Those of all rings, one ring after the other.
+    const std::vector<const double*>& vertices() const { return vertices_; }
 
     /// The two axes of the projection.
     std::array<std::size_t, 2> axes() const { return {(axis_ + 1) % 3, (axis_ + 2) % 3}; }
@@ -61,34 +65,31 @@ public:
         return ring != nullptr && !ring->hole;
     }
 
-    /// How a side of a face passes the sides of the rings: properly across none, across one within `slack` of an end of
-    /// either, or else deeply. The first is exact.
-    enum class Crossing : unsigned char { none, shallow, deep };
-    Crossing crossing(const double* a, const double* b, double slack) const {
-        const auto [x, y] = axes();
-        const auto projected = [x = x, y = y](const double* p) { return std::array<double, 2>{p[x], p[y]}; };
+    /// How deeply a side of a face passes the sides of the rings: -1 if it is properly across none, which is exact;
+    /// else the distance of a crossing from the nearest end of either, the largest of all.
+    double crossing(const double* a, const double* b) const {
+        const std::array<std::size_t, 2> axis = axes();
+        const auto projected = [&](const double* p) { return std::array<double, 2>{p[axis[0]], p[axis[1]]}; };
+        const auto turn = [](const auto& u, const auto& v, const auto& w) {
+            return orient2d(u.data(), v.data(), w.data());
+        };
         const auto pa = projected(a), pb = projected(b);
-        Crossing worst = Crossing::none;
+        double deepest = -1;
         for (const Ring& ring : rings_) {
             for (std::size_t i = 0, j = ring.points.size() - 1; i < ring.points.size(); j = i++) {
                 const double *const c = ring.points[i], *const d = ring.points[j];
                 const auto pc = projected(c), pd = projected(d);
                 if (std::max(pa[0], pb[0]) < std::min(pc[0], pd[0]) || std::min(pa[0], pb[0]) > std::max(pc[0], pd[0]))
                     continue;
-                const auto turn = [](const auto& u, const auto& v, const auto& w) {
-                    return orient2d(u.data(), v.data(), w.data());
-                };
                 if (turn(pa, pb, pc) * turn(pa, pb, pd) != Sign::negative ||
                     turn(pc, pd, pa) * turn(pc, pd, pb) != Sign::negative)
                     continue;
                 const PlcPosition u = place(a), v = place(b), &w = ring.at[i], &z = ring.at[j];
-                const double nearest = std::min(
-                    {distance_from(u, w, z), distance_from(v, w, z), distance_from(w, u, v), distance_from(z, u, v)});
-                if (nearest > slack) return Crossing::deep;
-                worst = Crossing::shallow;
+                deepest = std::max(deepest, std::min({distance_from(u, w, z), distance_from(v, w, z),
+                                                      distance_from(w, u, v), distance_from(z, u, v)}));
             }
         }
-        return worst;
+        return deepest;
     }
 
     /// The part of the region's area that the triangle has in common with it, in plain double.
@@ -107,11 +108,7 @@ public:
     }
 
     Box box(double margin) const {
-        const double* const o = rings_.front().points.front();
-        Box box{{o[0], o[1], o[2]}, {o[0], o[1], o[2]}};
-        for (const Ring& ring : rings_) {
-            for (const double* p : ring.points) box.add({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
-        }
+        Box box = box_of(3, vertices_.data(), static_cast<int>(vertices_.size()));
         for (double& x : box.low) x -= margin;
         for (double& x : box.high) x += margin;
         return box;
@@ -123,6 +120,12 @@ private:
     static double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
     static double twice_area(const PlcPosition& o, const PlcPosition& a, const PlcPosition& b) {
         return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+    }
+
+    static double twice_area(const std::vector<PlcPosition>& polygon) {
+        double twice = 0;
+        for (std::size_t i = 2; i < polygon.size(); ++i) twice += twice_area(polygon[0], polygon[i - 1], polygon[i]);
+        return twice;
     }
 
     /// Distance of p from the segment ab.
@@ -148,14 +151,12 @@ private:
             }
             polygon = std::move(left);
         }
-        double twice = 0;
-        for (std::size_t i = 2; i < polygon.size(); ++i) twice += twice_area(polygon[0], polygon[i - 1], polygon[i]);
-        return turn * std::fabs(twice);
+        return turn * std::fabs(twice_area(polygon));
     }
 
     /// Less the first vertex. Halved first: a difference may overflow.
     Vector relative(const double* p) const {
-        const double* const o = rings_.front().points.front();
+        const double* const o = vertices_.front();
         Vector v{};
         for (std::size_t k = 0; k < 3; ++k) v[k] = std::scalbn(p[k] / 2 - o[k] / 2, 1 - exponent_);
         return v;
@@ -167,13 +168,9 @@ private:
         for (const Ring& ring : rings_) {
             const Vector o = relative(ring.points.front());
             const auto from = [&](const double* p) { return base::minus(relative(p), o); };
-            const double* const a =
-                *std::max_element(ring.points.begin(), ring.points.end(),
-                                  [&](const double* p, const double* q) { return length(from(p)) < length(from(q)); });
-            const double* const b =
-                *std::max_element(ring.points.begin(), ring.points.end(), [&](const double* p, const double* q) {
-                    return length(base::cross(from(a), from(p))) < length(base::cross(from(a), from(q)));
-                });
+            const double* const a = *std::ranges::max_element(ring.points, {}, [&](auto p) { return length(from(p)); });
+            const double* const b = *std::ranges::max_element(
+                ring.points, {}, [&](auto p) { return length(base::cross(from(a), from(p))); });
             const Vector normal = base::cross(from(a), from(b));
             if (length(normal) <= widest) continue;
             widest = length(normal);
@@ -191,10 +188,7 @@ private:
     void set_holes(const PlcFacet& facet) {
         for (Ring& ring : rings_) {
             for (const double* p : ring.points) ring.at.push_back(place(p));
-            double twice = 0;
-            for (std::size_t i = 0, j = ring.at.size() - 1; i < ring.at.size(); j = i++)
-                twice += twice_area(ring.at.front(), ring.at[j], ring.at[i]);
-            ring.area = std::fabs(twice) / 2;
+            ring.area = std::fabs(twice_area(ring.at)) / 2;
         }
         for (std::size_t i = 0; i + 2 < facet.holes.size(); i += 3) {
             const Ring* const ring = innermost(place(&facet.holes[i]), nullptr);
@@ -251,6 +245,7 @@ private:
     }
 
     std::vector<Ring> rings_;
+    std::vector<const double*> vertices_;
     int exponent_;
     Vector normal_{};                       ///< of length 1
     std::array<const double*, 3> plane_{};  ///< three vertices that span it

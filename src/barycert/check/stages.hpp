@@ -34,13 +34,15 @@ public:
     /// An empty one, for a block of the work.
     DefectList part() const { return {examples_, of_cells_}; }
 
+    Defect& operator[](DefectKind p) { return all_[static_cast<std::size_t>(p)]; }
+
     /// Notes that the cell is part of a defect, from any thread.
     void mark(Mesh::Index cell, DefectKind p) const {
         std::atomic_ref(of_cells_[static_cast<std::size_t>(cell)]).fetch_or(defect_bit(p), std::memory_order_relaxed);
     }
 
     void add(DefectKind p, const DefectPlace& place) {
-        Defect& f = of(p);
+        Defect& f = (*this)[p];
         ++f.count;
         if (f.places.size() < examples_) f.places.push_back(place);
     }
@@ -52,11 +54,6 @@ public:
         }
         add(p, place);
     }
-
-    void add_at_least(DefectKind p) { of(p).at_least = true; }
-    void cause(DefectKind p) { of(p).cause = true; }
-    void remedy(DefectKind p, std::string_view text) { of(p).better_remedy = text; }
-    bool is_cause(DefectKind p) const { return all_[static_cast<std::size_t>(p)].cause; }
 
     /// Appends what another block of the same work found.
     void append(const DefectList& other) {
@@ -71,25 +68,20 @@ public:
         }
     }
 
-    std::uint64_t count(DefectKind p) const { return all_[static_cast<std::size_t>(p)].count; }
-
     /// One of the kinds for which `asked` holds has been found.
     template <class Asked>
     bool has(Asked asked) const {
-        return std::any_of(defect_texts.begin(), defect_texts.end(),
-                           [&](const DefectText& t) { return count(t.kind) > 0 && asked(t); });
+        return std::ranges::any_of(all_, [&](const Defect& f) { return f.count > 0 && asked(defect_text(f.kind)); });
     }
 
     /// Those that occur; first those that break the certificate.
     std::vector<Defect> list() && {
         std::erase_if(all_, [](const Defect& f) { return f.count == 0; });
-        std::stable_partition(all_.begin(), all_.end(), [](const Defect& f) { return f.breaks(); });
+        std::ranges::stable_partition(all_, &Defect::breaks);
         return std::move(all_);
     }
 
 private:
-    Defect& of(DefectKind p) { return all_[static_cast<std::size_t>(p)]; }
-
     std::size_t examples_;
     std::vector<DefectSet>& of_cells_;
     std::vector<Defect> all_;
@@ -189,51 +181,29 @@ struct Checked {
     std::vector<BoundaryFacet> boundary = {};  ///< ordered by their nodes
 };
 
-// Nodes by themselves (nodes.cpp).
+// The stages. Each says which defects it finds.
 
 /// Finds not_finite, coincident_nodes, unused_node.
 void check_nodes(Checked& c);
-
-/// Those of `nodes` at the place of another one, second, each with the lowest that is there, first; by the second. 0
-/// and -0 are one place. Precondition: their coordinates are finite.
-std::vector<std::array<Mesh::Index, 2>> coincident_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& nodes);
-
-/// Around a node. Rounding keeps the order: no double within the radius is left out.
-Box box_around(const Mesh& mesh, Mesh::Index node, double radius);
-
-/// Of two nodes, rounded.
-double node_distance(const Mesh& mesh, Mesh::Index a, Mesh::Index b);
-
-struct NearPair {
-    Mesh::Index first = -1, second = -1;
-    double distance = 0;
-};
-
-/// found(pair) for the pairs of `nodes` that lie no farther apart than `radius` of both, an entry a node; in an order
-/// that does not depend on threads. False if there are more than `limit` of them, or on average more than 64 a node
-/// over many nodes: those beyond are not found. Memory is bounded by that.
-bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, const std::vector<double>& radius,
-                   std::size_t limit, const std::function<void(const NearPair&)>& found);
-
-// Cells by themselves: exact orientation and volume, shape, condition (cells.cpp).
 
 /// Fills the report's measures, without shapes if the verdict alone is asked for. Finds index_out_of_range,
 /// repeated_node, degenerate_cell, plain_sign_wrong, mixed_orientation.
 void check_cells(Checked& c);
 
-// How cells meet at their facets, and which facets are the boundary (facets.cpp).
+/// How cells meet at their facets, and which facets are the boundary. True if the cells partition a domain, proved by
+/// the index (index/proof.hpp) in less time than the search takes, which finds duplicate_cell, overfull_facet,
+/// same_side.
+bool check_facets(Checked& c);
 
-/// Finds duplicate_cell, overfull_facet, same_side.
-void check_facets(Checked& c);
-
-/// The same of a mesh whose cells partition a domain, proved by the index (index/proof.hpp) in less time; false if that
-/// is not proved. Precondition: all cells are usable, none degenerate.
-bool find_facets_of_partition(Checked& c);
-
-// The boundary as a complex: ridges, pieces, cavities, tunnels (boundary.cpp).
-
-/// One of the boundary facets of each piece. Finds open_boundary, pinched_ridge, pinched_node, missing_cell.
+/// The boundary as a complex: ridges, pieces, cavities, tunnels. Returns one of the boundary facets of each piece.
+/// Finds open_boundary, pinched_ridge, pinched_node, missing_cell.
 std::vector<std::uint32_t> check_boundary(Checked& c);
+
+/// P5: finds wrong_neighbour and wrong_face. Nothing where the mesh has none.
+void check_files(Checked& c);
+
+/// 1 for each of Mesh::faces that a usable cell has.
+std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std::uint8_t>& usable);
 
 // Facets and cells that meet where they must not (pairs.cpp).
 
@@ -268,40 +238,48 @@ std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint3
 /// Finds overlapping_cells among all that are not degenerate.
 std::vector<CellPair> find_overlapping_cells(Checked& c);
 
-// Neighbours and faces that came with the mesh (facets.cpp).
+/// The intersection of two closed cells: its dimension (-1: empty) and a point in its relative interior, computed in
+/// integers. If the interiors meet, that point lies in both. Precondition: neither is degenerate. Slow: tens of
+/// microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
+CellContact common_part(const Mesh& mesh, const CellPair& cells);
 
-/// P5: finds wrong_neighbour and wrong_face. Nothing where the mesh has none.
-void check_files(Checked& c);
+// Nodes near each other, or near what is between others (nodes.cpp, hanging_nodes.cpp, cracks.cpp).
 
-/// 1 for each of Mesh::faces that a usable cell has.
-std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std::uint8_t>& usable);
+/// Those of `nodes` at the place of another one, second, each with the lowest that is there, first; by the second. 0
+/// and -0 are one place. Precondition: their coordinates are finite.
+std::vector<std::array<Mesh::Index, 2>> coincident_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& nodes);
 
-// Nodes of the boundary that are near each other, or near what is between others (cracks.cpp, hanging_nodes.cpp).
+/// Around a node. Rounding keeps the order: no double within the radius is left out.
+Box box_around(const Mesh& mesh, Mesh::Index node, double radius);
 
-/// Finds near_nodes and near_hanging, as CheckOptions::near has them, crack, and of touching.hanging those that are no
-/// near nodes. `meeting`: cells that meet where they must not; what two of them have of these is the cause.
-void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector<CellPair>& meeting);
+/// Of two nodes, rounded.
+double node_distance(const Mesh& mesh, Mesh::Index a, Mesh::Index b);
+
+struct NearPair {
+    Mesh::Index first = -1, second = -1;
+    double distance = 0;
+};
+
+/// found(pair) for the pairs of `nodes` that lie no farther apart than `radius` of both, an entry a node; in an order
+/// that does not depend on threads. False if there are more than `limit` of them, or on average more than 64 a node
+/// over many nodes: those beyond are not found. Memory is bounded by that.
+bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, const std::vector<double>& radius,
+                   std::size_t limit, const std::function<void(const NearPair&)>& found);
 
 /// The nodes no farther from an edge or a facet than the radius of the node and of each node of the facet, and farther
 /// from these nodes; of no cell that has the node, too. `radius`: of each node, 0 of those that are not of the
 /// boundary. Ascending, up to `limit`.
 Found<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& radius, std::size_t limit);
 
-// What else can be asked of a mesh (common_part.cpp, delaunay.cpp, conformity.cpp).
+/// Finds near_nodes and near_hanging, as CheckOptions::near has them, crack, and of touching.hanging those that are no
+/// near nodes. `meeting`: cells that meet where they must not; what two of them have of these is the cause.
+void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector<CellPair>& meeting);
 
-/// The intersection of two closed cells: its dimension (-1: empty) and a point in its relative interior, computed in
-/// integers. If the interiors meet, that point lies in both. Precondition: coordinates finite. Slow: tens of
-/// microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
-struct CommonPart {
-    int dimension = -1;
-    CommonPoint point;
-};
-CommonPart common_part(int d, const Corners& a, const Corners& b);
+// What else can be asked of a mesh, on all threads of the calling arena.
 
-/// On all threads of the calling arena.
 DelaunayReport check_delaunay(const Checked& c);
 
-/// Areas mean little where the mesh is not certified. Precondition: tetrahedra. On all threads of the calling arena.
+/// Areas mean little where the mesh is not certified. Precondition: tetrahedra.
 ConformityReport check_conformity(const Checked& c);
 
 }  // namespace barycert::check

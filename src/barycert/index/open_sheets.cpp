@@ -1,7 +1,5 @@
 #include "barycert/index/open_sheets.hpp"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -13,36 +11,11 @@
 #include "barycert/index/candidates.hpp"
 #include "barycert/index/cell_tree.hpp"
 #include "barycert/index/overlap.hpp"
+#include "barycert/index/ridges.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::index {
 namespace {
-
-struct Ridge {
-    std::uint64_t nodes;
-    std::uint32_t facet;
-    std::uint32_t other;  ///< which of the facet's nodes it does not have
-};
-
-/// Of all facets, equal ones side by side.
-std::vector<Ridge> ridges_of(int d, const std::vector<PlacedFacet>& facets) {
-    const auto n = static_cast<std::size_t>(d);
-    std::vector<Ridge> ridges(facets.size() * n);
-    base::parallel_for(facets.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f != end; ++f) {
-            const auto node = [&](std::size_t i) { return static_cast<std::uint64_t>(facets[f].nodes[i]); };
-            for (std::size_t i = 0; i < n; ++i) {
-                const std::uint64_t nodes = d == 2 ? node(i) : node(i == 0 ? 1 : 0) << 32 | node(i == 2 ? 1 : 2);
-                const auto other = static_cast<std::uint32_t>(d == 2 ? 1 - i : i);
-                ridges[n * f + i] = {nodes, static_cast<std::uint32_t>(f), other};
-            }
-        }
-    });
-    tbb::parallel_sort(ridges.begin(), ridges.end(), [](const Ridge& a, const Ridge& b) {
-        return a.nodes != b.nodes ? a.nodes < b.nodes : a.facet < b.facet;
-    });
-    return ridges;
-}
 
 /// The most facets that one node has.
 std::size_t largest_fan(std::size_t nodes, const std::vector<PlacedFacet>& facets) {
@@ -166,18 +139,12 @@ std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vect
 std::vector<std::vector<std::uint32_t>> find_sheets(const CellIndex& index, const std::vector<CellFacet>& open,
                                                     const std::vector<PlacedFacet>& facets,
                                                     const std::vector<std::uint8_t>& conflict) {
-    const std::vector<Ridge> ridges = ridges_of(static_cast<int>(index.dimension()), facets);
     base::DisjointSets sets(facets.size());
     Ring ring(index, open, facets);
-    for (std::size_t i = 0; i < ridges.size();) {
-        std::size_t next = i + 1;
-        while (next < ridges.size() && ridges[next].nodes == ridges[i].nodes) ++next;
-        const std::span<const Ridge> same = std::span(ridges).subspan(i, next - i);
-        if (same.size() > 1 &&
-            std::all_of(same.begin(), same.end(), [&](const Ridge& r) { return conflict[r.facet] == 0; }))
+    for_each_ridge(ridges_of(static_cast<int>(index.dimension()), facets), [&](std::span<const Ridge> same) {
+        if (same.size() > 1 && std::ranges::all_of(same, [&](const Ridge& r) { return conflict[r.facet] == 0; }))
             ring.for_each_pair(same, [&](std::uint32_t f, std::uint32_t g) { sets.join(f, g); });
-        i = next;
-    }
+    });
     std::vector<std::vector<std::uint32_t>> sheets;
     std::vector<std::uint32_t> sheet_of(facets.size());
     for (std::size_t f = 0; f < facets.size(); ++f) {

@@ -1,6 +1,7 @@
 /// Which cells share a facet: edges between triangles, faces between tetrahedra.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,13 +13,19 @@ namespace barycert::mesh {
 
 /// The cell across the facet opposite to each corner, dimension + 1 a cell; -1 where there is none. Facets are the same
 /// if they have the same nodes; positions do not matter. Where more than two cells hold a facet, the two lowest are
-/// neighbours and the others have none. Precondition: the indices of the cells are in range.
-/// Time and memory O(cells + nodes) where the number of cells at a node is bounded; on all threads of the calling
-/// arena.
+/// neighbours and the others have none. Precondition: the indices of the cells are in range. Time and memory O(cells +
+/// nodes) where the number of cells at a node is bounded; on all threads of the calling arena.
 std::vector<Mesh::Index> compute_neighbours(const Mesh& mesh);
 
 /// The facets without a neighbour, each as cell * (dimension + 1) + corner, ascending. `neighbours` as above.
 std::vector<std::int64_t> hull_facets(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours);
+
+/// The corners of the facet opposite to a corner of a positive cell, in the order that turns normals outward (2D: two,
+/// the cell to their left).
+inline std::array<std::size_t, 3> outward_corners(int dimension, std::size_t corner) {
+    constexpr std::array<std::array<std::size_t, 3>, 4> faces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+    return dimension == 3 ? faces[corner] : std::array{(corner + 1) % 3, (corner + 2) % 3, std::size_t{0}};
+}
 
 /// A facet as one cell has it, without its lowest node, by which facets are gathered. In 2D that one stands for the
 /// middle node again.

@@ -43,12 +43,8 @@ void begin_columns(const std::vector<ColumnFormat>& formats, std::vector<Column>
     for (std::size_t k = 0; k < formats.size(); ++k) {
         if (columns[k].type() != formats[k].type) columns[k] = empty_column(formats[k]);
         columns[k].name = formats[k].name;
-        clear(columns[k]);
+        std::visit([](auto& values) { values.clear(); }, columns[k].values);
     }
-}
-
-void clear(Column& column) {
-    std::visit([](auto& values) { values.clear(); }, column.values);
 }
 
 void shrink(Column& column, std::size_t count) {

@@ -20,9 +20,6 @@ ColumnFormat format_of(const Column& column);
 /// Makes `columns` empty ones of these formats; what memory they have is kept.
 void begin_columns(const std::vector<ColumnFormat>& formats, std::vector<Column>& columns);
 
-/// Removes the values and keeps the memory.
-void clear(Column& column);
-
 /// The values number 0 to count - 1 at most; those behind are removed.
 void shrink(Column& column, std::size_t count);
 

@@ -31,26 +31,14 @@ std::vector<std::size_t> single_facets(const Mesh& mesh) {
     return all;
 }
 
-/// The corners of the facet opposite to corner i of a positive cell, turned so that normals point outwards (2D: the
-/// cell is to the left).
-template <std::size_t n>
-std::array<std::size_t, n - 1> outward_facet(std::size_t i) {
-    if constexpr (n == 3) {
-        return {(i + 1) % 3, (i + 2) % 3};
-    } else {
-        constexpr std::array<std::array<std::size_t, 3>, 4> facets{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-        return facets[i];
-    }
-}
-
-template <std::size_t n>
 void write_facets(const Mesh& mesh, const std::vector<std::size_t>& facets, Surface& surface) {
+    const std::size_t n = mesh.corners();
     base::resize_large(surface.cells, (n - 1) * facets.size());
     base::resize_large(surface.mesh_cells, facets.size());
     base::parallel_for(facets.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f != end; ++f) {
             const Index* const corners = mesh.cells.data() + facets[f] / n * n;
-            const auto facet = outward_facet<n>(facets[f] % n);
+            const auto facet = mesh::outward_corners(mesh.dimension, facets[f] % n);
             Index* const to = surface.cells.data() + (n - 1) * f;
             for (std::size_t i = 0; i < n - 1; ++i) to[i] = corners[facet[i]];
             if (orientation(mesh, corners) == Sign::negative) std::swap(to[n - 3], to[n - 2]);
@@ -74,8 +62,7 @@ void number_nodes(const Mesh& mesh, Surface& surface) {
 Surface boundary_of(const Mesh& mesh, const CutOptions& options) {
     Surface surface;
     surface.dimension = mesh.dimension;
-    const std::vector<std::size_t> facets = single_facets(mesh);
-    mesh.dimension == 2 ? write_facets<3>(mesh, facets, surface) : write_facets<4>(mesh, facets, surface);
+    write_facets(mesh, single_facets(mesh), surface);
     number_nodes(mesh, surface);
     surface.points = take_rows(mesh.points, surface.corners(), surface.mesh_edges, 2);
     take_rows(options.point_fields, surface.mesh_edges, 2, surface.point_fields);

@@ -122,10 +122,8 @@ public:
         return plane_lanes(plane_, edges, out, undecided);
     }
     ExactCrossing exact(const Edge& edge) const {
-        const double *const in = points_ + 3 * static_cast<std::size_t>(edge.in), *const out =
-                                                                                      points_ +
-                                                                                      3 * static_cast<std::size_t>(
-                                                                                              edge.out);
+        const double* const in = points_ + 3 * static_cast<std::size_t>(edge.in);
+        const double* const out = points_ + 3 * static_cast<std::size_t>(edge.out);
         const Unit of_points = unit_of({1, in[0], in[1], in[2], out[0], out[1], out[2]});
         return {exact_height(in, of_points), Integer() - exact_height(out, of_points)};
     }
