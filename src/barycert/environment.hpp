@@ -42,7 +42,7 @@ bool rounds_correctly();
 /// Compilers do not know that arithmetic depends on it. They keep loads and stores in place, as the functions that set
 /// registers might read memory; but they may move arithmetic on arguments, and that of a result which is returned in a
 /// register, across it, calls of functions without side effects included (GCC 12 does). The
-/// library passes such numbers through a barrier (base/held.hpp); a volatile variable is one as well.
+/// library passes such numbers through a barrier (base::held, strict_math.hpp); a volatile variable is one as well.
 class ExactEnvironment {
 public:
     ExactEnvironment() {

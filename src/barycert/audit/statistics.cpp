@@ -7,7 +7,6 @@
 #include "barycert/audit.hpp"
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/decades.hpp"
-#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/weights.hpp"

@@ -59,8 +59,7 @@ Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char
 class InputFile {
 public:
     /// Errors: missing, unreadable, a folder, a pipe or device (for which `remedy` says what to do), packed and not
-    /// beginning as `text` says.
-    /// `pipe`, if given, lets it be a pipe, and is set if it is one.
+    /// beginning as `text` says. `pipe`, if given, lets it be a pipe, and is set if it is one.
     static Result<InputFile> open(const std::string& path, const char* remedy = "save the data to a regular file first",
                                   Text text = Text::none, bool* pipe = nullptr);
 

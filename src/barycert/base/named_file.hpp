@@ -28,8 +28,7 @@ std::vector<NamedFile> named_files(const std::string& what, std::vector<std::str
 Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
 /// What can be known of outputs before the work. Error: an output is an input or another output, or cannot be written,
-/// or its name has a place for a step, of which there is none.
-/// Outputs without a path are passed over.
+/// or its name has a place for a step, of which there is none. Outputs without a path are passed over.
 Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs);
 
 /// Error: one of these cannot be read. "-" is stdin.

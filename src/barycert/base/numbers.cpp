@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "barycert/base/held.hpp"
 #include "barycert/base/random.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"

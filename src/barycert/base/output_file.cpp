@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <system_error>
 #include <utility>
 
@@ -23,25 +24,13 @@ constexpr const char* cannot_write_it = "cannot write the file";
 constexpr const char* put_in_place = "cannot put the finished file in its place";
 
 const char* remedy_for(int error_number) {
-    switch (error_number) {
-        case ENOENT:
-        case ENOTDIR:
-            return "make the folder first, or name another one";
-        case EISDIR:
-            return "name a file, not a folder";
-        case EACCES:
-        case EPERM:
-        case EROFS:
-            return "choose a folder and a file that you may write";
-        case ENOSPC:
-        case EDQUOT:
-        case EFBIG:
-            return "free some space, or write to another disk";
-        case EPIPE:
-            return "whatever read the output has stopped reading";
-        default:
-            return "check the path and the disk";
-    }
+    const auto is = [&](std::initializer_list<int> numbers) { return std::ranges::count(numbers, error_number) != 0; };
+    if (is({ENOENT, ENOTDIR})) return "make the folder first, or name another one";
+    if (is({EISDIR})) return "name a file, not a folder";
+    if (is({EACCES, EPERM, EROFS})) return "choose a folder and a file that you may write";
+    if (is({ENOSPC, EDQUOT, EFBIG})) return "free some space, or write to another disk";
+    if (is({EPIPE})) return "whatever read the output has stopped reading";
+    return "check the path and the disk";
 }
 
 /// A name beside the target that no other file of this process has.

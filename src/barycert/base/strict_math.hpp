@@ -23,3 +23,15 @@
 #endif
 
 static_assert(FLT_EVAL_METHOD == 0, "barycert needs doubles evaluated as doubles: compile it with -mfpmath=sse");
+
+namespace barycert::base {
+
+/// Returns x. A barrier beside an ExactEnvironment: compilers move neither the computation of x nor what depends on the
+/// result across this call.
+template <class T>
+[[gnu::always_inline]] inline T held(T x) {
+    __asm__ volatile("" : "+m"(x) : : "memory");
+    return x;
+}
+
+}  // namespace barycert::base

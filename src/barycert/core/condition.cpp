@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/quotient.hpp"

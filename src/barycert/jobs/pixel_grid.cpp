@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/held.hpp"
+#include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/weights.hpp"

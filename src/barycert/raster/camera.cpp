@@ -5,7 +5,6 @@
 #include <string>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"

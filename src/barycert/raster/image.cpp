@@ -2,7 +2,6 @@
 #include <cmath>
 #include <string>
 
-#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/png/png_file.hpp"

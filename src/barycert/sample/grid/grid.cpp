@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "barycert/base/held.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
