@@ -11,7 +11,6 @@
 
 #include "barycert/base/random.hpp"
 #include "barycert/raster.hpp"
-#include "barycert/raster/textured_lanes.hpp"
 #include "exact_table.hpp"
 #ifdef BARYCERT_WITH_OSMESA
 #include "raster_mesa.hpp"
@@ -23,25 +22,28 @@ namespace {
 using namespace barycert;
 using bench::Demand;
 using bench::Row;
-using raster::PixelRows;
-using raster::TexelRows;
 
 constexpr std::int32_t side = 1024, texture_side = 256;
 constexpr int repetitions = 11;
 constexpr double pixels_a_run = 4e6;
 
 struct Picture {
-    std::vector<std::uint32_t> pixels = std::vector<std::uint32_t>(static_cast<std::size_t>(side) * side);
-    PixelRows rows() { return {pixels.data(), side, side}; }
+    Image image{side, side, std::vector<std::uint8_t>(std::size_t{4} * side * side)};
+    std::uint32_t* pixels() { return reinterpret_cast<std::uint32_t*>(image.data.data()); }
+    bench::PixelRows rows() { return {pixels(), side, side}; }
 };
 
 /// Each texel has its own colour: its index.
 struct Texels {
-    std::vector<std::uint32_t> texels;
+    Texture texture{
+        {texture_side, texture_side, std::vector<std::uint8_t>(std::size_t{4} * texture_side * texture_side)}};
     Texels() {
-        for (std::uint32_t i = 0; i < texture_side * texture_side; ++i) texels.push_back(0xff000000U | i);
+        auto* const texels = reinterpret_cast<std::uint32_t*>(texture.image.data.data());
+        for (std::uint32_t i = 0; i < texture_side * texture_side; ++i) texels[i] = 0xff000000U | i;
     }
-    TexelRows rows() const { return {texels.data(), texture_side, texture_side, Wrap::clamp}; }
+    bench::TexelRows rows() const {
+        return {reinterpret_cast<const std::uint32_t*>(texture.image.data.data()), texture_side, texture_side};
+    }
 };
 
 /// Triangles with three equal sides, `across` pixels from the leftmost to the rightmost of their circle, anyhow turned.
@@ -130,9 +132,9 @@ double largest_error(const std::vector<TexturedVertex>& corners, bool perspectiv
     const Texels texels;
     Findings f;
     for (std::size_t k = 0; k < std::min(corners.size(), 3 * judged); k += 3) {
-        std::fill(picture.pixels.begin(), picture.pixels.end(), 0U);
-        raster::draw_lanes(picture.rows(), texels.rows(), {corners.data() + k, 3}, perspective);
-        judge(picture.pixels.data(), corners.data() + k, perspective, f);
+        std::fill(picture.image.data.begin(), picture.image.data.end(), std::uint8_t{0});
+        draw_textured(picture.image, texels.texture, {corners.data() + k, 3}, perspective).value();
+        judge(picture.pixels(), corners.data() + k, perspective, f);
     }
     if (f.missed + f.beyond != 0) {
         std::fprintf(stderr, "wrong: of %zu covered pixels %zu are not drawn, and %zu others are\n", f.covered,
@@ -197,9 +199,10 @@ int main() {
         row(
             "textbook scanline", pixels, [&] { bench::scanline_loop(picture.rows(), texels.rows(), flat); }, true);
         row(
-            "affine", pixels, [&] { raster::draw_lanes(picture.rows(), texels.rows(), flat, false); }, false);
+            "affine", pixels, [&] { draw_textured(picture.image, texels.texture, flat, false).value(); }, false);
         row(
-            "perspective", deep_pixels, [&] { raster::draw_lanes(picture.rows(), texels.rows(), deep, true); }, false);
+            "perspective", deep_pixels, [&] { draw_textured(picture.image, texels.texture, deep, true).value(); },
+            false);
         char title[100];
         std::snprintf(title, sizeof title, "triangles %g pixels across, ns a pixel", across);
         table.run(title, rows, repetitions);

@@ -25,7 +25,7 @@ bool move_all(int file, void* data, std::size_t size, bool out) {
 }
 
 /// Draws and writes its answer to the pipe. llvmpipe reads the number of threads once, when it starts: hence a process.
-void draw(int file, std::int32_t side, const raster::TexelRows& texture, const std::vector<TexturedVertex>& corners,
+void draw(int file, std::int32_t side, const TexelRows& texture, const std::vector<TexturedVertex>& corners,
           int repetitions, std::size_t pictures) {
     OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
     const auto pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
@@ -87,7 +87,7 @@ void draw(int file, std::int32_t side, const raster::TexelRows& texture, const s
 
 }  // namespace
 
-MesaAnswer draw_by_mesa(std::int32_t side, const raster::TexelRows& texture, const std::vector<TexturedVertex>& corners,
+MesaAnswer draw_by_mesa(std::int32_t side, const TexelRows& texture, const std::vector<TexturedVertex>& corners,
                         int threads, int repetitions, std::size_t pictures) {
     MesaAnswer answer;
     int ends[2];

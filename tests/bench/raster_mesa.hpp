@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/raster/textured_lanes.hpp"
+#include "raster_peers.hpp"
 
 namespace barycert::bench {
 
@@ -18,7 +18,7 @@ struct MesaAnswer {
 
 /// Draws the triangles, in a process of its own, with that many threads, as OpenGL does: textured, in perspective,
 /// texels by the nearest. Pictures are side * side.
-MesaAnswer draw_by_mesa(std::int32_t side, const raster::TexelRows& texture, const std::vector<TexturedVertex>& corners,
+MesaAnswer draw_by_mesa(std::int32_t side, const TexelRows& texture, const std::vector<TexturedVertex>& corners,
                         int threads, int repetitions, std::size_t pictures);
 
 }  // namespace barycert::bench

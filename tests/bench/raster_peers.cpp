@@ -7,9 +7,6 @@
 namespace barycert::bench {
 namespace {
 
-using raster::PixelRows;
-using raster::TexelRows;
-
 /// u and v in units of texels, clamped.
 std::uint32_t texel(const TexelRows& texture, double u, double v) {
     const int i = std::min(std::max(static_cast<int>(u), 0), texture.width - 1);

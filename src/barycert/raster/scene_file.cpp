@@ -41,14 +41,6 @@ Result<std::string> text_of_file(const std::string& path) {
 /// The text as JSON, in which no object has two members of one name. Throws Exception.
 Json parse(const std::string& text, const std::string& path) {
     std::vector<std::set<std::string>> names;  // of the objects that are open
-    const auto failure = [&](std::size_t byte, const std::string& found) {
-        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
-        return Error{.what = "the scene is no JSON",
-                     .file = path,
-                     .line = 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n')),
-                     .found = found,
-                     .remedy = "correct the file"};
-    };
     const Json::parser_callback_t on_event = [&](int, Json::parse_event_t event, Json& parsed) {
         if (event == Json::parse_event_t::object_start) names.emplace_back();
         if (event == Json::parse_event_t::object_end) names.pop_back();
@@ -59,18 +51,23 @@ Json parse(const std::string& text, const std::string& path) {
                              .remedy = "leave one out"});
         return true;
     };
+    const auto behind = [](const std::string& all, const char* mark) {
+        const std::size_t at = all.find(mark);
+        return at == std::string::npos ? all : all.substr(at + 2);
+    };
     try {
         return Json::parse(text, on_event);
     } catch (const Json::parse_error& e) {
-        const std::string all = e.what();  // [id] parse error at line L, column C: what
-        const std::size_t from = all.find(": ");
-        throw Exception(failure(e.byte == 0 ? 0 : e.byte - 1, from == std::string::npos ? all : all.substr(from + 2)));
+        const auto before = static_cast<std::ptrdiff_t>(std::min(e.byte == 0 ? 0 : e.byte - 1, text.size()));
+        throw Exception({.what = "the scene is no JSON",
+                         .file = path,
+                         .line = 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + before, '\n')),
+                         .found = behind(e.what(), ": "),  // [id] parse error at line L, column C: what
+                         .remedy = "correct the file"});
     } catch (const Json::exception& e) {  // a number beyond the doubles
-        const std::string all = e.what();
-        const std::size_t from = all.find("] ");
         throw Exception({.what = "the scene cannot be read",
                          .file = path,
-                         .found = from == std::string::npos ? all : all.substr(from + 2),
+                         .found = behind(e.what(), "] "),
                          .remedy = "correct the file"});
     }
 }

@@ -9,7 +9,7 @@
 //                     each rounded once: off by less than 2^-21 of the largest of |U| along the row, divided, with
 //                     perspective, by (least of 1 / w) / (largest of 1 / w)
 // Nothing is fused, and the same is done on every target; only n differs.
-#include "barycert/raster/textured_lanes.hpp"
+#include "barycert/raster.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -64,8 +64,8 @@ struct Sheet {
     std::int32_t width, height;
     int width_bits;  ///< the width is 2^width_bits, or -1 if it is no power of two
 
-    explicit Sheet(const TexelRows& t)
-        : texels(reinterpret_cast<const std::int32_t*>(t.texels)), width(t.width), height(t.height) {
+    explicit Sheet(const Image& t)
+        : texels(reinterpret_cast<const std::int32_t*>(t.data.data())), width(t.width), height(t.height) {
         const auto w = static_cast<std::uint32_t>(width);
         width_bits = std::has_single_bit(w) ? std::countr_zero(w) : -1;
     }
@@ -267,9 +267,9 @@ private:
 };
 
 template <class Rows>
-std::size_t draw_all(const PixelRows& out, const Sheet& sheet, std::span<const TexturedVertex> vertices) {
+std::size_t draw_all(Image& out, const Sheet& sheet, std::span<const TexturedVertex> vertices) {
     std::size_t drawn = 0;
-    auto* const pixels = reinterpret_cast<std::int32_t*>(out.pixels);
+    auto* const pixels = reinterpret_cast<std::int32_t*>(out.data.data());
     for (std::size_t k = 0; k + 3 <= vertices.size(); k += 3) {
         const TexturedVertex* const c = vertices.data() + k;
         const double window[6] = {c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y};
@@ -294,8 +294,8 @@ std::size_t draw_all(const PixelRows& out, const Sheet& sheet, std::span<const T
 }
 
 template <bool perspective>
-std::size_t draw_wrapped(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> vertices) {
-    const Sheet sheet(texture);
+std::size_t draw_wrapped(Image& out, const Texture& texture, std::span<const TexturedVertex> vertices) {
+    const Sheet sheet(texture.image);
     if (texture.wrap == Wrap::repeat) return draw_all<FloatRows<Wrap::repeat, perspective>>(out, sheet, vertices);
     if (texture.wrap == Wrap::mirror) return draw_all<FloatRows<Wrap::mirror, perspective>>(out, sheet, vertices);
     if (perspective || std::max(sheet.width, sheet.height) > 1 << 13)
@@ -304,8 +304,7 @@ std::size_t draw_wrapped(const PixelRows& out, const TexelRows& texture, std::sp
                                  : draw_all<FixedRows<false>>(out, sheet, vertices);
 }
 
-std::size_t draw(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> vertices,
-                 bool perspective) {
+std::size_t draw(Image& out, const Texture& texture, std::span<const TexturedVertex> vertices, bool perspective) {
     return perspective ? draw_wrapped<true>(out, texture, vertices) : draw_wrapped<false>(out, texture, vertices);
 }
 
@@ -314,17 +313,15 @@ std::size_t draw(const PixelRows& out, const TexelRows& texture, std::span<const
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert::raster {
+namespace barycert {
+namespace raster {
 HWY_EXPORT(draw);
 
-std::size_t draw_lanes(const PixelRows& out, const TexelRows& texture, std::span<const TexturedVertex> vertices,
-                       bool perspective) {
+namespace {
+
+std::size_t draw_lanes(Image& out, const Texture& texture, std::span<const TexturedVertex> vertices, bool perspective) {
     return HWY_DYNAMIC_DISPATCH(draw)(out, texture, vertices, perspective);
 }
-}  // namespace barycert::raster
-
-namespace barycert {
-namespace {
 
 Status check_textured(const Image& image, const Texture& texture, std::span<const TexturedVertex> vertices,
                       bool perspective) {
@@ -351,15 +348,13 @@ Status check_textured(const Image& image, const Texture& texture, std::span<cons
 }
 
 }  // namespace
+}  // namespace raster
 
 Result<std::size_t> draw_textured(Image& image, const Texture& texture, std::span<const TexturedVertex> vertices,
                                   bool perspective) {
     const ExactEnvironment environment;
-    if (Status s = check_textured(image, texture, vertices, perspective); !s) return s.error();
-    const raster::PixelRows out{reinterpret_cast<std::uint32_t*>(image.data.data()), image.width, image.height};
-    const raster::TexelRows texels{reinterpret_cast<const std::uint32_t*>(texture.image.data.data()),
-                                   texture.image.width, texture.image.height, texture.wrap};
-    return raster::draw_lanes(out, texels, vertices, perspective);
+    if (Status s = raster::check_textured(image, texture, vertices, perspective); !s) return s.error();
+    return raster::draw_lanes(image, texture, vertices, perspective);
 }
 
 }  // namespace barycert
