@@ -17,7 +17,6 @@ namespace barycert::locate {
 struct alignas(32) PointRecord {
     std::array<double, 3> at;
     std::uint32_t number;  ///< where its results go
-    std::uint32_t bin;
 };
 
 class SortedPoints;

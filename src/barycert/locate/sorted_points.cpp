@@ -47,7 +47,6 @@ void SortedPoints::copy(std::size_t first, std::size_t count, PointRecord* to) c
         const double* const from = point(order_[place].number);
         to[i].at = {from[0], from[1], d_ == 3 ? from[d_ - 1] : 0};
         to[i].number = static_cast<std::uint32_t>(place);
-        to[i].bin = order_[place].bin;
     }
 }
 
