@@ -46,9 +46,9 @@ LOCATE = [
     ("sorted_points.cpp", "finite &= find_bins", "finite = find_bins", "the last points alone"),
 ]
 SAMPLE = [
-    ("points/outside.cpp", "[](double x) { return std::isnan(x); }) ? 1 : 0;", "[](double x) { return std::isnan(x); }) ? 0 : 0;",
+    ("points/chunk_sampler.cpp", "[](double x) { return std::isnan(x); }) ? 1 : 0;", "[](double x) { return std::isnan(x); }) ? 0 : 0;",
      "a value that is not finite, uncounted"),
-    ("points/outside.cpp", "const bool asked = data.quadratic && !data.at_points.empty();", "const bool asked = false;",
+    ("points/chunk_sampler.cpp", "const bool asked = data.quadratic && !data.at_points.empty();", "const bool asked = false;",
      "gradients at the point, not at its projection"),
     ("points/sampler.cpp", "(data.point_components + 2) / 4", "data.point_components / 4", "the last group of components"),
     ("points/sampler.cpp", "late.component < 0) late.component", "true) late.component", "a component asked for again"),

@@ -96,9 +96,8 @@ private:
     }
 
     bool over(std::size_t row, const double* exact) const {
-        for (std::size_t c = 0; c < columns(); ++c) {
+        for (std::size_t c = 0; c < columns(); ++c)
             if (compare(claims(row)[c], exact[c], ranges_[c]).over(options_)) return true;
-        }
         return false;
     }
 
@@ -152,7 +151,9 @@ private:
                 double most = 0;
                 for (std::size_t c = 0; c < columns(); ++c)
                     most = std::max(most, compare(claims(again_[i])[c], all->value(row, c), ranges_[c]).relative);
-                if (most < least) least = most, choice = row;
+                if (!(most < least)) continue;
+                least = most;
+                choice = row;
             }
             const std::uint64_t right = found_.right, cells = begin[i + 1] - begin[i];
             found_.several += cells > 1 ? 1 : 0;

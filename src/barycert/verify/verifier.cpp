@@ -143,9 +143,8 @@ Status Verifier::measure(Verdicts& verdicts) const {
             }
         });
     });
-    for (const std::optional<Error>& error : errors) {
+    for (const std::optional<Error>& error : errors)
         if (error) return *error;
-    }
     for (const WrongRow& row : rows) {
         verdicts.invented_measured += std::isnan(row.distance) ? 0 : 1;
         verdicts.invented_near += row.distance <= near_ ? 1 : 0;

@@ -147,8 +147,7 @@ void SlabSampler::push(std::size_t point) {
     const Mesh::Index cell = owners_[point];
     sampler_->push(
         {{raster_.at[0][point % target_.columns], raster_.at[1][space ? row : layer], raster_.at[2][space ? layer : 0]},
-         static_cast<std::uint32_t>(point),
-         0},
+         static_cast<std::uint32_t>(point)},
         cell < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(cell)], feature_of(point));
 }
 

@@ -29,13 +29,6 @@ struct BlockRows {
     double* distances;  ///< nullptr unless the policy gives some
 };
 
-/// Under the policy nearest: sets one value a column. Point fields get, correctly rounded or plain as asked for, the
-/// value at the orthogonal projection to the nearest vertex, edge or face; cell fields that of the nearest cell. On
-/// cells of second order the weights of the projection are rounded first, so that they remain those of a point of the
-/// cell, then the quadratic is evaluated there.
-void snapped_values(const SamplerData& data, Rounding rounding, const Nearest& nearest,
-                    const std::array<double, 3>& point, double* values, TierCounts& tiers);
-
 /// What a row has besides the values of point fields. Sets the values of the cell fields of the cell, and what is
 /// computed at the point, into their columns of a row whose values of point fields stand. `point`: where gradients on
 /// cells of second order are evaluated; not read if there are none.

@@ -1,10 +1,9 @@
-/// The part of a mesh that is nearest to a point outside: what its values and weights are computed in.
+/// What values and weights are computed in: the nodes of a cell, and the part of a mesh nearest to a point outside.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "barycert/locate/near_feature.hpp"
 #include "barycert/locator.hpp"
@@ -27,15 +26,22 @@ inline locate::NearFeature feature_of(const Mesh& mesh, const Nearest& nearest) 
     return f;
 }
 
-/// Corners, then mid-edge nodes of a cell of second order.
-inline std::vector<Mesh::Index> second_order_nodes(const Mesh& mesh, std::size_t cell) {
-    const std::size_t corners = mesh.corners();
-    const auto mids =
-        static_cast<std::size_t>(mid_node_count(mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron));
-    std::vector<Mesh::Index> nodes(&mesh.cells[corners * cell], &mesh.cells[corners * cell] + corners);
-    nodes.insert(nodes.end(), &mesh.mid_nodes[mids * cell], &mesh.mid_nodes[mids * cell] + mids);
-    return nodes;
-}
+/// The nodes of a cell: corners and, if it is of second order, behind them those at mid-edges.
+struct CellNodes {
+    std::array<Mesh::Index, 10> at{};
+    std::size_t count = 0;
+
+    CellNodes(const Mesh& mesh, std::size_t cell) : count(mesh.corners()) {
+        std::copy_n(&mesh.cells[count * cell], count, at.begin());
+        if (mesh.mid_nodes.empty()) return;
+        const auto mids =
+            static_cast<std::size_t>(mid_node_count(mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron));
+        std::copy_n(&mesh.mid_nodes[mids * cell], mids, at.begin() + count);
+        count += mids;
+    }
+    const Mesh::Index* begin() const { return at.data(); }
+    const Mesh::Index* end() const { return at.data() + count; }
+};
 
 /// A point of a cell with unit vectors and the origin as corners. Whatever depends on weights alone, such as a
 /// quadratic, is there what it is at the point of the cell that has the same weights.

@@ -20,8 +20,8 @@ struct alignas(32) ValueRecord {
 /// What is read of a node: its coordinates and component 0 side by side, then components in fours.
 struct NodeValues {
     const locate::NodeRecord* first = nullptr;
-    const ValueRecord* more =
-        nullptr;  ///< component c >= 1 of a node: more[(c - 1) / 4 * node_count + node], (c - 1) % 4
+    /// Component c >= 1 of a node: more[(c - 1) / 4 * node_count + node], (c - 1) % 4.
+    const ValueRecord* more = nullptr;
     std::size_t node_count = 0;
     std::size_t components = 0;  ///< at least 1
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -41,8 +41,12 @@ public:
           nodes_(corners_ + (quadratic() ? static_cast<std::size_t>(mid_node_count(simplex_)) : 0)) {}
 
     Result<NodeWeights> all() {
-        // Unit vectors as values: the value of component c is then the weight of node c.
+        // Cases of second order have nodes of their own, with unit vectors as values: the value of component c is then
+        // the weight of node c.
         for (std::size_t i = 0; quadratic() && i < nodes_ * chunk; ++i) {
+            const auto node = static_cast<Mesh::Index>(i);
+            if (i < chunk) own_.push_back(node);
+            (i % nodes_ < corners_ ? corner_numbers_ : mid_numbers_).push_back(node);
             for (std::size_t c = 0; c < nodes_; ++c) units_.push_back(i % nodes_ == c ? 1 : 0);
         }
         out_.begin.push_back(0);
@@ -73,7 +77,9 @@ private:
         }
         weights_.resize(nodes_ * cells_.size());
         TierCounts tiers;
-        if (Status done = quadratic() ? second_order(tiers) : linear(tiers); !done) return done;
+        const MeshQueries queries{simplex_, mesh_.points, mesh_.cells, cells_, points_};
+        Status done = quadratic() ? second_order(tiers) : barycentric_weights(queries, weights_, &tiers);
+        if (!done) return done;
         if (tiers.degenerate != 0) return Error{.what = "a row names a degenerate cell, which has no weights"};
         for (std::size_t i = first, inside = 0; i < last; ++i) {
             const Mesh::Index owner = owners_[i - first];
@@ -81,43 +87,25 @@ private:
                 add_outside(rows_.points.data() + d_ * i);
                 continue;
             }
-            std::array<Mesh::Index, max_nodes_of_cell> nodes{};
-            nodes_in(static_cast<std::size_t>(owner), nodes.data());
-            add_row(nodes.data(), &weights_[nodes_ * inside++], nodes_);
+            const sample::CellNodes nodes(mesh_, static_cast<std::size_t>(owner));
+            add_row(nodes.begin(), &weights_[nodes_ * inside++], nodes_);
         }
         return Done{};
     }
 
-    void nodes_in(std::size_t cell, Mesh::Index* out) const {
-        out = std::copy_n(&mesh_.cells[corners_ * cell], corners_, out);
-        if (quadratic()) std::copy_n(&mesh_.mid_nodes[(nodes_ - corners_) * cell], nodes_ - corners_, out);
-    }
-
-    Status linear(TierCounts& tiers) {
-        return barycentric_weights(MeshQueries{simplex_, mesh_.points, mesh_.cells, cells_, points_}, weights_, &tiers);
-    }
-
-    /// Each case has nodes of its own.
     Status second_order(TierCounts& tiers) {
-        const std::size_t count = cells_.size(), mids = nodes_ - corners_;
+        const std::size_t count = cells_.size();
         places_.assign(d_ * nodes_ * count, 0);
-        corner_numbers_.resize(corners_ * count);
-        mid_numbers_.resize(mids * count);
-        own_.resize(count);
-        std::iota(own_.begin(), own_.end(), 0);
         for (std::size_t j = 0; j < count; ++j) {
-            for (std::size_t i = 0; i < nodes_; ++i)
-                (i < corners_ ? corner_numbers_[corners_ * j + i] : mid_numbers_[mids * j + i - corners_]) =
-                    static_cast<Mesh::Index>(nodes_ * j + i);
-            for (std::size_t i = 0; i < corners_; ++i) {
-                const auto node =
-                    static_cast<std::size_t>(mesh_.cells[corners_ * static_cast<std::size_t>(cells_[j]) + i]);
-                std::copy_n(&mesh_.points[d_ * node], d_, &places_[d_ * (nodes_ * j + i)]);
-            }
+            const sample::CellNodes nodes(mesh_, static_cast<std::size_t>(cells_[j]));
+            for (std::size_t i = 0; i < corners_; ++i)
+                std::copy_n(&mesh_.points[d_ * static_cast<std::size_t>(nodes.at[i])], d_,
+                            &places_[d_ * (nodes_ * j + i)]);
         }
-        const NodalValues<double> values{std::span(units_).first(nodes_ * nodes_ * count), static_cast<int>(nodes_)};
-        return interpolate_quadratic(MeshQueries{simplex_, places_, corner_numbers_, own_, points_}, mid_numbers_,
-                                     values, weights_, &tiers);
+        const auto some = [&](const auto& all, std::size_t each) { return std::span(all).first(each * count); };
+        const MeshQueries queries{simplex_, places_, some(corner_numbers_, corners_), some(own_, 1), points_};
+        const NodalValues<double> values{some(units_, nodes_ * nodes_), static_cast<int>(nodes_)};
+        return interpolate_quadratic(queries, some(mid_numbers_, nodes_ - corners_), values, weights_, &tiers);
     }
 
     void add_outside(const double* point) {
@@ -140,15 +128,13 @@ private:
     void add_second_order(std::size_t cell, const locate::NearFeature& feature, const std::array<double, 3>& point) {
         const sample::ReferencePoint at =
             sample::reference_point(mesh_, cell, feature, locate::weights_of(point, feature));
-        std::array<Mesh::Index, max_nodes_of_cell> nodes{};
         std::array<double, max_nodes_of_cell> weights{};
-        nodes_in(cell, nodes.data());
         for (std::size_t c = 0; c < nodes_; ++c) {
             std::array<double, max_nodes_of_cell> unit{};
             unit[c] = 1;
             weights[c] = interpolate_quadratic(simplex_, at.vertices.data(), at.at.data(), unit.data())->value;
         }
-        add_row(nodes.data(), weights.data(), nodes_);
+        add_row(sample::CellNodes(mesh_, cell).begin(), weights.data(), nodes_);
     }
 
     void add_row(const Mesh::Index* nodes, const double* weights, std::size_t count) {
