@@ -1,16 +1,25 @@
 #include "vtk/exact_index.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <list>
 #include <mutex>
 #include <utility>
 
 #include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkCellTypes.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
+#include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
 #include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
 
 #include "barycert/environment.hpp"
 
@@ -149,6 +158,142 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Sh
     // Reading may have built the cells of a vtkPolyData.
     remember(data, shape, data.GetMTime(), index);
     return index;
+}
+
+// From VTK's cells to a mesh of simplices.
+
+namespace {
+
+constexpr unsigned char ghost_mask =
+    vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::HIDDENCELL;
+
+bool is_quadratic(int type) {
+    return type == VTK_QUADRATIC_TRIANGLE || type == VTK_QUADRATIC_TETRA;
+}
+
+// Dimension of cells that may stand beside simplices and are left out there: 0 to 2; 3 tetrahedra; -1 all others.
+int plain_dimension(int type, Sides sides) {
+    if (type == VTK_EMPTY_CELL || type == VTK_VERTEX || type == VTK_POLY_VERTEX) return 0;
+    if (type == VTK_LINE || type == VTK_POLY_LINE) return 1;
+    if (is_quadratic(type) && sides == Sides::straight) return type == VTK_QUADRATIC_TRIANGLE ? 2 : 3;
+    return type == VTK_TRIANGLE ? 2 : type == VTK_TETRA ? 3 : -1;
+}
+
+// A data set of cells, whichever of the two it is.
+struct Cells {
+    explicit Cells(vtkDataSet& all, Sides of = Sides::none)
+        : data(all),
+          sides(of),
+          grid(vtkUnstructuredGrid::SafeDownCast(&all)),
+          surface(vtkPolyData::SafeDownCast(&all)),
+          count(all.GetNumberOfCells()) {
+        if (surface != nullptr && surface->NeedToBuildCells()) surface->BuildCells();
+    }
+    vtkPoints* points() const { return grid != nullptr ? grid->GetPoints() : surface->GetPoints(); }
+    /// Calls `take(cell, size, nodes)` for each cell of that dimension that is no ghost.
+    template <class Take>
+    void each(int dimension, Take&& take) const {
+        vtkUnsignedCharArray* const ghosts = data.GetCellGhostArray();
+        for (vtkIdType i = 0; i < count; ++i) {
+            if (plain_dimension(data.GetCellType(i), sides) != dimension) continue;
+            if (ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0) continue;
+            vtkIdType size = 0;
+            const vtkIdType* nodes = nullptr;
+            if (grid != nullptr)
+                grid->GetCellPoints(i, size, nodes);
+            else
+                surface->GetCellPoints(i, size, nodes);
+            take(i, size, nodes);
+        }
+    }
+
+    vtkDataSet& data;
+    Sides sides;
+    vtkUnstructuredGrid* grid;
+    vtkPolyData* surface;
+    vtkIdType count;
+};
+
+}  // namespace
+
+std::vector<double> doubles_of(vtkDataArray& array) {
+    std::vector<double> all(static_cast<std::size_t>(array.GetNumberOfValues()));
+    if (all.empty()) return all;
+    vtkNew<vtkDoubleArray> doubles;
+    doubles->SetNumberOfComponents(array.GetNumberOfComponents());
+    doubles->SetArray(all.data(), array.GetNumberOfValues(), 1);
+    doubles->InsertTuples(0, array.GetNumberOfTuples(), 0, &array);
+    return all;
+}
+
+std::string cell_dimension(vtkDataSet& data, int& dimension, Sides sides) {
+    dimension = -1;
+    const Cells cells(data);
+    if (cells.grid == nullptr && cells.surface == nullptr)
+        return std::string("a ") + data.GetClassName() + " has no simplices";
+    constexpr vtkIdType most = std::numeric_limits<Mesh::Index>::max();
+    if (cells.count > most || data.GetNumberOfPoints() > most) return "it has more than 2147483647 points or cells";
+    if (cells.points() == nullptr) return {};
+    for (vtkIdType i = 0; i < cells.count; ++i) {
+        const int type = data.GetCellType(i), its = plain_dimension(type, sides);
+        if (its < 0) return "cell " + std::to_string(i) + " is a " + vtkCellTypes::GetClassNameFromTypeId(type);
+        dimension = std::max(dimension, its);
+    }
+    return {};
+}
+
+std::string read_simplices(vtkDataSet& data, ExactIndex& index, const pieces::Shape& shape, Sides sides) {
+    int dimension = -1;
+    if (std::string reason = cell_dimension(data, dimension, sides); !reason.empty()) return reason;
+    if (dimension < 0) return {};
+    if (shape.dimension > 0) dimension = shape.dimension;
+    if (dimension < 2) return "it has neither tetrahedra nor triangles";
+
+    const Cells cells(data, sides);
+    Mesh& mesh = index.mesh;
+    mesh.dimension = dimension;
+    const vtkIdType corners = dimension + 1, nodes_of_quadratic = corners * (corners + 1) / 2;
+    mesh.cells.reserve(static_cast<std::size_t>(corners * cells.count));
+    std::vector<vtkIdType> ids;
+    ids.reserve(static_cast<std::size_t>(cells.count));
+    std::string reason;
+    cells.each(dimension, [&](vtkIdType cell, vtkIdType size, const vtkIdType* nodes) {
+        const bool quadratic = is_quadratic(data.GetCellType(cell));
+        if (size != (quadratic ? nodes_of_quadratic : corners) && reason.empty())
+            reason =
+                "cell " + std::to_string(cell) + " has " + std::to_string(size) + (quadratic ? " nodes" : " vertices");
+        if (!reason.empty()) return;
+        for (vtkIdType k = 0; k < size; ++k)
+            (k < corners ? mesh.cells : mesh.mid_nodes).push_back(static_cast<Mesh::Index>(nodes[k]));
+        ids.push_back(cell);
+    });
+    if (!reason.empty() || ids.empty()) return reason;
+    if (!mesh.mid_nodes.empty()) {
+        const auto mid_nodes = static_cast<std::size_t>(nodes_of_quadratic - corners);
+        if (mesh.mid_nodes.size() != mid_nodes * ids.size()) return "it has linear cells beside quadratic ones";
+        mesh.mid_edge_order = MidEdgeOrder::vtk;
+    }
+    if (static_cast<vtkIdType>(ids.size()) != cells.count) index.ids = std::move(ids);
+    mesh.points = doubles_of(*cells.points()->GetData());
+    if (dimension == 2 && !index.flatten(shape.normal)) return "its triangles do not lie in one plane across an axis";
+    return {};
+}
+
+pieces::Box box_of_triangles(vtkDataSet& data) {
+    pieces::Box all = pieces::empty_box;
+    const Cells cells(data);
+    vtkPoints* const points = cells.points();
+    if (points == nullptr) return all;
+    cells.each(2, [&](vtkIdType, vtkIdType size, const vtkIdType* nodes) {
+        for (vtkIdType k = 0; k < size; ++k) {
+            // A node that is not there makes no bounds: who reads the cells tells of it.
+            if (nodes[k] < 0 || nodes[k] >= points->GetNumberOfPoints()) continue;
+            std::array<double, 3> x{};
+            points->GetPoint(nodes[k], x.data());
+            all.add({x, x});
+        }
+    });
+    return all;
 }
 
 }  // namespace barycert::in_vtk
