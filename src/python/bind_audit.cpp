@@ -16,7 +16,7 @@
 #include "barycert/audit_pictures.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/kernels.hpp"
-#include "mesh_object.hpp"
+#include "bindings.hpp"
 
 namespace barycert::python {
 

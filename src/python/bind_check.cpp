@@ -12,7 +12,7 @@
 #include "barycert/check.hpp"
 #include "barycert/report.hpp"
 #include "barycert/verify.hpp"
-#include "mesh_object.hpp"
+#include "bindings.hpp"
 
 namespace barycert::python {
 namespace {

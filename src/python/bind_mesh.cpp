@@ -10,7 +10,7 @@
 #include "barycert/check.hpp"
 #include "barycert/gradient.hpp"
 #include "barycert/io.hpp"
-#include "mesh_object.hpp"
+#include "bindings.hpp"
 
 namespace barycert::python {
 
@@ -101,12 +101,6 @@ py::array gradients_of(const MeshObject& object, const Given<double>& values, co
     return owned(std::move(all), row);
 }
 
-/// Of these values alone, or of none.
-std::shared_ptr<BoundSampler> sampler_of(const MeshObject& object, const std::optional<Given<double>>& values,
-                                         const Progress& progress) {
-    return object.sampler_of(values ? std::optional(field_of("value", *values)) : std::nullopt, progress);
-}
-
 std::vector<std::pair<std::string, bool>> notes_of(const MeshObject& mesh) {
     std::vector<std::pair<std::string, bool>> notes;
     for (const Note& note : mesh.mesh().notes) notes.emplace_back(message(note), note.important);
@@ -176,9 +170,10 @@ std::shared_ptr<BoundSampler> MeshObject::sampler(const std::vector<std::string>
     return sampler;
 }
 
-std::shared_ptr<BoundSampler> MeshObject::sampler_of(std::optional<Field> field, const Progress& progress) const {
+std::shared_ptr<BoundSampler> MeshObject::sampler_of(const std::optional<Given<double>>& values,
+                                                     const Progress& progress) const {
     const auto fields = std::make_shared<Mesh>();
-    if (field) fields->point_fields.push_back(std::move(*field));
+    if (values) fields->point_fields.push_back(field_of("value", *values));
     std::vector<FieldChoice> choices;
     for (const Field& one : fields->point_fields) choices.push_back({.field = &one});
     return made(geometry_, fields, choices, progress);
@@ -201,7 +196,7 @@ void bind_mesh(py::module_& module) {
         .def("field", &field_named)
         .def("set_field", &set_field)
         .def("sampler", &MeshObject::sampler)
-        .def("sampler_of", &sampler_of)
+        .def("sampler_of", &MeshObject::sampler_of)
         .def("gradients", &gradients_of)
         .def("write", &write);
     module.def("read", &read);

@@ -15,7 +15,7 @@
 #include "barycert/grid.hpp"
 #include "barycert/sampler.hpp"
 #include "barycert/weights.hpp"
-#include "mesh_object.hpp"
+#include "bindings.hpp"
 
 namespace barycert::python {
 namespace {

@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +20,8 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/locator.hpp"
+#include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 
@@ -151,19 +155,19 @@ py::tuple tuple_of(const All& all, std::size_t n) {
 // Long work: without the interpreter's lock, with Ctrl-C and progress between blocks.
 
 /// Who is told of progress: None, or a callable of (stage, done, total); total 0: not counted.
-class Progress {
+class Progress : public py::object {
 public:
-    explicit Progress(py::object callable = py::none()) : callable_(std::move(callable)) {}
+    PYBIND11_OBJECT_DEFAULT(Progress, py::object, is_any)
 
     /// To be called without the lock. Throws what a signal handler or the callable raised.
     void tell(std::string_view stage, std::size_t done, std::size_t total) const {
         const py::gil_scoped_acquire lock;
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (!callable_.is_none()) callable_(py::str(stage.data(), stage.size()), done, total);
+        if (*this && !is_none()) (*this)(py::str(stage.data(), stage.size()), done, total);
     }
 
 private:
-    py::object callable_;
+    static bool is_any(PyObject*) { return true; }
 };
 
 /// Points that cost next to nothing begin with so many that sorting them pays; all else begins with few.
@@ -192,6 +196,61 @@ void in_blocks(const Progress& progress, std::string_view stage, std::size_t tot
     }
 }
 
+// A mesh as Python holds it: its geometry, shared and never changed; its locator, made when it is first needed; and its
+// fields, of which every sampler keeps those that it was made with.
+
+struct Geometry {
+    Mesh mesh;  ///< without fields
+
+    /// Made once, by the thread that asks first; the others wait. To be called without the lock.
+    const Locator& locator(const Progress& progress);
+
+private:
+    std::mutex making_;
+    std::optional<Locator> locator_;
+};
+
+/// A sampler with all that it refers to.
+struct BoundSampler {
+    std::shared_ptr<Geometry> geometry;
+    std::shared_ptr<const Mesh> fields;
+    Sampler sampler;
+};
+
+class MeshObject {
+public:
+    explicit MeshObject(Mesh mesh);
+
+    const std::shared_ptr<Geometry>& geometry() const { return geometry_; }
+    const Mesh& mesh() const { return geometry_->mesh; }
+    std::size_t dimension() const { return static_cast<std::size_t>(mesh().dimension); }
+    Simplex simplex() const { return mesh().dimension == 2 ? Simplex::triangle : Simplex::tetrahedron; }
+    const Locator& locator(const Progress& progress) const {
+        const py::gil_scoped_release unlocked;
+        return geometry_->locator(progress);
+    }
+
+    /// A mesh that has the fields alone, and what names of quantities need to know.
+    std::shared_ptr<const Mesh> fields() const { return fields_; }
+    /// To be changed.
+    std::vector<Field>& fields(bool of_cells);
+
+    /// The mesh with its fields: a copy.
+    Mesh whole() const;
+
+    /// Of the fields with these names, or all; the last one is kept.
+    std::shared_ptr<BoundSampler> sampler(const std::vector<std::string>& names, const Progress& progress);
+    /// Of values at the nodes that are no field of the mesh; or of none.
+    std::shared_ptr<BoundSampler> sampler_of(const std::optional<Given<double>>& values,
+                                             const Progress& progress) const;
+
+private:
+    std::shared_ptr<Geometry> geometry_;
+    std::shared_ptr<Mesh> fields_;
+    std::vector<std::string> last_names_;
+    std::shared_ptr<BoundSampler> last_;
+};
+
 }  // namespace barycert::python
 
 namespace pybind11::detail {
@@ -202,15 +261,6 @@ struct pyobject_caster<barycert::python::Given<T>> {
     bool load(handle from, bool) {
         if (!barycert::python::Array<T>::check_(from)) return false;
         value = reinterpret_borrow<barycert::python::Given<T>>(from);
-        return true;
-    }
-};
-
-template <>
-struct type_caster<barycert::python::Progress> {
-    PYBIND11_TYPE_CASTER(barycert::python::Progress, const_name("progress"));
-    bool load(handle from, bool) {
-        value = barycert::python::Progress(reinterpret_borrow<object>(from));
         return true;
     }
 };

@@ -57,9 +57,8 @@ class Interpolator:
         rows, self._shape = values_of(_parts(values) if self._complex else values, len(self.mesh.points), "values")
         if self._complex:
             self._shape = self._shape[:-1]
-        self._fill_value = fill_value
-        self._outside, self._limit, self._rounding, self._threads = outside, limit, rounding, threads
-        self._nonfinite_points = nonfinite_points
+        self._given = {"fill_value": fill_value, "outside": outside, "limit": limit, "rounding": rounding,
+                       "nonfinite_points": nonfinite_points, "threads": threads}  # fmt: skip
         self._nonfinite_count, self._lock = 0, threading.Lock()
         # A complex number takes the place of two: it is put in afterwards.
         self._fill_after = self._complex and (outside == "fill" or (outside is None and not np.isnan(fill_value)))
@@ -93,17 +92,17 @@ class Interpolator:
         with telling(progress) as tell:
             result = self._sampler.sample(rows, self._options, tell)
             if self._fill_after:
-                cell, _ = _core.locate(self.mesh._core, rows, self._threads, tell, self._nonfinite_points)
+                cell, _ = _core.locate(self.mesh._core, rows, self._given["threads"], tell, self._given["nonfinite_points"])
         with self._lock:
             self._nonfinite_count += len(rows) - np.count_nonzero(finite)
         if self._complex:
             result = result.view(np.complex128)
             if self._fill_after:
-                result[(cell < 0) & finite] = self._fill_value
+                result[(cell < 0) & finite] = self._given["fill_value"]
         return result.reshape(shape + self._shape)
 
     def _coordinates(self, args: Tuple[Any, ...]) -> Tuple[np.ndarray, Tuple[int, ...]]:
-        d, nonfinite = self.mesh.dimension, self._nonfinite_points
+        d, nonfinite = self.mesh.dimension, self._given["nonfinite_points"]
         if len(args) == 1 and isinstance(args[0], tuple):
             args = args[0]
         if len(args) not in (1, d):
@@ -117,9 +116,7 @@ class Interpolator:
         return points_of(points, d)
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        names = ("fill_value", "outside", "limit", "rounding", "nonfinite_points", "threads")
-        options = {name: getattr(self, f"_{name}") for name in names}
-        return _unpickle, (self.mesh, self._values, options)
+        return _unpickle, (self.mesh, self._values, self._given)
 
     def __repr__(self) -> str:
         kind = "triangles" if self.mesh.dimension == 2 else "tetrahedra"
