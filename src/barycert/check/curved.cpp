@@ -1,8 +1,6 @@
 // Second-order cells whose sides are not straight.
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +9,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -94,11 +93,11 @@ CurvedCells measure(const Mesh& mesh, const LastPlace& last, std::vector<std::ui
         const auto at = static_cast<std::size_t>(node);
         return node < 0 || at >= nodes ? nullptr : &mesh.points[d * at];
     };
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 1 << 12), CurvedCells{},
-        [&](const tbb::blocked_range<std::size_t>& range, CurvedCells found) {
+    return base::parallel_reduce(
+        mesh.cell_count(), 1 << 12, CurvedCells{},
+        [&](std::size_t begin, std::size_t end, CurvedCells& found) {
             const ExactEnvironment of_task;
-            for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+            for (std::size_t cell = begin; cell != end; ++cell) {
                 CurvedCells bend;
                 for (std::size_t e = 0; e < edges.size(); ++e) {
                     const double* const a = point(mesh.cells[(d + 1) * cell + edges[e][0]]);
@@ -111,9 +110,8 @@ CurvedCells measure(const Mesh& mesh, const LastPlace& last, std::vector<std::ui
                 if (each != nullptr && bend.cells != 0) (*each)[cell] = 1;
                 found = sum(found, bend);
             }
-            return found;
         },
-        sum);
+        [](CurvedCells& all, const CurvedCells& part) { all = sum(all, part); });
 }
 
 /// What CurvedCells says, without what became of it.

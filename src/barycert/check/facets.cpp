@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/index/proof.hpp"
@@ -93,8 +94,8 @@ struct FacetChecker {
 std::vector<Mesh::Index> neighbours_of(const Mesh& mesh, const index::CellIndex& index) {
     std::vector<Mesh::Index> neighbours;
     base::resize_large(neighbours, mesh.cells.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, index.cell_count(), 1 << 14), [&](const auto& range) {
-        for (std::size_t c = range.begin(); c < range.end(); ++c) {
+    base::parallel_for(index.cell_count(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
             Mesh::Index* const out = &neighbours[mesh.corners() * static_cast<std::size_t>(index.original[c])];
             for (std::size_t i = 0; i < mesh.corners(); ++i) {
                 const index::Place next = index.cells[c].next[i];
@@ -212,8 +213,8 @@ std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std
             if (faces[i].nodes == sorted) std::atomic_ref(found[faces[i].index]).store(1, std::memory_order_relaxed);
         }
     };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.cell_count(), 4096), [&](const auto& range) {
-        for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+    base::parallel_for(mesh.cell_count(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t cell = first; cell != last; ++cell) {
             if (usable[cell] == 0) continue;
             std::array<Mesh::Index, 4> n{};
             std::copy_n(&mesh.cells[4 * cell], 4, n.begin());

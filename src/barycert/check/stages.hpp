@@ -1,13 +1,11 @@
 /// The stages of a check, in their order. Each reads what those before it have found of the mesh, and adds to it.
 #pragma once
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <functional>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/check.hpp"
 #include "barycert/check/exact_volumes.hpp"
 #include "barycert/index/box_tree.hpp"
@@ -95,8 +93,7 @@ void in_blocks(std::size_t count, std::size_t block, Make make, Work work, Join 
     std::vector<decltype(make())> parts;
     parts.reserve(blocks);
     for (std::size_t i = 0; i < blocks; ++i) parts.push_back(make());
-    tbb::parallel_for(std::size_t{0}, blocks,
-                      [&](std::size_t i) { work(i * block, std::min(count, (i + 1) * block), parts[i]); });
+    base::parallel_for(blocks, [&](std::size_t i) { work(i * block, std::min(count, (i + 1) * block), parts[i]); });
     for (auto& part : parts) join(part);
 }
 

@@ -1,7 +1,6 @@
 /// The d - 1 nodes of a facet that another one may share: an edge in 3D, a node in 2D.
 #pragma once
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "barycert/base/arena.hpp"
 
 namespace barycert::index {
 
@@ -23,12 +24,14 @@ template <class Facet>
 std::vector<Ridge> ridges_of(int d, const std::vector<Facet>& facets) {
     const auto n = static_cast<std::size_t>(d);
     std::vector<Ridge> ridges(facets.size() * n);
-    tbb::parallel_for(std::size_t{0}, facets.size(), [&](std::size_t f) {
-        const auto node = [&](std::size_t i) { return static_cast<std::uint64_t>(facets[f].nodes[i]); };
-        for (std::size_t i = 0; i < n; ++i) {
-            const std::uint64_t x = node(d == 2 ? 1 - i : (i + 1) % 3), y = d == 2 ? 0 : node((i + 2) % 3);
-            ridges[n * f + i] = {d == 2 ? x : std::min(x, y) << 32 | std::max(x, y), static_cast<std::uint32_t>(f),
-                                 static_cast<std::uint32_t>(i)};
+    base::parallel_for(facets.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f != end; ++f) {
+            const auto node = [&](std::size_t i) { return static_cast<std::uint64_t>(facets[f].nodes[i]); };
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::uint64_t x = node(d == 2 ? 1 - i : (i + 1) % 3), y = d == 2 ? 0 : node((i + 2) % 3);
+                ridges[n * f + i] = {d == 2 ? x : std::min(x, y) << 32 | std::max(x, y), static_cast<std::uint32_t>(f),
+                                     static_cast<std::uint32_t>(i)};
+            }
         }
     });
     tbb::parallel_sort(ridges.begin(), ridges.end(), [](const Ridge& a, const Ridge& b) {
