@@ -56,7 +56,7 @@ void expect_same_figures(const KernelStatistics& a, const KernelStatistics& b) {
     EXPECT_EQ(a.partition_residual.value, b.partition_residual.value);
 }
 
-TEST(contained, a_kernel_that_behaves_has_the_same_figures_as_in_this_process) {
+TEST(Contained, AKernelThatBehavesHasTheSameFiguresAsInThisProcess) {
     const Kernel inside = load_kernel_library(library("quiet")).value(), apart = contained("quiet");
     EXPECT_EQ(inside.name, apart.name);
     EXPECT_EQ(apart.weights, nullptr);
@@ -68,7 +68,7 @@ TEST(contained, a_kernel_that_behaves_has_the_same_figures_as_in_this_process) {
     EXPECT_LT(report.kernels[0].ns, 10000);
 }
 
-TEST(contained, every_accident_is_told_with_its_case) {
+TEST(Contained, EveryAccidentIsToldWithItsCase) {
     struct Accident {
         const char* name;
         Finding finding;
@@ -128,7 +128,7 @@ TEST(contained, every_accident_is_told_with_its_case) {
     }
 }
 
-TEST(contained, a_process_that_a_kernel_forks_has_no_part_in_its_answers) {
+TEST(Contained, AProcessThatAKernelForksHasNoPartInItsAnswers) {
     const Kernel quiet = contained("quiet");
     for (const char* name : {"fork", "forks", "clones"}) {
         SCOPED_TRACE(name);
@@ -147,7 +147,7 @@ TEST(contained, a_process_that_a_kernel_forks_has_no_part_in_its_answers) {
     EXPECT_EQ(s.cases, 200U);
 }
 
-TEST(contained, a_hang_costs_the_time_limit_and_no_more) {
+TEST(Contained, AHangCostsTheTimeLimitAndNoMore) {
     const std::uint64_t expected = unruly_cases("mesh.inside", 200);
     ASSERT_GT(expected, 0U);
     ASSERT_LT(expected, 14U);
@@ -157,7 +157,7 @@ TEST(contained, a_hang_costs_the_time_limit_and_no_more) {
     EXPECT_EQ(s.cases, 200U);
 }
 
-TEST(contained, the_time_limit_is_for_a_case_and_not_for_all) {
+TEST(Contained, TheTimeLimitIsForACaseAndNotForAll) {
     ASSERT_GT(unruly_cases("mesh.inside", 256), 5U);  // in one batch, 0.15 s each
     const KernelStatistics s = statistics_of(contained("slow", 0.5), "mesh.inside", 256, own_meshes());
     EXPECT_EQ(s.wrong_cases, 0U);
@@ -171,7 +171,7 @@ Case case_that_is(bool unruly_one) {
     }
 }
 
-TEST(contained, a_case_that_is_run_again_has_its_time_again) {
+TEST(Contained, ACaseThatIsRunAgainHasItsTimeAgain) {
     const Kernel k = contained("slow-print", 0.4);
     const Case quiet = case_that_is(false), loud = case_that_is(true);
     Statement said;
@@ -183,14 +183,14 @@ TEST(contained, a_case_that_is_run_again_has_its_time_again) {
     EXPECT_EQ(said.incidents, kernels::incident_printed);
 }
 
-TEST(contained, loading_counts_in_no_case) {
+TEST(Contained, LoadingCountsInNoCase) {
     // Each thread's process loads the library anew, and so does one that takes a crashed one's place.
     const KernelStatistics s = statistics_of(contained("slow-loading", 0.1), "mesh.inside", some, own_meshes());
     EXPECT_EQ(s.wrong_cases, 0U);
     EXPECT_EQ(s.cases, some);
 }
 
-TEST(contained, output_is_told_though_it_comes_but_once) {
+TEST(Contained, OutputIsToldThoughItComesButOnce) {
     for (const std::size_t before : {0, 3}) {  // in the first batch of a process each case is watched
         const Kernel k = contained("once");
         const Case quiet = case_that_is(false), loud = case_that_is(true);
@@ -210,7 +210,7 @@ TEST(contained, output_is_told_though_it_comes_but_once) {
 /// Shared by this process and those that it forks.
 std::atomic<bool>* ended_here = nullptr;
 
-TEST(contained, what_the_program_does_at_its_end_is_not_done_by_a_kernel_s_exit) {
+TEST(Contained, WhatTheProgramDoesAtItsEndIsNotDoneByAKernelSExit) {
     void* const shared =
         mmap(nullptr, sizeof(std::atomic<bool>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     ASSERT_NE(shared, MAP_FAILED);
@@ -224,7 +224,7 @@ TEST(contained, what_the_program_does_at_its_end_is_not_done_by_a_kernel_s_exit)
     EXPECT_FALSE(*ended_here);
 }
 
-TEST(contained, one_that_forks_at_every_call_is_given_up) {
+TEST(Contained, OneThatForksAtEveryCallIsGivenUp) {
     const auto begun = std::chrono::steady_clock::now();
     const test::Orphanage orphanage;
     for (const char* name : {"forks-always", "deaf"}) {
@@ -241,12 +241,12 @@ TEST(contained, one_that_forks_at_every_call_is_given_up) {
     EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(60));
 }
 
-TEST(contained, limits_that_a_kernel_lowers_are_its_own) {
+TEST(Contained, LimitsThatAKernelLowersAreItsOwn) {
     expect_same_figures(statistics_of(contained("limits"), "mesh.inside", some, own_meshes()),
                         statistics_of(contained("quiet"), "mesh.inside", some, own_meshes()));
 }
 
-TEST(contained, the_end_of_the_server_is_no_fault_of_the_kernel) {
+TEST(Contained, TheEndOfTheServerIsNoFaultOfTheKernel) {
     const std::vector<pid_t> before = test::children();
     const Kernel k = contained("quiet");
     std::vector<pid_t> after = test::children();
@@ -268,7 +268,7 @@ TEST(contained, the_end_of_the_server_is_no_fault_of_the_kernel) {
     EXPECT_EQ(said.incidents, 0);
 }
 
-TEST(contained, one_that_kills_the_server_leaves_nothing_behind) {
+TEST(Contained, OneThatKillsTheServerLeavesNothingBehind) {
     const test::Orphanage orphanage;
     const KernelStatistics s = statistics_of(contained("escape"), "mesh.inside", some, own_meshes());
     EXPECT_GT(s.not_run, 0U);
@@ -276,7 +276,7 @@ TEST(contained, one_that_kills_the_server_leaves_nothing_behind) {
     EXPECT_EQ(orphanage.left_behind(), 0U);
 }
 
-TEST(contained, figures_do_not_depend_on_threads) {
+TEST(Contained, FiguresDoNotDependOnThreads) {
     for (const char* name : {"crash", "print", "round"}) {
         const auto figures = [&](int threads) {
             return audit_of({contained(name)}, {family_named("mesh.faces")}, some, own_meshes(), threads)
@@ -287,7 +287,7 @@ TEST(contained, figures_do_not_depend_on_threads) {
     }
 }
 
-TEST(contained, what_never_answers_is_given_up_and_said_to_be) {
+TEST(Contained, WhatNeverAnswersIsGivenUpAndSaidToBe) {
     const AuditReport report = audit_of({contained("always")}, {family_named("mesh.inside")}, 5000, own_meshes());
     const KernelStatistics& s = report.kernels.at(0).total;
     EXPECT_GE(count_of(s, Finding::crashed), 1024U);
@@ -301,7 +301,7 @@ TEST(contained, what_never_answers_is_given_up_and_said_to_be) {
     EXPECT_EQ(report.regions[0] + report.regions[1] + report.regions[2], 5000U);
 }
 
-TEST(contained, few_open_files_are_enough) {
+TEST(Contained, FewOpenFilesAreEnough) {
     rlimit usual{};
     ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &usual), 0);
     rlimit few = usual;
@@ -313,7 +313,7 @@ TEST(contained, few_open_files_are_enough) {
     EXPECT_EQ(statistics_of(*kernel, "mesh.inside", some, own_meshes()).wrong_cases, 0U);
 }
 
-TEST(contained, what_does_not_load_is_refused) {
+TEST(Contained, WhatDoesNotLoadIsRefused) {
     const Result<Kernel> loading = load_contained_kernel(library("loading"));
     ASSERT_FALSE(loading.has_value());
     EXPECT_NE(loading.error().found.find("SIGABRT"), std::string::npos) << loading.error().message();
@@ -322,7 +322,7 @@ TEST(contained, what_does_not_load_is_refused) {
     EXPECT_EQ(none.error().what, "cannot load the kernel library");
 }
 
-TEST(contained, a_kernel_s_own_rule_and_values_are_what_is_judged) {
+TEST(Contained, AKernelSOwnRuleAndValuesAreWhatIsJudged) {
     const Kernel inside = load_kernel_library(library("rule")).value(), apart = contained("rule");
     EXPECT_EQ(inside.rule, RegionRule::own);
     EXPECT_EQ(apart.rule, RegionRule::own);
@@ -341,7 +341,7 @@ TEST(contained, a_kernel_s_own_rule_and_values_are_what_is_judged) {
     EXPECT_LT(plain.p999_value_ulp(), 0x1p40);
 }
 
-TEST(contained, a_classification_of_degenerate_or_nonsense_is_a_false_declaration) {
+TEST(Contained, AClassificationOfDegenerateOrNonsenseIsAFalseDeclaration) {
     Kernel k = load_kernel_library(library("rule")).value();
     for (const ClassifyFunction f :
          {ClassifyFunction([](const double*, const double*, const double*) { return 3; }),

@@ -34,7 +34,7 @@ const ClaimResult& result_of(const GapsReport& report, const std::string& kernel
     return report.results.front();
 }
 
-TEST(gaps, exact_arithmetic_loses_nothing_and_so_does_the_exact_kernel) {
+TEST(Gaps, ExactArithmeticLosesNothingAndSoDoesTheExactKernel) {
     for (const char* mesh : {"bracket", "plate", "lattice-box"}) {
         SCOPED_TRACE(mesh);
         const Mesh m = own_mesh(mesh);
@@ -68,7 +68,7 @@ int moved(const double* v, const double* p, double* w) {
     return exact.degenerate ? 1 : 0;
 }
 
-TEST(gaps, shrunken_and_swollen_cells_are_found) {
+TEST(Gaps, ShrunkenAndSwollenCellsAreFound) {
     const Mesh mesh = own_mesh("bracket");
     Kernel shrunken = kernel_named("tetrahedron.signed-volume"), swollen = shrunken, own = shrunken;
     shrunken.name = "shrunken";
@@ -96,7 +96,7 @@ TEST(gaps, shrunken_and_swollen_cells_are_found) {
                              [](const ClaimResult& r) { return r.kernel == "shrunken" && r.rule == ClaimRule::own; }));
 }
 
-TEST(gaps, witnesses_name_cells_of_the_file) {
+TEST(Gaps, WitnessesNameCellsOfTheFile) {
     const Mesh mesh = own_mesh("bracket");
     const GapsReport report =
         gaps_of({kernel_named("tetrahedron.unsigned-volume"), kernel_named("tetrahedron.inverse")}, mesh);
@@ -126,7 +126,7 @@ TEST(gaps, witnesses_name_cells_of_the_file) {
     EXPECT_GT(seen, 10);
 }
 
-TEST(gaps, a_report_does_not_depend_on_threads) {
+TEST(Gaps, AReportDoesNotDependOnThreads) {
     const Mesh mesh = own_mesh("plate");
     const std::vector<Kernel> kernels = kernels_matching("triangle.*");
     const GapsReport one = gaps_of(kernels, mesh, 1), four = gaps_of(kernels, mesh, 4);
@@ -140,7 +140,7 @@ TEST(gaps, a_report_does_not_depend_on_threads) {
     }
 }
 
-TEST(gaps, needs_a_kernel_for_the_cells) {
+TEST(Gaps, NeedsAKernelForTheCells) {
     GapsOptions options;
     options.kernels = kernels_matching("segment.*");
     const auto report = find_gaps(options, own_mesh("plate"), "plate", Verdict::not_checked);
@@ -149,7 +149,7 @@ TEST(gaps, needs_a_kernel_for_the_cells) {
     EXPECT_FALSE(find_gaps(options, Mesh(), "empty", Verdict::not_checked).has_value());
 }
 
-TEST(gaps, what_a_kernel_does_not_answer_is_counted) {
+TEST(Gaps, WhatAKernelDoesNotAnswerIsCounted) {
     const Kernel always = load_contained_kernel(std::string(BARYCERT_UNRULY_DIR) + "/unruly-always.so").value();
     const Mesh mesh = own_mesh("bracket");
     GapsOptions options;

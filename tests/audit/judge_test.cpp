@@ -29,7 +29,7 @@ Result<AuditReport> audit_by(OracleChoice choice, std::vector<Kernel> kernels, s
     return run_audit(options, own_meshes());
 }
 
-TEST(judge, the_core_says_what_the_integers_say_or_nothing) {
+TEST(Judge, TheCoreSaysWhatTheIntegersSayOrNothing) {
     std::uint64_t said = 0, asked = 0;
     for (const Family& family : all_families()) {
         for (const Simplex s : family.simplices) {
@@ -48,7 +48,7 @@ TEST(judge, the_core_says_what_the_integers_say_or_nothing) {
     EXPECT_LT(said, asked);
 }
 
-TEST(judge, every_choice_gives_the_same_report) {
+TEST(Judge, EveryChoiceGivesTheSameReport) {
     const std::vector<Family> families{family_named("mesh.faces"), family_named("huge"),
                                        family_named("lattice.tenths")};
     const auto report = [&](OracleChoice choice) {
@@ -76,7 +76,7 @@ TEST(judge, every_choice_gives_the_same_report) {
     }
 }
 
-TEST(judge, the_core_is_no_judge_of_itself) {
+TEST(Judge, TheCoreIsNoJudgeOfItself) {
     Kernel promises = kernel_named("tetrahedron.inverse");
     promises.certifies = true;
     for (const Kernel& k : {kernel_named("tetrahedron.exact"), promises}) {
@@ -89,7 +89,7 @@ TEST(judge, the_core_is_no_judge_of_itself) {
     for (const Kernel& k : catalogue()) EXPECT_EQ(k.core, k.certifies) << k.name;
 }
 
-TEST(judge, the_first_disagreement_is_told_and_who_they_are) {
+TEST(Judge, TheFirstDisagreementIsToldAndWhoTheyAre) {
     const Family family = family_named("mesh.inside");
     std::uint64_t first = 0;
     const auto agree = [&] {
@@ -108,7 +108,7 @@ TEST(judge, the_first_disagreement_is_told_and_who_they_are) {
     EXPECT_TRUE(by_core.error().expected.starts_with("the core: ")) << by_core.error().expected;
 }
 
-TEST(judge, a_disagreement_is_an_error_with_the_case) {
+TEST(Judge, ADisagreementIsAnErrorWithTheCase) {
     for (const OracleChoice choice : {OracleChoice::automatic, OracleChoice::both}) {
         for (const char* kernel : {"tetrahedron.signed-volume", "tetrahedron.exact"}) {
             const auto report = audit_by(choice, {kernel_named(kernel)}, {family_named("mesh.inside")}, 2000, lies);

@@ -44,7 +44,7 @@ bool holds(const Mesh& mesh, std::size_t cell, const std::array<double, 3>& poin
     return region == Region::interior || region == Region::boundary;
 }
 
-TEST(maps, pixels_show_the_cells_that_hold_them) {
+TEST(Maps, PixelsShowTheCellsThatHoldThem) {
     for (const char* name : {"bracket", "plate", "lattice-box"}) {
         SCOPED_TRACE(name);
         const Mesh mesh = mesh_named(name);
@@ -96,7 +96,7 @@ int silent_on_the_right(const double* v, const double* p, double* w) {
     return status;
 }
 
-TEST(maps, errors_are_those_of_the_cells) {
+TEST(Maps, ErrorsAreThoseOfTheCells) {
     const Mesh mesh = mesh_named("cube-hole");
     Kernel exact = one_kernel("tetrahedron.exact"), wrong = exact, silent = exact;
     wrong.certifies = silent.certifies = false;
@@ -132,7 +132,7 @@ TEST(maps, errors_are_those_of_the_cells) {
     EXPECT_EQ(map.kernels[2].wrong, 9 * right);
 }
 
-TEST(maps, plain_formulas_err_on_facets) {
+TEST(Maps, PlainFormulasErrOnFacets) {
     const auto maps = mesh_maps({one_kernel("tetrahedron.signed-volume"), one_kernel("triangle.signed-area")},
                                 source_of({"cube-hole", "plate"}), 1);
     ASSERT_EQ(maps.size(), 2U);
@@ -144,7 +144,7 @@ TEST(maps, plain_formulas_err_on_facets) {
     }
 }
 
-TEST(maps, same_for_any_number_of_threads) {
+TEST(Maps, SameForAnyNumberOfThreads) {
     const std::vector<Kernel> kernels{one_kernel("tetrahedron.cramer"), one_kernel("tetrahedron.kahan")};
     const MeshSource source = source_of({"bracket"});
     const auto one = mesh_maps(kernels, source, 3, 1), many = mesh_maps(kernels, source, 3, 5);
@@ -157,7 +157,7 @@ TEST(maps, same_for_any_number_of_threads) {
     EXPECT_NE(mesh_maps(kernels, source, 4).at(0).kernels[0].errors, one.at(0).kernels[0].errors);
 }
 
-TEST(maps, what_is_left_out_is_counted) {
+TEST(Maps, WhatIsLeftOutIsCounted) {
     const auto all = kernels_matching("*");
     const auto maps = mesh_maps(all, source_of({"bracket", "plate", "bracket", "plate", "bracket"}), 1);
     ASSERT_EQ(maps.size(), MeshMap::max_meshes);
@@ -177,7 +177,7 @@ TEST(maps, what_is_left_out_is_counted) {
     EXPECT_TRUE(mesh_maps(all, MeshSource(), 1).empty());
 }
 
-TEST(maps, a_mesh_without_a_map_says_why) {
+TEST(Maps, AMeshWithoutAMapSaysWhy) {
     Mesh mesh = mesh_named("bracket");
     mesh.points[5] = std::numeric_limits<double>::infinity();
     MeshSource source;

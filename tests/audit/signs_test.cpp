@@ -11,7 +11,7 @@
 namespace barycert::audit {
 namespace {
 
-TEST(signs, the_exact_picture_is_a_diagonal) {
+TEST(Signs, TheExactPictureIsADiagonal) {
     for (const SignPicture& p : sign_pictures(kernels_matching("*"))) {
         if (!p.kernel.empty()) continue;
         const int side = p.signs[SignPicture::side];  // of point (0, 1), above the diagonal
@@ -26,7 +26,7 @@ TEST(signs, the_exact_picture_is_a_diagonal) {
     }
 }
 
-TEST(signs, one_picture_a_kernel_after_that_of_its_kind) {
+TEST(Signs, OnePictureAKernelAfterThatOfItsKind) {
     const std::vector<SignPicture> pictures = sign_pictures(kernels_matching("*"));
     std::vector<Kernel> expected;
     for (const Kernel& k : catalogue()) {
@@ -49,7 +49,7 @@ TEST(signs, one_picture_a_kernel_after_that_of_its_kind) {
     EXPECT_EQ(exact, 4U);
 }
 
-TEST(signs, right_kernels_are_right_and_plain_ones_are_not) {
+TEST(Signs, RightKernelsAreRightAndPlainOnesAreNot) {
     for (const SignPicture& p : sign_pictures(kernels_matching("*"))) {
         if (p.kernel.ends_with("exact")) {
             EXPECT_EQ(p.wrong, 0U) << p.kernel;
@@ -61,7 +61,7 @@ TEST(signs, right_kernels_are_right_and_plain_ones_are_not) {
     }
 }
 
-TEST(signs, a_kernel_that_declares_or_gives_no_number_has_no_sign) {
+TEST(Signs, AKernelThatDeclaresOrGivesNoNumberHasNoSign) {
     Kernel silent;
     silent.name = "triangle.silent";
     silent.simplex = Simplex::triangle;
@@ -77,7 +77,7 @@ TEST(signs, a_kernel_that_declares_or_gives_no_number_has_no_sign) {
     }
 }
 
-TEST(signs, a_kernel_in_a_process_of_its_own_is_asked_there) {
+TEST(Signs, AKernelInAProcessOfItsOwnIsAskedThere) {
     const std::string folder = std::string(BARYCERT_UNRULY_DIR) + "/unruly-";
     const auto inside = sign_pictures({load_kernel_library(folder + "quiet.so").value()});
     const auto apart = sign_pictures({load_contained_kernel(folder + "quiet.so").value()});

@@ -24,7 +24,7 @@ private:
     int before_;
 };
 
-TEST(Environment, normal_state_is_fit_for_exactness) {
+TEST(Environment, NormalStateIsFitForExactness) {
     const Environment e = measure_environment();
     EXPECT_EQ(e.rounding, "nearest");
     EXPECT_FALSE(e.flush_to_zero);
@@ -39,7 +39,7 @@ TEST(Environment, normal_state_is_fit_for_exactness) {
 
 // The mode is measured, not asked for, and named; nothing else is blamed for it. Catches contraction or excess
 // precision inferred from results that are merely rounded another way.
-TEST(Environment, other_rounding_modes_are_found_and_named) {
+TEST(Environment, OtherRoundingModesAreFoundAndNamed) {
     const std::pair<int, const char*> modes[] = {
         {FE_UPWARD, "upward"}, {FE_DOWNWARD, "downward"}, {FE_TOWARDZERO, "toward-zero"}};
     for (const auto& [mode, text] : modes) {
@@ -62,7 +62,7 @@ TEST(Environment, other_rounding_modes_are_found_and_named) {
 
 #ifdef __SSE2__
 // Catches only results, or only operands, being looked at: each flag is set alone.
-TEST(Environment, flushed_subnormals_are_found) {
+TEST(Environment, FlushedSubnormalsAreFound) {
     const unsigned before = _mm_getcsr();
     const auto measured = [before](unsigned flags) {
         _mm_setcsr(before | flags);
@@ -82,7 +82,7 @@ TEST(Environment, flushed_subnormals_are_found) {
 }
 #endif
 
-TEST(Environment, what_the_code_was_compiled_to_is_named_too) {
+TEST(Environment, WhatTheCodeWasCompiledToIsNamedToo) {
     Environment e = measure_environment();
     e.contraction = true;
     ASSERT_FALSE(check_environment(e));

@@ -11,7 +11,7 @@
 namespace barycert::base {
 namespace {
 
-TEST(names_in_folder, all_sorted_whatever_they_are) {
+TEST(NamesInFolder, AllSortedWhateverTheyAre) {
     const test::Scratch folder;
     for (const char* name : {"b", ".hidden", "a b", "B"}) folder.put(name, "");
     std::filesystem::create_directory(folder.path("inner"));
@@ -21,7 +21,7 @@ TEST(names_in_folder, all_sorted_whatever_they_are) {
     EXPECT_FALSE(failed);
 }
 
-TEST(names_in_folder, tells_why_there_are_none) {
+TEST(NamesInFolder, TellsWhyThereAreNone) {
     const test::Scratch folder;
     std::error_code failed;
     EXPECT_TRUE(names_in_folder(folder.path("absent"), failed).empty());

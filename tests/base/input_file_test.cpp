@@ -39,7 +39,7 @@ protected:
     fs::path folder_;
 };
 
-TEST_F(InputFileTest, whole_files) {
+TEST_F(InputFileTest, WholeFiles) {
     for (const std::size_t size : {0U, 1U, 65535U, 65536U, 65537U, 3000000U}) {
         std::string text;
         for (std::size_t i = 0; i < size; ++i) text += static_cast<char>(i * 31 % 251);
@@ -54,7 +54,7 @@ TEST_F(InputFileTest, whole_files) {
     EXPECT_NE(status->find("VmPeak"), std::string::npos);
 }
 
-TEST_F(InputFileTest, what_is_no_file) {
+TEST_F(InputFileTest, WhatIsNoFile) {
     for (const auto& [name, found] :
          {std::pair{path("none"), "No such file or directory"}, std::pair{folder_.string(), "a folder"},
           std::pair{put("f", "") + "/g", "Not a directory"}}) {
@@ -70,7 +70,7 @@ TEST_F(InputFileTest, what_is_no_file) {
     EXPECT_EQ(base::InputFile::open(pipe("p"), "do this").error().remedy, "do this");
 }
 
-TEST_F(InputFileTest, a_file_that_cannot_be_read_has_not_ended) {
+TEST_F(InputFileTest, AFileThatCannotBeReadHasNotEnded) {
     const std::string memory = "/proc/self/mem";  // opens, and nothing can be read where it begins
     const Result<base::InputFile> file = base::InputFile::open(memory);
     if (!file) GTEST_SKIP() << file.error().message();
@@ -82,13 +82,13 @@ TEST_F(InputFileTest, a_file_that_cannot_be_read_has_not_ended) {
     }
 }
 
-TEST_F(InputFileTest, a_pipe_without_a_writer_has_ended) {
+TEST_F(InputFileTest, APipeWithoutAWriterHasEnded) {
     const Result<std::string> read = base::read_file(pipe("p"));
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().found, "nothing: a pipe that nobody writes to");
 }
 
-TEST_F(InputFileTest, a_pipe_is_read_to_its_end) {
+TEST_F(InputFileTest, APipeIsReadToItsEnd) {
     const std::string name = pipe("p"), text(300000, 'x');
     const int descriptor = ::open(name.c_str(), O_RDWR);  // opens at once, and has the pipe open for writing
     ASSERT_GE(descriptor, 0);
@@ -106,7 +106,7 @@ TEST_F(InputFileTest, a_pipe_is_read_to_its_end) {
     EXPECT_TRUE(*read == text) << read->size();
 }
 
-TEST_F(InputFileTest, an_endless_pipe_is_given_up) {
+TEST_F(InputFileTest, AnEndlessPipeIsGivenUp) {
     ASSERT_NE(::signal(SIGPIPE, SIG_IGN), SIG_ERR);
     const std::string name = pipe("p");
     const int reader = ::open(name.c_str(), O_RDONLY | O_NONBLOCK), writer = ::open(name.c_str(), O_WRONLY);
@@ -124,7 +124,7 @@ TEST_F(InputFileTest, an_endless_pipe_is_given_up) {
     EXPECT_EQ(base::read_file(put("f", text), 999).value().size(), 1000U);
 }
 
-TEST_F(InputFileTest, tells_what_was_changed_since_it_was_opened) {
+TEST_F(InputFileTest, TellsWhatWasChangedSinceItWasOpened) {
     put("f", "abc");
     base::InputFile moved = base::InputFile::open(path("f")).value();
     const base::InputFile file = std::move(moved);
@@ -145,7 +145,7 @@ TEST_F(InputFileTest, tells_what_was_changed_since_it_was_opened) {
     EXPECT_EQ(written.error().found, "");
 }
 
-TEST_F(InputFileTest, the_first_block_decides) {
+TEST_F(InputFileTest, TheFirstBlockDecides) {
     const std::string blanks(base::first_block + 1, '\n'), words = "[" + std::string(base::first_block, ' ') + "]";
     for (const base::Text text : {base::Text::words, base::Text::head, base::Text::all, base::Text::json}) {
         EXPECT_EQ(base::read_file(put("f", blanks), base::longest_pipe, text).error().found,
@@ -170,7 +170,7 @@ TEST_F(InputFileTest, the_first_block_decides) {
 }
 
 // Neither moving nor failing loses a descriptor.
-TEST_F(InputFileTest, descriptors_are_closed) {
+TEST_F(InputFileTest, DescriptorsAreClosed) {
     put("f", "abc");
     const auto open_now = [] { return std::distance(fs::directory_iterator("/proc/self/fd"), {}); };
     const auto before = open_now();

@@ -9,7 +9,7 @@ namespace {
 
 using base::MappedFile;
 
-TEST(MappedFile, holds_the_bytes_and_zeros_after_them) {
+TEST(MappedFile, HoldsTheBytesAndZerosAfterThem) {
     const TemporaryFolder folder;
     for (const std::size_t size : {0U, 1U, 4095U, 4096U, 4097U, 8192U}) {
         const std::string bytes(size, 'x');
@@ -22,7 +22,7 @@ TEST(MappedFile, holds_the_bytes_and_zeros_after_them) {
     }
 }
 
-TEST(MappedFile, is_its_own_when_the_file_is_cut) {
+TEST(MappedFile, IsItsOwnWhenTheFileIsCut) {
     const TemporaryFolder folder;
     const std::string bytes(1 << 20, 'x');
     put(folder / "f", bytes);
@@ -32,7 +32,7 @@ TEST(MappedFile, is_its_own_when_the_file_is_cut) {
     EXPECT_EQ(file->bytes(), bytes);
 }
 
-TEST(MappedFile, moves) {
+TEST(MappedFile, Moves) {
     const TemporaryFolder folder;
     put(folder / "f", "abc");
     Result<base::MappedFile> file = base::MappedFile::open(folder / "f");
@@ -44,7 +44,7 @@ TEST(MappedFile, moves) {
     EXPECT_EQ(file->bytes(), "abc");
 }
 
-TEST(MappedFile, errors) {
+TEST(MappedFile, Errors) {
     const TemporaryFolder folder;
     const auto missing = base::MappedFile::open(folder / "none");
     ASSERT_FALSE(missing);

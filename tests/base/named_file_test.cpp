@@ -29,7 +29,7 @@ private:
     fs::path folder_;
 };
 
-TEST_F(NamedFiles, one_file_by_all_its_names) {
+TEST_F(NamedFiles, OneFileByAllItsNames) {
     const std::string f = path("f");
     for (const std::string other : {"f", "hard", "soft", "./f", "way/f", "way/way/hard"})
         EXPECT_TRUE(base::same_file(f, path(other))) << other;
@@ -40,7 +40,7 @@ TEST_F(NamedFiles, one_file_by_all_its_names) {
     EXPECT_TRUE(base::same_file("-", "-"));
 }
 
-TEST_F(NamedFiles, outputs_are_no_inputs_and_distinct) {
+TEST_F(NamedFiles, OutputsAreNoInputsAndDistinct) {
     const std::vector<base::NamedFile> inputs{{"the mesh", path("f")}, {"--points", "-"}};
     EXPECT_TRUE(base::check_distinct(inputs, {{"--json", path("new")}, {"--output", "-"}}));
     const Status over = base::check_distinct(inputs, {{"--json", path("hard")}});

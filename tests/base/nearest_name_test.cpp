@@ -11,7 +11,7 @@
 namespace barycert::base {
 namespace {
 
-TEST(nearest_name, distances_counted_by_hand) {
+TEST(NearestName, DistancesCountedByHand) {
     EXPECT_EQ(edit_distance("", ""), 0U);
     EXPECT_EQ(edit_distance("", "abc"), 3U);
     EXPECT_EQ(edit_distance("sample", "sample"), 0U);
@@ -38,7 +38,7 @@ std::set<std::string> neighbours_of(const std::string& word) {
     return all;
 }
 
-TEST(nearest_name, one_edit_is_a_distance_of_one_and_no_other_is) {
+TEST(NearestName, OneEditIsADistanceOfOneAndNoOtherIs) {
     std::vector<std::string> words{""};
     for (std::size_t i = 0; words[i].size() < 4; ++i) {
         for (const char c : {'a', 'b', 'c'}) words.push_back(words[i] + c);
@@ -51,7 +51,7 @@ TEST(nearest_name, one_edit_is_a_distance_of_one_and_no_other_is) {
     }
 }
 
-TEST(nearest_name, the_nearest_is_found_and_only_if_it_is_near) {
+TEST(NearestName, TheNearestIsFoundAndOnlyIfItIsNear) {
     const std::vector<std::string> names{"sample", "resample", "replay", "render", "tetrahedron.cramer", "T"};
     EXPECT_EQ(nearest_name("smaple", names), "sample");
     EXPECT_EQ(nearest_name("resmaple", names), "resample");
@@ -70,7 +70,7 @@ TEST(nearest_name, the_nearest_is_found_and_only_if_it_is_near) {
     EXPECT_EQ(nearest_name("ab1", {"ab2", "ab3"}), "ab2");
 }
 
-TEST(nearest_name, a_remedy_says_it_before_the_rest) {
+TEST(NearestName, ARemedySaysItBeforeTheRest) {
     const std::vector<std::string> names{"sample"};
     EXPECT_EQ(did_you_mean("smaple", names), "did you mean \"sample\"?");
     EXPECT_EQ(did_you_mean("smaple", names, "`barycert --help` lists them"),

@@ -81,7 +81,7 @@ protected:
     fs::path folder_;
 };
 
-TEST_P(OutputFileTest, appears_on_commit_and_not_before) {
+TEST_P(OutputFileTest, AppearsOnCommitAndNotBefore) {
     put(path("f"), "old");
     base::OutputFile file(path("f"));
     file.write("new ");
@@ -96,7 +96,7 @@ TEST_P(OutputFileTest, appears_on_commit_and_not_before) {
     EXPECT_TRUE(file.commit());
 }
 
-TEST_P(OutputFileTest, leaves_nothing_without_a_commit) {
+TEST_P(OutputFileTest, LeavesNothingWithoutACommit) {
     put(path("f"), "old");
     {
         base::OutputFile file(path("f"));
@@ -107,7 +107,7 @@ TEST_P(OutputFileTest, leaves_nothing_without_a_commit) {
     EXPECT_EQ(file_count(), 1U);
 }
 
-TEST_P(OutputFileTest, large_and_empty) {
+TEST_P(OutputFileTest, LargeAndEmpty) {
     std::string text;
     for (int i = 0; i < 200000; ++i) text += std::to_string(i) + '\n';
     base::OutputFile large(path("large"));
@@ -119,7 +119,7 @@ TEST_P(OutputFileTest, large_and_empty) {
     EXPECT_EQ(get(path("empty")), "");
 }
 
-TEST_P(OutputFileTest, a_link_is_followed_and_permissions_stay) {
+TEST_P(OutputFileTest, ALinkIsFollowedAndPermissionsStay) {
     put(path("real"), "old");
     ASSERT_EQ(::chmod(path("real").c_str(), 0640), 0);
     fs::create_symlink(path("real"), path("link"));
@@ -133,7 +133,7 @@ TEST_P(OutputFileTest, a_link_is_followed_and_permissions_stay) {
     EXPECT_EQ(status.st_mode & 0777U, 0640U);
 }
 
-TEST_P(OutputFileTest, a_link_to_nothing_makes_what_it_names) {
+TEST_P(OutputFileTest, ALinkToNothingMakesWhatItNames) {
     fs::create_symlink("between", path("link"));  // relative, by way of another one
     fs::create_symlink(path("new"), path("between"));
     base::OutputFile file(path("link"));
@@ -150,7 +150,7 @@ TEST_P(OutputFileTest, a_link_to_nothing_makes_what_it_names) {
     EXPECT_TRUE(fs::is_symlink(path("loop")));
 }
 
-TEST_P(OutputFileTest, bytes_are_replaced) {
+TEST_P(OutputFileTest, BytesAreReplaced) {
     put(path("f"), "old");
     base::OutputFile file(path("f"));
     ASSERT_TRUE(file.can_replace());
@@ -170,7 +170,7 @@ TEST_P(OutputFileTest, bytes_are_replaced) {
     EXPECT_FALSE(base::OutputFile(path("none/f")).can_replace());
 }
 
-TEST_P(OutputFileTest, the_standard_output_is_written_where_it_stands_and_stays_open) {
+TEST_P(OutputFileTest, TheStandardOutputIsWrittenWhereItStandsAndStaysOpen) {
     put(path("f"), "before ");
     std::fflush(stdout);
     const int real = ::dup(STDOUT_FILENO);
@@ -189,7 +189,7 @@ TEST_P(OutputFileTest, the_standard_output_is_written_where_it_stands_and_stays_
     EXPECT_EQ(file_count(), 1U);
 }
 
-TEST_P(OutputFileTest, the_standard_output_may_be_closed) {
+TEST_P(OutputFileTest, TheStandardOutputMayBeClosed) {
     std::fflush(stdout);
     const int real = ::dup(STDOUT_FILENO);
     ::close(STDOUT_FILENO);
@@ -203,14 +203,14 @@ TEST_P(OutputFileTest, the_standard_output_may_be_closed) {
     EXPECT_EQ(committed.error().found, "Bad file descriptor");
 }
 
-TEST_P(OutputFileTest, a_device_is_written_and_stays_a_device) {
+TEST_P(OutputFileTest, ADeviceIsWrittenAndStaysADevice) {
     base::OutputFile file("/dev/null");
     file.write("text");
     ASSERT_TRUE(file.commit());
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-TEST_P(OutputFileTest, errors) {
+TEST_P(OutputFileTest, Errors) {
     base::OutputFile no_folder(path("none/f"));
     no_folder.write("text");
     const Status missing = no_folder.commit();
@@ -233,7 +233,7 @@ TEST_P(OutputFileTest, errors) {
     EXPECT_EQ(rename.error().what, "cannot put the finished file in its place");
 }
 
-TEST_P(OutputFileTest, a_file_that_cannot_be_closed_is_told) {
+TEST_P(OutputFileTest, AFileThatCannotBeClosedIsTold) {
     put(path("f"), "old");
     {
         base::OutputFile file(path("f"));
@@ -249,7 +249,7 @@ TEST_P(OutputFileTest, a_file_that_cannot_be_closed_is_told) {
     EXPECT_EQ(file_count(), 1U);
 }
 
-TEST_P(OutputFileTest, a_full_device_is_told) {
+TEST_P(OutputFileTest, AFullDeviceIsTold) {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
     base::OutputFile file("/dev/full");
     EXPECT_TRUE(file.status());
@@ -262,7 +262,7 @@ TEST_P(OutputFileTest, a_full_device_is_told) {
     EXPECT_EQ(status.error().remedy, "free some space, or write to another disk");
 }
 
-TEST_P(OutputFileTest, a_file_that_may_not_grow_leaves_the_target) {
+TEST_P(OutputFileTest, AFileThatMayNotGrowLeavesTheTarget) {
     put(path("f"), "old");
     struct rlimit before {};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);

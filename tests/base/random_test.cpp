@@ -11,7 +11,7 @@ namespace {
 
 // SplitMix64's published sequences: the generator is the one it claims to be. For 1234567 as in many test suites of
 // other languages' implementations; for 0 its well-known first word.
-TEST(Random, is_splitmix64) {
+TEST(Random, IsSplitmix64) {
     base::Random zero(0);
     EXPECT_EQ(zero.bits(), 0xe220a8397b1dcdafULL);
     EXPECT_EQ(zero.bits(), 0x6e789e6aa1b965f4ULL);
@@ -24,7 +24,7 @@ TEST(Random, is_splitmix64) {
 }
 
 // Frozen on the day of writing: audits are replayed by seed, so these may never change, on any machine.
-TEST(Random, frozen_for_seed_one) {
+TEST(Random, FrozenForSeedOne) {
     base::Random words(1);
     for (const std::uint64_t expected :
          {0x910a2dec89025cc1ULL, 0xbeeb8da1658eec67ULL, 0xf893a2eefb32555eULL, 0x71c18690ee42c90bULL}) {
@@ -47,7 +47,7 @@ TEST(Random, frozen_for_seed_one) {
     EXPECT_EQ(base::hash64("tetrahedron"), 0xa63eb79f2e5f862bULL);
 }
 
-TEST(Random, unit_is_in_range_and_on_its_grid) {
+TEST(Random, UnitIsInRangeAndOnItsGrid) {
     base::Random r(1);
     double min = 1, greatest = 0;
     for (int k = 0; k < 100000; ++k) {
@@ -62,7 +62,7 @@ TEST(Random, unit_is_in_range_and_on_its_grid) {
     EXPECT_GT(greatest, 0.999);
 }
 
-TEST(Random, integers_stay_in_range_and_reach_its_ends) {
+TEST(Random, IntegersStayInRangeAndReachItsEnds) {
     base::Random r(1);
     for (const std::uint64_t n : {1ULL, 2ULL, 3ULL, 7ULL, 1ULL << 63, ~0ULL}) {
         for (int k = 0; k < 1000; ++k) ASSERT_LT(r.below(n), n);
@@ -79,7 +79,7 @@ TEST(Random, integers_stay_in_range_and_reach_its_ends) {
     EXPECT_EQ(r.integer(5, 5), 5);
 }
 
-TEST(Random, ranges_of_doubles) {
+TEST(Random, RangesOfDoubles) {
     base::Random r(1);
     for (int k = 0; k < 10000; ++k) {
         const double u = r.uniform(-3, 5);
@@ -96,7 +96,7 @@ TEST(Random, ranges_of_doubles) {
 
 // Streams of neighbouring numbers share no word. Catches a stream that is another one, shifted: state (a, b) + golden
 // being state (a, b + 1).
-TEST(Random, streams_are_apart) {
+TEST(Random, StreamsAreApart) {
     std::set<std::uint64_t> seen;
     std::size_t drawn = 0;
     for (std::uint64_t seed = 0; seed < 4; ++seed) {

@@ -7,7 +7,7 @@
 namespace barycert {
 namespace {
 
-TEST(Error, message_has_every_part_in_order) {
+TEST(Error, MessageHasEveryPartInOrder) {
     const Error full{.what = "cannot read the vertex",
                      .file = "a.node",
                      .line = 7,
@@ -17,7 +17,7 @@ TEST(Error, message_has_every_part_in_order) {
     EXPECT_EQ(full.message(), "a.node:7: cannot read the vertex: expected 3 coordinates, found 2; add one");
 }
 
-TEST(Error, empty_parts_leave_no_trace) {
+TEST(Error, EmptyPartsLeaveNoTrace) {
     EXPECT_EQ(Error{.what = "no"}.message(), "no");
     EXPECT_EQ((Error{.what = "no", .file = "f"}.message()), "f: no");
     EXPECT_EQ((Error{.what = "no", .line = 3}.message()), "no");  // a line without a file says nothing
@@ -26,7 +26,7 @@ TEST(Error, empty_parts_leave_no_trace) {
     EXPECT_EQ((Error{.what = "no", .remedy = "z"}.message()), "no; z");
 }
 
-TEST(Result, holds_a_value_or_an_error) {
+TEST(Result, HoldsAValueOrAnError) {
     Result<int> good(5);
     ASSERT_TRUE(good);
     EXPECT_EQ(*good, 5);
@@ -40,7 +40,7 @@ TEST(Result, holds_a_value_or_an_error) {
     EXPECT_EQ(bad.error().what, "no");
 }
 
-TEST(Result, throws_for_callers_who_throw) {
+TEST(Result, ThrowsForCallersWhoThrow) {
     Result<int> bad(Error{.what = "no", .file = "f", .line = 2});
     try {
         static_cast<void>(bad.value());
@@ -52,14 +52,14 @@ TEST(Result, throws_for_callers_who_throw) {
     EXPECT_THROW(static_cast<void>(Result<int>(Error{.what = "no"}).value()), Exception);
 }
 
-TEST(Result, moves_values_that_cannot_be_copied) {
+TEST(Result, MovesValuesThatCannotBeCopied) {
     Result<std::unique_ptr<int>> r(std::make_unique<int>(5));
     EXPECT_EQ(**r, 5);
     const std::unique_ptr<int> taken = std::move(r).value();
     EXPECT_EQ(*taken, 5);
 }
 
-TEST(Result, status_carries_nothing_but_success) {
+TEST(Result, StatusCarriesNothingButSuccess) {
     const Status fine = Done{};
     EXPECT_TRUE(fine);
     const Status failed = Error{.what = "no"};

@@ -23,7 +23,7 @@ protected:
     std::string path = scratch.put("a", "old");
 };
 
-TEST_F(RunFilesTest, an_output_replaces_no_file_that_the_run_has_opened) {
+TEST_F(RunFilesTest, AnOutputReplacesNoFileThatTheRunHasOpened) {
     std::filesystem::create_symlink(path, scratch.path("soft"));
     std::filesystem::create_hard_link(path, scratch.path("hard"));
     const RunFiles run;
@@ -41,7 +41,7 @@ TEST_F(RunFilesTest, an_output_replaces_no_file_that_the_run_has_opened) {
     EXPECT_TRUE(write(scratch.path("b")));
 }
 
-TEST_F(RunFilesTest, what_is_opened_after_the_output_counts_too) {
+TEST_F(RunFilesTest, WhatIsOpenedAfterTheOutputCountsToo) {
     const RunFiles run;
     OutputFile file(path);
     file.write("new");
@@ -52,7 +52,7 @@ TEST_F(RunFilesTest, what_is_opened_after_the_output_counts_too) {
     EXPECT_EQ(scratch.names(), (std::vector<std::string>{"a"}));
 }
 
-TEST_F(RunFilesTest, a_run_hands_on_what_it_read_and_ends) {
+TEST_F(RunFilesTest, ARunHandsOnWhatItReadAndEnds) {
     {
         const RunFiles outer;
         {

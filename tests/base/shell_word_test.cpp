@@ -17,7 +17,7 @@ std::string through_shell(const std::string& word) {
     return out;
 }
 
-TEST(ShellWord, one_word_to_a_shell_whatever_it_holds) {
+TEST(ShellWord, OneWordToAShellWhateverItHolds) {
     EXPECT_EQ(shell_word("data/meshes/a-1.node"), "data/meshes/a-1.node");
     EXPECT_EQ(shell_word(""), "''");
     EXPECT_EQ(shell_word("it's"), "'it'\\''s'");

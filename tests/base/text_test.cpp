@@ -32,7 +32,7 @@ void expect_round_trip(double x) {
     }
 }
 
-RC_GTEST_PROP(Text, every_double_reads_back, (std::uint64_t word)) {
+RC_GTEST_PROP(Text, EveryDoubleReadsBack, (std::uint64_t word)) {
     const auto x = std::bit_cast<double>(word);
     for (const std::string& text : {base::shortest(x), base::hexadecimal(x)}) {
         const auto back = base::parse_double(text);
@@ -41,7 +41,7 @@ RC_GTEST_PROP(Text, every_double_reads_back, (std::uint64_t word)) {
     }
 }
 
-TEST(Text, doubles_of_every_exponent_read_back) {
+TEST(Text, DoublesOfEveryExponentReadBack) {
     base::Random r(1);
     for (std::uint64_t exponent = 0; exponent < 2048; ++exponent) {
         for (const std::uint64_t mantissa : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}, r.bits()}) {
@@ -52,7 +52,7 @@ TEST(Text, doubles_of_every_exponent_read_back) {
     }
 }
 
-TEST(Text, forms) {
+TEST(Text, Forms) {
     EXPECT_EQ(base::shortest(0.1), "0.1");
     EXPECT_EQ(base::shortest(0.1 + 0.2), "0.30000000000000004");
     EXPECT_EQ(base::shortest(1), "1");
@@ -69,7 +69,7 @@ TEST(Text, forms) {
     EXPECT_EQ(base::hexadecimal(-HUGE_VAL), "-inf");
 }
 
-TEST(ParseDouble, accepts) {
+TEST(ParseDouble, Accepts) {
     const std::pair<const char*, double> table[] = {
         {"1", 1},
         {"+1", 1},
@@ -106,7 +106,7 @@ TEST(ParseDouble, accepts) {
 }
 
 // All of the text must be the number: what other readers take for 1 and leave the rest is nothing here.
-TEST(ParseDouble, refuses) {
+TEST(ParseDouble, Refuses) {
     for (const char* text :
          {"",      " ",     "1 ",    " 1",    "1\n",     "+",         "-",     "+-1",      "-+1",     "--1",
           "++1",   ".",     "-.",    "e5",    "1e",      "1e+",       "1.0D3", "1d3",      "1,5",     "1_000",
@@ -119,7 +119,7 @@ TEST(ParseDouble, refuses) {
 }
 
 // What is finite as written is never turned into infinity; underflow is rounding.
-TEST(ParseDouble, out_of_range) {
+TEST(ParseDouble, OutOfRange) {
     for (const char* text : {"1e309", "-1e309", "1.7976931348623159e308", "1e99999999999999999999", "0x1p1024",
                              "0x1p99999999999", "0x1p-1100", "0x1p-99999999999"}) {
         EXPECT_EQ(base::parse_double(text), std::nullopt) << text;
@@ -131,7 +131,7 @@ TEST(ParseDouble, out_of_range) {
 }
 
 // More digits than a double has are rounded to nearest, ties to even, in both bases.
-TEST(ParseDouble, rounds_correctly) {
+TEST(ParseDouble, RoundsCorrectly) {
     const auto hex_digits = [](base::Random& r, int count) {
         std::string text;
         for (int k = 0; k < count; ++k) text += "0123456789abcdef"[r.below(16)];
@@ -171,7 +171,7 @@ TEST(ParseDouble, rounds_correctly) {
     }
 }
 
-TEST(Glob, table) {
+TEST(Glob, Table) {
     struct Row {
         const char* pattern;
         const char* text;
@@ -216,7 +216,7 @@ TEST(Glob, table) {
 }
 
 // Against the definition, on short words of two letters. Catches a lost point of return.
-TEST(Glob, equals_its_recursive_definition) {
+TEST(Glob, EqualsItsRecursiveDefinition) {
     struct Slow {
         static bool match(std::string_view p, std::string_view t) {
             if (p.empty()) return t.empty();
@@ -233,13 +233,13 @@ TEST(Glob, equals_its_recursive_definition) {
     }
 }
 
-TEST(text, what_is_printable_stays_as_it_is) {
+TEST(Text, WhatIsPrintableStaysAsItIs) {
     for (const std::string_view text :
          {"", "part.1.node", "a b\\n", "Länge", "点", "\xf0\x9f\x98\x80", "~ !", "\xc2\xa0"})
         EXPECT_EQ(base::printable(text), text);
 }
 
-TEST(text, what_acts_on_a_terminal_is_escaped) {
+TEST(Text, WhatActsOnATerminalIsEscaped) {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"a\nb\tc\rd", "a\\nb\\tc\\rd"},
         {std::string("\0", 1), "\\x00"},

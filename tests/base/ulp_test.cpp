@@ -15,7 +15,7 @@
 namespace barycert {
 namespace {
 
-TEST(UlpExponent, at_the_ends_of_binades) {
+TEST(UlpExponent, AtTheEndsOfBinades) {
     EXPECT_EQ(base::ulp_exponent(1), -52);
     EXPECT_EQ(base::ulp_exponent(-1), -52);
     EXPECT_EQ(base::ulp_exponent(0x1.fffffffffffffp+0), -52);
@@ -30,7 +30,7 @@ TEST(UlpExponent, at_the_ends_of_binades) {
     EXPECT_EQ(base::ulp_exponent(-0.0), -1074);
 }
 
-TEST(UlpError, by_hand) {
+TEST(UlpError, ByHand) {
     EXPECT_EQ(base::ulp_error(1, 1), 0);
     EXPECT_EQ(base::ulp_error(1 + 0x1p-52, 1), 1);
     EXPECT_EQ(base::ulp_error(1 - 0x1p-53, 1), 0.5);  // below a power of two the doubles lie twice as dense
@@ -63,7 +63,7 @@ double exact_error(double computed, double reference) {
 }
 
 // Any two doubles; neighbours; across binades; subnormals. Catches a difference that is rounded twice.
-TEST(UlpError, is_exact_but_for_one_rounding) {
+TEST(UlpError, IsExactButForOneRounding) {
     for (int k = 0; k < 6000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("ulp"), static_cast<std::uint64_t>(k));
         double reference = random_finite(r), computed = random_finite(r);
@@ -97,7 +97,7 @@ TEST(UlpError, is_exact_but_for_one_rounding) {
 
 // Half of an odd subnormal is no double. Catches halves taken where nothing overflows: the difference of these is a
 // tie only if the last bit of the reference is lost.
-TEST(UlpError, keeps_the_last_bit_of_a_subnormal_reference) {
+TEST(UlpError, KeepsTheLastBitOfASubnormalReference) {
     for (const double computed : {0x1p-998, 0x1p-999, 0x1p-1000}) {
         for (int k = 0; k < 40; ++k) {
             const double reference = std::ldexp(1, -1074 + k) + 0x1p-1074;
@@ -107,7 +107,7 @@ TEST(UlpError, keeps_the_last_bit_of_a_subnormal_reference) {
     }
 }
 
-TEST(Neighbours, next_up_and_down) {
+TEST(Neighbours, NextUpAndDown) {
     EXPECT_EQ(base::next_up(1), 1 + 0x1p-52);
     EXPECT_EQ(base::next_down(1), 1 - 0x1p-53);
     EXPECT_EQ(base::next_up(0), 0x1p-1074);

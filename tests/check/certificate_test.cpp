@@ -14,7 +14,7 @@ void expect_not_covered(const Certificate& c, const Mesh& mesh) {
     EXPECT_EQ(c.verdict_on(mesh), Verdict::not_checked);
 }
 
-TEST(Certificate, covers_the_mesh_alone) {
+TEST(Certificate, CoversTheMeshAlone) {
     for (const int d : {2, 3}) {
         const Mesh mesh = box(d, {2, 2, 2});
         const Certificate c = quick(mesh).certificate;
@@ -39,7 +39,7 @@ TEST(Certificate, covers_the_mesh_alone) {
     }
 }
 
-TEST(Certificate, order_and_size_matter) {
+TEST(Certificate, OrderAndSizeMatter) {
     for (const int d : {2, 3}) {
         const Mesh mesh = box(d, {2, 2, 2});
         const Certificate c = quick(mesh).certificate;
@@ -64,7 +64,7 @@ TEST(Certificate, order_and_size_matter) {
     }
 }
 
-TEST(Certificate, of_nothing_and_of_a_bad_mesh) {
+TEST(Certificate, OfNothingAndOfABadMesh) {
     const Mesh mesh = box(3, {1, 1, 1});
     expect_not_covered(Certificate{}, mesh);
     expect_not_covered(Certificate{}, Mesh{});

@@ -26,7 +26,7 @@ void expect_only(const Mesh& mesh, DefectSet problems, std::size_t contacts = 0)
     EXPECT_FALSE(r.certificate.covers(mesh));
 }
 
-TEST(Conditions, p1) {
+TEST(Conditions, P1) {
     const Mesh good =
         solid({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 5, 5, 5, 6, 5, 5, 5, 6, 5, 5, 5, 6}, {0, 1, 2, 3, 4, 5, 6, 7});
     EXPECT_TRUE(quick(good).certified());
@@ -43,7 +43,7 @@ TEST(Conditions, p1) {
     expect_only(bad, set_of(DefectKind::degenerate_cell));
 }
 
-TEST(Conditions, kinds_of_degenerate_cells_along_every_axis) {
+TEST(Conditions, KindsOfDegenerateCellsAlongEveryAxis) {
     const auto kind = [](const std::vector<double>& points) {
         const CheckReport r = quick(solid(points, {0, 1, 2, 3}));
         return std::string(r.find(DefectKind::degenerate_cell)->places.at(0).detail);
@@ -59,7 +59,7 @@ TEST(Conditions, kinds_of_degenerate_cells_along_every_axis) {
 }
 
 // Of as many cells in either order, the negative ones, which --fix-orientation would turn.
-TEST(Conditions, cells_of_the_rarer_order_are_told) {
+TEST(Conditions, CellsOfTheRarerOrderAreTold) {
     const Mesh good = box(2, {3, 1, 1});
     for (const std::vector<std::size_t>& turned : {std::vector<std::size_t>{4}, {0, 2, 5}, {0, 1, 3, 4, 5}}) {
         Mesh mesh = good;
@@ -78,7 +78,7 @@ TEST(Conditions, cells_of_the_rarer_order_are_told) {
 }
 
 // One cell folded into another, a third that keeps clear at the facet that comes first: P3 and P4 hold.
-TEST(Conditions, p2_same_side) {
+TEST(Conditions, P2SameSide) {
     const Mesh folded =
         solid({1, -5, 1, 0, 0, 0, 8, 0, 0, 0, 8, 0, 2, 2, 2, 0, 0, 8}, {1, 2, 3, 4, 1, 2, 3, 5, 0, 1, 2, 5});
     // Cell 2 hangs at a facet of cell 1, outside of both.
@@ -88,7 +88,7 @@ TEST(Conditions, p2_same_side) {
 }
 
 // A cell within a box twice: its facets have three cells, but the boundary is that of the box.
-TEST(Conditions, p2_overfull) {
+TEST(Conditions, P2Overfull) {
     Mesh mesh = box(3, {3, 3, 3});
     const std::size_t inner = 13 * 6 + 1;  // in the cube in the middle
     for (std::size_t i = 0; i < 4; ++i) mesh.cells.push_back(mesh.cells[inner * 4 + i]);
@@ -98,7 +98,7 @@ TEST(Conditions, p2_overfull) {
 }
 
 // Two cells that touch face to face, node to node, but have no common nodes: no cell overlaps another.
-TEST(Conditions, p3) {
+TEST(Conditions, P3) {
     const Mesh crack =
         solid({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1}, {0, 1, 2, 3, 4, 5, 6, 7});
     expect_only(crack, set_of(DefectKind::boundary_contact, DefectKind::coincident_nodes, DefectKind::crack), 1);
@@ -115,7 +115,7 @@ TEST(Conditions, p3) {
 
 // Two facets in one plane that cross as a hexagram: each edge of one crosses two of the other, no corner is on the
 // other. Pairs: these two; each with three facets at the edges of the other; and of these facets the six that cross.
-TEST(Conditions, p3_in_one_plane) {
+TEST(Conditions, P3InOnePlane) {
     const Mesh star = solid({3, 0, 0, -3, 3, 0, -3, -3, 0, 0, 0, 5, -3.5, 0, 0, 2, 3, 0, 2, -3, 0, 0, 0, -5},
                             {0, 1, 2, 3, 4, 5, 6, 7});
     expect_only(star, set_of(DefectKind::boundary_contact), 1);
@@ -124,14 +124,14 @@ TEST(Conditions, p3_in_one_plane) {
 }
 
 // A cell inside another: the boundaries keep clear of each other.
-TEST(Conditions, p4) {
+TEST(Conditions, P4) {
     const Mesh nested =
         solid({0, 0, 0, 8, 0, 0, 0, 8, 0, 0, 0, 8, 1, 1, 1, 2, 1, 1, 1, 2, 1, 1, 1, 2}, {0, 1, 2, 3, 4, 5, 6, 7});
     expect_only(nested, set_of(DefectKind::nested_part, DefectKind::overlapping_cells), 1);
     EXPECT_EQ(quick(nested).volume.equal, true);  // volumes alone would not tell
 }
 
-TEST(Conditions, p5) {
+TEST(Conditions, P5) {
     Mesh mesh = box(3, {2, 2, 2});
     mesh.neighbours = mesh::compute_neighbours(mesh);
     mesh.faces = {mesh.cells[3], mesh.cells[1], mesh.cells[2]};
@@ -152,7 +152,7 @@ TEST(Conditions, p5) {
 }
 
 // Triangles in the plane have no faces, whatever stands there.
-TEST(Conditions, p5_in_the_plane) {
+TEST(Conditions, P5InThePlane) {
     Mesh mesh = box(2, {2, 2, 0});
     EXPECT_TRUE(quick(mesh).certified());
     mesh.faces = {mesh.cells[0], mesh.cells[1], mesh.cells[2]};
@@ -165,7 +165,7 @@ TEST(Conditions, p5_in_the_plane) {
 }
 
 // The plane has the same conditions.
-TEST(Conditions, plane) {
+TEST(Conditions, Plane) {
     Mesh mesh;
     mesh.dimension = 2;
     mesh.points = {0, 0, 8, 0, 0, 8, 1, 1, 2, 1, 1, 2};

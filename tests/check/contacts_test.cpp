@@ -87,7 +87,7 @@ void compare(const Mesh& mesh, Seen& seen) {
               r.find(DefectKind::boundary_contact) == nullptr && r.find(DefectKind::overlapping_cells) == nullptr);
 }
 
-TEST(Contacts, of_random_meshes) {
+TEST(Contacts, OfRandomMeshes) {
     for (const int d : {2, 3}) {
         Seen seen;
         for (std::uint64_t i = 0; i < 400 && !HasFatalFailure(); ++i) {
@@ -124,7 +124,7 @@ Mesh extreme_soup(int d, std::size_t nodes, std::size_t cells, base::Random& ran
 }
 
 // Each fraction in lowest terms took a tenth of a second and more, a thousand of them minutes.
-TEST(Contacts, of_extreme_coordinates) {
+TEST(Contacts, OfExtremeCoordinates) {
     for (const int d : {2, 3}) {
         base::Random random = base::Random::stream(33, static_cast<std::uint64_t>(d), 0);
         const Mesh mesh = extreme_soup(d, 60, 300, random);
@@ -146,7 +146,7 @@ TEST(Contacts, of_extreme_coordinates) {
 }
 
 // Cells thinner than doubles lie: a fraction is the only witness.
-TEST(Contacts, no_double_between) {
+TEST(Contacts, NoDoubleBetween) {
     Mesh mesh;
     mesh.dimension = 2;
     const double next = std::nextafter(1.0, 2.0);
@@ -160,7 +160,7 @@ TEST(Contacts, no_double_between) {
     EXPECT_FALSE(r.contacts[0].common.exact);
 }
 
-TEST(Contacts, as_many_as_asked) {
+TEST(Contacts, AsManyAsAsked) {
     const Mesh mesh = joined(box(2, {3, 3, 0}), mapped(box(2, {3, 3, 0}), {1, 1, 1}, {0.5, 0.25, 0}));
     EXPECT_EQ(quick(mesh, 0).contacts.size(), 0U);
     EXPECT_EQ(quick(mesh, 3).contacts.size(), 3U);

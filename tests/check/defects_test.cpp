@@ -23,11 +23,11 @@ void expect_named(const Mesh& mesh, DefectSet must, DefectSet may, bool good) {
     EXPECT_EQ(r.certificate.covers(mesh), good);
 }
 
-TEST(Defects, none) {
+TEST(Defects, None) {
     for (const int d : {2, 3}) expect_named(mesh_of_sites(d, 2), 0, 0, true);
 }
 
-TEST(Defects, alone) {
+TEST(Defects, Alone) {
     for (const int d : {2, 3}) {
         for (const PlantedDefect& defect : defects) {
             if (defect.only_3d && d == 2) continue;
@@ -45,7 +45,7 @@ TEST(Defects, alone) {
     }
 }
 
-TEST(Defects, in_pairs) {
+TEST(Defects, InPairs) {
     for (const int d : {2, 3}) {
         for (const PlantedDefect& a : defects) {
             for (const PlantedDefect& b : defects) {
@@ -65,7 +65,7 @@ TEST(Defects, in_pairs) {
 }
 
 // In the same box they may hide each other, or even make good: the judge decides.
-TEST(Defects, in_pairs_in_one_place) {
+TEST(Defects, InPairsInOnePlace) {
     std::size_t certified = 0;
     for (const PlantedDefect& a : defects) {
         for (const PlantedDefect& b : defects) {
@@ -90,7 +90,7 @@ TEST(Defects, in_pairs_in_one_place) {
 }
 
 // A cell taken out is no defect: it leaves a cavity, or a notch.
-TEST(Defects, cell_taken_out) {
+TEST(Defects, CellTakenOut) {
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < 15; ++i) {
             base::Random random(i);
@@ -108,7 +108,7 @@ TEST(Defects, cell_taken_out) {
 }
 
 // What kind of degenerate cell, and which cells and nodes, is told rightly.
-TEST(Defects, places) {
+TEST(Defects, Places) {
     Mesh mesh = mesh_of_sites(3, 1);
     mesh.neighbours.clear(), mesh.faces.clear();
     const auto cells = static_cast<Mesh::Index>(mesh.cell_count());

@@ -64,7 +64,7 @@ Mesh cells_of(int d, int count, base::Random& random, double (*coordinate)(base:
     return mesh;
 }
 
-TEST(Exactness, of_cells) {
+TEST(Exactness, OfCells) {
     double (*const coordinates[])(base::Random&) = {
         [](base::Random& r) { return r.uniform(-1, 1); },
         [](base::Random& r) { return static_cast<double>(r.integer(0, 9)) / 10; },
@@ -87,7 +87,7 @@ TEST(Exactness, of_cells) {
 }
 
 // Coordinates of 61, 62, 125, 126 bits: where integers of one and two limbs end.
-TEST(Exactness, at_the_widths_of_integers) {
+TEST(Exactness, AtTheWidthsOfIntegers) {
     for (const int d : {2, 3}) {
         for (const int bits : {55, 58, 59, 60, 61, 62, 63, 64, 65, 121, 122, 123, 124, 125, 126, 127, 128, 129}) {
             base::Random random =
@@ -123,7 +123,7 @@ void expect_same_in(const Mesh& mesh, std::array<double, 3> factor) {
     }
 }
 
-TEST(Exactness, scaled_by_powers_of_two) {
+TEST(Exactness, ScaledByPowersOfTwo) {
     const std::array<double, 3> factors[] = {{0x1p900, 0x1p900, 0x1p900},    {0x1p-900, 0x1p-900, 0x1p-900},
                                              {0x1p1020, 0x1p1020, 0x1p1020}, {0x1p-1074, 0x1p-1074, 0x1p-1074},
                                              {0x1p1000, 0x1p-1000, 1},       {0x1p-1074, 1, 0x1p1020}};
@@ -140,7 +140,7 @@ TEST(Exactness, scaled_by_powers_of_two) {
 }
 
 // Not exact any more: what was coplanar may not be, but it is what it is. The judge says so.
-TEST(Exactness, scaled_by_powers_of_ten) {
+TEST(Exactness, ScaledByPowersOfTen) {
     const std::array<double, 3> factors[] = {{1e300, 1e300, 1e300}, {1e-300, 1e-300, 1e-300}, {1e300, 1e-300, 0.1}};
     std::size_t certified = 0;
     for (const int d : {2, 3}) {
@@ -155,7 +155,7 @@ TEST(Exactness, scaled_by_powers_of_ten) {
 }
 
 // Two parts beside each other: apart by one ulp, touching, and one within the other by one ulp.
-TEST(Exactness, one_ulp_decides) {
+TEST(Exactness, OneUlpDecides) {
     for (const int d : {2, 3}) {
         for (const double at : {1.0, 1e-300, 1e300, 0.1, 3e-310, 123456.789}) {
             const Mesh left = mapped(box(d, {1, 1, 1}), {at, at, at}, {0, 0, 0});

@@ -42,7 +42,7 @@ Mesh cubes_apart() {
     return mesh;
 }
 
-TEST(Fix, merges_drops_and_carries_all_else) {
+TEST(Fix, MergesDropsAndCarriesAllElse) {
     const Mesh broken = cubes_apart();
     ASSERT_FALSE(quick(broken).certified());
     FixReport done;
@@ -92,7 +92,7 @@ TEST(Fix, merges_drops_and_carries_all_else) {
     }
 }
 
-TEST(Fix, merges_within_a_distance_and_tells_how_far) {
+TEST(Fix, MergesWithinADistanceAndTellsHowFar) {
     const double ulp = std::numeric_limits<double>::epsilon();
     Mesh mesh = joined(box(2, {1, 1, 1}), mapped(box(2, {1, 1, 1}), {1, 1, 1}, {1, 0, 0}));
     mesh.points[8] += ulp;
@@ -112,7 +112,7 @@ TEST(Fix, merges_within_a_distance_and_tells_how_far) {
     EXPECT_EQ(done.collapsed, 2U);
 }
 
-TEST(Fix, nodes_of_no_cell_are_left_alone) {
+TEST(Fix, NodesOfNoCellAreLeftAlone) {
     Mesh mesh = box(2, {1, 1, 1});
     mesh.points.insert(mesh.points.begin(), {0, 0});  // before the node that cells have
     for (Mesh::Index& n : mesh.cells) ++n;
@@ -121,7 +121,7 @@ TEST(Fix, nodes_of_no_cell_are_left_alone) {
     EXPECT_FALSE(done.changed());
 }
 
-TEST(Fix, leaves_good_meshes_as_they_are) {
+TEST(Fix, LeavesGoodMeshesAsTheyAre) {
     for (const char* name : {"cube-hole", "cube-hole-o2", "bracket", "plate"}) {
         const Mesh mesh = own_mesh(name);
         FixReport done;
@@ -130,7 +130,7 @@ TEST(Fix, leaves_good_meshes_as_they_are) {
     }
 }
 
-TEST(Fix, second_order_cells_keep_their_nodes) {
+TEST(Fix, SecondOrderCellsKeepTheirNodes) {
     const Mesh mesh = own_mesh("cube-hole-o2");
     Mesh twice = mesh;  // each cell of the second half with nodes of its own
     const std::size_t half = mesh.cell_count() / 2;
@@ -150,7 +150,7 @@ TEST(Fix, second_order_cells_keep_their_nodes) {
     }
 }
 
-TEST(Fix, duplicates_with_other_data_are_told) {
+TEST(Fix, DuplicatesWithOtherDataAreTold) {
     Mesh mesh = box(2, {1, 1, 1});
     mesh.cells.insert(mesh.cells.end(), {mesh.cells[0], mesh.cells[2], mesh.cells[1]});
     mesh.cell_fields = {{"region", 1, {1, 2, 4}}, {"same", 1, {5, 6, 5}}};
@@ -164,7 +164,7 @@ TEST(Fix, duplicates_with_other_data_are_told) {
     EXPECT_EQ(done.cell_fields[1].name, "name");
 }
 
-TEST(Fix, twin_faces_with_other_markers_are_told) {
+TEST(Fix, TwinFacesWithOtherMarkersAreTold) {
     Mesh mesh = cubes_apart();
     // A face between the cubes, once with the nodes of each.
     const auto find = [&](std::size_t first, std::size_t last, double y, double z) {
@@ -183,7 +183,7 @@ TEST(Fix, twin_faces_with_other_markers_are_told) {
     EXPECT_EQ(done.differing_face_markers, 1U);
 }
 
-TEST(Fix, neighbours_corrected_are_told) {
+TEST(Fix, NeighboursCorrectedAreTold) {
     Mesh mesh = box(2, {1, 1, 1});
     mesh.neighbours.assign(6, -1);
     for (const bool turned : {false, true}) {
@@ -198,7 +198,7 @@ TEST(Fix, neighbours_corrected_are_told) {
 }
 
 // Two triangles apart whose common edge has a node in the middle of each, one of them off it.
-TEST(Fix, merged_edges_have_one_mid_edge_node) {
+TEST(Fix, MergedEdgesHaveOneMidEdgeNode) {
     Mesh mesh;
     mesh.dimension = 2;
     mesh.points = {0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0, 1, 2, 0, 0, 2, 2, 2, 1, 1 + 0x1p-30, 2, 1, 1, 2};
@@ -221,7 +221,7 @@ TEST(Fix, merged_edges_have_one_mid_edge_node) {
     EXPECT_TRUE(done.merged.empty());
 }
 
-TEST(Fix, refuses_what_is_no_mesh_or_no_distance) {
+TEST(Fix, RefusesWhatIsNoMeshOrNoDistance) {
     FixReport done;
     Mesh mesh = box(2, {1, 1, 1});
     for (const double d : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})

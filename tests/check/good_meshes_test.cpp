@@ -82,7 +82,7 @@ void expect_good(const std::string& folder, const Good& good, bool positive) {
     expect_same_counts(t, r);
 }
 
-TEST(GoodMeshes, own) {
+TEST(GoodMeshes, Own) {
     const std::string folder = std::string(BARYCERT_DATA_DIR) + "/meshes/";
     std::size_t files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) files += entry.path().extension() == ".node";
@@ -101,7 +101,7 @@ TEST(GoodMeshes, own) {
     for (const Good& good : all) expect_good(folder, good, true);
 }
 
-TEST(GoodMeshes, of_other_programs) {
+TEST(GoodMeshes, OfOtherPrograms) {
     const std::string folder = std::string(BARYCERT_SHARED_DATA_DIR) + "/tetgen/";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
     for (const Good& good : {
@@ -120,7 +120,7 @@ TEST(GoodMeshes, of_other_programs) {
 }
 
 // A volume that is known exactly: 8 * 8 * 8 cubes of side 1/8.
-TEST(GoodMeshes, volume_exact) {
+TEST(GoodMeshes, VolumeExact) {
     const Result<Mesh> mesh = read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/lattice-eighths");
     ASSERT_TRUE(mesh);
     EXPECT_EQ(check_mesh(*mesh).volume.cells, 1.0);

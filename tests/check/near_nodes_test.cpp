@@ -36,7 +36,7 @@ Mesh halved() {
     return mesh;
 }
 
-TEST(NearNodes, a_hanging_node_is_named_with_its_edge) {
+TEST(NearNodes, AHangingNodeIsNamedWithItsEdge) {
     const CheckReport r = quick(halved());
     EXPECT_EQ(words(found(r)), "boundary_contact pinched_ridge hanging_node");
     const Defect& hanging = the(r, K::hanging_node);
@@ -53,7 +53,7 @@ TEST(NearNodes, a_hanging_node_is_named_with_its_edge) {
     EXPECT_TRUE(quick(split).certified());
 }
 
-TEST(NearNodes, a_hanging_node_is_decided_exactly) {
+TEST(NearNodes, AHangingNodeIsDecidedExactly) {
     for (const double x : {1.0, std::nextafter(1.0, 0.0), std::nextafter(1.0, 2.0)}) {
         Mesh mesh = halved();
         mesh.points[15] = x;
@@ -79,7 +79,7 @@ Mesh cracked(int d, double gap) {
     return mesh;
 }
 
-TEST(NearNodes, what_leaves_a_crack_is_listed_whole) {
+TEST(NearNodes, WhatLeavesACrackIsListedWhole) {
     const double ulp = std::numeric_limits<double>::epsilon();
     for (const int d : {2, 3}) {
         const CheckReport r = quick(cracked(d, ulp));
@@ -99,7 +99,7 @@ TEST(NearNodes, what_leaves_a_crack_is_listed_whole) {
     }
 }
 
-TEST(NearNodes, are_notes_where_nothing_meets) {
+TEST(NearNodes, AreNotesWhereNothingMeets) {
     Mesh slit = cracked(2, 0x1p-40);
     for (std::size_t i = slit.points.size() / 2; i < slit.points.size(); i += 2) {
         if (slit.points[i] == 1) slit.points[i] += 0x1p-40;
@@ -118,7 +118,7 @@ TEST(NearNodes, are_notes_where_nothing_meets) {
 }
 
 // A slit within a mesh whose upper side is an ulp too low: its facets meet only at common nodes, and cells overlap.
-TEST(NearNodes, are_the_cause_of_an_overlap_without_contacts) {
+TEST(NearNodes, AreTheCauseOfAnOverlapWithoutContacts) {
     Mesh mesh = box(2, {6, 6, 1});
     for (Mesh::Index& n : mesh.cells) {
         const std::size_t cell = static_cast<std::size_t>(&n - mesh.cells.data()) / 3;
@@ -145,7 +145,7 @@ TEST(NearNodes, are_the_cause_of_an_overlap_without_contacts) {
     EXPECT_FALSE(the(quick(apart), K::near_nodes).breaks());
 }
 
-TEST(NearNodes, are_no_hanging_nodes) {
+TEST(NearNodes, AreNoHangingNodes) {
     for (const int d : {2, 3}) {
         // The second of two boxes reaches an ulp into the first: nodes lie within edges that end at their twins.
         Mesh second = mapped(box(d, {2, 2, 2}), {1, 1, 1}, {2, 0, 0});
@@ -156,7 +156,7 @@ TEST(NearNodes, are_no_hanging_nodes) {
     }
 }
 
-TEST(NearNodes, a_node_beside_an_edge_or_a_facet_nearly_hangs) {
+TEST(NearNodes, ANodeBesideAnEdgeOrAFacetNearlyHangs) {
     for (const double off : {0x1p-50, 0x1p-1040}) {
         // An ulp off an edge: nothing meets, and two parts are certified. In the unit 2^-990 likewise.
         const double unit = off < 0x1p-1000 ? 0x1p-990 : 1;
@@ -194,7 +194,7 @@ TEST(NearNodes, a_node_beside_an_edge_or_a_facet_nearly_hangs) {
 }
 
 // One cell fills what is between: nothing hangs, however flat it is. Nor across a plate that is thin.
-TEST(NearNodes, thin_cells_do_not_hang) {
+TEST(NearNodes, ThinCellsDoNotHang) {
     const Mesh sliver = triangles({0, 0, 8, 0, 0, 8, 4, -0x1p-40, 4, -4}, {0, 1, 2, 0, 3, 1, 0, 4, 3, 3, 4, 1});
     EXPECT_TRUE(quick(sliver).certified());
     EXPECT_EQ(quick(sliver).find(K::near_hanging), nullptr);
@@ -206,7 +206,7 @@ TEST(NearNodes, thin_cells_do_not_hang) {
     EXPECT_EQ(quick(plate).find(K::near_hanging), nullptr) << words(found(quick(plate)));
 }
 
-TEST(NearNodes, that_are_too_many_to_count_are_told_as_at_least) {
+TEST(NearNodes, ThatAreTooManyToCountAreToldAsAtLeast) {
     // 2^17 cells of their own along a line, each with a node near one of the next.
     Mesh mesh;
     mesh.dimension = 2;
@@ -224,14 +224,14 @@ TEST(NearNodes, that_are_too_many_to_count_are_told_as_at_least) {
 }
 
 // The two sides of a thin plate are one cell apart, not a crack.
-TEST(NearNodes, are_not_those_of_one_cell) {
+TEST(NearNodes, AreNotThoseOfOneCell) {
     const CheckReport r = quick(mapped(box(3, {3, 3, 1}), {1, 1, 0x1p-20}, {0, 0, 0}));
     EXPECT_TRUE(r.certified());
     EXPECT_LE(r.find(K::near_nodes) == nullptr ? 0 : the(r, K::near_nodes).count, 0U);
 }
 
 // Nodes that no cell has for a vertex harm nothing, wherever they are.
-TEST(NearNodes, coincident_with_an_unused_node_is_a_note) {
+TEST(NearNodes, CoincidentWithAnUnusedNodeIsANote) {
     Mesh mesh = box(2, {1, 1, 1});
     add_node(mesh, node_at(mesh, 0));
     const CheckReport r = quick(mesh);
@@ -239,7 +239,7 @@ TEST(NearNodes, coincident_with_an_unused_node_is_a_note) {
     EXPECT_FALSE(the(r, K::coincident_nodes).breaks());
 }
 
-TEST(NearNodes, a_void_of_one_cell_is_told) {
+TEST(NearNodes, AVoidOfOneCellIsTold) {
     for (const int d : {2, 3}) {
         const Mesh whole = box(d, {3, 3, 3});
         const std::size_t middle = d == 2 ? 8 : 13 * 6 + 1;

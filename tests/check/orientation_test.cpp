@@ -102,7 +102,7 @@ Mesh own(const std::string& name) {
     return read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/" + name + ".node").value();
 }
 
-TEST(orientation, of_meshes_from_files) {
+TEST(Orientation, OfMeshesFromFiles) {
     // With neighbours and faces; with nodes at mid-edges; in the plane.
     for (const char* name : {"cube-hole", "cube-hole-o2", "bracket", "plate", "lattice-eighths"}) {
         SCOPED_TRACE(name);
@@ -115,14 +115,14 @@ TEST(orientation, of_meshes_from_files) {
     EXPECT_FALSE(own("cube-hole-o2").mid_nodes.empty());
 }
 
-TEST(orientation, of_second_order_cells_in_every_order_of_files) {
+TEST(Orientation, OfSecondOrderCellsInEveryOrderOfFiles) {
     for (const int dimension : {2, 3}) {
         for (const MidEdgeOrder order : orders_in(dimension))
             expect_fixed(shuffled(second_order_mesh(dimension, order, 50, 7), 2));
     }
 }
 
-TEST(orientation, leaves_positive_and_degenerate_cells_alone) {
+TEST(Orientation, LeavesPositiveAndDegenerateCellsAlone) {
     const Mesh mesh = own("cube-hole");
     expect_same(turned(mesh), mesh);
     Mesh flat;

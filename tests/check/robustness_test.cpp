@@ -56,7 +56,7 @@ CheckReport with_threads(const Mesh& mesh, int threads) {
     return check_mesh(mesh, options);
 }
 
-TEST(Robustness, sizes_that_do_not_fit) {
+TEST(Robustness, SizesThatDoNotFit) {
     for (const int d : {-3, -1, 0, 1, 4, 1000, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()}) {
         for (const std::size_t n : {0U, 12U}) {
             Mesh mesh;
@@ -79,7 +79,7 @@ TEST(Robustness, sizes_that_do_not_fit) {
     }
 }
 
-TEST(Robustness, any_indices) {
+TEST(Robustness, AnyIndices) {
     constexpr Mesh::Index wild[] = {std::numeric_limits<Mesh::Index>::min(), -2, -1, 0, 1, 7, 8, 9,
                                     std::numeric_limits<Mesh::Index>::max()};
     for (const int d : {2, 3}) {
@@ -111,7 +111,7 @@ TEST(Robustness, any_indices) {
     }
 }
 
-TEST(Robustness, all_the_same) {
+TEST(Robustness, AllTheSame) {
     for (const int d : {2, 3}) {
         Mesh mesh = box(d, {3, 3, 3});
         for (Mesh::Index& n : mesh.cells) n = 5;
@@ -133,7 +133,7 @@ TEST(Robustness, all_the_same) {
 }
 
 // Large enough for several blocks and waves of every search.
-TEST(Robustness, same_from_any_threads) {
+TEST(Robustness, SameFromAnyThreads) {
     for (const int d : {2, 3}) {
         Mesh mesh = d == 2 ? box(2, {120, 100, 0}) : box(3, {9, 8, 7});
         mesh = joined(mesh, mapped(mesh, {1, 1, 1}, {d == 2 ? 119.5 : 8.5, 0.25, 0.25}));
@@ -154,7 +154,7 @@ TEST(Robustness, same_from_any_threads) {
 }
 
 // What a caller does when it is told of a stage changes nothing that is computed after it.
-TEST(Robustness, same_with_a_caller_that_rounds_upward) {
+TEST(Robustness, SameWithACallerThatRoundsUpward) {
     for (const int d : {2, 3}) {
         base::Random random(46);
         Mesh mesh = box(d, {6, 5, 4});
@@ -175,7 +175,7 @@ TEST(Robustness, same_with_a_caller_that_rounds_upward) {
 }
 
 // Every cell overlaps every other: the searches are given up, and say so.
-TEST(Robustness, all_overlap_all) {
+TEST(Robustness, AllOverlapAll) {
     for (const int d : {2, 3}) {
         base::Random random(44);
         Mesh mesh;
@@ -197,7 +197,7 @@ TEST(Robustness, all_overlap_all) {
 }
 
 // How many pairs there are is told exactly up to the limit, and not said to be more.
-TEST(Robustness, at_the_limit_of_pairs) {
+TEST(Robustness, AtTheLimitOfPairs) {
     for (const int overlapping : {999, 1000, 1001}) {
         Mesh mesh;
         mesh.dimension = 2;
@@ -215,7 +215,7 @@ TEST(Robustness, at_the_limit_of_pairs) {
     }
 }
 
-TEST(Robustness, examples) {
+TEST(Robustness, Examples) {
     Mesh mesh = box(2, {20, 20, 0});
     for (std::size_t i = 0; i < 50; ++i) mesh.cells[i * 6] = -1;
     for (const std::size_t n : {0U, 1U, 7U, 1000U}) {

@@ -46,14 +46,14 @@ void expect_shape(int d, std::vector<double> points, const Shape& wanted, bool s
     }
 }
 
-TEST(Shape, regular) {
+TEST(Shape, Regular) {
     const double root3 = std::sqrt(3.0), angle = std::acos(1.0 / 3) * degrees;
     expect_shape(2, {0, 0, 2, 0, 1, root3}, {1 / root3, 1, 60, 60});
     expect_shape(3, {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1}, {std::sqrt(6.0) / 4, 1, angle, angle});
     EXPECT_NEAR(angle, 70.53, 0.005);
 }
 
-TEST(Shape, right_corner) {
+TEST(Shape, RightCorner) {
     const double root2 = std::sqrt(2.0), root3 = std::sqrt(3.0);
     // Inradius of the triangle: 1 - 1 / sqrt 2; of the tetrahedron: 1 / (3 + sqrt 3).
     expect_shape(2, {0, 0, 1, 0, 0, 1}, {root2 / 2, root2 / (2 * root3 * (1 - root2 / 2)), 45, 90});
@@ -62,7 +62,7 @@ TEST(Shape, right_corner) {
 }
 
 // Flat ones: four corners of a square, two of them lifted by h. Two angles near 180 degrees, four near 0.
-TEST(Shape, slivers) {
+TEST(Shape, Slivers) {
     for (const double h : {1e-2, 1e-5, 1e-9, 1e-12, 1e-30, 1e-100}) {
         const double s = std::sqrt(1 + h * h);
         const Mesh mesh = cell(3, {1, 0, 0, -1, 0, 0, 0, 1, h, 0, -1, h});
@@ -77,7 +77,7 @@ TEST(Shape, slivers) {
     }
 }
 
-TEST(Shape, needles_of_triangles) {
+TEST(Shape, NeedlesOfTriangles) {
     for (const double h : {1e-2, 1e-5, 1e-9, 1e-15, 1e-40, 1e-100}) {
         const CellMeasures m = quick(cell(2, {0, 0, 2, 0, 1, h})).measures;
         expect_near(m.min_angle[0], std::atan(h) * degrees);
@@ -88,7 +88,7 @@ TEST(Shape, needles_of_triangles) {
     }
 }
 
-TEST(Shape, degenerate) {
+TEST(Shape, Degenerate) {
     const double infinity = std::numeric_limits<double>::infinity();
     for (const auto& points : {std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0},
                                std::vector<double>{0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3}, std::vector<double>(12, 0.1)}) {
@@ -105,7 +105,7 @@ TEST(Shape, degenerate) {
         EXPECT_TRUE(std::isnan(x));
 }
 
-TEST(Shape, distribution) {
+TEST(Shape, Distribution) {
     const double nan = std::nan("");
     const Distribution d = distribution({nan, 3, 1, nan, 2, 9});
     EXPECT_EQ(d.min, 1);

@@ -75,7 +75,7 @@ void expect_share(const Tally& tally, double min, double max) {
     EXPECT_LT(share, max);
 }
 
-TEST(Theorem, soups) {
+TEST(Theorem, Soups) {
     const Tally tally = compare_many("soup", random_soup, 25000, false);
     expect_share(tally, 0.1, 0.5);
     for (const DefectKind p : {DefectKind::degenerate_cell, DefectKind::duplicate_cell, DefectKind::overfull_facet,
@@ -85,15 +85,15 @@ TEST(Theorem, soups) {
     }
 }
 
-TEST(Theorem, grown_complexes) {
+TEST(Theorem, GrownComplexes) {
     expect_share(compare_many("grown", grown_complex, 12500, false), 0.5, 0.9);
 }
 
-TEST(Theorem, damaged_boxes) {
+TEST(Theorem, DamagedBoxes) {
     expect_share(compare_many("damaged", damaged_box, 15000, false), 0.2, 0.8);
 }
 
-TEST(Theorem, one_ulp_off) {
+TEST(Theorem, OneUlpOff) {
     expect_share(compare_many("soup ulp", random_soup, 150, true), 0.05, 0.8);
     expect_share(compare_many("grown ulp", grown_complex, 80, true), 0.05, 0.9);
     expect_share(compare_many("damaged ulp", damaged_box, 25, true), 0.05, 0.9);

@@ -44,7 +44,7 @@ Mesh box_without(int d, std::array<int, 3> cubes, F gone) {
     return only(mesh, keep);
 }
 
-TEST(Topology, empty_and_one) {
+TEST(Topology, EmptyAndOne) {
     for (const int d : {2, 3}) {
         Mesh none;
         none.dimension = d;
@@ -60,7 +60,7 @@ TEST(Topology, empty_and_one) {
     }
 }
 
-TEST(Topology, parts_and_cavities) {
+TEST(Topology, PartsAndCavities) {
     for (const int d : {2, 3}) {
         const Mesh solid = box(d, {3, 3, 3});
         expect_certified(solid, 0, {1, 1, 0, 0});
@@ -76,7 +76,7 @@ TEST(Topology, parts_and_cavities) {
     }
 }
 
-TEST(Topology, tunnels) {
+TEST(Topology, Tunnels) {
     const auto ring = [](int x, int y, int) { return x == 1 && y == 1; };
     expect_certified(box_without(3, {3, 3, 1}, ring), 0, {1, 1, 0, 1});
     expect_certified(box_without(3, {5, 3, 1}, [](int x, int y, int) { return x % 2 == 1 && y == 1; }), 0,
@@ -93,7 +93,7 @@ TEST(Topology, tunnels) {
 }
 
 // Cubes that touch in one node or along one edge, with common nodes: a complex, though no manifold.
-TEST(Topology, pinched) {
+TEST(Topology, Pinched) {
     const auto diagonal = [](int x, int y, int z) { return x != y || y != z; };
     expect_certified(box_without(3, {2, 2, 2}, diagonal), set_of(DefectKind::unused_node, DefectKind::pinched_node),
                      {2, 2, 0, {}});
@@ -112,7 +112,7 @@ TEST(Topology, pinched) {
 }
 
 // One node is told once, however many cells touch there alone.
-TEST(Topology, hundreds_of_cells_at_one_node) {
+TEST(Topology, HundredsOfCellsAtOneNode) {
     Mesh mesh;
     mesh.dimension = 3;
     add_node(mesh, {0, 0, 0});
@@ -131,7 +131,7 @@ TEST(Topology, hundreds_of_cells_at_one_node) {
 }
 
 // The same touch without common nodes breaks P3.
-TEST(Topology, touch_without_common_nodes) {
+TEST(Topology, TouchWithoutCommonNodes) {
     for (const int d : {2, 3}) {
         for (int axes = 1; axes <= d; ++axes) {
             std::array<double, 3> shift{0, 0, 0};

@@ -27,7 +27,7 @@ Asked verdict_of(const Mesh& mesh) {
     return asked;
 }
 
-TEST(VerdictOnly, is_the_verdict) {
+TEST(VerdictOnly, IsTheVerdict) {
     std::size_t certified = 0, broken = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < 600; ++i) {
@@ -47,7 +47,7 @@ TEST(VerdictOnly, is_the_verdict) {
 }
 
 // A mesh with nodes snapped to a coarse lattice has degenerate cells: they are proof enough.
-TEST(VerdictOnly, stops_at_the_first_proof) {
+TEST(VerdictOnly, StopsAtTheFirstProof) {
     Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/torus")).value();
     double max = 0;
     for (const double x : mesh.points) max = std::max(max, std::abs(x));

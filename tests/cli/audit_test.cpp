@@ -39,7 +39,7 @@ std::string timeless(const std::string& text) {
     return kept;
 }
 
-TEST(audit, every_kernel_meets_every_family_that_applies) {
+TEST(Audit, EveryKernelMeetsEveryFamilyThatApplies) {
     const Json report = report_of({"--count", "20"});
     EXPECT_EQ(report["count"], 20);
     EXPECT_EQ(report["seed"], 1);
@@ -59,7 +59,7 @@ TEST(audit, every_kernel_meets_every_family_that_applies) {
     }
 }
 
-TEST(audit, tells_whether_meshes_are_partitions) {
+TEST(Audit, TellsWhetherMeshesArePartitions) {
     const Scratch scratch;
     // Two triangles, one over the other.
     const std::string folded = scratch.put("folded.node", "4 2 0 0\n1 0 0\n2 1 0\n3 0 1\n4 0.2 0.3\n");
@@ -76,7 +76,7 @@ TEST(audit, tells_whether_meshes_are_partitions) {
     EXPECT_NE(text.find("meshes, NOT certified to be partitions: " + folded), std::string::npos) << text;
 }
 
-TEST(audit, a_mesh_of_the_users_takes_the_place_of_the_own) {
+TEST(Audit, AMeshOfTheUsersTakesThePlaceOfTheOwn) {
     const Json plate = report_of({mesh("plate"), "--family", "mesh.inside", "--count", "20"});
     EXPECT_EQ(plate["meshes"], Json::array({mesh("plate")}));
     for (const Json& kernel : plate["kernels"]) EXPECT_EQ(kernel["simplex"], "triangle");
@@ -91,7 +91,7 @@ TEST(audit, a_mesh_of_the_users_takes_the_place_of_the_own) {
               plate["kernels"].size());
 }
 
-TEST(audit, globs_select_and_each_name_counts_once) {
+TEST(Audit, GlobsSelectAndEachNameCountsOnce) {
     const Json report = report_of({"--kernel", "segment.*", "--kernel", "triangle.inverse", "--kernel", "seg*.proj*",
                                    "--family", "huge", "--family", "mesh.in?ide", "--count", "10"});
     EXPECT_EQ(names(report["families"]), (std::set<std::string>{"huge", "mesh.inside"}));
@@ -101,14 +101,14 @@ TEST(audit, globs_select_and_each_name_counts_once) {
     EXPECT_EQ(report["kernels"].size(), expected.size());
 }
 
-TEST(audit, after_an_option_that_repeats_a_word_is_a_mesh) {
+TEST(Audit, AfterAnOptionThatRepeatsAWordIsAMesh) {
     const Ended r = run({"audit", "--kernel", "triangle.inverse", "--fail-on", "false_certificate", mesh("plate"),
                          "--count", "10", "--json", "-"});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(parse(r.out)["meshes"], Json::array({mesh("plate")}));
 }
 
-TEST(audit, the_same_seed_gives_the_same_bytes_on_any_number_of_threads) {
+TEST(Audit, TheSameSeedGivesTheSameBytesOnAnyNumberOfThreads) {
     const auto with = [](const Words& more) {
         Words arguments{"audit", "--count", "600", "--kernel", "t*.inverse", "--kernel", "segment.*", "--json", "-"};
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -124,7 +124,7 @@ TEST(audit, the_same_seed_gives_the_same_bytes_on_any_number_of_threads) {
     EXPECT_EQ(parse(max)["seed"], 18446744073709551615U);
 }
 
-TEST(audit, the_table_is_the_report) {
+TEST(Audit, TheTableIsTheReport) {
     const Scratch scratch;
     const Ended r =
         run({"audit", "--wide", "--count", "20", "--kernel", "triangle.*", "--json", scratch.path("r.json")});
@@ -143,7 +143,7 @@ TEST(audit, the_table_is_the_report) {
     EXPECT_TRUE(contains(r.out, "seed 1, 20 cases per family and simplex"));
 }
 
-TEST(audit, a_page_that_says_how_it_was_made) {
+TEST(Audit, APageThatSaysHowItWasMade) {
     const Scratch scratch;
     const How there{.environment = {"BARYCERT_COMMAND"}, .folder = scratch.folder()};
     const Ended r = run({"audit", "--quiet", "--count", "10", "--kernel", "segment.*", "--html", "it's.html"}, there);
@@ -157,7 +157,7 @@ TEST(audit, a_page_that_says_how_it_was_made) {
     EXPECT_EQ(run({"audit", "--html", "-", "--json", "-"}, there).code, 2);
 }
 
-TEST(audit, a_page_with_what_others_measured) {
+TEST(Audit, APageWithWhatOthersMeasured) {
     const Scratch scratch;
     const std::string measured = std::string(BARYCERT_DATA_DIR) + "/measured/", page = scratch.path("page");
     const Words audit{"audit", "--quiet", "--count", "10", "--kernel", "segment.*"};
@@ -185,7 +185,7 @@ TEST(audit, a_page_with_what_others_measured) {
     EXPECT_EQ(read_file(same), read_file(measured + "flags.json"));
 }
 
-TEST(audit, quiet_says_nothing_and_writes_all) {
+TEST(Audit, QuietSaysNothingAndWritesAll) {
     const Scratch scratch;
     const Ended r = run({"audit", "--quiet", "--count", "10", "--kernel", "segment.*", "--json", scratch.path("r"),
                          "--witnesses", scratch.path("w")});

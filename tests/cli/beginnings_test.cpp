@@ -67,7 +67,7 @@ constexpr std::array fillings{
 class Beginnings : public ::testing::TestWithParam<Filling> {};
 
 /// With less memory than the file: who maps or reads all of it fails otherwise.
-TEST_P(Beginnings, decide) {
+TEST_P(Beginnings, Decide) {
     const Scratch scratch;
     put_two_cells(scratch, "m");
     scratch.put("p.csv", six_points);
@@ -92,7 +92,7 @@ TEST_P(Beginnings, decide) {
 }
 
 /// Of a file that began well: nothing was written after that.
-TEST(GoodBeginnings, of_zeros_are_told_at_once) {
+TEST(GoodBeginnings, OfZerosAreToldAtOnce) {
     const Scratch scratch;
     const How here{.folder = scratch.folder()};
     for (const auto& [name, text] :

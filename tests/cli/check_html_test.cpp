@@ -13,7 +13,7 @@ bool is_page(const std::string& text) {
     return text.starts_with("<!DOCTYPE html>\n") && text.ends_with("</body></html>\n");
 }
 
-TEST(check_html, a_page_beside_the_table) {
+TEST(CheckHtml, APageBesideTheTable) {
     const Scratch scratch;
     for (const std::string name : {"flange", "plate"}) {
         const Ended r = run({"check", mesh(name), "--html", scratch.path(name)});
@@ -27,7 +27,7 @@ TEST(check_html, a_page_beside_the_table) {
     }
 }
 
-TEST(check_html, of_a_mesh_that_is_not_certified) {
+TEST(CheckHtml, OfAMeshThatIsNotCertified) {
     const Scratch scratch;
     scratch.put("a<b.node", "5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 0\n");
     scratch.put("a<b.ele", "2 4 0\n0 0 1 2 3\n1 0 1 2 4\n");
@@ -42,14 +42,14 @@ TEST(check_html, of_a_mesh_that_is_not_certified) {
     EXPECT_FALSE(contains(page, "a<b"));
 }
 
-TEST(check_html, on_stdout_in_place_of_the_table) {
+TEST(CheckHtml, OnStdoutInPlaceOfTheTable) {
     const Ended r = run({"check", mesh("plate"), "--html", "-"});
     EXPECT_EQ(r.code, 0);
     EXPECT_TRUE(is_page(r.out));
     EXPECT_EQ(run({"check", mesh("plate"), "--html", "-", "--json", "-"}).code, 2);
 }
 
-TEST(check_html, the_picture_does_not_depend_on_threads) {
+TEST(CheckHtml, ThePictureDoesNotDependOnThreads) {
     const auto pictures = [](const std::string& threads) {
         const std::string page = run({"check", mesh("flange"), "--html", "-", "--threads", threads}).out;
         return page.substr(0, page.find("<footer>"));
@@ -57,7 +57,7 @@ TEST(check_html, the_picture_does_not_depend_on_threads) {
     EXPECT_EQ(pictures("1"), pictures("2"));
 }
 
-TEST(check_html, a_file_that_cannot_be_written_is_told_before_the_work) {
+TEST(CheckHtml, AFileThatCannotBeWrittenIsToldBeforeTheWork) {
     const Ended r = run({"check", mesh("plate"), "--html", "/nowhere/page.html"});
     EXPECT_EQ(r.code, 2);
     EXPECT_TRUE(contains(r.err, "/nowhere/page.html"));

@@ -49,7 +49,7 @@ void expect_verdict(const std::string& path, int code, const std::string& says) 
     EXPECT_EQ(run(check(path, {"--quiet"})).code, code);
 }
 
-TEST(check, a_good_mesh_is_certified) {
+TEST(Check, AGoodMeshIsCertified) {
     const Scratch scratch;
     expect_verdict(put_mesh(scratch, "m", two_cells), 0,
                    "certified: 2 cells partition a domain of 2 parts, 0 cavities, 0 tunnels");
@@ -62,7 +62,7 @@ TEST(check, a_good_mesh_is_certified) {
     }
 }
 
-TEST(check, a_broken_mesh_is_not) {
+TEST(Check, ABrokenMeshIsNot) {
     const Scratch scratch;
     expect_verdict(put_overlapping(scratch), 1,
                    "NOT certified: 1 pair of cells overlaps, 3 pairs of boundary facets meet, and 1 more defect");
@@ -81,7 +81,7 @@ TEST(check, a_broken_mesh_is_not) {
     expect_verdict(face, 1, "NOT certified: 1 face in the files is not a facet");
 }
 
-TEST(check, conformity_to_the_plc_if_asked) {
+TEST(Check, ConformityToThePlcIfAsked) {
     const std::string plc = std::string(BARYCERT_DATA_DIR) + "/plc/";
     const Ended good = run(check(mesh("cube-hole"), {"--conforms-to", plc + "cube-hole.poly"}));
     EXPECT_EQ(good.code, 0) << good.err;
@@ -108,7 +108,7 @@ TEST(check, conformity_to_the_plc_if_asked) {
     }
 }
 
-TEST(check, what_cannot_be_read_is_an_error) {
+TEST(Check, WhatCannotBeReadIsAnError) {
     const Scratch scratch;
     const std::string bad = put_mesh(scratch, "bad", "1 4 0\n0 0 1 2 99\n");
     const std::vector<std::pair<Words, std::string>> refusals{
@@ -134,7 +134,7 @@ TEST(check, what_cannot_be_read_is_an_error) {
     EXPECT_FALSE(std::filesystem::exists(scratch.path("r.json")));
 }
 
-TEST(check, any_file_of_the_mesh_names_it) {
+TEST(Check, AnyFileOfTheMeshNamesIt) {
     const Scratch scratch;
     const std::string stem = put_mesh(scratch, "m", two_cells);
     for (const std::string suffix : {"", ".node", ".ele"}) {
@@ -144,7 +144,7 @@ TEST(check, any_file_of_the_mesh_names_it) {
     }
 }
 
-TEST(check, json_says_what_the_table_says) {
+TEST(Check, JsonSaysWhatTheTableSays) {
     const Scratch scratch;
     const std::string over = put_overlapping(scratch);
     const Ended r = run(check(over, {"--json", "-"}));
@@ -167,7 +167,7 @@ TEST(check, json_says_what_the_table_says) {
     EXPECT_EQ(written, shown);
 }
 
-TEST(check, html_is_a_page) {
+TEST(Check, HtmlIsAPage) {
     const Scratch scratch;
     const std::string over = put_overlapping(scratch);
     const Ended r = run(check(over, {"--html", "-"}));
@@ -183,7 +183,7 @@ TEST(check, html_is_a_page) {
     EXPECT_EQ(parse(read_file(scratch.path("r.json")))["schema"], 1);
 }
 
-TEST(check, options_reach_the_check) {
+TEST(Check, OptionsReachTheCheck) {
     const Scratch scratch;
     const std::string over = put_overlapping(scratch);
     const auto j = parse(run(check(over, {"--json", "-", "--examples", "2", "--contacts", "0", "--threads", "1"})).out);
@@ -200,7 +200,7 @@ TEST(check, options_reach_the_check) {
     EXPECT_GT(parse(run(check(mesh("cube-hole"), {"--delaunay", "--json", "-"})).out)["delaunay"]["facets"], 1000);
 }
 
-TEST(check, threads_change_nothing) {
+TEST(Check, ThreadsChangeNothing) {
     Words reports;
     for (const std::string threads : {"1", "2", "7"}) {
         auto j = parse(run(check(mesh("cube-hole"), {"--json", "-", "--delaunay", "--threads", threads})).out);
@@ -212,7 +212,7 @@ TEST(check, threads_change_nothing) {
     EXPECT_EQ(reports[0], reports[2]);
 }
 
-TEST(check, the_copy_has_positive_cells_and_all_else) {
+TEST(Check, TheCopyHasPositiveCellsAndAllElse) {
     const Scratch scratch;
     const std::string mixed = put_mixed(scratch);
     scratch.put("mixed.neigh", "2 4\n0 -1 -1 -1 -1\n1 -1 -1 -1 -1\n");
@@ -240,7 +240,7 @@ const std::string twin_nodes =
     "4\n";
 const std::string twins = "3 4 0\n0 0 1 2 3\n1 4 6 5 7\n2 0 1 2 3\n";
 
-TEST(check, the_repaired_copy_is_checked_and_told) {
+TEST(Check, TheRepairedCopyIsCheckedAndTold) {
     const Scratch scratch;
     const std::string broken = put_mesh(scratch, "broken", twins, twin_nodes);
     EXPECT_EQ(run(check(broken, {"--quiet"})).code, 1);
@@ -274,7 +274,7 @@ TEST(check, the_repaired_copy_is_checked_and_told) {
     EXPECT_TRUE(contains(over.out, "What remains in the copy\n")) << over.out;
 }
 
-TEST(check, the_copy_tells_what_it_cannot_hold) {
+TEST(Check, TheCopyTellsWhatItCannotHold) {
     const Scratch scratch;
     const std::string m = put_mesh(scratch, "m", "2 4 1\n0 0 1 2 3 0.1\n1 4 5 6 7 0.2\n");
     scratch.put("m.face", "1 1\n0 0 1 2 7\n");
@@ -298,7 +298,7 @@ TEST(check, the_copy_tells_what_it_cannot_hold) {
     EXPECT_TRUE(contains(run(check(named, {"--fix", scratch.path("copy.vtk")})).out, "the copy is as the mesh is\n"));
 }
 
-TEST(check, neighbours_that_were_wrong_are_told_of_the_copy) {
+TEST(Check, NeighboursThatWereWrongAreToldOfTheCopy) {
     const Scratch scratch;
     const std::string neigh = put_mesh(scratch, "neigh", two_cells);
     scratch.put("neigh.neigh", "2 4\n0 1 -1 -1 -1\n1 -1 -1 -1 -1\n");
@@ -308,7 +308,7 @@ TEST(check, neighbours_that_were_wrong_are_told_of_the_copy) {
     EXPECT_FALSE(contains(r.out, "nothing to repair"));
 }
 
-TEST(check, no_copy_is_written_without_cells) {
+TEST(Check, NoCopyIsWrittenWithoutCells) {
     const Scratch scratch;
     const std::string flat =
         put_mesh(scratch, "flat", "1 4 0\n0 0 1 2 3\n", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 2 0 0\n3 3 0 0\n");
@@ -322,7 +322,7 @@ TEST(check, no_copy_is_written_without_cells) {
     EXPECT_EQ(scratch.names(), (Words{"flat.ele", "flat.node"}));
 }
 
-TEST(check, a_copy_for_numbers_that_are_none_has_another_format) {
+TEST(Check, ACopyForNumbersThatAreNoneHasAnotherFormat) {
     const Scratch scratch;
     const std::string m = put_mesh(scratch, "m", "2 4 1\n0 0 1 2 3 0.1\n1 4 5 6 7 0.2\n"),
                       vtu = scratch.path("nan.vtu");
@@ -334,7 +334,7 @@ TEST(check, a_copy_for_numbers_that_are_none_has_another_format) {
     EXPECT_TRUE(contains(r.err, "choose .vtu, .vtk or .msh, which hold it")) << r.err;
 }
 
-TEST(check, a_repair_that_cannot_be_is_refused) {
+TEST(Check, ARepairThatCannotBeIsRefused) {
     const Scratch scratch;
     const std::string m = put_mesh(scratch, "m", two_cells);
     const std::vector<std::pair<Words, std::string>> refusals{
@@ -354,7 +354,7 @@ TEST(check, a_repair_that_cannot_be_is_refused) {
     EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node"}));
 }
 
-TEST(check, the_copy_in_other_formats) {
+TEST(Check, TheCopyInOtherFormats) {
     const Scratch scratch;
     const std::string mixed = put_mixed(scratch);
     for (const std::string name : {"fixed.vtu", "fixed.vtk", "fixed.msh"}) {
@@ -378,7 +378,7 @@ TEST(check, the_copy_in_other_formats) {
     EXPECT_TRUE(contains(read_file(scratch.path("text.vtu")), "format=\"ascii\""));
 }
 
-TEST(check, the_copy_does_not_mix_with_another_mesh) {
+TEST(Check, TheCopyDoesNotMixWithAnotherMesh) {
     const Scratch scratch;
     const std::string m = put_mesh(scratch, "m", two_cells);
     scratch.put("other.face", "1 0\n0 0 1 2\n");
@@ -390,7 +390,7 @@ TEST(check, the_copy_does_not_mix_with_another_mesh) {
     EXPECT_EQ(scratch.names(), (Words{"m.ele", "m.node", "other.face"}));
 }
 
-TEST(check, vtu_is_written_or_it_is_told_how_to_get_it) {
+TEST(Check, VtuIsWrittenOrItIsToldHowToGetIt) {
     const Scratch scratch;
     const std::string over = put_overlapping(scratch), vtu = scratch.path("m.vtu");
     const Ended r = run(check(over, {"--vtu", vtu}));
@@ -408,7 +408,7 @@ TEST(check, vtu_is_written_or_it_is_told_how_to_get_it) {
     EXPECT_EQ(scratch.names(), (Words{"flat.ele", "flat.node", "m.vtu", "over.ele", "over.node"}));
 }
 
-TEST(check, one_place_for_two_files_is_refused) {
+TEST(Check, OnePlaceForTwoFilesIsRefused) {
     const Scratch scratch;
     const std::string m = put_mesh(scratch, "m", two_cells);
     const How here{.folder = scratch.folder()};
@@ -436,7 +436,7 @@ TEST(check, one_place_for_two_files_is_refused) {
     EXPECT_EQ(read_file(m + ".ele"), two_cells);
 }
 
-TEST(check, a_place_that_cannot_be_written_does_not_cost_the_table) {
+TEST(Check, APlaceThatCannotBeWrittenDoesNotCostTheTable) {
     const Scratch scratch;
     const std::string m = put_mesh(scratch, "m", two_cells);
     const Ended full = run(check(m, {"--json", "/dev/full"}));
@@ -456,7 +456,7 @@ TEST(check, a_place_that_cannot_be_written_does_not_cost_the_table) {
     EXPECT_EQ(run(check(m, {"--quiet"}), {.close_stdout = true, .close_stderr = true}).code, 0);
 }
 
-TEST(check, killed_it_leaves_nothing) {
+TEST(Check, KilledItLeavesNothing) {
     const Scratch scratch;
     const std::string old = scratch.put("r.json", "old");
     const Ended r = run(check(mesh("flange"), {"--json", old, "--fix-orientation", scratch.path("c")}),
@@ -466,7 +466,7 @@ TEST(check, killed_it_leaves_nothing) {
     EXPECT_EQ(scratch.names(), Words{"r.json"});
 }
 
-TEST(check, progress_and_colour_are_for_terminals) {
+TEST(Check, ProgressAndColourAreForTerminals) {
     const Ended shown = run(check(mesh("cube-hole")), {.environment = {"NO_COLOR"}, .terminal = true});
     EXPECT_EQ(shown.code, 0);
     EXPECT_TRUE(contains(shown.out, "\r\033[Kchecking: cells"));
@@ -479,7 +479,7 @@ TEST(check, progress_and_colour_are_for_terminals) {
     EXPECT_FALSE(contains(piped.out + piped.err, "checking"));
 }
 
-TEST(check, help_tells_options_and_exit_codes) {
+TEST(Check, HelpTellsOptionsAndExitCodes) {
     const Ended r = run({"check", "--help"});
     EXPECT_EQ(r.code, 0);
     for (const std::string word : {"--delaunay", "--threads", "--json", "--html", "--vtu", "--fix-orientation",

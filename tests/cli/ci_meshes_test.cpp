@@ -56,7 +56,7 @@ Reports reports_of(const Words& command) {
     return r;
 }
 
-TEST(ci_check, a_partition_passes_its_conditions) {
+TEST(CiCheck, APartitionPassesItsConditions) {
     const Reports r = reports_of({"check", mesh("bracket")});
     EXPECT_EQ(r.ended.code, 0);
     EXPECT_EQ(r.ended.out, "");
@@ -64,7 +64,7 @@ TEST(ci_check, a_partition_passes_its_conditions) {
     EXPECT_TRUE(contains(r.junit, "name=\"P4: "));
 }
 
-TEST(ci_check, defects_fail_by_kind_with_their_cells) {
+TEST(CiCheck, DefectsFailByKindWithTheirCells) {
     const Scratch scratch;
     // Two cells on one side of their common face, the second of another orientation; a node of no cell.
     scratch.put("bad.node", "6 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0.2 0.2 0.2\n5 9 9 9\n");
@@ -91,7 +91,7 @@ TEST(ci_check, defects_fail_by_kind_with_their_cells) {
     EXPECT_TRUE(contains(r.junit, "name=\"P1: "));
 }
 
-TEST(ci_check, what_does_not_break_the_certificate_passes) {
+TEST(CiCheck, WhatDoesNotBreakTheCertificatePasses) {
     const Reports r = reports_of({"check", mesh("bracket"), "--delaunay"});
     EXPECT_EQ(r.ended.code, 0);
     EXPECT_TRUE(r.text("not_delaunay", "error").empty());

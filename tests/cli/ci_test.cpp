@@ -31,7 +31,7 @@ std::string renamed(const std::string& report, const std::string& from, const st
     return j.dump();
 }
 
-TEST(ci, the_same_audit_is_not_worse) {
+TEST(Ci, TheSameAuditIsNotWorse) {
     const Scratch scratch;
     const std::string file = scratch.path("b.json");
     ASSERT_EQ(run(audit_of("tetrahedron.*", {"--json", file})).code, 0);
@@ -41,7 +41,7 @@ TEST(ci, the_same_audit_is_not_worse) {
     EXPECT_TRUE(contains(r.err, ": 0 figures worse, 0 better, in ")) << r.err;
 }
 
-TEST(ci, what_got_worse_is_exit_1_and_told_everywhere) {
+TEST(Ci, WhatGotWorseIsExit1AndToldEverywhere) {
     const Scratch scratch;
     const std::string sound = run(audit_of("tetrahedron.signed-volume", {"--json", "-"})).out;
     const std::string file =
@@ -64,7 +64,7 @@ TEST(ci, what_got_worse_is_exit_1_and_told_everywhere) {
     EXPECT_EQ(errors, failures);
 }
 
-TEST(ci, a_rule_fails_in_all_three_and_findings_alone_pass) {
+TEST(Ci, ARuleFailsInAllThreeAndFindingsAlonePass) {
     const Scratch scratch;
     const Words reports{"--annotations", "--junit", scratch.path("j.xml"), "--sarif", scratch.path("s.sarif")};
     const Ended noted = run(audit_of("tetrahedron.homogeneous", reports));
@@ -92,7 +92,7 @@ TEST(ci, a_rule_fails_in_all_three_and_findings_alone_pass) {
     EXPECT_EQ(errors, 1U);
 }
 
-TEST(ci, other_cases_are_refused_before_the_work) {
+TEST(Ci, OtherCasesAreRefusedBeforeTheWork) {
     const Scratch scratch;
     const std::string file = scratch.path("b.json");
     ASSERT_EQ(run(audit_of("tetrahedron.cramer", {"--json", file})).code, 0);
@@ -106,7 +106,7 @@ TEST(ci, other_cases_are_refused_before_the_work) {
 }
 
 // Two reports on one stream would be none.
-TEST(ci, annotations_share_stdout_with_the_table_alone) {
+TEST(Ci, AnnotationsShareStdoutWithTheTableAlone) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     const std::string rows = scratch.put("r.csv", six_rows);
@@ -125,7 +125,7 @@ TEST(ci, annotations_share_stdout_with_the_table_alone) {
     EXPECT_TRUE(contains(table.out, "certified"));
 }
 
-TEST(ci, a_users_library_is_the_place_of_its_results) {
+TEST(Ci, AUsersLibraryIsThePlaceOfItsResults) {
     const Ended r = run({"audit", "--quiet", "--count", "50", "--family", "random", "--kernel-library",
                          BARYCERT_SWAPPED_KERNEL, "--sarif", "-"});
     EXPECT_EQ(r.code, 0) << r.err;
@@ -135,7 +135,7 @@ TEST(ci, a_users_library_is_the_place_of_its_results) {
     EXPECT_TRUE(contains(uri, "user-swapped.so")) << uri;
 }
 
-TEST(mutants, the_score_is_shown_and_every_one_is_caught) {
+TEST(Mutants, TheScoreIsShownAndEveryOneIsCaught) {
     const Scratch scratch;
     const Ended r = run({"audit", "--mutants", "--count", "1000", "--json", scratch.path("m.json")});
     EXPECT_EQ(r.code, 0) << r.out << r.err;
@@ -148,7 +148,7 @@ TEST(mutants, the_score_is_shown_and_every_one_is_caught) {
     EXPECT_TRUE(contains(few.out, "not caught"));
 }
 
-TEST(mutants, options_about_other_kernels_are_refused) {
+TEST(Mutants, OptionsAboutOtherKernelsAreRefused) {
     for (const Words& more : {Words{"--kernel", "*"},
                               {"--fail-on", "any"},
                               {"--plot", "p.svg"},

@@ -52,7 +52,7 @@ bool has_bash() {
     return std::filesystem::exists("/bin/bash");
 }
 
-TEST(completion, bash_offers_every_command_and_option) {
+TEST(Completion, BashOffersEveryCommandAndOption) {
     if (!has_bash()) GTEST_SKIP() << "bash is not installed";
     const Bash bash;
     for (const ListedCommand& command : listed_commands()) {
@@ -70,7 +70,7 @@ TEST(completion, bash_offers_every_command_and_option) {
     EXPECT_TRUE(std::binary_search(pictures.begin(), pictures.end(), "iso"));
 }
 
-TEST(completion, bash_offers_the_values_of_options) {
+TEST(Completion, BashOffersTheValuesOfOptions) {
     if (!has_bash()) GTEST_SKIP() << "bash is not installed";
     const Bash bash;
     EXPECT_EQ(bash.offers({"barycert", "sample", "--rounding", ""}), (Words{"correct", "plain"}));
@@ -92,7 +92,7 @@ TEST(completion, bash_offers_the_values_of_options) {
     }
 }
 
-TEST(completion, bash_offers_files_where_files_are_taken) {
+TEST(Completion, BashOffersFilesWhereFilesAreTaken) {
     if (!has_bash()) GTEST_SKIP() << "bash is not installed";
     const Bash bash;
     const Scratch scratch;
@@ -114,7 +114,7 @@ TEST(completion, bash_offers_files_where_files_are_taken) {
 #endif
 }
 
-TEST(completion, zsh_takes_the_script) {
+TEST(Completion, ZshTakesTheScript) {
     if (!is_there("zsh")) GTEST_SKIP() << "zsh is not installed";
     const Scratch scratch;
     for (const Words& of : std::vector<Words>{{}, {"mesh"}}) {
@@ -150,7 +150,7 @@ TEST(completion, zsh_takes_the_script) {
     }
 }
 
-TEST(completion, fish_offers_what_the_script_says) {
+TEST(Completion, FishOffersWhatTheScriptSays) {
     if (!is_there("fish")) GTEST_SKIP() << "fish is not installed";
     const Scratch scratch;
     const std::string script = scratch.put("barycert.fish", run({"help", "--completion", "fish"}).out);

@@ -34,7 +34,7 @@ std::string replay_command(const std::string& table, const std::string& finding)
     return {};
 }
 
-TEST(contained, accidents_are_told_and_replayed) {
+TEST(Contained, AccidentsAreToldAndReplayed) {
     for (const auto& [fault, finding] : {std::pair("crash", "crashed"), std::pair("after", "out_of_bounds"),
                                          std::pair("round", "changed_environment"), std::pair("print", "printed")}) {
         SCOPED_TRACE(fault);
@@ -51,7 +51,7 @@ TEST(contained, accidents_are_told_and_replayed) {
     }
 }
 
-TEST(contained, an_accident_that_does_not_come_back_is_said_not_to) {
+TEST(Contained, AnAccidentThatDoesNotComeBackIsSaidNotTo) {
     const Scratch scratch;
     const Ended r = run(audit_of("later", {"--witnesses", scratch.path("w.json")}));
     EXPECT_EQ(r.code, 0) << r.err;
@@ -71,7 +71,7 @@ TEST(contained, an_accident_that_does_not_come_back_is_said_not_to) {
     EXPECT_TRUE(contains(wrong.err, "expected a class of finding")) << wrong.err;
 }
 
-TEST(contained, families_that_were_not_run_are_said_to_be) {
+TEST(Contained, FamiliesThatWereNotRunAreSaidToBe) {
     const Scratch scratch;
     const auto with = [&](Words more) {
         Words words{"audit", "--kernel-library", unruly("always"), "--family",  "random", "--family",
@@ -96,7 +96,7 @@ TEST(contained, families_that_were_not_run_are_said_to_be) {
         EXPECT_TRUE(contains(read_file(scratch.path(ci)), "cases were not run: the kernel had been given up")) << ci;
 }
 
-TEST(contained, a_hang_is_ended_by_the_time_limit) {
+TEST(Contained, AHangIsEndedByTheTimeLimit) {
     const Ended r = run(audit_of("hang", {"--time-limit", "0.05", "--json", "-"}));
     EXPECT_EQ(r.code, 0) << r.err;
     const Json report = parse(r.out);
@@ -106,7 +106,7 @@ TEST(contained, a_hang_is_ended_by_the_time_limit) {
     EXPECT_TRUE(report["witnesses"][0]["cell"].is_number_unsigned());
 }
 
-TEST(contained, processes_that_a_kernel_starts_end_with_the_audit) {
+TEST(Contained, ProcessesThatAKernelStartsEndWithTheAudit) {
     for (const char* fault : {"forks_always", "daemon"}) {
         const test::Orphanage orphanage;
         const Ended r = run(audit_of(fault, {"--json", "-"}));
@@ -121,7 +121,7 @@ TEST(contained, processes_that_a_kernel_starts_end_with_the_audit) {
     }
 }
 
-TEST(contained, a_limit_of_memory_holds_for_a_kernel) {
+TEST(Contained, ALimitOfMemoryHoldsForAKernel) {
     if (testing::sanitized) GTEST_SKIP() << "the sanitizer takes terabytes of addresses";
     // It asks for a gibibyte, and does not look whether it got one.
     const Ended r = run_shell("ulimit -v 1000000; exec barycert audit --kernel-library " + unruly("leak") +
@@ -130,7 +130,7 @@ TEST(contained, a_limit_of_memory_holds_for_a_kernel) {
     EXPECT_EQ(parse(r.out)["kernels"][0]["crashed"], 9);
 }
 
-TEST(contained, given_up_is_worse_than_a_baseline_and_not_other_cases) {
+TEST(Contained, GivenUpIsWorseThanABaselineAndNotOtherCases) {
     const Scratch scratch;
     const auto audit = [&](const std::string& fault, const Words& more) {
         // After 16 hangs it is not asked again.
@@ -151,7 +151,7 @@ TEST(contained, given_up_is_worse_than_a_baseline_and_not_other_cases) {
     EXPECT_EQ(audit("quiet", {"--baseline", hangs}).code, 0);
 }
 
-TEST(contained, a_library_that_dies_while_it_is_loaded_is_an_error) {
+TEST(Contained, ALibraryThatDiesWhileItIsLoadedIsAnError) {
     const Ended r = run(audit_of("loading"));
     EXPECT_EQ(r.code, 2);
     EXPECT_EQ(r.out, "");
@@ -159,7 +159,7 @@ TEST(contained, a_library_that_dies_while_it_is_loaded_is_an_error) {
 }
 
 #if defined(__x86_64__)
-TEST(contained, a_library_that_changes_the_environment_when_loaded_is_told_of) {
+TEST(Contained, ALibraryThatChangesTheEnvironmentWhenLoadedIsToldOf) {
     const Ended r = run(audit_of("loaded_flush", {"--quiet", "--fail-on", "any"}));
     EXPECT_EQ(r.code, 0);
     EXPECT_TRUE(contains(r.err, "note: ")) << r.err;
@@ -168,14 +168,14 @@ TEST(contained, a_library_that_changes_the_environment_when_loaded_is_told_of) {
 }
 #endif
 
-TEST(contained, the_list_of_kernels_loads_it_apart_as_well) {
+TEST(Contained, TheListOfKernelsLoadsItApartAsWell) {
     const Ended r = run({"kernels", "--kernel-library", unruly("loading")});
     EXPECT_EQ(r.code, 2);
     EXPECT_TRUE(contains(r.err, "SIGABRT")) << r.err;
     EXPECT_TRUE(contains(run({"kernels", "--kernel-library", unruly("rule")}).out, "inside by a rule of its own"));
 }
 
-TEST(contained, in_process_is_as_it_was) {
+TEST(Contained, InProcessIsAsItWas) {
     const auto figures = [](Words more) {
         Json kernel = parse(run(audit_of("quiet", std::move(more))).out)["kernels"][0];
         for (const char* own : {"ns", "contained"}) kernel.erase(own);
@@ -187,7 +187,7 @@ TEST(contained, in_process_is_as_it_was) {
     EXPECT_NE(testing::sanitized ? ended.code : ended.signal, 0);  // a sanitizer tells of the signal, and exits
 }
 
-TEST(contained, a_rule_of_its_own_or_of_the_command_line) {
+TEST(Contained, ARuleOfItsOwnOrOfTheCommandLine) {
     const auto kernel = [](const std::string& fault, Words more) {
         Words words{"audit", "--kernel-library", unruly(fault), "--family", "random", "--count", "1000", "--json", "-"};
         words.insert(words.end(), more.begin(), more.end());
@@ -205,7 +205,7 @@ TEST(contained, a_rule_of_its_own_or_of_the_command_line) {
     EXPECT_EQ(both["false_inside"], own["false_inside"]) << "its own rule stands";
 }
 
-TEST(oracle, choices_agree_and_are_told) {
+TEST(Oracle, ChoicesAgreeAndAreTold) {
     const auto report = [](const Words& choice) {
         Words words{
             "audit",  "--kernel", "tetrahedron.inverse", "--family", "huge", "--family", "mesh.faces", "--count", "300",
@@ -229,7 +229,7 @@ TEST(oracle, choices_agree_and_are_told) {
     EXPECT_EQ(run({"audit", "--oracle", "coin"}).code, 2);
 }
 
-TEST(gaps, a_table_json_and_limits) {
+TEST(Gaps, ATableJsonAndLimits) {
     const Words base{"gaps",     mesh("bracket"),     "--kernel", "tetrahedron.unsigned-volume",
                      "--kernel", "tetrahedron.exact", "--count",  "500"};
     const auto with = [&](Words more) {

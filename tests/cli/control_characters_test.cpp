@@ -39,7 +39,7 @@ void expect_harmless(const Words& arguments, const How& how, const std::string& 
     }
 }
 
-TEST(control_characters, in_names_of_files) {
+TEST(ControlCharacters, InNamesOfFiles) {
     const Scratch scratch;
     const std::string stem = scratch.path("m" + evil);
     for (const std::string suffix : {".node", ".ele"})
@@ -63,7 +63,7 @@ TEST(control_characters, in_names_of_files) {
 #endif
 }
 
-TEST(control_characters, in_arguments) {
+TEST(ControlCharacters, InArguments) {
     for (const Words& arguments :
          std::vector<Words>{{evil},
                             {"audit", "--" + evil},
@@ -83,7 +83,7 @@ TEST(control_characters, in_arguments) {
 #endif
 }
 
-TEST(control_characters, in_files) {
+TEST(ControlCharacters, InFiles) {
     const Scratch scratch;
     const How here{.folder = scratch.folder()};
     scratch.put("bad.node", "3 2 0 0\n0 0 0\n1 " + evil + " 0\n2 0 1\n");
@@ -112,7 +112,7 @@ TEST(control_characters, in_files) {
     expect_harmless({"replay", "w.json"}, here, "\\x1b[31m\\x07\\n\\xc2\\x9b");
 }
 
-TEST(control_characters, in_names_of_fields) {
+TEST(ControlCharacters, InNamesOfFields) {
     const Scratch scratch;
     const std::string name = "t\033[31m\a";
     scratch.put("p.csv", "0,0,0\n");

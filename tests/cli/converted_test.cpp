@@ -47,7 +47,7 @@ protected:
     Scratch scratch_;
 };
 
-TEST(converted, text_without_a_keyword_does_not_reach_meshio) {
+TEST(Converted, TextWithoutAKeywordDoesNotReachMeshio) {
     const Scratch scratch;
     std::string text;
     while (text.size() < 70000) text += "aaa bbb ccc ddd eee\n";
@@ -59,7 +59,7 @@ TEST(converted, text_without_a_keyword_does_not_reach_meshio) {
     EXPECT_TRUE(contains(good.err, "meshio, which is not installed")) << good.err;
 }
 
-TEST_F(Converted, nodes_and_cells_in_the_order_of_the_file) {
+TEST_F(Converted, NodesAndCellsInTheOrderOfTheFile) {
     scratch_.put("a.inp", abaqus);
     const Ended check = barycert({"check", "a.inp"});
     EXPECT_EQ(check.code, 0) << check.err;
@@ -72,7 +72,7 @@ TEST_F(Converted, nodes_and_cells_in_the_order_of_the_file) {
               "0.1,0.7,1.3000000000000003,2,vertex\n");
 }
 
-TEST_F(Converted, no_file_is_left_or_overwritten) {
+TEST_F(Converted, NoFileIsLeftOrOverwritten) {
     scratch_.put("a.inp", abaqus);
     shell("mkdir tmp");
     EXPECT_EQ(barycert({"check", "a.inp"}, {"TMPDIR=" + scratch_.path("tmp")}).code, 0);
@@ -82,7 +82,7 @@ TEST_F(Converted, no_file_is_left_or_overwritten) {
 }
 
 /// Doubles with all their bits, integers, vectors, values of cells in several blocks.
-TEST_F(Converted, fields_to_the_bit) {
+TEST_F(Converted, FieldsToTheBit) {
     scratch_.put("make.py", R"(
 import meshio, numpy as np
 r = np.random.default_rng(1)
@@ -116,7 +116,7 @@ m.write("b.vtu")
 }
 
 /// Files beside it that meshio opens, under any name, in Python or by HDF5.
-TEST_F(Converted, files_beside_it_are_no_outputs) {
+TEST_F(Converted, FilesBesideItAreNoOutputs) {
     scratch_.put("make.py", R"(
 import meshio, os
 m = meshio.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.]], [("tetra", [[0, 1, 2, 3]])])
@@ -140,7 +140,7 @@ for kind, beside in ("HDF", "a.h5"), ("Binary", "a0.bin"):
 
 /// Abaqus and VTK have one order of mid-edge nodes; here each node is off its middle on its own, so that none is
 /// guessed.
-TEST_F(Converted, second_order_cells) {
+TEST_F(Converted, SecondOrderCells) {
     scratch_.put("a.inp",
                  "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, .5, 0, 0\n6, .5, .5, 0\n7, 0, .5, 0\n"
                  "8, 0, 0, .5\n9, .5, 0, .5\n10, 0, .5, .5\n*ELEMENT, TYPE=C3D10\n1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10\n");
@@ -149,7 +149,7 @@ TEST_F(Converted, second_order_cells) {
     EXPECT_EQ(lines_of(rows.out).at(10), "0,0.5,0.5,0,edge");
 }
 
-TEST_F(Converted, other_formats) {
+TEST_F(Converted, OtherFormats) {
     scratch_.put("make.py", R"(
 import meshio, numpy as np
 p = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1.0, 1, 1]])
@@ -172,7 +172,7 @@ for suffix in "inp xdmf med vol xml avs ugrid mdpa f3grid h5m hmf post dat bdf".
     }
 }
 
-TEST_F(Converted, what_cannot_be_read_is_an_error) {
+TEST_F(Converted, WhatCannotBeReadIsAnError) {
     scratch_.put("a.inp", "*NODE\n1, 0, 0\n*ELEMENT, TYPE=XYZ\n1, 1\n");
     const Ended bad = barycert({"check", "a.inp"});
     EXPECT_EQ(bad.code, 2);
@@ -190,7 +190,7 @@ TEST_F(Converted, what_cannot_be_read_is_an_error) {
     EXPECT_FALSE(contains(hexahedron.err, "/proc/")) << hexahedron.err;
 }
 
-TEST_F(Converted, it_is_turned_off_by_an_empty_variable) {
+TEST_F(Converted, ItIsTurnedOffByAnEmptyVariable) {
     scratch_.put("a.inp", abaqus);
     const Ended off = run({"check", scratch_.path("a.inp")}, {.environment = {"BARYCERT_MESHIO="}});
     EXPECT_EQ(off.code, 2);
@@ -200,7 +200,7 @@ TEST_F(Converted, it_is_turned_off_by_an_empty_variable) {
     EXPECT_TRUE(contains(none.err, "apt install python3-meshio")) << none.err;
 }
 
-TEST_F(Converted, modules_of_the_working_folder_are_not_run) {
+TEST_F(Converted, ModulesOfTheWorkingFolderAreNotRun) {
     scratch_.put("a.inp", abaqus);
     for (const char* module : {"meshio.py", "numpy.py", "json.py", "resource.py"})
         scratch_.put(module, "open('ran', 'w')\n");
@@ -208,7 +208,7 @@ TEST_F(Converted, modules_of_the_working_folder_are_not_run) {
     EXPECT_FALSE(std::filesystem::exists(scratch_.path("ran")));
 }
 
-TEST_F(Converted, messages_are_passed_on_once) {
+TEST_F(Converted, MessagesArePassedOnOnce) {
     scratch_.put("a.inp", abaqus);
     const Words environment = fake(
         "import sys, numpy\n__version__ = 'of a test'\n"
@@ -243,7 +243,7 @@ bool lives(const std::string& file) {
     return is_there();
 }
 
-TEST_F(Converted, it_ends_with_the_run) {
+TEST_F(Converted, ItEndsWithTheRun) {
     scratch_.put("a.inp", abaqus);
     const Words environment = fake("import os, time\nopen('pid', 'w').write(f'{os.getpid()}\\n')\ntime.sleep(50)\n");
     Words all = environment;
@@ -255,7 +255,7 @@ TEST_F(Converted, it_ends_with_the_run) {
     EXPECT_FALSE(lives(scratch_.path("pid")));
 }
 
-TEST_F(Converted, what_it_starts_ends_with_it) {
+TEST_F(Converted, WhatItStartsEndsWithIt) {
     scratch_.put("a.inp", abaqus);
     // The child keeps a copy of the answer's stream open, and would live for long.
     const Words environment = fake(
@@ -269,7 +269,7 @@ TEST_F(Converted, what_it_starts_ends_with_it) {
     EXPECT_FALSE(lives(scratch_.path("pid")));
 }
 
-TEST_F(Converted, memory_and_output_have_limits) {
+TEST_F(Converted, MemoryAndOutputHaveLimits) {
     scratch_.put("a.inp", abaqus);
     const Ended memory = barycert({"check", "a.inp"}, fake("import numpy\n__version__ = '1'\n"
                                                            "def read(*a, **k): return numpy.empty(1 << 45, 'u1')\n"));

@@ -45,7 +45,7 @@ std::vector<Words> commands(const Scratch& scratch, const std::string& mesh) {
             {"gaps", mesh, "--kernel", "tetrahedron.signed-volume", "--count", "10"}};
 }
 
-TEST(curved, every_command_says_so_first) {
+TEST(Curved, EveryCommandSaysSoFirst) {
     const Scratch scratch;
     const std::string mesh = put_curved(scratch);
     std::vector<Words> all = commands(scratch, mesh);
@@ -64,7 +64,7 @@ TEST(curved, every_command_says_so_first) {
     }
 }
 
-TEST(curved, json_has_the_figures) {
+TEST(Curved, JsonHasTheFigures) {
     const Scratch scratch;
     for (const Words& command : commands(scratch, put_curved(scratch))) {
         const std::string json = scratch.path("report.json");
@@ -80,7 +80,7 @@ TEST(curved, json_has_the_figures) {
     }
 }
 
-TEST(curved, refused_if_asked_for) {
+TEST(Curved, RefusedIfAskedFor) {
     const Scratch scratch;
     const std::string mesh = put_curved(scratch);
     for (const Words& command : commands(scratch, mesh)) {
@@ -110,7 +110,7 @@ TEST(curved, refused_if_asked_for) {
                  "ball.vtu");
 }
 
-TEST(curved, audit_names_each_mesh) {
+TEST(Curved, AuditNamesEachMesh) {
     const Scratch scratch;
     const std::string mesh = put_curved(scratch), json = scratch.path("audit.json");
     const Words audit{"audit", mesh, "--kernel", "tetrahedron.signed-volume", "--family", "mesh.*", "--count", "10"};
@@ -121,7 +121,7 @@ TEST(curved, audit_names_each_mesh) {
     expect_error(plus(audit, {"--curved", "refuse"}), "the mesh is curved");
 }
 
-TEST(curved, values_are_those_of_straight_sides_and_said_to_be) {
+TEST(Curved, ValuesAreThoseOfStraightSidesAndSaidToBe) {
     const Scratch scratch;
     const std::string mesh = put_curved(scratch);
     const std::string points = scratch.put("outer.csv", "x,y,z\n0.7,0.7,0\n.5,.5,0\n");
@@ -140,7 +140,7 @@ TEST(curved, values_are_those_of_straight_sides_and_said_to_be) {
     }
 }
 
-TEST(curved, pages_say_so_before_the_verdict) {
+TEST(Curved, PagesSaySoBeforeTheVerdict) {
     const Scratch scratch;
     const std::string mesh = put_curved(scratch), page = scratch.path("page.html");
     scratch.put("rows.csv", "x,y,z,t\n.25,.25,.25,.25\n");
@@ -162,7 +162,7 @@ TEST(curved, pages_say_so_before_the_verdict) {
 }
 
 // Two curved cells whose straight sides overlap: the corner of one stands in the other by less than their sides bulge.
-TEST(curved, a_defect_names_straightened_sides_as_its_cause) {
+TEST(Curved, ADefectNamesStraightenedSidesAsItsCause) {
     const Scratch scratch;
     Mesh mesh = testing::curved_ball(3);
     // A cell of its own, its vertex just within a face of the octahedron, under the bulge of other sides.
@@ -194,7 +194,7 @@ TEST(curved, a_defect_names_straightened_sides_as_its_cause) {
 }
 
 // What Gmsh writes: its curved cells are found, its straight ones are not taken for curved.
-TEST(curved, meshes_of_gmsh) {
+TEST(Curved, MeshesOfGmsh) {
     const Scratch scratch;
     if (run_shell("command -v gmsh", {.folder = scratch.folder()}).code != 0) GTEST_SKIP() << "no gmsh here";
     scratch.put("sphere.geo", "SetFactory(\"OpenCASCADE\");\nSphere(1) = {0, 0, 0, 1};\nMesh.MeshSizeMax = 0.5;\n");

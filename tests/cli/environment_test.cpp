@@ -63,7 +63,7 @@ const std::string min_points =
     "x,y,z\n1e-323,1e-323,1e-323\n2e-323,2e-323,2e-323\n4e-323,0,0\n5e-324,5e-324,0\n"
     "9e-323,9e-323,9e-323\n0.1,0.2,0.3\n";
 
-TEST(environment, of_check) {
+TEST(Environment, OfCheck) {
     const Scratch scratch;
     const std::string tiny = put_smallest_cells(scratch);
     expect_same_bytes({"check", tiny}, 0);
@@ -77,7 +77,7 @@ TEST(environment, of_check) {
                       scratch.path("over.html"));
 }
 
-TEST(environment, of_sample) {
+TEST(Environment, OfSample) {
     const Scratch scratch;
     const std::string tiny = put_smallest_cells(scratch), points = scratch.put("p.csv", min_points);
     for (const std::string rounding : {"correct", "plain"}) {
@@ -100,7 +100,7 @@ TEST(environment, of_sample) {
     EXPECT_TRUE(contains(plain.out, "\n1,0,0,0,vertex,1.5e-323,7e-320\n")) << plain.out;
 }
 
-TEST(environment, of_resample) {
+TEST(Environment, OfResample) {
     const Scratch scratch;
     const std::string tiny = put_smallest_cells(scratch);
     for (const std::string rounding : {"correct", "plain"}) {
@@ -114,7 +114,7 @@ TEST(environment, of_resample) {
     }
 }
 
-TEST(environment, of_audit_and_replay) {
+TEST(Environment, OfAuditAndReplay) {
     const Scratch scratch;
     const std::string witnesses = scratch.path("w.json");
     expect_same_bytes(

@@ -63,7 +63,7 @@ protected:
     }
 };
 
-TEST_P(FailOn, exceeded_is_1_and_met_is_0) {
+TEST_P(FailOn, ExceededIs1AndMetIs0) {
     const std::string rule = GetParam();
     double worst = -1;
     std::set<std::string> over;
@@ -97,7 +97,7 @@ Words all_rules() {
 
 INSTANTIATE_TEST_SUITE_P(rules, FailOn, ::testing::ValuesIn(all_rules()), [](const auto& rule) { return rule.param; });
 
-TEST(fail_on, help_lists_these_rules_and_no_others) {
+TEST(FailOn, HelpListsTheseRulesAndNoOthers) {
     const std::string help = run({"audit", "--help"}).out;
     const std::string list = help.substr(help.find("RULE is one of: ") + 16);
     std::istringstream words(list.substr(0, list.find('\n')));
@@ -110,7 +110,7 @@ TEST(fail_on, help_lists_these_rules_and_no_others) {
     EXPECT_EQ(listed, std::set<std::string>(rules.begin(), rules.end()));
 }
 
-TEST(fail_on, several_rules_each_tell_and_the_files_are_written_all_the_same) {
+TEST(FailOn, SeveralRulesEachTellAndTheFilesAreWrittenAllTheSame) {
     const Scratch scratch;
     const Ended r = run(audited({"--fail-on", "opposite_sign", "--fail-on", "any>1e9", "--fail-on", "false_certificate",
                                  "--json", scratch.path("r.json")}));

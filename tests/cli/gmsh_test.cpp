@@ -21,7 +21,7 @@ std::string put_msh(const Scratch& scratch, const std::string& name = "two.msh")
         "$ElementData\n1\n\"c\"\n1\n0\n3\n0\n1\n2\n3 7\n4 9\n$EndElementData\n");
 }
 
-TEST(gmsh, sample_takes_fields_from_the_file) {
+TEST(Gmsh, SampleTakesFieldsFromTheFile) {
     const Scratch scratch;
     const std::string two = put_msh(scratch), points = scratch.put("p.csv", six_points);
     const std::string stem = put_two_cells(scratch, "tetgen");
@@ -43,7 +43,7 @@ TEST(gmsh, sample_takes_fields_from_the_file) {
     EXPECT_EQ(run({"check", two}).code, 0);
 }
 
-TEST(gmsh, resample_writes_what_it_reads) {
+TEST(Gmsh, ResampleWritesWhatItReads) {
     const Scratch scratch;
     const std::string two = put_msh(scratch), stem = put_two_cells(scratch, "tetgen");
     const Ended r = run(
@@ -61,7 +61,7 @@ TEST(gmsh, resample_writes_what_it_reads) {
     expect_error({"resample", stem, "--onto", two, "--output", scratch.path("out.mesh")}, ".msh");
 }
 
-TEST(gmsh, what_is_wrong_is_told_with_the_way_out) {
+TEST(Gmsh, WhatIsWrongIsToldWithTheWayOut) {
     const Scratch scratch;
     expect_error({"check", scratch.path("no.msh")}, "no such file");
     expect_error({"check", scratch.put("b.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n")}, "b.msh:4: ");

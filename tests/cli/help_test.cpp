@@ -40,7 +40,7 @@ std::string plain(const std::string& page) {
     return text;
 }
 
-TEST(help, of_a_subcommand_is_what_its_option_help_says) {
+TEST(Help, OfASubcommandIsWhatItsOptionHelpSays) {
     const auto commands = listed_commands();
     ASSERT_GT(commands.size(), 20U);
     for (const ListedCommand& command : commands) {
@@ -66,7 +66,7 @@ TEST(help, of_a_subcommand_is_what_its_option_help_says) {
 #endif
 }
 
-TEST(help, what_is_not_understood_is_refused) {
+TEST(Help, WhatIsNotUnderstoodIsRefused) {
     for (const auto& [words, says] : std::vector<std::pair<Words, std::string>>{
              {{"help", "nonsense"}, "no such subcommand: found \"nonsense\""},
              {{"help", "render", "nonsense"}, "no such subcommand: found \"nonsense\""},
@@ -88,7 +88,7 @@ TEST(help, what_is_not_understood_is_refused) {
     }
 }
 
-TEST(help, manual_pages_have_every_command_and_option) {
+TEST(Help, ManualPagesHaveEveryCommandAndOption) {
     const Scratch scratch;
     const std::string folder = scratch.path("new/pages");
     const Ended made = run({"help", "--man", folder});
@@ -115,7 +115,7 @@ TEST(help, manual_pages_have_every_command_and_option) {
     EXPECT_TRUE(contains(plain(read_file(folder + "/barycert-tetgen.1")), "\n--max-volume V\n"));
 }
 
-TEST(help, manual_pages_bear_the_day_of_the_source_alone) {
+TEST(Help, ManualPagesBearTheDayOfTheSourceAlone) {
     const Scratch scratch;
     EXPECT_EQ(run({"help", "--man", scratch.path("a")}, {.environment = {"SOURCE_DATE_EPOCH"}}).code, 0);
     EXPECT_EQ(run({"help", "--man", scratch.path("b")}, {.environment = {"SOURCE_DATE_EPOCH=1700000000"}}).code, 0);
@@ -123,7 +123,7 @@ TEST(help, manual_pages_bear_the_day_of_the_source_alone) {
     EXPECT_TRUE(read_file(scratch.path("b") + "/barycert.1").starts_with(".TH BARYCERT 1 \"2023-11-14\" "));
 }
 
-TEST(help, programs_that_check_manual_pages_find_nothing) {
+TEST(Help, ProgramsThatCheckManualPagesFindNothing) {
     const Scratch scratch;
     const std::string folder = scratch.path("pages");
     ASSERT_EQ(run({"help", "--man", folder}, {.environment = {"SOURCE_DATE_EPOCH=1700000000"}}).code, 0);

@@ -13,7 +13,7 @@ namespace {
 
 class Killed : public ::testing::TestWithParam<int> {};
 
-TEST_P(Killed, in_the_middle_of_the_work) {
+TEST_P(Killed, InTheMiddleOfTheWork) {
     const Scratch scratch;
     const std::string report = scratch.put("r.json", "old report"), witnesses = scratch.put("w.json", "old witnesses");
     // On a terminal the progress tells that the work has begun.
@@ -35,7 +35,7 @@ Words watched(int signal, bool names, bool parent = false) {
     return environment;
 }
 
-TEST_P(Killed, in_the_middle_of_writing) {
+TEST_P(Killed, InTheMiddleOfWriting) {
     for (const bool names : {false, true}) {
         // A name that has to exist is left by what no program can see coming.
         if (names && GetParam() == SIGKILL) continue;
@@ -59,7 +59,7 @@ TEST_P(Killed, in_the_middle_of_writing) {
 }
 
 #ifdef BARYCERT_TETGEN_PROGRAM
-TEST_P(Killed, while_the_mesher_writes) {
+TEST_P(Killed, WhileTheMesherWrites) {
     const std::string cube = std::string(BARYCERT_DATA_DIR) + "/plc/cube-hole.poly";
     for (const bool names : {false, true}) {
         const Scratch scratch;
@@ -76,7 +76,7 @@ TEST_P(Killed, while_the_mesher_writes) {
 INSTANTIATE_TEST_SUITE_P(signals, Killed, ::testing::Values(SIGKILL, SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE),
                          [](const auto& signal) { return "signal_" + std::to_string(signal.param); });
 
-TEST(killed, a_signal_that_is_ignored_stays_ignored) {
+TEST(Killed, ASignalThatIsIgnoredStaysIgnored) {
     const Scratch scratch;
     const Ended r = run_shell(
         "trap '' HUP; barycert audit --quiet --count 20000 --kernel 'segment.*' --json r.json & "
@@ -87,7 +87,7 @@ TEST(killed, a_signal_that_is_ignored_stays_ignored) {
 }
 
 // The bytes of a map wait in memory until there are enough; rows go to a reader that has stopped reading.
-TEST(killed, a_reader_that_stops_reading_leaves_no_half_map) {
+TEST(Killed, AReaderThatStopsReadingLeavesNoHalfMap) {
     for (const std::string names :
          {"", "WATCHED_NAMES=1 ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD=" BARYCERT_WATCHED_FILES " "}) {
         const Scratch scratch;
@@ -104,7 +104,7 @@ TEST(killed, a_reader_that_stops_reading_leaves_no_half_map) {
     }
 }
 
-TEST(killed, where_files_need_names_all_works_as_elsewhere) {
+TEST(Killed, WhereFilesNeedNamesAllWorksAsElsewhere) {
     const Scratch scratch;
     const How named{.environment = {"LD_PRELOAD=" BARYCERT_WATCHED_FILES, "WATCHED_NAMES=1",
                                     "ASAN_OPTIONS=verify_asan_link_order=0"}};

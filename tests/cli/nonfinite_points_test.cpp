@@ -18,7 +18,7 @@ std::string rows_with(const std::string& outside) {
            outside + "\n0,-inf,0.5,-1,outside,nan\nnan,1,1,-1,outside,nan\n1,0,0,0,vertex,3\n";
 }
 
-TEST(nonfinite_points, are_refused_unless_they_may_be_nan) {
+TEST(NonfinitePoints, AreRefusedUnlessTheyMayBeNan) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", strange_points);
     const Words line{"sample", two, "--points", points, "--output", "-", "--fields", "point:attribute0"};
@@ -36,7 +36,7 @@ TEST(nonfinite_points, are_refused_unless_they_may_be_nan) {
     EXPECT_TRUE(contains(r.err, "outside    4: 3 not finite, got NaN; 1 got NaN\n")) << r.err;
 }
 
-TEST(nonfinite_points, get_nan_whatever_points_outside_get) {
+TEST(NonfinitePoints, GetNanWhateverPointsOutsideGet) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", strange_points);
     const Words line{"sample",
@@ -77,7 +77,7 @@ TEST(nonfinite_points, get_nan_whatever_points_outside_get) {
         0);
 }
 
-TEST(nonfinite_points, come_through_maps_weights_and_further_steps) {
+TEST(NonfinitePoints, ComeThroughMapsWeightsAndFurtherSteps) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", strange_points);
     const std::string map = scratch.path("p.map");
@@ -101,7 +101,7 @@ TEST(nonfinite_points, come_through_maps_weights_and_further_steps) {
     EXPECT_TRUE(contains(read_file(scratch.path("s2.csv")), "\nnan,0,0,-1,outside,nan\n"));
 }
 
-TEST(nonfinite_points, of_every_kind_of_file) {
+TEST(NonfinitePoints, OfEveryKindOfFile) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", strange_points);
     const Words nan{"--nonfinite-points", "nan", "--output", "-", "--fields", "point:attribute0", "--quiet"};
@@ -127,7 +127,7 @@ TEST(nonfinite_points, of_every_kind_of_file) {
                  "a point off the plane z = 0");
 }
 
-TEST(nonfinite_points, verify_takes_them_for_outside) {
+TEST(NonfinitePoints, VerifyTakesThemForOutside) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), good = scratch.put("good.csv", rows_with("nan"));
     expect_error({"verify", two, "--results", good}, "--nonfinite-points nan");

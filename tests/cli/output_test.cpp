@@ -26,7 +26,7 @@ void expect_told_before_the_work(const Words& more, const std::string& says, con
     EXPECT_TRUE(contains(r.err, says)) << r.err;
 }
 
-TEST(output, missing_folders_and_folders_are_told_before_the_work) {
+TEST(Output, MissingFoldersAndFoldersAreToldBeforeTheWork) {
     const Scratch scratch;
     for (const std::string option : {"--json", "--witnesses", "--plot"}) {
         const std::string missing = scratch.path("none/r.json");
@@ -37,7 +37,7 @@ TEST(output, missing_folders_and_folders_are_told_before_the_work) {
     EXPECT_EQ(scratch.names(), Words{});
 }
 
-TEST(output, one_place_for_two_outputs_is_refused) {
+TEST(Output, OnePlaceForTwoOutputsIsRefused) {
     const Scratch scratch;
     expect_told_before_the_work({"--json", "-", "--witnesses", "-"}, "--json and --witnesses name the same output");
     const std::string file = scratch.path("r.json");
@@ -53,7 +53,7 @@ TEST(output, one_place_for_two_outputs_is_refused) {
     EXPECT_EQ(read_file(file), "old");
 }
 
-TEST(output, without_the_right_to_write_it_is_told_before_the_work) {
+TEST(Output, WithoutTheRightToWriteItIsToldBeforeTheWork) {
     const How nobody{.as_nobody = true};
     if (run({"--version"}, nobody).code != 0) GTEST_SKIP() << "the program's folder is closed to other users";
     const Scratch scratch;
@@ -72,7 +72,7 @@ TEST(output, without_the_right_to_write_it_is_told_before_the_work) {
     EXPECT_EQ(null.code, 0) << null.err;
 }
 
-TEST(output, a_pipe_gets_the_whole_report) {
+TEST(Output, APipeGetsTheWholeReport) {
     const Scratch scratch;
     ASSERT_EQ(::mkfifo(scratch.path("pipe").c_str(), 0666), 0);
     const Ended r =
@@ -82,7 +82,7 @@ TEST(output, a_pipe_gets_the_whole_report) {
     EXPECT_EQ(parse(read_file(scratch.path("copy")))["schema"], 1);
 }
 
-TEST(output, a_full_disk_is_an_error_that_does_not_cost_the_table) {
+TEST(Output, AFullDiskIsAnErrorThatDoesNotCostTheTable) {
     for (const std::string option : {"--json", "--witnesses"}) {
         const Ended r = run({"audit", "--count", "5", "--kernel", "segment.*", option, "/dev/full"});
         EXPECT_EQ(r.code, 2);
@@ -100,7 +100,7 @@ TEST(output, a_full_disk_is_an_error_that_does_not_cost_the_table) {
     }
 }
 
-TEST(output, the_picture_appears_whole_and_alone_on_stdout) {
+TEST(Output, ThePictureAppearsWholeAndAloneOnStdout) {
     const Scratch scratch;
     const Words some{"audit", "--count", "200", "--family", "sliver.*", "--kernel", "tetrahedron.cramer"};
     const auto with = [&](const Words& more, const How& how = {}) {
@@ -123,7 +123,7 @@ TEST(output, the_picture_appears_whole_and_alone_on_stdout) {
     EXPECT_EQ(scratch.names(), Words{"plot.svg"});
 }
 
-TEST(output, a_file_that_may_not_grow_leaves_the_old_one) {
+TEST(Output, AFileThatMayNotGrowLeavesTheOldOne) {
     const Scratch scratch;
     const std::string file = scratch.put("r.json", "old");
     const Ended r = run({"audit", "--quiet", "--count", "5", "--json", file}, {.max_file = 4096});
@@ -134,7 +134,7 @@ TEST(output, a_file_that_may_not_grow_leaves_the_old_one) {
 }
 
 #ifdef BARYCERT_TETGEN_PROGRAM
-TEST(output, a_mesh_that_may_not_grow_is_no_crash_of_the_mesher) {
+TEST(Output, AMeshThatMayNotGrowIsNoCrashOfTheMesher) {
     const Scratch scratch;
 #ifdef __SANITIZE_THREAD__
     GTEST_SKIP() << "the sanitizer's own files may not grow, either";
@@ -148,7 +148,7 @@ TEST(output, a_mesh_that_may_not_grow_is_no_crash_of_the_mesher) {
 }
 #endif
 
-TEST(output, closed_streams_are_no_crash) {
+TEST(Output, ClosedStreamsAreNoCrash) {
     const Words small{"audit", "--count", "5", "--kernel", "segment.*"};
     expect_told_before_the_work({}, "cannot write to stdout", {.close_stdout = true});
     expect_told_before_the_work({"--json", "-"}, "cannot write to stdout", {.close_stdout = true});
@@ -170,7 +170,7 @@ TEST(output, closed_streams_are_no_crash) {
     }
 }
 
-TEST(output, a_reader_that_stops_reading_does_not_cost_the_files) {
+TEST(Output, AReaderThatStopsReadingDoesNotCostTheFiles) {
     const Scratch scratch;
     const Ended r =
         run_shell("(barycert audit --count 5 --json r.json; echo $? > code) | head -n 1", {.folder = scratch.folder()});

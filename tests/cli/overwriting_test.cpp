@@ -77,7 +77,7 @@ private:
     std::map<std::string, std::string> before_;
 };
 
-TEST(overwriting, audit) {
+TEST(Overwriting, Audit) {
     Inputs inputs;
     const Words line{"audit", "m", "--count", "2", "--kernel", "segment.*", "--kernel-library", "k.so"};
     for (const std::string option : {"--json", "--witnesses", "--plot"}) {
@@ -95,7 +95,7 @@ TEST(overwriting, audit) {
     EXPECT_TRUE(contains(own.err, "--json would overwrite the mesh")) << own.err;
 }
 
-TEST(overwriting, check) {
+TEST(Overwriting, Check) {
     Inputs inputs;
     const Words line{"check", "m.ele", "--conforms-to", "part.poly"};
     for (const std::string option : {"--json", "--html"}) {
@@ -107,7 +107,7 @@ TEST(overwriting, check) {
     EXPECT_TRUE(inputs.untouched());
 }
 
-TEST(overwriting, sample_and_resample) {
+TEST(Overwriting, SampleAndResample) {
     Inputs inputs;
     const Words sample{"sample", "m", "--points", "p.csv", "--field", "f=f.txt"};
     Words with_output = sample;
@@ -124,7 +124,7 @@ TEST(overwriting, sample_and_resample) {
     EXPECT_TRUE(inputs.untouched());
 }
 
-TEST(overwriting, render) {
+TEST(Overwriting, Render) {
     Inputs inputs;
     for (const std::string file : {"m.node", "m.ele"})
         inputs.expect_refused({"render", "mesh", "m", "--output", "r.png"}, "--json", file, "the mesh");
@@ -137,7 +137,7 @@ TEST(overwriting, render) {
 }
 
 #ifdef BARYCERT_TETGEN_PROGRAM
-TEST(overwriting, mesh) {
+TEST(Overwriting, Mesh) {
     Inputs inputs;
     const fs::path cube = std::string(BARYCERT_DATA_DIR) + "/plc/cube-hole.poly";
     fs::create_symlink(cube, inputs.scratch().path("c.node"));
@@ -183,7 +183,7 @@ protected:
     std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points), bytes;
 };
 
-TEST_F(Pieces, are_inputs) {
+TEST_F(Pieces, AreInputs) {
     const Words suffixes{"all.pvtu", "all.vtm", "all.pvd", "all.vtu.series", "outer.pvtu"};
     for (const std::string& all : suffixes) {
         const Words rows{"--output", "r.csv"};
@@ -205,7 +205,7 @@ TEST_F(Pieces, are_inputs) {
     }
 }
 
-TEST_F(Pieces, of_every_step_of_a_series_of_fields) {
+TEST_F(Pieces, OfEveryStepOfASeriesOfFields) {
     scratch.put("run-0.pvtu",
                 "<VTKFile type='PUnstructuredGrid'><PUnstructuredGrid><Piece Source='0.vtu'/>"
                 "</PUnstructuredGrid></VTKFile>");
@@ -217,7 +217,7 @@ TEST_F(Pieces, of_every_step_of_a_series_of_fields) {
     expect_refused(plus(fields, {"--output", "{step}.vtu"}));
 }
 
-TEST(overwriting, standard_streams) {
+TEST(Overwriting, StandardStreams) {
     Inputs inputs;
     const How here{.folder = inputs.scratch().folder()};
     for (const std::string line : {"barycert sample m --points - --output p.csv < p.csv",
@@ -234,7 +234,7 @@ TEST(overwriting, standard_streams) {
     EXPECT_TRUE(inputs.untouched());
 }
 
-TEST(overwriting, devices_are_no_files) {
+TEST(Overwriting, DevicesAreNoFiles) {
     const Ended r = run({"audit", "--quiet", "--count", "2", "--kernel", "segment.*", "--json", "/dev/null"});
     EXPECT_EQ(r.code, 0) << r.err;
     const Ended same =

@@ -34,7 +34,7 @@ protected:
     std::string expected_;
 };
 
-TEST_F(Packed, meshes) {
+TEST_F(Packed, Meshes) {
     shell("gzip -k m.vtu m.vtk m.msh; mkdir t; cp m.node m.ele t; gzip t/m.node t/m.ele");
     for (const char* mesh : {"m.vtu.gz", "m.vtk.gz", "m.msh.gz", "t/m", "t/m.node.gz", "t/m.node", "t/m.ele.gz"}) {
         const std::string got = rows(mesh, "--points p.csv");
@@ -45,7 +45,7 @@ TEST_F(Packed, meshes) {
     EXPECT_EQ(rows("odd.vtu", "--points p.csv"), expected_);
 }
 
-TEST_F(Packed, points_and_fields) {
+TEST_F(Packed, PointsAndFields) {
     shell("gzip -k p.csv p.npy p.vtu T.txt m.node");
     for (const char* points : {"p.csv.gz", "p.npy.gz", "p.vtu.gz"})
         EXPECT_EQ(rows("m", std::string("--points ") + points), expected_) << points;
@@ -64,18 +64,18 @@ TEST_F(Packed, points_and_fields) {
     }
 }
 
-TEST_F(Packed, several_members_are_one_file) {
+TEST_F(Packed, SeveralMembersAreOneFile) {
     shell("head -n 3 p.csv | gzip > q.csv.gz; tail -n +4 p.csv | gzip >> q.csv.gz");
     EXPECT_EQ(rows("m", "--points q.csv.gz"), expected_);
 }
 
-TEST_F(Packed, surfaces) {
+TEST_F(Packed, Surfaces) {
     shell("printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' | gzip > s.off.gz");
     const Ended mesh = shell("barycert mesh s.off.gz --output s && barycert check s");
     EXPECT_EQ(mesh.code, 0) << mesh.err;
 }
 
-TEST_F(Packed, damaged_and_cut_files) {
+TEST_F(Packed, DamagedAndCutFiles) {
     shell(
         "gzip -k m.vtu; head -c -20 m.vtu.gz > cut.vtu.gz; head -c 2 m.vtu.gz > short.vtu.gz; cp m.vtu.gz bad.vtu.gz; "
         "printf X | dd of=bad.vtu.gz bs=1 seek=60 conv=notrunc; cat m.vtu.gz p.csv > tail.vtu.gz");
@@ -87,7 +87,7 @@ TEST_F(Packed, damaged_and_cut_files) {
 }
 
 /// 1 MiB for each KiB.
-TEST_F(Packed, bombs) {
+TEST_F(Packed, Bombs) {
     shell("{ echo x,y,z; yes 0,0,0 | head -c 600M; } | gzip > z.csv.gz");
     const Ended check = shell("ulimit -v 4000000; barycert sample m --points z.csv.gz --output -");
     EXPECT_EQ(check.code, 2);
@@ -95,7 +95,7 @@ TEST_F(Packed, bombs) {
 }
 
 // In less memory than they take.
-TEST_F(Packed, gigabytes_of_zeros_are_told_by_their_beginning) {
+TEST_F(Packed, GigabytesOfZerosAreToldByTheirBeginning) {
     shell("truncate -s 2G z; gzip -1 < z > z.gz; rm z; cp m.node z.node");
     for (const char* line : {"check z.vtu.gz", "check z.msh.gz", "check z.ele.gz", "check z.mesh.gz", "mesh z.off.gz",
                              "sample m --points p.csv --output - --field T=z.txt.gz"}) {
@@ -107,7 +107,7 @@ TEST_F(Packed, gigabytes_of_zeros_are_told_by_their_beginning) {
     }
 }
 
-TEST_F(Packed, nothing_is_written_so) {
+TEST_F(Packed, NothingIsWrittenSo) {
     for (const char* line : {"sample m --points p.csv --output o.csv.gz", "resample m --onto m --output o.vtu.gz",
                              "check m --json o.json.gz"}) {
         const Ended refused = shell(std::string("barycert ") + line);
@@ -117,7 +117,7 @@ TEST_F(Packed, nothing_is_written_so) {
     for (const std::string& name : scratch_.names()) EXPECT_FALSE(name.ends_with(".gz")) << name;
 }
 
-TEST_F(Packed, inputs_are_not_overwritten) {
+TEST_F(Packed, InputsAreNotOverwritten) {
     shell("mkdir t; cp m.node m.ele t; gzip t/m.node t/m.ele");
     const Ended refused = shell("barycert sample t/m --points p.csv --output - --json t/m.node.gz");
     EXPECT_EQ(refused.code, 2) << refused.err;

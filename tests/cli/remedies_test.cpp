@@ -171,7 +171,7 @@ Words commands_in(const std::string& message) {
 
 class Remedies : public ::testing::TestWithParam<Remedy> {};
 
-TEST_P(Remedies, does_what_it_says) {
+TEST_P(Remedies, DoesWhatItSays) {
     const Remedy& remedy = GetParam();
     if (!is_there(remedy.needs)) GTEST_SKIP() << "not installed: " << remedy.needs;
     const Scratch scratch;

@@ -38,7 +38,7 @@ struct Off {
     }
 };
 
-TEST(render_iso, of_two_cells_by_hand) {
+TEST(RenderIso, OfTwoCellsByHand) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), off = scratch.path("s.off");
     // attribute0 is 1 + 2x + 4y + 8z: 1 at node 0, 3, 5 and 9 at nodes 1, 2 and 3, 15 at node 4.
@@ -61,7 +61,7 @@ TEST(render_iso, of_two_cells_by_hand) {
     EXPECT_EQ(std::count(points.begin(), points.end(), "0 1 0"), 1);
 }
 
-TEST(render_iso, the_same_bytes_on_any_number_of_threads) {
+TEST(RenderIso, TheSameBytesOnAnyNumberOfThreads) {
     const Scratch scratch;
     for (const std::string suffix : {".vtp", ".ply", ".off"}) {
         std::string first;
@@ -78,7 +78,7 @@ TEST(render_iso, the_same_bytes_on_any_number_of_threads) {
     }
 }
 
-TEST(render_iso, tells_what_it_did_as_json) {
+TEST(RenderIso, TellsWhatItDidAsJson) {
     const Scratch scratch;
     const Ended r = run({"render", "iso", mesh("bracket"), "--field", "attribute0", "--value", "1", "--fields",
                          "attribute1", "--output", scratch.path("s.vtp"), "--json", "-", "--threads", "2"});
@@ -95,7 +95,7 @@ TEST(render_iso, tells_what_it_did_as_json) {
     EXPECT_TRUE(contains(read_file(scratch.path("s.vtp")), "Name=\"attribute1\""));
 }
 
-TEST(render_iso, lines_of_a_mesh_of_triangles) {
+TEST(RenderIso, LinesOfAMeshOfTriangles) {
     const Scratch scratch;
     const Words line{"render", "iso", mesh("plate"), "--field", "attribute0", "--value", "1.25", "--output"};
     const Ended r = run(plus(line, {scratch.path("l.vtp")}));
@@ -107,7 +107,7 @@ TEST(render_iso, lines_of_a_mesh_of_triangles) {
     EXPECT_EQ(scratch.names(), (Words{"l.ply", "l.vtp"}));
 }
 
-TEST(render_iso, fields_from_files_and_their_components) {
+TEST(RenderIso, FieldsFromFilesAndTheirComponents) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), off = scratch.path("s.off");
     const std::string f = scratch.put("f.txt", "0 5\n1 6\n2 7\nnan 8\n4 9\n");
@@ -124,7 +124,7 @@ TEST(render_iso, fields_from_files_and_their_components) {
     expect_error(plus(line, {"1", "--field", "cell:attribute0"}), "is one of cells");
 }
 
-TEST(render_iso, as_a_picture) {
+TEST(RenderIso, AsAPicture) {
     const Scratch scratch;
     const std::string png = scratch.path("s.png");
     const Words line{"render", "iso", mesh("flange"), "--field", "attribute0", "--output", png, "--value"};
@@ -150,7 +150,7 @@ TEST(render_iso, as_a_picture) {
                  "iso-lines cannot be written as a picture");
 }
 
-TEST(render_iso, on_a_segment) {
+TEST(RenderIso, OnASegment) {
     const auto says = [](const Words& options, const std::string& text) {
         const Ended r = run(plus({"render", "iso"}, options));
         EXPECT_EQ(r.code, 0) << r.err;
@@ -173,7 +173,7 @@ TEST(render_iso, on_a_segment) {
                  "--segment cannot be combined");
 }
 
-TEST(render_iso, what_is_not_understood_is_refused) {
+TEST(RenderIso, WhatIsNotUnderstoodIsRefused) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), out = scratch.path("s.vtp");
     const Words line{"render", "iso", two, "--field", "attribute0", "--value"};
@@ -194,7 +194,7 @@ TEST(render_iso, what_is_not_understood_is_refused) {
     EXPECT_EQ(scratch.names(), (Words{"two.ele", "two.node"})) << "nothing is written";
 }
 
-TEST(render_slice, as_a_surface) {
+TEST(RenderSlice, AsASurface) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), off = scratch.path("s.off");
     const Ended r = run({"render", "slice", two, "--plane", "0,0,2,0.5", "--output", off});
@@ -215,7 +215,7 @@ TEST(render_slice, as_a_surface) {
     EXPECT_EQ(Off(off).points.size(), 0U);
 }
 
-TEST(render_slice, as_a_picture) {
+TEST(RenderSlice, AsAPicture) {
     const Scratch scratch;
     const std::string png = scratch.path("s.png");
     const Words line{"render", "slice", mesh("cube-hole"), "--plane", "0,0,1,0.5", "--output", png};
@@ -257,7 +257,7 @@ TEST(render_slice, as_a_picture) {
     }
 }
 
-TEST(render_slice, of_fields_of_cells_and_oblique) {
+TEST(RenderSlice, OfFieldsOfCellsAndOblique) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), png = scratch.path("s.png");
     const Ended r = run({"render", "slice", two, "--plane", "1,1,1,1.25", "--field", "cell:attribute0", "--output", png,
@@ -268,7 +268,7 @@ TEST(render_slice, of_fields_of_cells_and_oblique) {
     EXPECT_EQ(j["picture"]["high"], 9);
 }
 
-TEST(render_slice, by_one_axis) {
+TEST(RenderSlice, ByOneAxis) {
     const Scratch scratch;
     const auto drawn = [&](const std::string& plane) {
         const Ended r =
@@ -285,7 +285,7 @@ TEST(render_slice, by_one_axis) {
 }
 
 /// What sample calls a quantity is one in pictures, and so is what a refusal suggests.
-TEST(render, names_of_quantities_are_those_of_sample) {
+TEST(Render, NamesOfQuantitiesAreThoseOfSample) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), png = scratch.path("p.png"), vtp = scratch.path("s.vtp");
     const std::string v = "v=" + scratch.put("v.txt", "0 0 0\n3 4 0\n0 0 2\n0 0 0\n1 1 1\n");
@@ -314,7 +314,7 @@ TEST(render, names_of_quantities_are_those_of_sample) {
         expect_error(plus(line, plus(field, {"v"})), "expected one: v.0 to v.2, or the length |v|");
 }
 
-TEST(render_slice, what_is_not_understood_is_refused) {
+TEST(RenderSlice, WhatIsNotUnderstoodIsRefused) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), out = scratch.path("s.vtp");
     for (const std::string bad : {"0,0,0,1", "1,2,3", "0,0,1,inf", "0,0,1,x", "1,2,3,4,5", ""})

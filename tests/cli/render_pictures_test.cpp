@@ -26,7 +26,7 @@ Image picture(const Scratch& scratch, Words arguments) {
 
 constexpr Rgba white{255, 255, 255, 255};
 
-TEST(render_pictures, gradient_has_a_red_a_green_and_a_blue_corner) {
+TEST(RenderPictures, GradientHasARedAGreenAndABlueCorner) {
     const Scratch scratch;
     const Image first = picture(scratch, {"gradient", "--size", "200x160", "--rounding", "correct"});
     ASSERT_EQ(first.width, 200);
@@ -44,7 +44,7 @@ TEST(render_pictures, gradient_has_a_red_a_green_and_a_blue_corner) {
     }
 }
 
-TEST(render_pictures, texture_with_the_origin_at_the_lower_left) {
+TEST(RenderPictures, TextureWithTheOriginAtTheLowerLeft) {
     const Scratch scratch;
     const Image four = four_colours();
     const Image once = picture(scratch, {"texture", "--size", "10x10"});
@@ -66,7 +66,7 @@ TEST(render_pictures, texture_with_the_origin_at_the_lower_left) {
     EXPECT_EQ(triangle.pixel(1, 0), four.pixel(0, 0));
 }
 
-TEST(render_pictures, cube_once_right_and_once_wrong) {
+TEST(RenderPictures, CubeOnceRightAndOnceWrong) {
     const Scratch scratch;
     const auto error = [&](const std::string& interpolation) {
         const Ended r = run({"render", "cube", "--interpolation", interpolation, "--json", "-", "--quiet", "--output",
@@ -83,7 +83,7 @@ TEST(render_pictures, cube_once_right_and_once_wrong) {
     EXPECT_GT(error("projected-z"), 5);
 }
 
-TEST(render_pictures, clip_leaves_what_is_in_the_box) {
+TEST(RenderPictures, ClipLeavesWhatIsInTheBox) {
     const Scratch scratch;
     const Image image = picture(scratch, {"clip", "--size", "400x200"});
     // Panels of 200 pixels; the box is 105 of them wide. Around the right one there is nothing.
@@ -106,7 +106,7 @@ TEST(render_pictures, clip_leaves_what_is_in_the_box) {
     EXPECT_GT(same, beside * 98 / 100);  // but at the ends of lines
 }
 
-TEST(render_pictures, mesh_in_the_colours_of_a_field) {
+TEST(RenderPictures, MeshInTheColoursOfAField) {
     const Scratch scratch;
     const std::string path = scratch.path("mesh.png");
     for (const std::string name : {"bracket", "cube-hole", "cube-hole-o2", "torus", "plate"}) {
@@ -128,7 +128,7 @@ TEST(render_pictures, mesh_in_the_colours_of_a_field) {
     }
 }
 
-TEST(render_pictures, mesh_with_fields_from_files) {
+TEST(RenderPictures, MeshWithFieldsFromFiles) {
     const Scratch scratch;
     // Two triangles; values nan at one: grey.
     scratch.put("m.node", "4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n");
@@ -158,7 +158,7 @@ TEST(render_pictures, mesh_with_fields_from_files) {
     }
 }
 
-TEST(render_pictures, scenes_of_the_project) {
+TEST(RenderPictures, ScenesOfTheProject) {
     const Scratch scratch;
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(BARYCERT_DATA_DIR "/scenes")) {
@@ -169,7 +169,7 @@ TEST(render_pictures, scenes_of_the_project) {
     EXPECT_GE(count, 2U);
 }
 
-TEST(render_pictures, a_texture_beside_the_scene_is_found_and_kept) {
+TEST(RenderPictures, ATextureBesideTheSceneIsFoundAndKept) {
     const Scratch scratch;
     std::filesystem::create_directory(scratch.path("parts"));
     ASSERT_TRUE(write_png(scratch.path("parts/four.png"), four_colours()));
@@ -186,7 +186,7 @@ TEST(render_pictures, a_texture_beside_the_scene_is_found_and_kept) {
     EXPECT_TRUE(contains(same.err, "would overwrite")) << same.err;
 }
 
-TEST(render_pictures, summaries_and_where_they_go) {
+TEST(RenderPictures, SummariesAndWhereTheyGo) {
     const Scratch scratch;
     const std::string path = scratch.path("g.png");
     EXPECT_EQ(run({"render", "gradient", "--quiet", "--output", path}).out, "");
@@ -209,7 +209,7 @@ void expect_undrawn(const Words& arguments, const std::string& says, const Scrat
     EXPECT_FALSE(std::filesystem::exists(scratch.path("out.png")));
 }
 
-TEST(render_pictures, what_cannot_be_drawn_is_refused) {
+TEST(RenderPictures, WhatCannotBeDrawnIsRefused) {
     const Scratch scratch;
     expect_undrawn({}, "nothing to draw", scratch);
     expect_undrawn({"missing.json"}, "missing.json", scratch);
@@ -242,7 +242,7 @@ TEST(render_pictures, what_cannot_be_drawn_is_refused) {
     EXPECT_EQ(run({"render", "gradient"}).code, 2);
 }
 
-TEST(render_pictures, broken_scenes) {
+TEST(RenderPictures, BrokenScenes) {
     const Scratch scratch;
     const std::string rest = R"(, "positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]})";
     const std::string good = R"({"size": [20, 10])" + rest;
@@ -313,7 +313,7 @@ TEST(render_pictures, broken_scenes) {
     }
 }
 
-TEST(render_pictures, numbers_of_scenes_that_hurt_but_can_be_drawn) {
+TEST(RenderPictures, NumbersOfScenesThatHurtButCanBeDrawn) {
     const Scratch scratch;
     const std::vector<std::pair<std::string, std::string>> drawn{
         {"[[0, 0, 0, 0], [1, 0, 0], [0, 1, 0]]", "1 without area"},                            // w = 0 at a vertex
@@ -338,7 +338,7 @@ TEST(render_pictures, numbers_of_scenes_that_hurt_but_can_be_drawn) {
 /// The pictures of doc/rendering.md are those that their commands draw: no component is off by more than one step, but
 /// in one pixel of a thousand, for tangent and sine may differ from machine to machine in their last bit, and so may a
 /// centre's side of an edge.
-TEST(render_pictures, are_those_of_the_document) {
+TEST(RenderPictures, AreThoseOfTheDocument) {
     const Scratch scratch;
     std::size_t count = 0;
     const std::string document = read_file(BARYCERT_DATA_DIR "/../doc/rendering.md");

@@ -7,7 +7,7 @@
 namespace barycert::cli_test {
 namespace {
 
-TEST(render_drift, prints_a_table_and_writes_figures_and_a_plot) {
+TEST(RenderDrift, PrintsATableAndWritesFiguresAndAPlot) {
     const Scratch scratch;
     const Ended r =
         run({"render", "drift", "--count", "50", "--output", scratch.path("d.svg"), "--json", scratch.path("d.json")});
@@ -26,7 +26,7 @@ TEST(render_drift, prints_a_table_and_writes_figures_and_a_plot) {
     EXPECT_EQ(run({"render", "drift", "--count", "50", "--quiet"}).out, "");
 }
 
-TEST(render_drift, refuses_one_file_for_two_outputs) {
+TEST(RenderDrift, RefusesOneFileForTwoOutputs) {
     const Scratch scratch;
     const Ended r =
         run({"render", "drift", "--count", "50", "--output", scratch.path("d"), "--json", scratch.path("d")});
@@ -35,13 +35,13 @@ TEST(render_drift, refuses_one_file_for_two_outputs) {
     EXPECT_EQ(scratch.names(), Words{});
 }
 
-TEST(render_drift, takes_a_kernel_of_the_user_and_refuses_another_simplex) {
+TEST(RenderDrift, TakesAKernelOfTheUserAndRefusesAnotherSimplex) {
     const Ended r = run({"render", "drift", "--count", "50", "--kernel-library", BARYCERT_USER_KERNEL});
     EXPECT_EQ(r.code, 2);
     EXPECT_TRUE(contains(r.err, "tetrahedron.user-volume")) << r.err;
 }
 
-TEST(render_texels, shows_the_rim) {
+TEST(RenderTexels, ShowsTheRim) {
     const Scratch scratch;
     const Ended r = run({"render", "texels", "--count", "5000", "--json", scratch.path("t.json")});
     ASSERT_EQ(r.code, 0) << r.err;
@@ -57,7 +57,7 @@ TEST(render_texels, shows_the_rim) {
     }
 }
 
-TEST(perspective, is_audited_and_replayed) {
+TEST(Perspective, IsAuditedAndReplayed) {
     const Scratch scratch;
     const std::string witnesses = scratch.path("w.json");
     const Ended r = run({"audit", "--kernel", "triangle.perspective-*", "--family", "perspective.*", "--count", "300",

@@ -51,7 +51,7 @@ void expect_commands_work(const std::string& table, std::size_t at_least, const 
     }
 }
 
-TEST(replay, printed_commands_by_witness_file) {
+TEST(Replay, PrintedCommandsByWitnessFile) {
     const Scratch scratch;
     const How there{.folder = scratch.folder()};
     const Ended r =
@@ -63,7 +63,7 @@ TEST(replay, printed_commands_by_witness_file) {
     expect_commands_work(by_report.out, 10, there);
 }
 
-TEST(replay, printed_commands_by_family_and_case) {
+TEST(Replay, PrintedCommandsByFamilyAndCase) {
     const Ended built =
         run({"audit", "--wide", "--count", "30", "--seed", "77", "--kernel", "*.inverse", "--kernel", "segment.*"});
     expect_commands_work(built.out, 6, {});
@@ -84,7 +84,7 @@ TEST(replay, printed_commands_by_family_and_case) {
     expect_commands_work(own.out, 40, there);
 }
 
-TEST(replay, printed_commands_name_the_users_kernel_library) {
+TEST(Replay, PrintedCommandsNameTheUsersKernelLibrary) {
     const Scratch scratch;
     const How there{.folder = scratch.folder()};
     const Words audit{"audit", "--wide", "--count", "10", "--kernel-library", BARYCERT_SWAPPED_KERNEL};
@@ -94,7 +94,7 @@ TEST(replay, printed_commands_name_the_users_kernel_library) {
     expect_commands_work(run(with_file, there).out, 1, there);
 }
 
-TEST(replay, the_kernel_in_question_first_and_the_others_with_all) {
+TEST(Replay, TheKernelInQuestionFirstAndTheOthersWithAll) {
     const Words case_of{"replay", "--kernel", "tetrahedron.kahan", "--family", "lattice.tenths", "--case", "360"};
     const std::string alone = run(case_of).out;
     EXPECT_TRUE(contains(alone, "= exact, correctly rounded"));
@@ -143,7 +143,7 @@ protected:
     Json all_;
 };
 
-TEST_F(Witnesses, all_are_shown_and_reproduced) {
+TEST_F(Witnesses, AllAreShownAndReproduced) {
     const Ended r = run({"replay", file_});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(r.err, "");
@@ -154,7 +154,7 @@ TEST_F(Witnesses, all_are_shown_and_reproduced) {
     }
 }
 
-TEST_F(Witnesses, filters) {
+TEST_F(Witnesses, Filters) {
     const std::size_t of_triangle = with("kernel", "triangle.inverse"), opposite = with("reason", "opposite_sign");
     ASSERT_GT(of_triangle, 0U);
     ASSERT_GT(opposite, 0U);
@@ -170,7 +170,7 @@ TEST_F(Witnesses, filters) {
     EXPECT_TRUE(contains(none.err, file_ + ": no witness matches; leave out --kernel"));
 }
 
-TEST_F(Witnesses, a_doctored_one_is_not_reproduced) {
+TEST_F(Witnesses, ADoctoredOneIsNotReproduced) {
     for (const Json& whole : all_["witnesses"]) {
         // The unit simplex and a point of eighths: every formula gets the weights right to the last bit.
         Json doctored = whole;
@@ -190,7 +190,7 @@ TEST_F(Witnesses, a_doctored_one_is_not_reproduced) {
     }
 }
 
-TEST_F(Witnesses, what_cannot_be_checked_does_not_pass) {
+TEST_F(Witnesses, WhatCannotBeCheckedDoesNotPass) {
     const auto with_member = [&](const char* key, const char* value) {
         Json w = all_["witnesses"][0];
         w[key] = value;

@@ -21,7 +21,7 @@ std::string points_of(const std::string& rows, int dimension) {
     return points;
 }
 
-TEST(resample, gives_the_rows_of_sample_at_the_points_of_the_grid) {
+TEST(Resample, GivesTheRowsOfSampleAtThePointsOfTheGrid) {
     const Scratch scratch;
     for (const Words& grid : std::vector<Words>{{"cube-hole", "--grid", "13x11x9"},
                                                 {"cube-hole-o2", "--grid", "7x6x5", "--bounds=-.1,1.1,-.1,1.1,.2,.8"},
@@ -40,7 +40,7 @@ TEST(resample, gives_the_rows_of_sample_at_the_points_of_the_grid) {
     }
 }
 
-TEST(resample, arrays_have_x_fastest) {
+TEST(Resample, ArraysHaveXFastest) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     // On this grid attribute0 is 1 + 2x + 4y + 8z, and (1, 1, 0), (1, 0, 1), (0, 1, 1) lie outside.
@@ -67,7 +67,7 @@ TEST(resample, arrays_have_x_fastest) {
     EXPECT_TRUE(contains(vti, std::string("\1\1\1\0\1\0\0\0\1\0\0\1", 12))) << "the mask";
 }
 
-TEST(resample, a_picture_of_a_layer) {
+TEST(Resample, APictureOfALayer) {
     const Scratch scratch;
     const std::string png = scratch.path("s.png");
     const Words line{"resample", mesh("cube-hole"), "--output", png, "--fields", "attribute1"};
@@ -95,7 +95,7 @@ TEST(resample, a_picture_of_a_layer) {
     EXPECT_TRUE(read_file(png) == before);
 }
 
-TEST(resample, onto_another_mesh) {
+TEST(Resample, OntoAnotherMesh) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), onto = scratch.path("onto");
     scratch.put("onto.node", "4 3 1 1\n1 0 0 0 99 5\n2 0 .5 0 99 6\n3 .25 .25 .5 99 7\n4 2 2 2 99 8\n");
@@ -127,7 +127,7 @@ TEST(resample, onto_another_mesh) {
     }
 }
 
-TEST(resample, vtk_files_are_meshes_and_points_and_rows) {
+TEST(Resample, VtkFilesAreMeshesAndPointsAndRows) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), mesh = scratch.path("m.vtu"), points = scratch.path("q.vtu");
     ASSERT_EQ(run({"check", two, "--vtu", mesh, "--quiet"}).code, 0);
@@ -139,7 +139,7 @@ TEST(resample, vtk_files_are_meshes_and_points_and_rows) {
     expect_error({"sample", mesh, "--points", csv, "--output", mesh}, "--output would overwrite the mesh");
 }
 
-TEST(resample, what_is_not_understood_is_refused) {
+TEST(Resample, WhatIsNotUnderstoodIsRefused) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), out = scratch.path("r.vti");
     const Words line{"resample", two, "--output", out};
@@ -174,7 +174,7 @@ TEST(resample, what_is_not_understood_is_refused) {
     EXPECT_EQ(run({"resample", "--help"}).code, 0);
 }
 
-TEST(resample, files_appear_whole_or_not_at_all) {
+TEST(Resample, FilesAppearWholeOrNotAtAll) {
     const Scratch scratch;
     for (const std::string name : {"r.vti", "r.npy", "r.csv", "r.png"}) {
         const std::string file = scratch.put(name, "old");

@@ -53,7 +53,7 @@ protected:
     std::string two = put_two_cells(scratch), points = scratch.put("p.csv", ".25 .25 .25\n");
 };
 
-TEST_F(Fields, of_text_files) {
+TEST_F(Fields, OfTextFiles) {
     const std::string expected = ",v.0,v.1 ,2.25,-1";
     for (const std::string text :
          {"0 -1\n1 -1\n2 -1\n6 -1\n100 -1\n", "# velocity\n\n0,-1\n1,-1 # here\r\n 2;-1\n6\t-1\n100 , -1\n",
@@ -67,7 +67,7 @@ TEST_F(Fields, of_text_files) {
     EXPECT_EQ(row({"--point-field", "v=" + scratch.path("v.txt"), "--fields", "v"}), expected);
 }
 
-TEST_F(Fields, of_npy_files) {
+TEST_F(Fields, OfNpyFiles) {
     const std::vector<double> v{0, -1, 1, -1, 2, -1, 6, -1, 100, -1}, by_component{0, 1, 2, 6, 100, -1, -1, -1, -1, -1};
     const std::vector<float> single(v.begin(), v.end());
     const std::vector<std::int64_t> whole(v.begin(), v.end());
@@ -82,7 +82,7 @@ TEST_F(Fields, of_npy_files) {
     EXPECT_EQ(row({"--field", "u=" + scratch.put("u.npy", npy("<u2", "5,", bytes(one))), "--fields", "u"}), ",u ,10");
 }
 
-TEST_F(Fields, are_chosen_and_ordered_by_name) {
+TEST_F(Fields, AreChosenAndOrderedByName) {
     const std::string v = "v=" + scratch.put("v.txt", "0 1\n0 1\n0 1\n0 1\n0 1\n"),
                       c = "c=" + scratch.put("c", "5\n6\n");
     EXPECT_EQ(row({}), ",attribute0,cell:attribute0 ,4.5,7");
@@ -97,7 +97,7 @@ TEST_F(Fields, are_chosen_and_ordered_by_name) {
 }
 
 // Nodes 1 and 3 are in both cells, nodes 0 and 4 in one each.
-TEST_F(Fields, of_nodes_without_part_may_be_not_finite) {
+TEST_F(Fields, OfNodesWithoutPartMayBeNotFinite) {
     const std::vector<double> u{std::nan(""), 3, HUGE_VAL, 4, -HUGE_VAL};
     const std::string file = scratch.put("u.npy", npy("<f8", "5,", bytes(u)));
     const std::string at = scratch.put("at.csv", "x,y,z\n1,0,0\n.5,0,.5\n.25,.25,.5\n");
@@ -121,7 +121,7 @@ TEST_F(Fields, of_nodes_without_part_may_be_not_finite) {
     EXPECT_TRUE(contains(lines.out + lines.err, "field u: 3 of 5 values are not finite")) << lines.err;
 }
 
-TEST_F(Fields, that_cannot_be_are_refused) {
+TEST_F(Fields, ThatCannotBeAreRefused) {
     const std::string v = scratch.put("v.txt", "0\n1\n2\n3\n4\n");
     const auto refused = [&](const Words& more, const std::string& says) {
         expect_error(plus({"sample", two, "--points", points, "--output", "-", "--quiet"}, more), says);

@@ -22,7 +22,7 @@ std::string lattice(int count) {
            "; ++i) print (i % 97) / 90, (i % 89) / 88, (i % 83) / 82 }'";
 }
 
-TEST(sample_map, gives_the_same_bytes_as_the_points) {
+TEST(SampleMap, GivesTheSameBytesAsThePoints) {
     const Scratch scratch;
     const std::string points = scratch.path("p.csv"), map = scratch.path("p.map");
     ASSERT_EQ(run_shell(lattice(3000) + " > p.csv", {.folder = scratch.folder()}).code, 0);
@@ -60,7 +60,7 @@ TEST(sample_map, gives_the_same_bytes_as_the_points) {
     EXPECT_EQ(read_file(scratch.path("r.csv")), "old");
 }
 
-TEST(sample_files, what_is_not_understood_is_refused) {
+TEST(SampleFiles, WhatIsNotUnderstoodIsRefused) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     const Words in{"sample", two, "--points", points}, line = plus(in, {"--output", "-"});
@@ -103,7 +103,7 @@ TEST(sample_files, what_is_not_understood_is_refused) {
     EXPECT_EQ(run({"sample", "--help"}).code, 0);
 }
 
-TEST(sample_files, no_output_is_an_input_or_another_output) {
+TEST(SampleFiles, NoOutputIsAnInputOrAnotherOutput) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     const std::string field = scratch.put("f.csv", "1\n1\n1\n1\n1\n"), out = scratch.path("r.csv");
@@ -122,7 +122,7 @@ TEST(sample_files, no_output_is_an_input_or_another_output) {
     EXPECT_EQ(scratch.names(), (Words{"f.csv", "p.csv", "two.ele", "two.node"}));
 }
 
-TEST(sample_files, appear_whole_or_not_at_all) {
+TEST(SampleFiles, AppearWholeOrNotAtAll) {
     const Scratch scratch;
     const std::string out = scratch.put("r.csv", "old"), map = scratch.put("r.map", "old");
     ASSERT_EQ(run_shell(lattice(20000) + " > p.csv", {.folder = scratch.folder()}).code, 0);
@@ -164,7 +164,7 @@ std::size_t peak_memory(int times) {
     return std::stoul("0" + read_file(scratch.path("peak")));
 }
 
-TEST(sample_stream, memory_does_not_grow_with_the_points) {
+TEST(SampleStream, MemoryDoesNotGrowWithThePoints) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer keeps what was freed";
 #endif
@@ -178,7 +178,7 @@ TEST(sample_stream, memory_does_not_grow_with_the_points) {
 
 class SampleKilled : public ::testing::TestWithParam<int> {};
 
-TEST_P(SampleKilled, while_it_writes) {
+TEST_P(SampleKilled, WhileItWrites) {
     const Scratch scratch;
     const std::string out = scratch.put("r.csv", "old"), points = scratch.path("p.csv");
     ASSERT_EQ(::mkfifo(points.c_str(), 0666), 0);

@@ -33,7 +33,7 @@ protected:
     std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
 };
 
-TEST_F(Series, become_columns_in_natural_order) {
+TEST_F(Series, BecomeColumnsInNaturalOrder) {
     put_steps({2, 10, 0});
     const Ended r = run_there({"--field", "T@step-*.txt", "--fields", "T", "--output", "-"});
     EXPECT_EQ(r.code, 0) << r.err;
@@ -49,7 +49,7 @@ TEST_F(Series, become_columns_in_natural_order) {
     EXPECT_EQ(all[0], "x,y,z,cell,feature,attribute0,T@0,T@2,T@10,cell:attribute0");
 }
 
-TEST_F(Series, become_a_file_a_step) {
+TEST_F(Series, BecomeAFileAStep) {
     put_steps({2, 10, 0});
     scratch.put("k.txt", "0 1\n0 1\n0 1\n0 1\n0 1\n");
     const Words asked{"--field", "k=k.txt", "--fields", "|k|,T,grad(T)"};
@@ -84,7 +84,7 @@ TEST_F(Series, become_a_file_a_step) {
     }
 }
 
-TEST_F(Series, of_grids_and_other_meshes) {
+TEST_F(Series, OfGridsAndOtherMeshes) {
     put_steps({1, 3});
     const std::string field = "T@" + scratch.path("step-*.txt");
     for (const Words& target : {Words{"--grid", "4x3x5"}, Words{"--onto", two}}) {
@@ -116,7 +116,7 @@ TEST_F(Series, of_grids_and_other_meshes) {
     EXPECT_FALSE(read_file(scratch.path("s-3.png")).empty());
 }
 
-TEST_F(Series, of_folders_and_names_with_signs) {
+TEST_F(Series, OfFoldersAndNamesWithSigns) {
     for (const std::string run : {"run-1", "run-02"}) {
         ::mkdir(scratch.path(run).c_str(), 0777);
         scratch.put(run + "/T.txt", "1\n1\n1\n1\n1\n");
@@ -133,7 +133,7 @@ TEST_F(Series, of_folders_and_names_with_signs) {
 }
 
 // Meshes with arrays are steps, too: by a pattern, or by a .pvd or .vtu.series file, whose times are their names.
-TEST_F(Series, of_vtk_files) {
+TEST_F(Series, OfVtkFiles) {
     put_steps({1, 2});
     for (const std::string step : {"1", "2"}) {
         const Ended made = run({"resample", two, "--onto", two, "--field", "T=" + scratch.path("step-" + step + ".txt"),
@@ -168,7 +168,7 @@ TEST_F(Series, of_vtk_files) {
 }
 
 // Columns of the points are there in every step.
-TEST_F(Series, keep_columns_of_points) {
+TEST_F(Series, KeepColumnsOfPoints) {
     put_steps({1, 2});
     const std::string named = scratch.put("named.csv", "x,y,z,id\n.25,.25,.25,a\n2,2,2,b\n");
     const Ended r = run({"sample", two, "--points", named, "--keep", "id", "--field", "T@" + scratch.path("step-*.txt"),
@@ -183,7 +183,7 @@ TEST_F(Series, keep_columns_of_points) {
     }
 }
 
-TEST_F(Series, that_cannot_be_are_refused) {
+TEST_F(Series, ThatCannotBeAreRefused) {
     put_steps({1, 2});
     put_steps({1, 3}, "other-");
     const std::string steps = scratch.path("step-*.txt");
@@ -216,7 +216,7 @@ TEST_F(Series, that_cannot_be_are_refused) {
 
 class WeightFiles : public Series {};
 
-TEST_F(WeightFiles, give_the_values_of_any_field) {
+TEST_F(WeightFiles, GiveTheValuesOfAnyField) {
     const std::string npz = scratch.path("W.npz");
     const Ended alone = run(sample({"--weights", npz, "--save-map", scratch.path("m.map")}));
     EXPECT_EQ(alone.code, 0) << alone.err;
@@ -264,7 +264,7 @@ assert (abs(values - rows['T'])[inside] <= 8 * np.spacing(100.0)).all()
         0);
 }
 
-TEST_F(WeightFiles, that_cannot_be_are_refused) {
+TEST_F(WeightFiles, ThatCannotBeAreRefused) {
     expect_error(sample({}), "no output: expected --output FILE, --weights FILE, or both, found neither");
     expect_error(sample({"--weights", scratch.path("w.npy")}), "unknown suffix of --weights: expected .npz");
     expect_error(sample({"--weights", scratch.path("w.npz"), "--fields", "attribute0"}),
@@ -281,7 +281,7 @@ TEST_F(WeightFiles, that_cannot_be_are_refused) {
     EXPECT_FALSE(read_file(scratch.path("w.npz")).empty());
 }
 
-TEST_F(Series, what_is_made_of_fields) {
+TEST_F(Series, WhatIsMadeOfFields) {
     const std::string v = "v=" + scratch.put("v.txt", "3 4\n3 4\n3 4\n3 4\n3 4\n");
     const Words lines =
         lines_of(run(sample({"--field", v, "--fields",
@@ -335,7 +335,7 @@ protected:
     const Words sample{"sample", "run.pvd", "--points", "p.csv"};
 };
 
-TEST_F(SeriesOfMeshes, have_a_file_a_step) {
+TEST_F(SeriesOfMeshes, HaveAFileAStep) {
     const Ended r = there(plus(sample, {"--output", "ts_{step}_{time}.csv", "--json", "j.json"}));
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(r.err, "");
@@ -361,7 +361,7 @@ TEST_F(SeriesOfMeshes, have_a_file_a_step) {
     EXPECT_EQ(there(plus(sample, {"--time", "0.5", "--output", "-", "--quiet"})).out, of("ts_1_0.5.csv"));
 }
 
-TEST_F(SeriesOfMeshes, on_grids_and_other_meshes) {
+TEST_F(SeriesOfMeshes, OnGridsAndOtherMeshes) {
     for (const Words& target : {Words{"--grid", "3x3x3", "--bounds", "0,1,0,1,0,1"}, Words{"--onto", "s2.vtu"}}) {
         EXPECT_EQ(there(plus({"resample", "run.pvd", "--output", "r{step}.csv", "--quiet"}, target)).code, 0);
         for (const std::string step : {"0", "1", "2"}) {
@@ -376,14 +376,14 @@ TEST_F(SeriesOfMeshes, on_grids_and_other_meshes) {
     EXPECT_EQ(lines_of(of("g2.csv")).back().substr(0, 5), "1,1,1");
 }
 
-TEST_F(SeriesOfMeshes, without_a_choice_the_first_is_read_and_told) {
+TEST_F(SeriesOfMeshes, WithoutAChoiceTheFirstIsReadAndTold) {
     const Ended r = there(plus(sample, {"--output", "r.csv"}));
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_TRUE(contains(r.err, "all steps but the first of a series of 3: read is the time 0")) << r.err;
     EXPECT_TRUE(contains(r.out, "all steps but the first of a series of 3")) << r.out;
 }
 
-TEST_F(SeriesOfMeshes, what_cannot_be_meant_is_refused) {
+TEST_F(SeriesOfMeshes, WhatCannotBeMeantIsRefused) {
     const How here{.folder = scratch.folder()};
     for (const std::string name : {"ts_{step}.csv", "ts_{time}.csv"}) {
         expect_error({"sample", "s0.vtu", "--points", "p.csv", "--output", name}, "there are no steps to fill it",
@@ -414,7 +414,7 @@ TEST_F(SeriesOfMeshes, what_cannot_be_meant_is_refused) {
     expect_error(plus(sample, {"--output", "s{step}.vtu"}), "would overwrite", here);
 }
 
-TEST_F(SeriesOfMeshes, are_checked_verified_and_drawn_by_step) {
+TEST_F(SeriesOfMeshes, AreCheckedVerifiedAndDrawnByStep) {
     EXPECT_EQ(there({"check", "run.pvd", "--step", "2", "--vtu", "c.vtu", "--quiet"}).code, 0);
     EXPECT_TRUE(contains(there({"check", "run.pvd", "--time", "2"}).out, "number 2 of a series of 3"));
     EXPECT_EQ(there(plus(sample, {"--step", "1", "--output", "one.csv", "--quiet"})).code, 0);
@@ -430,7 +430,7 @@ TEST_F(SeriesOfMeshes, are_checked_verified_and_drawn_by_step) {
 }
 
 /// The cells have volumes 1/6 and 1/3, and the values 7 and 9; at nodes the first cell that has the node gives it.
-TEST_F(Series, integrals_of_cell_fields_at_nodes) {
+TEST_F(Series, IntegralsOfCellFieldsAtNodes) {
     const Ended r = run({"resample", two, "--fields", "cell:attribute0", "--onto", two, "--output",
                          scratch.path("r.csv"), "--json", scratch.path("j.json")});
     EXPECT_EQ(r.code, 0) << r.err;
@@ -453,7 +453,7 @@ TEST_F(Series, integrals_of_cell_fields_at_nodes) {
     EXPECT_TRUE(contains(far.out, "1.1666666666666667 over MESH2 (1 cell without a finite value left out)")) << far.out;
 }
 
-TEST_F(SeriesOfMeshes, beside_a_series_of_fields_one_step_is_chosen) {
+TEST_F(SeriesOfMeshes, BesideASeriesOfFieldsOneStepIsChosen) {
     const Words both = plus(sample, {"--field", "U@run.pvd:T", "--output", "b_{time}.csv", "--quiet"});
     const Ended r = there(both);
     EXPECT_EQ(r.code, 2) << r.out;
@@ -461,7 +461,7 @@ TEST_F(SeriesOfMeshes, beside_a_series_of_fields_one_step_is_chosen) {
     EXPECT_EQ(there(plus(both, {"--step", "0"})).code, 0);
 }
 
-TEST_F(SeriesOfMeshes, what_is_wrong_with_a_step_is_said_of_that_step) {
+TEST_F(SeriesOfMeshes, WhatIsWrongWithAStepIsSaidOfThatStep) {
     std::string other = of("s2.vtu");
     other.replace(other.find("Name='T'"), 8, "Name='W'");
     scratch.put("s2.vtu", other);
@@ -480,7 +480,7 @@ TEST_F(SeriesOfMeshes, what_is_wrong_with_a_step_is_said_of_that_step) {
     EXPECT_FALSE(std::filesystem::exists(scratch.path("m_0.csv")));
 }
 
-TEST_F(SeriesOfMeshes, integrals_of_cell_fields_that_are_not_printed_are_told) {
+TEST_F(SeriesOfMeshes, IntegralsOfCellFieldsThatAreNotPrintedAreTold) {
     for (const std::string step : {"0", "1", "2"}) {
         std::string text = of("s" + step + ".vtu");
         const std::string empty = "<CellData/>";

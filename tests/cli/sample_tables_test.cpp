@@ -25,7 +25,7 @@ protected:
     std::string two = put_two_cells(scratch);
 };
 
-TEST_F(Tables, columns_are_carried_through) {
+TEST_F(Tables, ColumnsAreCarriedThrough) {
     const std::string points =
         scratch.put("p.csv", "id,x,y,z,name\n007,.25,.25,.25,\"a, b\"\n12,2,2,2,\n9,.25,.25,.5, c \n");
     EXPECT_EQ(rows(points, {"--keep", "id,name"}),
@@ -62,7 +62,7 @@ TEST_F(Tables, columns_are_carried_through) {
                  "standard input: the types of columns cannot be found in a stream");
 }
 
-TEST_F(Tables, many_blocks_keep_their_columns) {
+TEST_F(Tables, ManyBlocksKeepTheirColumns) {
     ASSERT_EQ(run_shell("awk -v OFS=, 'BEGIN { print \"n,x,y,z\"; for (i = 0; i < 300000; ++i) print i, (i % 97) / 90, "
                         "(i % 89) / 88, "
                         "(i % 83) / 82 }' > p.csv",
@@ -80,7 +80,7 @@ TEST_F(Tables, many_blocks_keep_their_columns) {
     }
 }
 
-TEST_F(Tables, what_comes_out_goes_in_again) {
+TEST_F(Tables, WhatComesOutGoesInAgain) {
     const std::string points = scratch.put("p.csv", six_points);
     for (const std::string file : {"r.csv", "r.npy", "r.vtu"}) {
         const std::string out = scratch.path(file), again = scratch.path("again-" + file);
@@ -114,7 +114,7 @@ TEST_F(Tables, what_comes_out_goes_in_again) {
     EXPECT_TRUE(contains(read_file(npy), "('id', '<i8'), ('t', '<f8'), ('name', '<U3')"));
 }
 
-TEST_F(Tables, nothing_is_guessed_of_columns) {
+TEST_F(Tables, NothingIsGuessedOfColumns) {
     const std::string four = scratch.put("four.csv", "7,.25,.25,.25\n8,2,2,2\n");
     expect_error(line(four),
                  "error: " + four +
@@ -146,7 +146,7 @@ TEST_F(Tables, nothing_is_guessed_of_columns) {
     expect_error(flat(scratch.put("plain.csv", ".25,.25,0\n")), "it is not clear which columns");
 }
 
-TEST_F(Tables, notes_are_told) {
+TEST_F(Tables, NotesAreTold) {
     const std::string points = scratch.put("p.csv", "id;x;y;z\n1;.25;.25;.25\n"), json = scratch.path("j");
     const Ended r = run({"sample", two, "--points", points, "--output", scratch.path("r.csv"), "--json", json});
     EXPECT_EQ(r.err, "") << "none is important";
@@ -164,7 +164,7 @@ TEST_F(Tables, notes_are_told) {
     EXPECT_EQ(parse(read_file(json))["carried"][0], "id");
 }
 
-TEST_F(Tables, fields_from_columns) {
+TEST_F(Tables, FieldsFromColumns) {
     const std::string points = scratch.put("p.csv", ".25 .25 .25\n");
     const auto value = [&](const std::string& field, const std::string& option = "--field") {
         const Ended r =
@@ -249,7 +249,7 @@ std::string mixed_vtu() {
 )";
 }
 
-TEST_F(Tables, cells_have_the_numbers_of_the_file_and_labels_are_carried) {
+TEST_F(Tables, CellsHaveTheNumbersOfTheFileAndLabelsAreCarried) {
     const std::string mesh = scratch.put("m.vtu", mixed_vtu()), json = scratch.path("j");
     const std::string points = scratch.put("p.csv", "id,x,y,z\n7,.25,.25,.25\n8,2,2,2\n9,.5,.5,.5\n");
     const Ended r = run({"sample", mesh, "--points", points, "--fields", "T,material,tag", "--keep", "id", "--output",
@@ -318,7 +318,7 @@ TEST_F(Tables, cells_have_the_numbers_of_the_file_and_labels_are_carried) {
         << "points without cells";
 }
 
-TEST_F(Tables, texts_move_no_cursor_of_a_terminal) {
+TEST_F(Tables, TextsMoveNoCursorOfATerminal) {
     const std::string points = scratch.put("p.csv", "x,y,z,\"n\x1b[2J\"\n.25,.25,.25,a\x1b]0;b\x07\n");
     const Ended r = run({"sample", two, "--points", points, "--keep", "all", "--output", "-"}, {.terminal = true});
     EXPECT_EQ(r.code, 0) << r.out;
@@ -327,7 +327,7 @@ TEST_F(Tables, texts_move_no_cursor_of_a_terminal) {
     EXPECT_TRUE(contains(rows(points, {"--keep", "all"}), "a\x1b]0;b\x07")) << "a file has what there is";
 }
 
-TEST_F(Tables, nodes_of_meshes_are_points) {
+TEST_F(Tables, NodesOfMeshesArePoints) {
     const std::string nodes = scratch.path("two.node");
     const std::string expected =
         "x,y,z,cell,feature,attribute0,a\n0,0,0,0,vertex,1,1\n1,0,0,0,vertex,3,3\n0,1,0,0,vertex,5,5\n0,0,1,0,vertex,9,"

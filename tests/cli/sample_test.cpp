@@ -8,7 +8,7 @@
 namespace barycert::cli_test {
 namespace {
 
-TEST(sample, a_row_a_point) {
+TEST(Sample, ARowAPoint) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     const Words line{"sample", two, "--points", points, "--fields", "attribute0", "--output"};
@@ -32,7 +32,7 @@ TEST(sample, a_row_a_point) {
     EXPECT_EQ(quiet.code, 0);
 }
 
-TEST(sample, no_row_depends_on_method_threads_or_what_the_points_come_from) {
+TEST(Sample, NoRowDependsOnMethodThreadsOrWhatThePointsComeFrom) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     scratch.put("p.node", "6 3 0 0\n1 .25 .25 .25\n2 .5 .5 .5\n3 .25 .25 .5\n4 .5 .5 0\n5 1 0 0\n6 2 2 2\n");
@@ -48,7 +48,7 @@ TEST(sample, no_row_depends_on_method_threads_or_what_the_points_come_from) {
     EXPECT_EQ(piped.out, six_rows);
 }
 
-TEST(sample, every_cell_that_holds_a_point_if_asked) {
+TEST(Sample, EveryCellThatHoldsAPointIfAsked) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     const Ended r =
@@ -66,7 +66,7 @@ TEST(sample, every_cell_that_holds_a_point_if_asked) {
     EXPECT_EQ(j["inside"].dump(), R"({"count":5,"edge":1,"face":1,"interior":2,"vertex":1})");
 }
 
-TEST(sample, points_outside_get_what_is_asked_for) {
+TEST(Sample, PointsOutsideGetWhatIsAskedFor) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", "-1 0 0\n.25 .25 .25\n-3 0 0\n");
     const auto with = [&](const std::string& policy) {
@@ -98,7 +98,7 @@ TEST(sample, points_outside_get_what_is_asked_for) {
     EXPECT_EQ(run({"sample", two, "--points", scratch.path("in.csv"), "--output", "-", "--outside", "error"}).code, 0);
 }
 
-TEST(sample, triangles_in_the_plane) {
+TEST(Sample, TrianglesInThePlane) {
     const Scratch scratch;
     scratch.put("t.node", "4 2 2 0\n1 0 0 0 1\n2 1 0 2 1\n3 0 1 4 1\n4 1 1 nan 1\n");
     scratch.put("t.ele", "2 3 0\n1 1 2 3\n2 2 4 3\n");
@@ -110,7 +110,7 @@ TEST(sample, triangles_in_the_plane) {
     EXPECT_EQ(r.out, "x,y,cell,feature,attribute0,attribute1\n0.25,0.25,0,interior,1.5,1\n0.5,0.5,0,edge,3,1\n");
 }
 
-TEST(sample, the_json_tells_the_run) {
+TEST(Sample, TheJsonTellsTheRun) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     const Words line{"sample", two, "--points", points, "--output", scratch.path("r.csv"), "--json"};
@@ -134,7 +134,7 @@ TEST(sample, the_json_tells_the_run) {
     EXPECT_EQ(parse(run(plus(line, {"-", "--rounding", "plain"})).out)["values"]["rounding"], "plain");
 }
 
-TEST(sample, cells_that_own_nothing_and_values_that_are_none_are_told) {
+TEST(Sample, CellsThatOwnNothingAndValuesThatAreNoneAreTold) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     scratch.put("two.ele", "3 4 0\n0 0 1 1 3\n1 0 1 2 3\n2 1 2 3 4\n");
@@ -156,14 +156,14 @@ TEST(sample, cells_that_own_nothing_and_values_that_are_none_are_told) {
     EXPECT_EQ(j["values"]["nan"], 1);
 }
 
-TEST(sample, the_mesh_is_proved_while_it_is_indexed) {
+TEST(Sample, TheMeshIsProvedWhileItIsIndexed) {
     const Scratch scratch;
     const std::string points = scratch.put("p.csv", "0 0 0\n");
     const Ended good = run({"sample", mesh("bracket"), "--points", points, "--output", "-"});
     EXPECT_TRUE(contains(good.err, "method     walk: the mesh is certified\n")) << good.err;
 }
 
-TEST(sample, how_points_were_found_is_counted) {
+TEST(Sample, HowPointsWereFoundIsCounted) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     // The second cell again, with a node of its own inside the first: they overlap.
@@ -179,7 +179,7 @@ TEST(sample, how_points_were_found_is_counted) {
     EXPECT_TRUE(contains(good.err, "found      1 ")) << good.err;
 }
 
-TEST(sample, nothing_to_sample_is_no_error) {
+TEST(Sample, NothingToSampleIsNoError) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), none = scratch.put("p.csv", "x,y,z\n");
     EXPECT_EQ(run({"sample", two, "--points", none, "--output", "-", "--quiet"}).out,

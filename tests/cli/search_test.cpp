@@ -19,7 +19,7 @@ Words short_search(const Words& more) {
     return words;
 }
 
-TEST(search, table_says_the_worst_and_the_plainest_and_how_to_see_it) {
+TEST(Search, TableSaysTheWorstAndThePlainestAndHowToSeeIt) {
     const Scratch scratch;
     const std::string file = scratch.path("w.json");
     const Ended r = run(short_search({"--witnesses", file}));
@@ -42,7 +42,7 @@ TEST(search, table_says_the_worst_and_the_plainest_and_how_to_see_it) {
     EXPECT_EQ(run({"replay", file}).code, 0);
 }
 
-TEST(search, the_same_seed_finds_the_same_and_another_does_not) {
+TEST(Search, TheSameSeedFindsTheSameAndAnotherDoesNot) {
     const auto witnesses = [](const std::string& seed, const std::string& threads) {
         return run(short_search({"--seed", seed, "--threads", threads, "--witnesses", "-"})).out;
     };
@@ -52,7 +52,7 @@ TEST(search, the_same_seed_finds_the_same_and_another_does_not) {
     EXPECT_NE(witnesses("2", "2"), one);
 }
 
-TEST(search, json_is_read_by_replay_and_agrees_with_the_witnesses) {
+TEST(Search, JsonIsReadByReplayAndAgreesWithTheWitnesses) {
     const Scratch scratch;
     const Ended r =
         run(short_search({"--quiet", "--json", scratch.path("s.json"), "--witnesses", scratch.path("w.json")}));
@@ -66,7 +66,7 @@ TEST(search, json_is_read_by_replay_and_agrees_with_the_witnesses) {
     EXPECT_EQ(run({"replay", scratch.path("s.json")}).code, 0);
 }
 
-TEST(search, a_users_kernel_and_rules) {
+TEST(Search, AUsersKernelAndRules) {
     const Ended right =
         run({"search", "--kernel-library", BARYCERT_SWAPPED_KERNEL, "--steps", "5000", "--fail-on", "any"});
     EXPECT_EQ(right.code, 1);
@@ -88,7 +88,7 @@ Ended search_of(const std::string& fault, const Words& more) {
     return run(words);
 }
 
-TEST(search, a_crash_is_told_with_its_case_and_the_search_goes_on) {
+TEST(Search, ACrashIsToldWithItsCaseAndTheSearchGoesOn) {
     const Scratch scratch;
     const std::string file = scratch.path("w.json");
     const Ended r = search_of("crash", {"--family", "mesh.*", "--family", "random.inside", "--steps", "3000",
@@ -113,7 +113,7 @@ TEST(search, a_crash_is_told_with_its_case_and_the_search_goes_on) {
     EXPECT_NE(testing::sanitized ? ended.code : ended.signal, 0);  // a sanitizer tells of the signal, and exits
 }
 
-TEST(search, what_hardly_answers_is_given_up) {
+TEST(Search, WhatHardlyAnswersIsGivenUp) {
     for (const auto& [fault, finding] : {std::pair("hang", "hung"), std::pair("crash", "crashed")}) {
         const Ended r = search_of(fault, {"--steps", "1000000", "--time-limit", "0.02", "--json", "-"});
         EXPECT_EQ(r.code, 0) << r.err;
@@ -127,13 +127,13 @@ TEST(search, what_hardly_answers_is_given_up) {
 }
 
 // There is no error to measure, which is worse than any.
-TEST(search, a_kernel_that_never_answers_breaks_a_rule_on_errors) {
+TEST(Search, AKernelThatNeverAnswersBreaksARuleOnErrors) {
     const Ended r = search_of("always", {"--steps", "5000", "--quiet", "--fail-on", "worst_weight_ulp>1e300"});
     EXPECT_EQ(r.code, 1);
     EXPECT_TRUE(contains(r.err, "worst_weight_ulp = inf, limit 1e+300")) << r.err;
 }
 
-TEST(search, apart_or_not_a_kernel_that_behaves_shows_the_same) {
+TEST(Search, ApartOrNotAKernelThatBehavesShowsTheSame) {
     const auto witnesses = [](const Words& more) {
         return parse(search_of("quiet", plus({"--steps", "1000", "--witnesses", "-"}, more)).out)["witnesses"];
     };
@@ -143,7 +143,7 @@ TEST(search, apart_or_not_a_kernel_that_behaves_shows_the_same) {
     for (const Json& w : apart) EXPECT_FALSE(w.contains("detail"));
 }
 
-TEST(search, bad_usage_is_told) {
+TEST(Search, BadUsageIsTold) {
     const auto error = [](const Words& words) {
         const Ended r = run(words);
         EXPECT_EQ(r.code, 2);
@@ -166,7 +166,7 @@ TEST(search, bad_usage_is_told) {
 }
 
 // The line of progress tells that it has begun; a signal then ends the search and not the program.
-TEST(search, interrupted_it_tells_what_it_found) {
+TEST(Search, InterruptedItTellsWhatItFound) {
     const Scratch scratch;
     const Ended r =
         run({"search", "tetrahedron.cramer", "--steps", "1000000000", "--witnesses", scratch.path("w.json")},
@@ -177,7 +177,7 @@ TEST(search, interrupted_it_tells_what_it_found) {
     EXPECT_FALSE(parse(read_file(scratch.path("w.json")))["witnesses"].empty());
 }
 
-TEST(search, a_time_limit_ends_it) {
+TEST(Search, ATimeLimitEndsIt) {
     const Ended r = run({"search", "tetrahedron.cramer", "--steps", "1000000000", "--seconds", "0.2"});
     EXPECT_EQ(r.code, 0);
     EXPECT_TRUE(contains(r.out, "stopped before"));

@@ -43,7 +43,7 @@ std::string timeless(const std::string& table) {
     return out;
 }
 
-TEST(terminal, a_script_gets_plain_text) {
+TEST(Terminal, AScriptGetsPlainText) {
     for (const Words& environment : std::vector<Words>{{"NO_COLOR"}, {"NO_COLOR=1"}, {"TERM=xterm-256color"}}) {
         const Ended r = run(small, {.environment = environment});
         EXPECT_EQ(r.code, 0);
@@ -54,7 +54,7 @@ TEST(terminal, a_script_gets_plain_text) {
     EXPECT_FALSE(contains(run({"replay", "--family", "huge", "--case", "1", "--simplex", "triangle"}).out, "\033"));
 }
 
-TEST(terminal, a_terminal_gets_colour_and_progress) {
+TEST(Terminal, ATerminalGetsColourAndProgress) {
     const Ended r = run(small, {.environment = {"NO_COLOR"}, .terminal = true});
     EXPECT_EQ(r.code, 0);
     EXPECT_TRUE(contains(r.out, bold));
@@ -67,7 +67,7 @@ TEST(terminal, a_terminal_gets_colour_and_progress) {
     EXPECT_TRUE(contains(replay.out, bold));
 }
 
-TEST(terminal, no_color_takes_the_colour_and_leaves_the_progress) {
+TEST(Terminal, NoColorTakesTheColourAndLeavesTheProgress) {
     const Ended r = run(small, {.environment = {"NO_COLOR=1"}, .terminal = true});
     EXPECT_FALSE(contains(r.out, bold));
     EXPECT_TRUE(contains(r.out, rewrite));
@@ -79,13 +79,13 @@ TEST(terminal, no_color_takes_the_colour_and_leaves_the_progress) {
     EXPECT_TRUE(contains(run(small, {.environment = {"NO_COLOR="}, .terminal = true}).out, bold));
 }
 
-TEST(terminal, quiet_is_quiet_there_too) {
+TEST(Terminal, QuietIsQuietThereToo) {
     const Ended r = run(plus(small, {"--quiet"}), {.terminal = true});
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.out, "");
 }
 
-TEST(terminal, colour_stays_out_of_files_and_pipes) {
+TEST(Terminal, ColourStaysOutOfFilesAndPipes) {
     const Scratch scratch;
     const Ended r = run(plus(small, {"--json", scratch.path("r.json")}),
                         {.environment = {"NO_COLOR"}, .stdout_path = scratch.path("table"), .terminal = true});

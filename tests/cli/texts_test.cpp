@@ -12,7 +12,7 @@
 namespace barycert::cli_test {
 namespace {
 
-TEST(texts, words_that_are_not_expected_come_in_their_order) {
+TEST(Texts, WordsThatAreNotExpectedComeInTheirOrder) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     expect_error({"sample", two, "--point", "line.csv", "--output", "-"}, "error: not expected: --point line.csv");
@@ -20,7 +20,7 @@ TEST(texts, words_that_are_not_expected_come_in_their_order) {
                  "error: not expected: 'b c.csv' d.csv");
 }
 
-TEST(texts, a_value_that_is_no_number_is_named) {
+TEST(Texts, AValueThatIsNoNumberIsNamed) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     const Words line{"sample", two, "--points", points, "--output", "-", "--outside"};
@@ -30,7 +30,7 @@ TEST(texts, a_value_that_is_no_number_is_named) {
     expect_error(plus(line, {"fil=0"}), "did you mean \"fill\"?");
 }
 
-TEST(texts, the_near_file_is_named) {
+TEST(Texts, TheNearFileIsNamed) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("points.csv", six_points);
     ASSERT_EQ(run({"resample", two, "--onto", two, "--output", scratch.path("box.vtu")}).code, 0);
@@ -40,7 +40,7 @@ TEST(texts, the_near_file_is_named) {
                  "did you mean " + scratch.path("points.csv") + "?");
 }
 
-TEST(texts, commands_to_repeat_have_the_name_of_the_wrapper) {
+TEST(Texts, CommandsToRepeatHaveTheNameOfTheWrapper) {
     const How wrapped{.environment = {"BARYCERT_COMMAND=./run barycert"}};
     for (const Words& line : std::vector<Words>{
              {"nothing"}, {"sample", "--nothing"}, {"render", "nothing"}, {"resample", "part", "--output", "x.vti"}}) {
@@ -57,14 +57,14 @@ TEST(texts, commands_to_repeat_have_the_name_of_the_wrapper) {
     }
 }
 
-TEST(texts, results_without_rows_are_not_right) {
+TEST(Texts, ResultsWithoutRowsAreNotRight) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     const std::string empty = scratch.put("e.csv", "x,y,z,cell,feature,attribute0\n");
     expect_error({"verify", two, "--results", empty}, "e.csv: there are no results to verify");
 }
 
-TEST(texts, verify_names_quantities_as_sample_does) {
+TEST(Texts, VerifyNamesQuantitiesAsSampleDoes) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     const std::string v = "v=" + scratch.put("v.txt", "0 0 0\n3 4 0\n0 0 2\n0 0 0\n1 1 1\n"),
@@ -86,7 +86,7 @@ TEST(texts, verify_names_quantities_as_sample_does) {
     EXPECT_EQ(run(plus({"verify", two, "--results", scratch.put("w.csv", wrong)}, which)).code, 1);
 }
 
-TEST(texts, what_a_file_cannot_hold_is_told) {
+TEST(Texts, WhatAFileCannotHoldIsTold) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     const std::string points = scratch.put("p.csv", "x,y,z,tiny,small\n.25,.25,.25,1e-400,1e-300\n1,0,0,2,0e5\n");
@@ -108,7 +108,7 @@ TEST(texts, what_a_file_cannot_hold_is_told) {
         "names of fields"));
 }
 
-TEST(texts, important_notes_of_meshes_are_told_wherever_they_are_read) {
+TEST(Texts, ImportantNotesOfMeshesAreToldWhereverTheyAreRead) {
     const Scratch scratch;
     const std::string mesh = scratch.put("apart.mesh",
                                          "MeshVersionFormatted 2\nDimension 3\nVertices 5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
@@ -122,7 +122,7 @@ TEST(texts, important_notes_of_meshes_are_told_wherever_they_are_read) {
     }
 }
 
-TEST(points_of_any_name, texts_with_blanks_pipes_and_files_without_a_suffix) {
+TEST(PointsOfAnyName, TextsWithBlanksPipesAndFilesWithoutASuffix) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     const std::string blanks = ".25 .25  .25\n.5 .5 .5\n.25 .25 .5\n.5 .5 0\n1 0 0\n2 2 2\n";
@@ -152,7 +152,7 @@ TEST(points_of_any_name, texts_with_blanks_pipes_and_files_without_a_suffix) {
     EXPECT_TRUE(contains(binary.err, "NPY")) << binary.err;
 }
 
-TEST(interrupted, says_so_and_leaves_nothing) {
+TEST(Interrupted, SaysSoAndLeavesNothing) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const Scratch scratch;
         const Ended r = run({"audit", "--count", "1000000000", "--json", scratch.path("r.json")},

@@ -10,7 +10,7 @@ namespace {
 
 #ifdef BARYCERT_COUNTED_THREADS
 // One machine's single core would make none in any case; two cores make some unless told otherwise.
-TEST(threads, one_is_the_program_s_own) {
+TEST(Threads, OneIsTheProgramSOwn) {
     const Words audit{"audit", "--quiet", "--count", "10", "--kernel", "tetrahedron.cramer", "--family", "mesh.faces"};
     const Words gaps{"gaps", mesh("bracket"), "--quiet", "--count", "10", "--kernel", "tetrahedron.cramer"};
     for (const Words& command : {audit, gaps}) {

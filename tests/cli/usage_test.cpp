@@ -22,7 +22,7 @@ void expect_refused(const Refusal& refusal, const How& how = {}) {
     EXPECT_TRUE(contains(r.err, refusal.says)) << line << " says " << r.err;
 }
 
-TEST(usage, help_and_version_are_no_errors) {
+TEST(Usage, HelpAndVersionAreNoErrors) {
     for (const Words& arguments : std::vector<Words>{{"--help"},
                                                      {"audit", "--help"},
                                                      {"replay", "--help"},
@@ -38,7 +38,7 @@ TEST(usage, help_and_version_are_no_errors) {
     EXPECT_EQ(run({"--version"}).out.rfind("barycert ", 0), 0U);
 }
 
-TEST(usage, what_is_not_understood_is_refused) {
+TEST(Usage, WhatIsNotUnderstoodIsRefused) {
     // Were any of these taken for something else, the audit would run and print a table.
     const std::vector<Refusal> refusals{
         {{}, "subcommand is required"},
@@ -113,7 +113,7 @@ TEST(usage, what_is_not_understood_is_refused) {
     for (const Refusal& refusal : refusals) expect_refused(refusal);
 }
 
-TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
+TEST(Usage, OfAMistypedNameTheNearestIsTold) {
     const Scratch scratch;
     const std::string points = scratch.put("points.csv", "x,y,z\n0.1,0.2,0.3\n"), bracket = mesh("bracket");
     const std::string rows = scratch.put("rows.csv", "x,y,z,cel\n0.1,0.2,0.3,0\n");
@@ -171,7 +171,7 @@ TEST(usage, of_a_mistyped_name_the_nearest_is_told) {
 #endif
 }
 
-TEST(usage, an_option_with_two_values_says_so) {
+TEST(Usage, AnOptionWithTwoValuesSaysSo) {
     const std::string m = mesh("plate");
     const std::vector<Refusal> refusals{
         {{"sample", m, "--points", "a.csv", "--points", "b.csv", "--output", "-"},
@@ -188,7 +188,7 @@ TEST(usage, an_option_with_two_values_says_so) {
 }
 
 // Where a file is meant, an empty name, of a variable that is not set perhaps, is no leave to go without.
-TEST(usage, an_empty_name_of_a_file_is_refused) {
+TEST(Usage, AnEmptyNameOfAFileIsRefused) {
     const std::string m = mesh("plate");
     for (const Words& arguments : std::vector<Words>{{"audit", ""},
                                                      {"audit", "--json", ""},
@@ -217,7 +217,7 @@ TEST(usage, an_empty_name_of_a_file_is_refused) {
         expect_refused({arguments, "expected the name of a file, found \"\""});
 }
 
-TEST(usage, help_that_cannot_be_printed_is_an_error) {
+TEST(Usage, HelpThatCannotBePrintedIsAnError) {
     for (const Words& arguments :
          std::vector<Words>{{"--help"}, {"--version"}, {"audit", "--help"}, {"sample", "--help"}}) {
         for (const How& how : {How{.stdout_path = "/dev/full"}, How{.close_stdout = true}}) {
@@ -233,14 +233,14 @@ TEST(usage, help_that_cannot_be_printed_is_an_error) {
 #endif
 }
 
-TEST(usage, families_that_do_not_apply_are_no_audit) {
+TEST(Usage, FamiliesThatDoNotApplyAreNoAudit) {
     expect_refused({{"audit", "--kernel", "segment.projection", "--family", "mesh.faces"}, "nothing to audit"});
     // A mesh of the user's in 3D supplies no plane triangle.
     expect_refused({{"audit", mesh("bracket"), "--kernel", "triangle.inverse", "--family", "mesh.inside"},
                     "mesh families of triangles need a 2D mesh"});
 }
 
-TEST(usage, a_broken_mesh_is_told_with_file_and_line) {
+TEST(Usage, ABrokenMeshIsToldWithFileAndLine) {
     const Scratch scratch;
     const std::string node = scratch.put("bad.node", "3 2 0 0\n0 0 0\n1 one 0\n2 0 1\n");
     scratch.put("bad.ele", "1 3 0\n0 0 1 2\n");
@@ -251,12 +251,12 @@ TEST(usage, a_broken_mesh_is_told_with_file_and_line) {
     expect_refused({{"audit", mesh("bracket"), node}, "error: " + node + ":3: "});
 }
 
-TEST(usage, missing_data_are_told_with_the_remedy) {
+TEST(Usage, MissingDataAreToldWithTheRemedy) {
     expect_refused({{"audit"}, "found No such file or directory; name a mesh, or set BARYCERT_DATA_DIR"},
                    {.environment = {"BARYCERT_DATA_DIR=/none"}});
 }
 
-TEST(usage, mesh_without_its_program_is_told_with_the_remedy) {
+TEST(Usage, MeshWithoutItsProgramIsToldWithTheRemedy) {
     const Scratch scratch;
     std::filesystem::copy_file(BARYCERT_PROGRAM, scratch.path("barycert"));
     const How alone{.environment = {"PATH=" + scratch.folder()}, .program = scratch.path("barycert")};
@@ -270,7 +270,7 @@ TEST(usage, mesh_without_its_program_is_told_with_the_remedy) {
     EXPECT_EQ(r.out, "meshes a b.poly -q\n");
 }
 
-TEST(usage, lists_agree_as_text_and_as_json) {
+TEST(Usage, ListsAgreeAsTextAndAsJson) {
     const auto names_in_text = [](const std::string& text) {
         Words names;
         for (const std::string& line : lines_of(text)) {

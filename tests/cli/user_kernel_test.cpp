@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-TEST(user_kernel, alone_or_beside_the_catalogue) {
+TEST(UserKernel, AloneOrBesideTheCatalogue) {
     const Words library{"--kernel-library", BARYCERT_USER_KERNEL};
     const auto kernels_of = [&](Words arguments) {
         arguments.insert(arguments.end(), library.begin(), library.end());
@@ -23,7 +23,7 @@ TEST(user_kernel, alone_or_beside_the_catalogue) {
     EXPECT_EQ(kernels_of({"kernels", "--json", "-"}), Words{"tetrahedron.user-volume"});
 }
 
-TEST(user_kernel, a_right_formula_is_clean_where_cases_are_easy_and_a_swapped_one_nowhere) {
+TEST(UserKernel, ARightFormulaIsCleanWhereCasesAreEasyAndASwappedOneNowhere) {
     const auto wrong_share = [](const char* library) {
         const Ended r =
             run({"audit", "--count", "200", "--family", "mesh.inside", "--kernel-library", library, "--json", "-"});
@@ -40,7 +40,7 @@ TEST(user_kernel, a_right_formula_is_clean_where_cases_are_easy_and_a_swapped_on
     EXPECT_TRUE(contains(table.err, "fails: tetrahedron.user-swapped: false_certificate = "));
 }
 
-TEST(user_kernel, what_is_no_kernel_library_is_refused) {
+TEST(UserKernel, WhatIsNoKernelLibraryIsRefused) {
     const Scratch scratch;
     const std::string text = scratch.put("text.so", "not a library\n");
     for (const std::string& path : {text, scratch.path("none.so"), scratch.folder()}) {

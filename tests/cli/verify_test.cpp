@@ -18,7 +18,7 @@ nlohmann::json report_of(const Words& arguments, int code) {
     return parse(r.out);
 }
 
-TEST(verify, what_sample_wrote_is_right) {
+TEST(Verify, WhatSampleWroteIsRight) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch), points = scratch.put("p.csv", six_points);
     for (const std::string suffix : {".csv", ".npy", ".vtu"}) {
@@ -38,7 +38,7 @@ TEST(verify, what_sample_wrote_is_right) {
     EXPECT_TRUE(contains(piped.out, "-: all 6 rows are right\n")) << piped.out;
 }
 
-TEST(verify, each_kind_of_error_is_named) {
+TEST(Verify, EachKindOfErrorIsNamed) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     const std::string bad = scratch.put("bad.csv",
@@ -88,7 +88,7 @@ std::string put_constant(const Scratch& scratch, const std::string& value) {
     return scratch.path("same");
 }
 
-TEST(verify, a_field_without_range_is_compared_with_its_magnitude_or_with_one) {
+TEST(Verify, AFieldWithoutRangeIsComparedWithItsMagnitudeOrWithOne) {
     const Scratch scratch;
     struct Case {
         std::string value, near, far, to, sentence;
@@ -125,7 +125,7 @@ std::string put_iterated(const Scratch& scratch, double most, int good = 0) {
     return scratch.put("rows.csv", rows);
 }
 
-TEST(verify, errors_of_the_size_of_an_iteration_are_said_to_be) {
+TEST(Verify, ErrorsOfTheSizeOfAnIterationAreSaidToBe) {
     const Scratch scratch;
     const auto ball = [&](const std::string& name, Mesh mesh) {
         mesh.point_fields.push_back({"t", 1, {}});
@@ -160,7 +160,7 @@ TEST(verify, errors_of_the_size_of_an_iteration_are_said_to_be) {
     EXPECT_FALSE(said(ball("curved.vtu", testing::curved_ball(3)), put_iterated(scratch, 3e-5)));
 }
 
-TEST(verify, columns_by_other_names_and_zero_for_outside) {
+TEST(Verify, ColumnsByOtherNamesAndZeroForOutside) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     const std::string rows = scratch.put("rows.csv", "lon,lat,depth,Temperature,id\n.25,.25,.25,4.5,1\n2,2,2,0,\n");
@@ -174,7 +174,7 @@ TEST(verify, columns_by_other_names_and_zero_for_outside) {
     expect_error({"verify", two, "--results", rows, "--columns", "lon,lat,depth", "--value", "T=Temperature"}, "\"T\"");
 }
 
-TEST(verify, the_mask_of_vtk_says_what_is_outside) {
+TEST(Verify, TheMaskOfVtkSaysWhatIsOutside) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     const std::string rows =
@@ -195,7 +195,7 @@ TEST(verify, the_mask_of_vtk_says_what_is_outside) {
     EXPECT_EQ(same["missed"], 1);
 }
 
-TEST(verify, six_digits_are_told) {
+TEST(Verify, SixDigitsAreTold) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     const auto told = [&](const std::string& value) {
@@ -208,7 +208,7 @@ TEST(verify, six_digits_are_told) {
     EXPECT_FALSE(told("3.125")) << "they may be exact";
 }
 
-TEST(verify, single_precision_is_told) {
+TEST(Verify, SinglePrecisionIsTold) {
     const Scratch scratch;
     scratch.put("one.node", "4 3 1 0\n0 0 0 0 0\n1 1 0 0 1\n2 0 1 0 0\n3 0 0 1 0\n");
     scratch.put("one.ele", "1 4 0\n0 0 1 2 3\n");
@@ -222,7 +222,7 @@ TEST(verify, single_precision_is_told) {
     EXPECT_EQ(run({"verify", scratch.path("one"), "--results", rows, "--tolerance", "1e-9", "--quiet"}).code, 1);
 }
 
-TEST(verify, the_page_holds_what_the_json_holds) {
+TEST(Verify, ThePageHoldsWhatTheJsonHolds) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     const std::string bad = scratch.put("<b>.csv", "x,y,z,attribute0\n.25,.25,.25,4.5\n.5,.5,.5,1\n");
@@ -236,7 +236,7 @@ TEST(verify, the_page_holds_what_the_json_holds) {
     for (const char* alien : {"href", "src=", "url(", "@import"}) EXPECT_FALSE(contains(html, alien)) << alien;
 }
 
-TEST(verify, bad_input) {
+TEST(Verify, BadInput) {
     const Scratch scratch;
     const std::string two = put_two_cells(scratch);
     expect_error({"verify", two}, "--results is required");

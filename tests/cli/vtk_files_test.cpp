@@ -27,7 +27,7 @@ std::string three_cells(bool flat) {
 
 constexpr const char* told = "left out: 1 cells that are no tetrahedra: 1 vtkTriangle";
 
-TEST(vtk_files, check_counts_cells_as_the_file_does) {
+TEST(VtkFiles, CheckCountsCellsAsTheFileDoes) {
     const Scratch scratch;
     const std::string flat = scratch.put("flat.vtu", three_cells(true)), vtu = scratch.path("out.vtu");
     const Ended r = run({"check", flat, "--json", scratch.path("r.json"), "--html", scratch.path("r.html"), "--vtu",
@@ -62,7 +62,7 @@ TEST(vtk_files, check_counts_cells_as_the_file_does) {
     EXPECT_EQ(run({"check", flat, "--quiet"}).err, "");
 }
 
-TEST(vtk_files, surfaces_carry_the_numbers_of_the_file) {
+TEST(VtkFiles, SurfacesCarryTheNumbersOfTheFile) {
     const Scratch scratch;
     const std::string mesh = scratch.put("m.vtu", three_cells(false)), vtp = scratch.path("s.vtp");
     const Ended r = run({"render", "iso", mesh, "--field", "T", "--value", "4.5", "--output", vtp, "--vtk-data",
@@ -78,7 +78,7 @@ TEST(vtk_files, surfaces_carry_the_numbers_of_the_file) {
 }
 
 /// What is written with any data comes back, and the values are the same.
-TEST(vtk_files, every_way_of_writing_them_reads_back) {
+TEST(VtkFiles, EveryWayOfWritingThemReadsBack) {
     const Scratch scratch;
     const std::string points = scratch.put("p.csv", "0.2,0.3,0.4\n0.5,0.5,0.5\n9,9,9\n0.1,0.7,0.6\n");
     const std::string mesh_path = mesh("cube-hole");
@@ -106,7 +106,7 @@ TEST(vtk_files, every_way_of_writing_them_reads_back) {
     }
 }
 
-TEST(vtk_files, data_that_do_not_fit_the_output) {
+TEST(VtkFiles, DataThatDoNotFitTheOutput) {
     const Scratch scratch;
     const std::string points = scratch.put("p.csv", "0.2,0.3,0.4\n"), csv = scratch.path("r.csv");
     const auto refused = [&](const Words& line, const std::string& says) {
@@ -124,7 +124,7 @@ TEST(vtk_files, data_that_do_not_fit_the_output) {
     EXPECT_EQ(scratch.names(), (Words{"p.csv"}));
 }
 
-TEST(vtk_files, pieces_and_series_are_meshes) {
+TEST(VtkFiles, PiecesAndSeriesAreMeshes) {
     const Scratch scratch;
     scratch.put("0.vtu", three_cells(false));
     const std::string all = scratch.put("m.pvtu",

@@ -32,7 +32,7 @@ void expect_refused(const std::string& text, const std::string& says) {
     EXPECT_EQ(lines_of(r.err).size(), 1U) << r.err;
 }
 
-TEST(witness_input, the_good_one_is_shown) {
+TEST(WitnessInput, TheGoodOneIsShown) {
     const Scratch scratch;
     const Ended r = run({"replay", scratch.put("w.json", file_of(good))});
     EXPECT_EQ(r.code, 0) << r.err;
@@ -45,7 +45,7 @@ TEST(witness_input, the_good_one_is_shown) {
     EXPECT_EQ(run({"replay", scratch.put("w.json", file_of(plain))}).code, 0);
 }
 
-TEST(witness_input, not_json_or_another_schema) {
+TEST(WitnessInput, NotJsonOrAnotherSchema) {
     for (const char* text : {"", "{", "3 2 0 0\n", "{\"schema\": 1,}", "\xff\xfe", "{\"schema\": 1, \"witnesses\": ["})
         expect_refused(text, "expected JSON");
     expect_refused("[]", "expected a member \"schema\"");
@@ -59,7 +59,7 @@ TEST(witness_input, not_json_or_another_schema) {
     expect_refused(R"({"schema": 1, "witnesses": [7]})", "witness 0");
 }
 
-TEST(witness_input, members_missing_or_malformed) {
+TEST(WitnessInput, MembersMissingOrMalformed) {
     for (const char* key : {"simplex", "vertices", "point"}) {
         Json w = good;
         w.erase(key);
@@ -82,7 +82,7 @@ TEST(witness_input, members_missing_or_malformed) {
     expect_refused(with("simplex", "\"tetrahedron\""), "expected an array of 4");
 }
 
-TEST(witness_input, depths_of_perspective) {
+TEST(WitnessInput, DepthsOfPerspective) {
     Json w = good;
     w["kernel"] = "triangle.perspective-affine";
     w["perspective"] = true;
@@ -104,7 +104,7 @@ TEST(witness_input, depths_of_perspective) {
     expect_refused(file_of(w), "witness 1, perspective: expected false, or true for a triangle");
 }
 
-TEST(witness_input, numbers_that_are_none) {
+TEST(WitnessInput, NumbersThatAreNone) {
     for (const Json& x : std::vector<Json>{"nan", "NaN", "inf", "-inf", "0x1p+9999", "1e999", "", " 1", "1 ", "0x",
                                            "1.5.2", nullptr, true, Json::array()}) {
         Json w = good;
@@ -121,7 +121,7 @@ TEST(witness_input, numbers_that_are_none) {
         R"({"schema":1,"witnesses":[{"simplex":"triangle","vertices":[[0,0],[1,0],[0,1]],"point":[1e999,0]}]})", "");
 }
 
-TEST(witness_input, no_file_or_a_folder) {
+TEST(WitnessInput, NoFileOrAFolder) {
     const Scratch scratch;
     for (const std::string& path : {scratch.path("none.json"), scratch.folder()}) {
         const Ended r = run({"replay", path});
@@ -131,7 +131,7 @@ TEST(witness_input, no_file_or_a_folder) {
     }
 }
 
-TEST(witness_input, a_pipe_without_a_writer_is_told_and_not_waited_for) {
+TEST(WitnessInput, APipeWithoutAWriterIsToldAndNotWaitedFor) {
     const Scratch scratch;
     const std::string path = scratch.path("w.json");
     ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
@@ -146,7 +146,7 @@ TEST(witness_input, a_pipe_without_a_writer_is_told_and_not_waited_for) {
         << r.err;
 }
 
-TEST(witness_input, a_pipe_with_a_writer_is_read_to_its_end) {
+TEST(WitnessInput, APipeWithAWriterIsReadToItsEnd) {
     const Scratch scratch;
     const std::string path = scratch.put("w.json", file_of(good));
     const std::string expected = run({"replay", path}).out;

@@ -140,7 +140,7 @@ double awkward(base::Random& r, int low, int high) {
     return std::ldexp(y, r.integer(0, 1) == 0 ? r.integer(low, high) : r.integer(-3, 3));
 }
 
-TEST(ErrorFree, sums_and_differences_are_exact_down_to_subnormals) {
+TEST(ErrorFree, SumsAndDifferencesAreExactDownToSubnormals) {
     on_every_target([] {
         for (std::uint64_t k = 0; k < 4000 && !::testing::Test::HasFailure(); ++k) {
             base::Random r = base::Random::stream(10, base::hash64("sums"), k);
@@ -173,7 +173,7 @@ int length(double x) {
 
 // In the whole range that is claimed: |x y| >= 2^-969 and |x|, |y| <= 2^995. Dekker's form and the fused one agree to
 // the bit: catches the order of its terms, and a split that rounds.
-TEST(ErrorFree, products_are_exact_and_both_forms_agree) {
+TEST(ErrorFree, ProductsAreExactAndBothFormsAgree) {
     on_every_target([] {
         int tried = 0;
         for (std::uint64_t k = 0; k < 8000 && !::testing::Test::HasFailure(); ++k) {
@@ -201,7 +201,7 @@ TEST(ErrorFree, products_are_exact_and_both_forms_agree) {
     });
 }
 
-TEST(DoubleDouble, sums_and_products_are_within_their_bounds) {
+TEST(DoubleDouble, SumsAndProductsAreWithinTheirBounds) {
     on_every_target([] {
         for (std::uint64_t k = 0; k < 8000 && !::testing::Test::HasFailure(); ++k) {
             base::Random r = base::Random::stream(10, base::hash64("double-double"), k);

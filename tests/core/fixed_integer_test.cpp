@@ -61,7 +61,7 @@ void expect_product(const Fixed<N>& x, const Fixed<M>& y) {
     EXPECT_EQ(number(product), number(x) * number(y)) << number(x) << " * " << number(y);
 }
 
-TEST(FixedInteger, sums_and_differences) {
+TEST(FixedInteger, SumsAndDifferences) {
     for (const auto& x : corners<1>()) {
         for (const auto& y : corners<1>()) expect_sums(x, y);
     }
@@ -78,7 +78,7 @@ TEST(FixedInteger, sums_and_differences) {
 
 // Every pair of signs, the most negative numbers among them: catches either correction for a negative factor left out
 // or made at the wrong limb.
-TEST(FixedInteger, products) {
+TEST(FixedInteger, Products) {
     for (const auto& x : corners<1>()) {
         for (const auto& y : corners<1>()) expect_product(x, y);
         for (const auto& y : corners<2>()) expect_product(x, y), expect_product(y, x);
@@ -98,7 +98,7 @@ TEST(FixedInteger, products) {
 }
 
 /// x = mantissa * 2^(exponent - 1074) with an odd mantissa, or zero.
-TEST(ScaledDouble, is_the_number_with_an_odd_mantissa) {
+TEST(ScaledDouble, IsTheNumberWithAnOddMantissa) {
     base::Random r(2);
     std::vector<double> numbers{0.0,
                                 -0.0,
@@ -159,7 +159,7 @@ void expect_unit(const std::vector<double>& numbers) {
     expect_multiples<Integer>(unit, numbers);
 }
 
-TEST(Unit, every_distance_between_two_numbers) {
+TEST(Unit, EveryDistanceBetweenTwoNumbers) {
     // One bit, all bits, the first and last bit, a short number; far enough for shifts by 64 and more.
     for (const double mantissa : {1.0, 0x1.fffffffffffffp0, 0x1.0000000000001p0, 1.5}) {
         for (int below = 0; below <= 200; ++below) {
@@ -170,7 +170,7 @@ TEST(Unit, every_distance_between_two_numbers) {
 }
 
 // Subnormals have the exponent of the smallest normals, not one less: catches max(biased, 1) left out.
-TEST(Unit, subnormals_and_zeros) {
+TEST(Unit, SubnormalsAndZeros) {
     expect_unit({0.0, -0.0});
     for (const double x : {0x1p-1074, -0x1p-1074, 0x0.fffffffffffffp-1022, 0x1p-1022, -0x1.8p-1022,
                            0x1.fffffffffffffp-1022, 0x1p-1021}) {
@@ -180,7 +180,7 @@ TEST(Unit, subnormals_and_zeros) {
     }
 }
 
-TEST(Unit, any_doubles) {
+TEST(Unit, AnyDoubles) {
     base::Random r(1);
     for (int k = 0; k < 5000 && !::testing::Test::HasFailure(); ++k) {
         std::vector<double> numbers;
@@ -197,7 +197,7 @@ TEST(Unit, any_doubles) {
 }
 
 // The units of several axes together: the least exponent and the highest top.
-TEST(Unit, of_units) {
+TEST(Unit, OfUnits) {
     Unit x, y;
     x.add(scaled(0x1p-30));
     y.add(scaled(0x1p70));

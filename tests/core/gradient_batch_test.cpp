@@ -50,7 +50,7 @@ struct CellMesh {
 };
 
 // Every count around the width of vectors and blocks; every target; the tiers are those of single calls.
-TEST(GradientBatch, is_single_calls_on_every_target) {
+TEST(GradientBatch, IsSingleCallsOnEveryTarget) {
     for (const Simplex s : full) {
         const auto d = static_cast<std::size_t>(space_dimension(s));
         for (const std::size_t count : std::array<std::size_t, 10>{0, 1, 2, 7, 8, 9, 127, 128, 129, 300}) {
@@ -96,7 +96,7 @@ TEST(GradientBatch, is_single_calls_on_every_target) {
 
 // Within and beyond the ranges of the double-double tier, where products and their remainders under- and overflow:
 // right on every target, and by the same tiers.
-TEST(GradientBatch, ends_of_the_ranges) {
+TEST(GradientBatch, EndsOfTheRanges) {
     for (const Simplex s : full) {
         const int d = space_dimension(s);
         base::Random r = base::Random::stream(23, base::hash64("ranges"), 0);
@@ -138,7 +138,7 @@ TEST(GradientBatch, ends_of_the_ranges) {
     }
 }
 
-TEST(GradientTiers, ordinary_cells_need_double_double_alone) {
+TEST(GradientTiers, OrdinaryCellsNeedDoubleDoubleAlone) {
     for (const Simplex s : full) {
         base::Random r = base::Random::stream(23, base::hash64("ordinary"), 0);
         std::vector<Case> cases;
@@ -157,7 +157,7 @@ TEST(GradientTiers, ordinary_cells_need_double_double_alone) {
     }
 }
 
-TEST(GradientTiers, exact_zeros_and_wide_exponents_need_integers) {
+TEST(GradientTiers, ExactZerosAndWideExponentsNeedIntegers) {
     Case c{.simplex = Simplex::tetrahedron, .values = {1, 2, 1, 1}};
     c.vertices = {0, 0, 0, 1, 0.1, 0.3, 0, 1, 0, 0, 0, 1};
     EXPECT_EQ(gradient_in(c).tier, Tier::exact);  // (1, 0, 0)
@@ -177,7 +177,7 @@ TEST(GradientTiers, exact_zeros_and_wide_exponents_need_integers) {
     }
 }
 
-TEST(GradientBatch, degenerate_and_not_finite_are_counted) {
+TEST(GradientBatch, DegenerateAndNotFiniteAreCounted) {
     for (const Simplex s : full) {
         const auto d = static_cast<std::size_t>(space_dimension(s));
         base::Random r = base::Random::stream(23, base::hash64("counted"), 0);
@@ -218,7 +218,7 @@ TEST(GradientBatch, degenerate_and_not_finite_are_counted) {
     }
 }
 
-TEST(GradientBatch, errors_are_told) {
+TEST(GradientBatch, ErrorsAreTold) {
     const std::array<double, 6> v{0, 0, 1, 0, 0, 1};
     const std::array<double, 3> f{0, 1, 2};
     const std::array<std::int32_t, 3> corners{0, 1, 2};

@@ -110,7 +110,7 @@ std::optional<Case> nearly_solved(base::Random& r, Simplex s) {
     return c;
 }
 
-TEST(GradientBound, holds_where_residuals_nearly_vanish) {
+TEST(GradientBound, HoldsWhereResidualsNearlyVanish) {
     for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
         int close = 0;
         double nearest_to_bound = 0;
@@ -135,7 +135,7 @@ TEST(GradientBound, holds_where_residuals_nearly_vanish) {
     }
 }
 
-TEST(GradientBound, holds_on_every_target) {
+TEST(GradientBound, HoldsOnEveryTarget) {
     for (const std::string& target : simd_targets()) {
         ASSERT_TRUE(use_simd_target(target));
         for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {

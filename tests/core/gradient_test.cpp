@@ -22,7 +22,7 @@ using testing_rational::max;
 
 constexpr double tiny = 0x1p-1074;
 
-TEST(LawG1, by_hand) {
+TEST(LawG1, ByHand) {
     // f = 1 + 2x - 3y (+ 5z) in the unit cell.
     const std::array<double, 6> triangle{0, 0, 1, 0, 0, 1};
     const std::array<double, 12> tetrahedron{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -37,7 +37,7 @@ TEST(LawG1, by_hand) {
               (std::array<double, 3>{1.0 / 3, -1.0 / 3, 0}));
 }
 
-TEST(LawG1, every_kind_of_number) {
+TEST(LawG1, EveryKindOfNumber) {
     for (const Simplex s : full) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 600 && !HasFailure(); ++k) {
@@ -49,7 +49,7 @@ TEST(LawG1, every_kind_of_number) {
 }
 
 // Where double-double works hardest. Most are decided there, so that its answers are what is tested.
-TEST(LawG1, flat_cells_far_from_the_origin) {
+TEST(LawG1, FlatCellsFarFromTheOrigin) {
     for (const Simplex s : full) {
         std::uint64_t easy = 0;
         for (std::uint64_t k = 0; k < 8000 && !HasFailure(); ++k) {
@@ -63,7 +63,7 @@ TEST(LawG1, flat_cells_far_from_the_origin) {
     }
 }
 
-TEST(LawG1, rounded_at_the_ends_of_the_range) {
+TEST(LawG1, RoundedAtTheEndsOfTheRange) {
     const auto slope = [](double length, double rise) {
         Case c{.simplex = Simplex::triangle, .values = {0, rise, 0}};
         c.vertices = {0, 0, length, 0, 0, 1};
@@ -93,7 +93,7 @@ TEST(LawG1, rounded_at_the_ends_of_the_range) {
 }
 
 // The last tier alone, where integers of one limb give way to two, and two to more.
-TEST(LawG1, integers_of_every_width) {
+TEST(LawG1, IntegersOfEveryWidth) {
     for (const Simplex s : full) {
         for (const int coordinate_bits : {3, 58, 60, 61, 62, 63, 64, 122, 124, 125, 126, 127, 128, 400}) {
             for (const int value_bits : {3, 59, 60, 61, 62, 63, 64, 123, 125, 126, 128, 900}) {
@@ -110,7 +110,7 @@ TEST(LawG1, integers_of_every_width) {
 }
 
 // A linear field with short coefficients on short coordinates is given back to the bit.
-TEST(LawG1, linear_fields_are_given_back) {
+TEST(LawG1, LinearFieldsAreGivenBack) {
     for (const Simplex s : full) {
         const int n = vertex_count(s), d = space_dimension(s);
         for (std::uint64_t k = 0; k < 2000; ++k) {
@@ -133,7 +133,7 @@ TEST(LawG1, linear_fields_are_given_back) {
     }
 }
 
-TEST(LawG1, the_order_of_vertices_does_not_matter) {
+TEST(LawG1, TheOrderOfVerticesDoesNotMatter) {
     for (const Simplex s : full) {
         const std::size_t n = static_cast<std::size_t>(vertex_count(s)), d = n - 1;
         for (std::uint64_t k = 0; k < 200; ++k) {

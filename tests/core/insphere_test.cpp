@@ -215,7 +215,7 @@ TEST(LawE, SidesOfWhatIsNoNumber) {
 }
 
 // The convention, by hand: both orientations, in integers and off the lattice.
-TEST(Sides, by_hand) {
+TEST(Sides, ByHand) {
     const double a[3] = {0, 0, 0}, b[3] = {1, 0, 0}, c[3] = {0, 1, 0}, d[3] = {0, 0, 1};
     const double inside[3] = {.5, .25, .25}, corner[3] = {1, 1, 1}, flat_corner[2] = {1, 1};
     const double outside[3] = {1, 1.1, 1}, just_outside[3] = {1, 1, 1 + 0x1p-52}, just_inside[3] = {1, 1, 1 - 0x1p-53};
@@ -234,7 +234,7 @@ TEST(Sides, by_hand) {
 
 // What predicates.hpp says of these: the product with the orientation is zero, the sign alone tells sides of a line or
 // plane, if anything.
-TEST(Sides, of_flat_simplices) {
+TEST(Sides, OfFlatSimplices) {
     const double a[2] = {0, 0}, b[2] = {1, 1}, c[2] = {3, 3}, above[2] = {0, 1}, below[2] = {1, 0}, on[2] = {7, 7};
     const Sign side = incircle(a, b, c, above);
     EXPECT_NE(side, Sign::zero);

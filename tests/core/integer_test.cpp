@@ -30,7 +30,7 @@ void expect_trimmed(const Integer& x) {
     EXPECT_EQ(x.sign(), sgn(number(x)));
 }
 
-TEST(Integer, from_mantissa_and_shift) {
+TEST(Integer, FromMantissaAndShift) {
     for (const std::uint64_t m : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1} << 63, ones, ones >> 11}) {
         for (const int shift : {0, 1, 11, 12, 63, 64, 65, 127, 128, 129, 2045, 2097, 64 * 166, 64 * 166 + 63}) {
             for (const bool negative : {false, true}) {
@@ -43,7 +43,7 @@ TEST(Integer, from_mantissa_and_shift) {
     }
 }
 
-TEST(Integer, zero_has_no_sign) {
+TEST(Integer, ZeroHasNoSign) {
     // A zero may be told negative when it is made: catches sign() that reads the flag alone.
     const std::uint64_t nothing[3] = {};
     for (const Integer& zero :
@@ -64,7 +64,7 @@ TEST(Integer, zero_has_no_sign) {
 }
 
 // One carry, or borrow, that runs through every limb. Catches a carry that is dropped, or kept for one limb alone.
-TEST(Integer, carries_and_borrows_run_through) {
+TEST(Integer, CarriesAndBorrowsRunThrough) {
     for (int size = 1; size <= Integer::capacity - 2; ++size) {
         const Integer one(false, 1, 0), full = all_ones(size), next = power(size);
         EXPECT_EQ(number(full + one), number(next)) << size;
@@ -79,7 +79,7 @@ TEST(Integer, carries_and_borrows_run_through) {
     }
 }
 
-TEST(Integer, sums_and_differences_equal_gmp) {
+TEST(Integer, SumsAndDifferencesEqualGmp) {
     for (int k = 0; k < 20000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("integer sums"), static_cast<std::uint64_t>(k));
         const int size = r.integer(0, k % 10 == 0 ? Integer::capacity - 1 : 5);
@@ -97,7 +97,7 @@ TEST(Integer, sums_and_differences_equal_gmp) {
 
 // The largest product of two limbs with the largest carry and addend fills 128 bits: all-ones operands. Catches an
 // accumulator that is too narrow, and a last carry that is not stored.
-TEST(Integer, products_of_all_ones) {
+TEST(Integer, ProductsOfAllOnes) {
     for (int size = 1; size < Integer::capacity; size += size < 8 ? 1 : 13) {
         for (const int other : {1, 2, 3, size, Integer::capacity - size}) {
             if (size + other > Integer::capacity) continue;
@@ -109,7 +109,7 @@ TEST(Integer, products_of_all_ones) {
 }
 
 // Zero limbs inside, which multiplication skips: catches a skipped row whose place for the carry is left unset.
-TEST(Integer, products_equal_gmp) {
+TEST(Integer, ProductsEqualGmp) {
     for (int k = 0; k < 10000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("integer products"), static_cast<std::uint64_t>(k));
         const int size = r.integer(0, k % 10 == 0 ? Integer::capacity : 6);
@@ -120,7 +120,7 @@ TEST(Integer, products_equal_gmp) {
     }
 }
 
-TEST(Integer, copies) {
+TEST(Integer, Copies) {
     base::Random r(1);
     for (const int size : {0, 1, 2, 167, Integer::capacity}) {
         const Integer x = awkward_integer(r, size);

@@ -18,7 +18,7 @@ using testing_rational::max;
 using testing_rational::nearest;
 using testing_rational::Q;
 
-TEST(PointOfValue, by_hand) {
+TEST(PointOfValue, ByHand) {
     const double a[2] = {1, 1}, b[2] = {2, 2};
     double p[2] = {};
     const Parameter t = point_of_value(a, b, 5, 6, 5.5, p).value();
@@ -38,7 +38,7 @@ TEST(PointOfValue, by_hand) {
     EXPECT_EQ(parameter_of_value(5, 6, 5.5).value().t, 0.5);
 }
 
-TEST(PointOfValue, equal_values_leave_it_undetermined) {
+TEST(PointOfValue, EqualValuesLeaveItUndetermined) {
     const double a[3] = {1, 2, 3}, b[3] = {4, 5, 6};
     for (const double f : {0.0, 5.0, 1e308, 0x1p-1074}) {
         for (const double value : {f, 7.0}) {
@@ -71,7 +71,7 @@ void expect_point(const std::array<double, 3>& a, const std::array<double, 3>& b
     }
 }
 
-TEST(PointOfValue, rounded_from_rationals) {
+TEST(PointOfValue, RoundedFromRationals) {
     for (const Kind kind : all_kinds) {
         for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
             base::Random r = base::Random::stream(9, base::hash64("inverse"), k);
@@ -88,7 +88,7 @@ TEST(PointOfValue, rounded_from_rationals) {
     }
 }
 
-TEST(PointOfValue, ends_of_the_range) {
+TEST(PointOfValue, EndsOfTheRange) {
     const double tiny = 0x1p-1074;
     expect_point({0, -max, tiny}, {1, max, 0}, -max, max, 0);
     expect_point({0, 0, 0}, {1, max, tiny}, 0, tiny, max);
@@ -99,7 +99,7 @@ TEST(PointOfValue, ends_of_the_range) {
     EXPECT_TRUE(std::signbit(parameter_of_value(0, max, -tiny).value().t));
 }
 
-TEST(PointOfValue, what_is_no_number_is_named) {
+TEST(PointOfValue, WhatIsNoNumberIsNamed) {
     const double a[2] = {1, 1}, b[2] = {2, 2};
     double p[2];
     for (const double bad : {std::nan(""), infinity, -infinity}) {
@@ -128,7 +128,7 @@ void expect_dot(const Case& c, const std::array<double, 4>& w) {
 }
 
 // Weights of every kind, not scaled to a sum of 1; cancellation, ties and zeros by lattices.
-TEST(PointFromWeights, is_the_dot_product_rounded_once) {
+TEST(PointFromWeights, IsTheDotProductRoundedOnce) {
     for (const Simplex s : all_simplices) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 200 && !HasFailure(); ++k) {
@@ -142,7 +142,7 @@ TEST(PointFromWeights, is_the_dot_product_rounded_once) {
     }
 }
 
-TEST(PointFromWeights, what_is_no_number_is_named) {
+TEST(PointFromWeights, WhatIsNoNumberIsNamed) {
     for (const Simplex s : all_simplices) {
         const auto n = static_cast<std::size_t>(vertex_count(s)), d = static_cast<std::size_t>(space_dimension(s));
         double p[3];
@@ -166,7 +166,7 @@ TEST(PointFromWeights, what_is_no_number_is_named) {
 }
 
 // "Whatever the floating-point environment": the same bits in all of them.
-TEST(PointOfValue, is_the_same_in_every_environment) {
+TEST(PointOfValue, IsTheSameInEveryEnvironment) {
     for (std::uint64_t k = 0; k < 200; ++k) {
         base::Random r = base::Random::stream(9, base::hash64("inverse environments"), k);
         const Case c = random_case(r, Simplex::tetrahedron, all_kinds[k % all_kinds.size()]);

@@ -83,7 +83,7 @@ Case bound_case(base::Random& r) {
     return c;
 }
 
-TEST(PerspectiveBound, holds_on_every_target) {
+TEST(PerspectiveBound, HoldsOnEveryTarget) {
     for (const std::string& target : simd_targets()) {
         ASSERT_TRUE(use_simd_target(target));
         int met[5] = {};

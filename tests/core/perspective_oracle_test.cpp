@@ -19,7 +19,7 @@ void expect_same(double a, double b, const Case& c) {
     }
 }
 
-TEST(PerspectiveAgainstTheOracle, three_hundred_thousand_cases) {
+TEST(PerspectiveAgainstTheOracle, ThreeHundredThousandCases) {
     std::uint64_t proper = 0;
     for (const Kind kind : all_kinds) {
         const std::uint64_t count = kind == Kind::bit_patterns ? 4000 : 43000;

@@ -61,7 +61,7 @@ bool check(const Case& c) {
     return true;
 }
 
-TEST(Perspective, answers_are_exact_and_rounded_once) {
+TEST(Perspective, AnswersAreExactAndRoundedOnce) {
     for (const Kind kind : all_kinds) {
         int proper = 0;
         const std::uint64_t count = kind == Kind::bit_patterns ? 300 : 1500;
@@ -75,7 +75,7 @@ TEST(Perspective, answers_are_exact_and_rounded_once) {
 }
 
 // Each width of integers to its last bit: 61 and 125 bits fit one and two limbs, one more does not.
-TEST(Perspective, widths_of_integers_hold_to_their_ends) {
+TEST(Perspective, WidthsOfIntegersHoldToTheirEnds) {
     for (const int coordinate_bits : {60, 61, 62, 63, 64, 124, 125, 126, 127, 128}) {
         for (const int depth_bits : {1, 60, 61, 62, 63, 64, 125, 126, 127, 128}) {
             for (const int value_bits : {53, 61, 62, 63, 64, 130}) {
@@ -99,7 +99,7 @@ TEST(Perspective, widths_of_integers_hold_to_their_ends) {
 }
 
 // The ends of the range all at once: numbers of 2098 bits in every place.
-TEST(Perspective, ends_of_the_range) {
+TEST(Perspective, EndsOfTheRange) {
     const double max = std::numeric_limits<double>::max(), tiny = 0x1p-1074;
     Case c{.simplex = Simplex::triangle};
     c.perspective = true;
@@ -125,7 +125,7 @@ Case unit_case() {
     return c;
 }
 
-TEST(Perspective, by_hand) {
+TEST(Perspective, ByHand) {
     const Case c = unit_case();
     const auto w = perspective_weights(c.vertices.data(), c.point.data());
     EXPECT_EQ(w->weights, (std::array{0.75, 0.25, 0.0}));
@@ -144,7 +144,7 @@ TEST(Perspective, by_hand) {
 }
 
 // With equal depths there is no perspective: the bits of weights.hpp.
-RC_GTEST_PROP(Perspective, equal_depths_give_the_weights_of_the_window, ()) {
+RC_GTEST_PROP(Perspective, EqualDepthsGiveTheWeightsOfTheWindow, ()) {
     base::Random r(*rc::gen::arbitrary<std::uint64_t>());
     const Case plain = testing_fields::stretched_cell(r, Simplex::triangle);
     Case c = plain;
@@ -165,7 +165,7 @@ RC_GTEST_PROP(Perspective, equal_depths_give_the_weights_of_the_window, ()) {
 }
 
 // Depths in another unit, by any power of two, change no weight; in another order of vertices they change with them.
-RC_GTEST_PROP(Perspective, units_and_orders_change_no_bit, ()) {
+RC_GTEST_PROP(Perspective, UnitsAndOrdersChangeNoBit, ()) {
     base::Random r(*rc::gen::arbitrary<std::uint64_t>());
     const Case c = random_perspective_case(r, Kind::ordinary);
     const auto w = perspective_weights(c.vertices.data(), c.point.data());
@@ -181,7 +181,7 @@ RC_GTEST_PROP(Perspective, units_and_orders_change_no_bit, ()) {
 }
 
 // V2: pixel centres on a shared edge have the same values and depths from both sides, whatever the third vertices.
-RC_GTEST_PROP(Perspective, a_shared_edge_has_one_value, ()) {
+RC_GTEST_PROP(Perspective, ASharedEdgeHasOneValue, ()) {
     base::Random r(*rc::gen::arbitrary<std::uint64_t>());
     Case left{.simplex = Simplex::triangle};
     left.perspective = true;
@@ -211,7 +211,7 @@ RC_GTEST_PROP(Perspective, a_shared_edge_has_one_value, ()) {
               testing_cases::bits(perspective_depth(right.vertices.data(), right.point.data())->value));
 }
 
-TEST(Perspective, batches_give_the_same_bits_and_count) {
+TEST(Perspective, BatchesGiveTheSameBitsAndCount) {
     for (const Kind kind : all_kinds) {
         base::Random r = base::Random::stream(11, base::hash64("batch"), static_cast<std::uint64_t>(kind));
         const Case c = random_perspective_case(r, kind);
@@ -249,7 +249,7 @@ TEST(Perspective, batches_give_the_same_bits_and_count) {
 }
 
 // The tier that is meant for them decides ordinary cases; ties, zeros and what is degenerate are left to integers.
-TEST(Perspective, tiers_decide_what_they_are_for) {
+TEST(Perspective, TiersDecideWhatTheyAreFor) {
     int double_double = 0;
     for (std::uint64_t k = 0; k < 1000; ++k) {
         base::Random r = base::Random::stream(11, base::hash64("tiers"), k);
@@ -279,7 +279,7 @@ TEST(Perspective, tiers_decide_what_they_are_for) {
 }
 
 // Just beside a tie, at distances down to what no double-double can tell.
-TEST(Perspective, near_ties_round_to_their_side) {
+TEST(Perspective, NearTiesRoundToTheirSide) {
     Case c{.simplex = Simplex::triangle};
     c.perspective = true;
     c.vertices = {0, 0, 1, 8, 0, 1, 0, 8, 1};
@@ -298,7 +298,7 @@ TEST(Perspective, near_ties_round_to_their_side) {
 }
 
 // A triangle without an area has weights nowhere, though 1/Z of the formula need not vanish.
-TEST(Perspective, a_flat_triangle_is_degenerate_for_every_point) {
+TEST(Perspective, AFlatTriangleIsDegenerateForEveryPoint) {
     for (std::uint64_t k = 0; k < 500; ++k) {
         base::Random r = base::Random::stream(11, base::hash64("flat"), k);
         Case c{.simplex = Simplex::triangle};
@@ -319,7 +319,7 @@ TEST(Perspective, a_flat_triangle_is_degenerate_for_every_point) {
 }
 
 // D1: the same bits, and the same tiers, on every target of this build and on every machine.
-TEST(Perspective, answers_and_tiers_are_pinned_on_every_target) {
+TEST(Perspective, AnswersAndTiersArePinnedOnEveryTarget) {
     for (const std::string& target : simd_targets()) {
         ASSERT_TRUE(use_simd_target(target));
         std::uint64_t hash = 0;
@@ -342,7 +342,7 @@ TEST(Perspective, answers_and_tiers_are_pinned_on_every_target) {
     use_simd_target("");
 }
 
-TEST(Perspective, what_cannot_be_is_named) {
+TEST(Perspective, WhatCannotBeIsNamed) {
     const auto message = [](const Case& c) {
         const auto w = perspective_weights(c.vertices.data(), c.point.data());
         EXPECT_FALSE(w);

@@ -210,7 +210,7 @@ void expect_features(Case c, const std::vector<At>& places) {
 }
 
 // Both orientations, through the permutations. The numbers are small and even: exact by hand.
-TEST(Features, tetrahedron) {
+TEST(Features, Tetrahedron) {
     const Case c{.simplex = Simplex::tetrahedron, .vertices = {0, 0, 0, 8, 0, 0, 0, 8, 0, 0, 0, 8}};
     expect_features(c, {{{1, 1, 1}, Feature::interior, "++++"},
                         {{0, 2, 2}, Feature::face, "+0++"},
@@ -236,7 +236,7 @@ TEST(Features, tetrahedron) {
                         {{0x1p-1074, 2, 2}, Feature::interior, "++++"}});
 }
 
-TEST(Features, triangle) {
+TEST(Features, Triangle) {
     const Case c{.simplex = Simplex::triangle, .vertices = {0, 0, 8, 0, 0, 8}};
     expect_features(c, {{{1, 1}, Feature::interior, "+++"},
                         {{4, 4}, Feature::edge, "0++"},
@@ -255,7 +255,7 @@ TEST(Features, triangle) {
 }
 
 // Points off the plane stand for their projection, from either side.
-TEST(Features, triangle_in_space) {
+TEST(Features, TriangleInSpace) {
     for (const double height : {0.0, 5.0, -1e6}) {
         const Case c{.simplex = Simplex::triangle3d, .vertices = {0, 0, 0, 8, 0, 0, 0, 8, 0}};
         expect_features(c, {{{1, 1, height}, Feature::interior, "+++"},
@@ -271,7 +271,7 @@ TEST(Features, triangle_in_space) {
     }
 }
 
-TEST(Features, segment) {
+TEST(Features, Segment) {
     const Case c{.simplex = Simplex::segment, .vertices = {1, 2, 3, 3, 6, 7}};
     expect_features(c, {{{2, 4, 5}, Feature::interior, "++"},
                         {{1, 2, 3}, Feature::vertex, "+0"},
@@ -285,7 +285,7 @@ TEST(Features, segment) {
                         {{0, -9, 10}, Feature::outside, "+-"}});
 }
 
-TEST(Features, degenerate_simplices_of_each_kind) {
+TEST(Features, DegenerateSimplicesOfEachKind) {
     const std::vector<Case> all{
         {.simplex = Simplex::segment, .vertices = {1, 2, 3, 1, 2, 3}},
         {.simplex = Simplex::triangle, .vertices = {1, 2, 1, 2, 1, 2}},              // a point
@@ -320,7 +320,7 @@ TEST(Features, degenerate_simplices_of_each_kind) {
     EXPECT_EQ(tiers, (TierCounts{.exact = asked, .degenerate = asked}));
 }
 
-TEST(Orientation, by_hand) {
+TEST(Orientation, ByHand) {
     const double o[3] = {0, 0, 0}, x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
     EXPECT_EQ(orient2d(o, x, y), Sign::positive);
     EXPECT_EQ(orient2d(x, o, y), Sign::negative);

@@ -60,7 +60,7 @@ struct QuadraticMesh {
     }
 };
 
-TEST(QuadraticBatch, is_single_calls_on_every_target) {
+TEST(QuadraticBatch, IsSingleCallsOnEveryTarget) {
     for (const Simplex s : full) {
         for (const std::size_t count : std::array<std::size_t, 10>{0, 1, 2, 7, 8, 9, 127, 128, 129, 300}) {
             for (const int components : {1, 2, 3}) {
@@ -109,7 +109,7 @@ TEST(QuadraticBatch, is_single_calls_on_every_target) {
 
 // Within and beyond the ranges of the double-double tier, where products and their remainders under- and overflow:
 // right on every target, and by the same tiers.
-TEST(QuadraticBatch, ends_of_the_ranges) {
+TEST(QuadraticBatch, EndsOfTheRanges) {
     for (const Simplex s : full) {
         base::Random r = base::Random::stream(35, base::hash64("ranges"), 0);
         std::vector<QuadraticCase> cases;
@@ -140,7 +140,7 @@ TEST(QuadraticBatch, ends_of_the_ranges) {
     }
 }
 
-TEST(QuadraticTiers, ordinary_cells_need_double_double_alone) {
+TEST(QuadraticTiers, OrdinaryCellsNeedDoubleDoubleAlone) {
     for (const Simplex s : full) {
         base::Random r = base::Random::stream(35, base::hash64("ordinary"), 0);
         std::vector<QuadraticCase> cases;
@@ -171,7 +171,7 @@ TEST(QuadraticTiers, ordinary_cells_need_double_double_alone) {
     }
 }
 
-TEST(QuadraticTiers, out_of_range_needs_integers) {
+TEST(QuadraticTiers, OutOfRangeNeedsIntegers) {
     base::Random r = base::Random::stream(35, base::hash64("range"), 0);
     for (const Simplex s : full) {
         const QuadraticCase q = stretched_case(r, s, 0);
@@ -186,7 +186,7 @@ TEST(QuadraticTiers, out_of_range_needs_integers) {
     }
 }
 
-TEST(QuadraticBatch, degenerate_and_not_finite_are_counted) {
+TEST(QuadraticBatch, DegenerateAndNotFiniteAreCounted) {
     for (const Simplex s : full) {
         base::Random r = base::Random::stream(35, base::hash64("counted"), 0);
         std::vector<QuadraticCase> cases;
@@ -216,7 +216,7 @@ TEST(QuadraticBatch, degenerate_and_not_finite_are_counted) {
     }
 }
 
-TEST(QuadraticBatch, errors_are_told) {
+TEST(QuadraticBatch, ErrorsAreTold) {
     const std::array<double, 6> v{0, 0, 1, 0, 0, 1};
     const std::array<double, 2> p{0.25, 0.25};
     const std::array<double, 6> f{0, 1, 2, 3, 4, 5};

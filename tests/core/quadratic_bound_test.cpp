@@ -114,7 +114,7 @@ QuadraticCase bound_case(base::Random& r, Simplex s) {
     return q;
 }
 
-TEST(QuadraticBound, holds_on_every_target) {
+TEST(QuadraticBound, HoldsOnEveryTarget) {
     for (const std::string& target : simd_targets()) {
         ASSERT_TRUE(use_simd_target(target));
         for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
@@ -177,7 +177,7 @@ struct Synthetic {
     }
 };
 
-TEST(QuadraticBound, covers_the_arithmetic) {
+TEST(QuadraticBound, CoversTheArithmetic) {
     for (const std::string& target : simd_targets()) {
         ASSERT_TRUE(use_simd_target(target));
         for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {
@@ -200,7 +200,7 @@ TEST(QuadraticBound, covers_the_arithmetic) {
 }
 
 // Weights that are off by as much as they may be, in the directions that hurt.
-TEST(QuadraticBound, covers_errors_of_weights) {
+TEST(QuadraticBound, CoversErrorsOfWeights) {
     for (const std::string& target : simd_targets()) {
         ASSERT_TRUE(use_simd_target(target));
         for (const Simplex s : {Simplex::triangle, Simplex::tetrahedron}) {

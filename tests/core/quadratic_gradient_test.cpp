@@ -58,7 +58,7 @@ void expect_gradient(const QuadraticCase& q) {
     }
 }
 
-TEST(LawG1Quadratic, every_kind_of_number) {
+TEST(LawG1Quadratic, EveryKindOfNumber) {
     for (const Simplex s : full) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 300 && !HasFailure(); ++k) {
@@ -70,7 +70,7 @@ TEST(LawG1Quadratic, every_kind_of_number) {
     }
 }
 
-TEST(LawG1Quadratic, flat_cells_far_from_the_origin) {
+TEST(LawG1Quadratic, FlatCellsFarFromTheOrigin) {
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 600 && !HasFailure(); ++k) {
             base::Random r = base::Random::stream(41, base::hash64("flat quadratic gradients"), k);
@@ -79,7 +79,7 @@ TEST(LawG1Quadratic, flat_cells_far_from_the_origin) {
     }
 }
 
-TEST(LawG1Quadratic, of_linear_values_is_that_of_linear_fields) {
+TEST(LawG1Quadratic, OfLinearValuesIsThatOfLinearFields) {
     // Dyadic values, so that the means at mid-edge nodes are exact.
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 200 && !HasFailure(); ++k) {
@@ -98,7 +98,7 @@ TEST(LawG1Quadratic, of_linear_values_is_that_of_linear_fields) {
 }
 
 // In the unit cell, with small dyadic numbers, nothing is rounded.
-TEST(LawG1Quadratic, plain_is_the_same_formula) {
+TEST(LawG1Quadratic, PlainIsTheSameFormula) {
     base::Random r = base::Random::stream(43, base::hash64("plain"), 0);
     for (const Simplex s : full) {
         const int n = vertex_count(s), d = space_dimension(s);
@@ -114,7 +114,7 @@ TEST(LawG1Quadratic, plain_is_the_same_formula) {
     }
 }
 
-TEST(LawG1Quadratic, what_is_not_finite) {
+TEST(LawG1Quadratic, WhatIsNotFinite) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     QuadraticCase q;
     q.linear.simplex = Simplex::triangle;

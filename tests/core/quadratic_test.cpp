@@ -24,7 +24,7 @@ using testing_rational::max;
 
 constexpr double min_double = 0x1p-1074;
 
-TEST(LawV1Quadratic, every_kind_of_number) {
+TEST(LawV1Quadratic, EveryKindOfNumber) {
     for (const Simplex s : full) {
         for (const Kind kind : all_kinds) {
             for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
@@ -37,7 +37,7 @@ TEST(LawV1Quadratic, every_kind_of_number) {
 }
 
 // Where double-double works hardest, inside and outside of the cell; most are decided there.
-TEST(LawV1Quadratic, flat_cells_far_from_the_origin) {
+TEST(LawV1Quadratic, FlatCellsFarFromTheOrigin) {
     for (const Simplex s : full) {
         std::uint64_t easy = 0;
         for (std::uint64_t k = 0; k < 6000 && !HasFailure(); ++k) {
@@ -51,7 +51,7 @@ TEST(LawV1Quadratic, flat_cells_far_from_the_origin) {
     }
 }
 
-TEST(LawV1Quadratic, far_outside) {
+TEST(LawV1Quadratic, FarOutside) {
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 1000 && !HasFailure(); ++k) {
             base::Random r = base::Random::stream(32, base::hash64("far outside"), k);
@@ -64,7 +64,7 @@ TEST(LawV1Quadratic, far_outside) {
 }
 
 // The last tier alone, where integers of one limb give way to two, and two to more.
-TEST(LawV1Quadratic, integers_of_every_width) {
+TEST(LawV1Quadratic, IntegersOfEveryWidth) {
     for (const Simplex s : full) {
         for (const int coordinate_bits : {3, 58, 60, 61, 62, 63, 64, 122, 124, 125, 126, 127, 128, 400}) {
             for (const int value_bits : {3, 59, 60, 61, 62, 63, 64, 122, 123, 124, 125, 126, 128, 900}) {
@@ -86,7 +86,7 @@ TEST(LawV1Quadratic, integers_of_every_width) {
 }
 
 // The widest integers: all 2098 bits of coordinates and values are in use.
-TEST(LawV1Quadratic, the_widest_integers) {
+TEST(LawV1Quadratic, TheWidestIntegers) {
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 60 && !HasFailure(); ++k) {
             base::Random r = base::Random::stream(32, base::hash64("widest"), k);
@@ -113,7 +113,7 @@ TEST(LawV1Quadratic, the_widest_integers) {
 }
 
 // A quadratic polynomial with short coefficients is given back to the bit, at any point whose value is a double.
-TEST(LawV1Quadratic, quadratic_polynomials_are_given_back) {
+TEST(LawV1Quadratic, QuadraticPolynomialsAreGivenBack) {
     for (const Simplex s : full) {
         const int n = vertex_count(s), d = space_dimension(s);
         for (std::uint64_t k = 0; k < 2000; ++k) {
@@ -145,7 +145,7 @@ TEST(LawV1Quadratic, quadratic_polynomials_are_given_back) {
 }
 
 // With the mean of its corners amid each edge, exactly, the field is the linear one.
-TEST(LawV1Quadratic, is_the_linear_value_where_the_field_is_linear) {
+TEST(LawV1Quadratic, IsTheLinearValueWhereTheFieldIsLinear) {
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 1000; ++k) {
             base::Random r = base::Random::stream(33, base::hash64("linear"), k);
@@ -176,7 +176,7 @@ QuadraticCase even_cell(base::Random& r, Simplex s) {
     return q;
 }
 
-TEST(LawV2Quadratic, nodes_have_their_own_values) {
+TEST(LawV2Quadratic, NodesHaveTheirOwnValues) {
     for (const Simplex s : full) {
         for (std::uint64_t k = 0; k < 400; ++k) {
             base::Random r = base::Random::stream(34, base::hash64("nodes"), k);
@@ -204,7 +204,7 @@ TEST(LawV2Quadratic, nodes_have_their_own_values) {
 
 // Cells on both sides of a facet, corners in different orders, a point of the facet: the same bits, and those of the
 // facet's own nodes alone.
-TEST(LawV2Quadratic, both_cells_of_a_facet_agree) {
+TEST(LawV2Quadratic, BothCellsOfAFacetAgree) {
     for (const Simplex s : full) {
         const auto n = static_cast<std::size_t>(vertex_count(s)), d = n - 1;
         std::uint64_t compared = 0, easy = 0;
@@ -258,7 +258,7 @@ TEST(LawV2Quadratic, both_cells_of_a_facet_agree) {
     }
 }
 
-TEST(LawV1Quadratic, ties_and_the_ends_of_the_range) {
+TEST(LawV1Quadratic, TiesAndTheEndsOfTheRange) {
     // At the middle of edge 12 of the unit triangle's neighbour, l = (1/2, 1/4, 1/4) gives weights of the nodes
     // 0, -1/8, -1/8; 1/2, 1/4, 1/2.
     QuadraticCase q{Case{.simplex = Simplex::triangle}, {0, 0, 0}};

@@ -51,7 +51,7 @@ void expect_rounded_about(const Z& n, const Z& d, int exponent) {
     for (int beside = -1; beside <= 1; ++beside) expect_rounded(n + beside, d, exponent);
 }
 
-TEST(RoundQuotient, by_hand) {
+TEST(RoundQuotient, ByHand) {
     EXPECT_EQ(quotient(integer(1), integer(3), 0), 1.0 / 3.0);
     EXPECT_EQ(quotient(integer(-7), integer(10), 3), -5.6);
     EXPECT_EQ(round_integer(integer(-7), -1), -3.5);
@@ -62,7 +62,7 @@ TEST(RoundQuotient, by_hand) {
               1 + 0x1p-52);  // a tie but for the last bit
 }
 
-TEST(RoundQuotient, zero_is_positive_and_underflow_keeps_its_sign) {
+TEST(RoundQuotient, ZeroIsPositiveAndUnderflowKeepsItsSign) {
     for (const int d : {-3, 3}) {
         for (const int exponent : {-5000, 0, 5000}) EXPECT_TRUE(nearest(quotient(Integer(), integer(d), exponent), 0));
     }
@@ -76,7 +76,7 @@ TEST(RoundQuotient, zero_is_positive_and_underflow_keeps_its_sign) {
 
 // q odd or even, of one bit more than the result has: an exact tie q * d / d, and one unit of the numerator beside it.
 // The leading limbs are the same for all three; the rest decides. Catches the rest ignored or of the wrong sign.
-TEST(RoundQuotient, ties_and_their_neighbours) {
+TEST(RoundQuotient, TiesAndTheirNeighbours) {
     for (int k = 0; k < 1500 && !::testing::Test::HasFailure(); ++k) {
         base::Random r = base::Random::stream(1, base::hash64("core ties"), static_cast<std::uint64_t>(k));
         const Z d = k % 5 == 0 ? Z(1) : Z(abs(number(awkward_integer(r, r.integer(1, 5)))) + 1);
@@ -91,7 +91,7 @@ TEST(RoundQuotient, ties_and_their_neighbours) {
     }
 }
 
-TEST(RoundQuotient, ends_of_the_range) {
+TEST(RoundQuotient, EndsOfTheRange) {
     for (const int extra : {0, 1, 64, 500, 10000}) {
         const Z d = power_of_two(extra);
         // The half-way point from the largest double to 2^1024, a tie to infinity; and twice that.
@@ -124,7 +124,7 @@ TEST(RoundQuotient, ends_of_the_range) {
 
 // Every length of one operand against every kind of length of the other, at numbers about powers of two: where the
 // digit that is estimated is too large. Catches corrections of the digit left out, and shifts wrong at full limbs.
-TEST(RoundQuotient, lengths_about_the_limbs) {
+TEST(RoundQuotient, LengthsAboutTheLimbs) {
     const int lengths[] = {1, 2, 52, 53, 54, 62, 63, 64, 65, 126, 127, 128, 129, 191, 192, 193, 255, 256, 257, 640};
     for (const int n : lengths) {
         for (const int d : lengths) {
@@ -138,7 +138,7 @@ TEST(RoundQuotient, lengths_about_the_limbs) {
 }
 
 // One limb against 160, and back, brought into the range of doubles by the exponent.
-TEST(RoundQuotient, operands_of_very_different_lengths) {
+TEST(RoundQuotient, OperandsOfVeryDifferentLengths) {
     for (int k = 0; k < 600 && !::testing::Test::HasFailure(); ++k) {
         base::Random r = base::Random::stream(1, base::hash64("core lengths"), static_cast<std::uint64_t>(k));
         const int short_length = r.integer(1, 3), long_length = k % 2 == 0 ? 160 : r.integer(1, 164);
@@ -155,7 +155,7 @@ TEST(RoundQuotient, operands_of_very_different_lengths) {
 }
 
 // Two's complement gives magnitudes leading zero limbs. Catches lengths taken from the number of limbs.
-TEST(RoundQuotient, leading_zero_limbs_do_not_count) {
+TEST(RoundQuotient, LeadingZeroLimbsDoNotCount) {
     const std::uint64_t seven[6] = {7}, three[4] = {3}, nothing[3] = {};
     for (std::size_t i = 1; i <= 6; ++i) {
         for (std::size_t j = 1; j <= 4; ++j) {
@@ -167,7 +167,7 @@ TEST(RoundQuotient, leading_zero_limbs_do_not_count) {
 }
 
 // Divisors and digits of all ones or a single one: where the estimate from the leading limbs is off by the most.
-TEST(RoundQuotient, awkward_limbs) {
+TEST(RoundQuotient, AwkwardLimbs) {
     for (int k = 0; k < 6000 && !::testing::Test::HasFailure(); ++k) {
         base::Random r = base::Random::stream(1, base::hash64("core awkward"), static_cast<std::uint64_t>(k));
         const Z d = abs(number(awkward_integer(r, r.integer(1, 6)))) + r.integer(0, 1);

@@ -5,7 +5,7 @@
 namespace barycert {
 namespace {
 
-TEST(SimplexTypes, counts) {
+TEST(SimplexTypes, Counts) {
     EXPECT_EQ(vertex_count(Simplex::segment), 2);
     EXPECT_EQ(vertex_count(Simplex::triangle), 3);
     EXPECT_EQ(vertex_count(Simplex::triangle3d), 3);
@@ -14,7 +14,7 @@ TEST(SimplexTypes, counts) {
 }
 
 // Names stand in reports and witness files: they may not change.
-TEST(SimplexTypes, names) {
+TEST(SimplexTypes, Names) {
     EXPECT_EQ(name(Simplex::segment), "segment");
     EXPECT_EQ(name(Simplex::triangle), "triangle");
     EXPECT_EQ(name(Simplex::triangle3d), "triangle3d");
@@ -37,7 +37,7 @@ TEST(SimplexTypes, names) {
 }
 
 // Catches a stride of 3 used for plane triangles.
-TEST(SimplexTypes, vertices_are_stored_one_after_the_other) {
+TEST(SimplexTypes, VerticesAreStoredOneAfterTheOther) {
     for (const Simplex s : all_simplices) {
         Case c;
         c.simplex = s;

@@ -21,7 +21,7 @@ const MeshSource& two_meshes() {
     return source;
 }
 
-TEST(epeck, says_what_the_integers_say_in_every_family) {
+TEST(Epeck, SaysWhatTheIntegersSayInEveryFamily) {
     std::array<std::uint64_t, 4> regions{};
     for (const Family& family : all_families()) {
         for (const Simplex s : family.simplices) {
@@ -49,7 +49,7 @@ Case on_axis(double length, double x, double f0, double f1) {
     return c;
 }
 
-TEST(epeck, rounds_to_nearest_even_also_where_numbers_underflow_or_overflow) {
+TEST(Epeck, RoundsToNearestEvenAlsoWhereNumbersUnderflowOrOverflow) {
     // 1/2 of the smallest subnormal, 3/2 of it, a little more than 1/2 of it.
     EXPECT_EQ(ask_cgal(on_axis(2, 1, 0, 0x1p-1074)).value, 0);
     EXPECT_EQ(ask_cgal(on_axis(4, 3, 0, 0x1p-1073)).value, 0x1p-1073);
@@ -68,7 +68,7 @@ TEST(epeck, rounds_to_nearest_even_also_where_numbers_underflow_or_overflow) {
     EXPECT_EQ(ask_cgal(on_axis(2, 1, 1 + 0x1p-52, 1 + 0x1p-51)).value, 1 + 0x1p-51);
 }
 
-TEST(epeck, same_answer_sees_every_difference) {
+TEST(Epeck, SameAnswerSeesEveryDifference) {
     const Case c = on_axis(4, 1, 0, 1);
     const OracleAnswer a = ask_oracle(c);
     EXPECT_TRUE(same_answer(a, ask_cgal(c)));

@@ -40,7 +40,7 @@ void expect(const Case& c, const Expected& e) {
                                                       : Region::interior);
 }
 
-TEST(ByHand, tetrahedron) {
+TEST(ByHand, Tetrahedron) {
     expect(tetrahedron({0.25, 0.25, 0.25}), {Feature::interior, 0b1111, {0.25, 0.25, 0.25, 0.25}, 2.5});
     expect(tetrahedron({0.25, 0.25, 0}), {Feature::face, 0b0111, {0.5, 0.25, 0.25, 0}, 1.75});
     expect(tetrahedron({0.5, 0.25, 0.25}), {Feature::face, 0b1110, {0, 0.5, 0.25, 0.25}, 2.75});
@@ -58,14 +58,14 @@ TEST(ByHand, tetrahedron) {
     expect(tetrahedron({-1, 1, 0}), {Feature::outside, 0b0110 | 0b0001, {1, -1, 1, 0}, 2});
 }
 
-TEST(ByHand, either_orientation) {
+TEST(ByHand, EitherOrientation) {
     // Swapped vertices make the signed volume negative; catches a sign taken from the numerator alone.
     Case c = tetrahedron({0.5, 0.25, 0.125});
     c.vertices = {0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1};
     expect(c, {Feature::interior, 0b1111, {0.125, 0.25, 0.5, 0.125}, 0.125 + 0.5 + 1.5 + 0.5});
 }
 
-TEST(ByHand, triangle) {
+TEST(ByHand, Triangle) {
     expect(triangle({1, 1, 0}), {Feature::interior, 0b111, {1 / 3.0, 1 / 3.0, 1 / 3.0, 0}, 7 / 3.0});
     expect(triangle({2, 0, 0}), {Feature::edge, 0b011, {1 / 3.0, 2 / 3.0, 0, 0}, 5 / 3.0});
     expect(triangle({1, 2, 0}), {Feature::edge, 0b110, {0, 1 / 3.0, 2 / 3.0, 0}, 10 / 3.0});
@@ -77,7 +77,7 @@ TEST(ByHand, triangle) {
     EXPECT_EQ(ask_oracle(c).value, 7);
 }
 
-TEST(ByHand, triangle_in_space_projects) {
+TEST(ByHand, TriangleInSpaceProjects) {
     const std::array<double, 4> thirds{1 / 3.0, 1 / 3.0, 1 / 3.0, 0};
     expect(triangle3d({0, 0, 0}), {Feature::interior, 0b111, thirds, 7 / 3.0});
     expect(triangle3d({5, 5, 5}), {Feature::interior, 0b111, thirds, 7 / 3.0});
@@ -86,14 +86,14 @@ TEST(ByHand, triangle_in_space_projects) {
     expect(triangle3d({3, 0, 0}), {Feature::outside, 0b111, {7 / 3.0, -2 / 3.0, -2 / 3.0, 0}, -5 / 3.0});
 }
 
-TEST(ByHand, segment_projects) {
+TEST(ByHand, SegmentProjects) {
     expect(segment({3, 0, 0}), {Feature::interior, 0b11, {2 / 3.0, 1 / 3.0, 0, 0}, 2});
     expect(segment({0, 2, -2}), {Feature::vertex, 0b01, {1, 0, 0, 0}, 1});
     expect(segment({9, 0, 0}), {Feature::vertex, 0b10, {0, 1, 0, 0}, 4});
     expect(segment({0, 0, -9}), {Feature::outside, 0b11, {3, -2, 0, 0}, -5});
 }
 
-TEST(ByHand, degenerate_simplices_of_every_kind) {
+TEST(ByHand, DegenerateSimplicesOfEveryKind) {
     const auto dimension = [](Simplex s, std::array<double, 12> v) {
         const Case c{s, v, {0.5, 0.25, 0.125}, {1, 2, 3, 4}};
         EXPECT_EQ(check(c).region, vertex_count(s) == affine_dimension(c) + 1 ? Region::outside : Region::degenerate);
@@ -116,7 +116,7 @@ TEST(ByHand, degenerate_simplices_of_every_kind) {
 }
 
 // 0.1 + 0.2 is not 0.3: collinear on paper, a sliver in doubles. Catches any tolerance.
-TEST(ByHand, almost_degenerate_is_not_degenerate) {
+TEST(ByHand, AlmostDegenerateIsNotDegenerate) {
     const Case c{Simplex::triangle, {0, 0, 0.1, 0.3, 0.2, 0.1 + 0.2 + 0.3}, {0.1, 0.2}, {1, 2, 3}};
     EXPECT_NE(check(c).region, Region::degenerate);
 }

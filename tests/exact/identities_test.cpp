@@ -43,7 +43,7 @@ bool has_coincidence(const Case& c) {
 }
 
 // Catches an apex that is tried too few: undefined is then said where another apex serves.
-TEST(Bilinear, holds_wherever_it_is_defined) {
+TEST(Bilinear, HoldsWhereverItIsDefined) {
     for (const Kind kind : all_kinds) {
         int holds = 0;
         for (int k = 0; k < (kind == Kind::bit_patterns ? 60 : 800); ++k) {
@@ -59,7 +59,7 @@ TEST(Bilinear, holds_wherever_it_is_defined) {
     }
 }
 
-TEST(Bilinear, special_positions) {
+TEST(Bilinear, SpecialPositions) {
     const auto identity = [](std::array<double, 12> v, std::array<double, 3> p) {
         return bilinear_is_barycentric({Simplex::triangle, v, p, {}});
     };
@@ -72,7 +72,7 @@ TEST(Bilinear, special_positions) {
     EXPECT_EQ(identity({5, 5, 5, 5, 5, 5}, {5, 5}), IdentityVerdict::undefined);
 }
 
-TEST(Trilinear, never_fails_and_holds_in_general_position) {
+TEST(Trilinear, NeverFailsAndHoldsInGeneralPosition) {
     for (const Kind kind : all_kinds) {
         int holds = 0;
         for (int k = 0; k < (kind == Kind::bit_patterns ? 30 : 250); ++k) {
@@ -92,7 +92,7 @@ TEST(Trilinear, never_fails_and_holds_in_general_position) {
     }
 }
 
-TEST(Trilinear, special_positions) {
+TEST(Trilinear, SpecialPositions) {
     const auto identity = [](std::array<double, 12> v, std::array<double, 3> p) {
         return trilinear_is_barycentric({Simplex::tetrahedron, v, p, {}});
     };

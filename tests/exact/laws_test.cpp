@@ -32,7 +32,7 @@ OracleAnswer permuted(const OracleAnswer& a, const std::array<int, 4>& order, in
 
 // Any permutation, even or odd: numerator and denominator change sign together. Catches a sign in the alternating
 // determinants of the tetrahedron that only some order of vertices shows.
-TEST(Laws, permutations_permute_the_answer) {
+TEST(Laws, PermutationsPermuteTheAnswer) {
     for (int k = 0; k < 300; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("permutation"), static_cast<std::uint64_t>(k));
         const Kind kind = all_kinds[r.below(all_kinds.size())];
@@ -47,7 +47,7 @@ TEST(Laws, permutations_permute_the_answer) {
     }
 }
 
-TEST(Laws, powers_of_two_scale_nothing) {
+TEST(Laws, PowersOfTwoScaleNothing) {
     for (int k = 0; k < 3000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("scaling"), static_cast<std::uint64_t>(k));
         const Kind kind = r.coin() ? Kind::ordinary : Kind::lattice;
@@ -74,7 +74,7 @@ TEST(Laws, powers_of_two_scale_nothing) {
     }
 }
 
-TEST(Laws, exact_translations_move_nothing) {
+TEST(Laws, ExactTranslationsMoveNothing) {
     for (int k = 0; k < 3000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("translation"), static_cast<std::uint64_t>(k));
         Case c;
@@ -96,7 +96,7 @@ TEST(Laws, exact_translations_move_nothing) {
 }
 
 // A constant field is reproduced exactly, inside and far outside; so is a coordinate.
-TEST(Laws, constants_and_coordinates_are_reproduced) {
+TEST(Laws, ConstantsAndCoordinatesAreReproduced) {
     for (int k = 0; k < 2000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("fields"), static_cast<std::uint64_t>(k));
         Case c =

@@ -6,7 +6,7 @@ namespace {
 
 using namespace testing_cases;
 
-TEST(Narrow, ordinary_meshes_take_it) {
+TEST(Narrow, OrdinaryMeshesTakeIt) {
     // Multiples of 2^-53 below 1, as unit-cube meshes have, and single precision over a wide range.
     for (const Simplex simplex : all_simplices) {
         for (int k = 0; k < 500; ++k) {
@@ -26,7 +26,7 @@ TEST(Narrow, ordinary_meshes_take_it) {
     }
 }
 
-TEST(Narrow, zeros_cost_nothing) {
+TEST(Narrow, ZerosCostNothing) {
     Case c{Simplex::tetrahedron, {0, 0, 0, 0x1p-1074, 0, 0, 0, 1, 0, 0, 0, 0x1p+1023}, {0, 0.25, 0x1p+1022}, {}};
     EXPECT_TRUE(ask_oracle(c).narrow);  // each axis has a scale of its own
     check(c);
@@ -55,7 +55,7 @@ double at_the_bound(base::Random& r, int span) {
 }
 
 // Coordinates with the greatest differences that 61 bits allow: catches a minor or numerator that overflows its type.
-TEST(Narrow, extremes_at_the_bound) {
+TEST(Narrow, ExtremesAtTheBound) {
     int narrow = 0;
     for (int k = 0; k < 6000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("bound"), static_cast<std::uint64_t>(k));
@@ -88,7 +88,7 @@ TEST(Narrow, extremes_at_the_bound) {
 }
 
 // The values have a bound of their own. Catches a condition that asks the coordinates alone.
-TEST(Narrow, values_alone_decide_too) {
+TEST(Narrow, ValuesAloneDecideToo) {
     Case c{Simplex::triangle, {0, 0, 3, 0, 0, 3}, {1, 1}, {1, 0x1p+60, -0x1p+60}};
     EXPECT_TRUE(ask_oracle(c).narrow);
     check(c);

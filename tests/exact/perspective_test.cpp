@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_cases;
 
-TEST(PerspectiveOracle, equals_the_second_path) {
+TEST(PerspectiveOracle, EqualsTheSecondPath) {
     for (const Kind kind : all_kinds) {
         std::map<Region, int> regions;
         const int count = kind == Kind::bit_patterns ? 400 : 2000;
@@ -33,7 +33,7 @@ TEST(PerspectiveOracle, equals_the_second_path) {
     }
 }
 
-TEST(PerspectiveOracle, both_widths_are_met) {
+TEST(PerspectiveOracle, BothWidthsAreMet) {
     int narrow = 0, wide = 0;
     for (std::uint64_t k = 0; k < 200; ++k) {
         base::Random r = base::Random::stream(3, base::hash64("widths"), k);
@@ -54,7 +54,7 @@ Case half_way() {
 }
 
 // The middle of an edge with depths 1 and 3 is a quarter of the way.
-TEST(PerspectiveOracle, by_hand) {
+TEST(PerspectiveOracle, ByHand) {
     const OracleAnswer a = ask_oracle(half_way());
     EXPECT_EQ(a.feature, Feature::edge);
     EXPECT_EQ(a.support, 0b011);
@@ -76,7 +76,7 @@ TEST(PerspectiveOracle, by_hand) {
     EXPECT_EQ(affine_dimension(c), 1);
 }
 
-TEST(PerspectiveIdentity, holds_wherever_there_are_weights) {
+TEST(PerspectiveIdentity, HoldsWhereverThereAreWeights) {
     for (const Kind kind : all_kinds) {
         int holds = 0;
         for (int k = 0; k < (kind == Kind::bit_patterns ? 60 : 600); ++k) {
@@ -128,7 +128,7 @@ EyeCase eye_case(base::Random& r) {
 
 // The original triangle is met by the ray of a pixel in CGAL's geometry; weights by the volumes of tetrahedra with the
 // eye. The answers of oracle and core have the same bits as what is met there, rounded.
-TEST(PerspectiveRay, meets_the_original_triangle_where_the_window_says) {
+TEST(PerspectiveRay, MeetsTheOriginalTriangleWhereTheWindowSays) {
     const EyePoint eye(0, 0, 0);
     int inside = 0;
     for (std::uint64_t k = 0; k < 3000; ++k) {
@@ -176,7 +176,7 @@ double expected_residual(const Case& c, const std::array<double, 3>& weights) {
     return second_path::nearest_root(square);
 }
 
-TEST(PerspectiveResidual, is_the_distance_in_the_window) {
+TEST(PerspectiveResidual, IsTheDistanceInTheWindow) {
     for (std::uint64_t k = 0; k < 500; ++k) {
         base::Random r = base::Random::stream(3, base::hash64("residual"), k);
         const Case c = random_perspective_case(r, k % 2 == 0 ? Kind::ordinary : Kind::lattice);

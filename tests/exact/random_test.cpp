@@ -10,7 +10,7 @@ using namespace testing_cases;
 
 class RandomCases : public ::testing::TestWithParam<Kind> {};
 
-TEST_P(RandomCases, equal_the_second_path) {
+TEST_P(RandomCases, EqualTheSecondPath) {
     const Kind kind = GetParam();
     // Numbers of two thousand bits are slow in rationals.
     const bool slow = kind == Kind::bit_patterns;
@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(, RandomCases, ::testing::ValuesIn(all_kinds), [](const
 
 // Simplices with vertices in {0, 1}^3, every point of a lattice of quarters around it:
 // catches a wrong region, feature or support bit wherever random cases might miss a combination.
-TEST(Lattice, all_points_about_unit_simplices) {
+TEST(Lattice, AllPointsAboutUnitSimplices) {
     std::map<Feature, int> features;
     for (const Simplex simplex : all_simplices) {
         base::Random r = base::Random::stream(1, base::hash64("lattice"), static_cast<std::uint64_t>(simplex));

@@ -26,7 +26,7 @@ double expected_reproduction(const Case& c, const std::vector<Q>& exact, std::sp
     return second_path::nearest_root(square);
 }
 
-TEST(Partition, by_hand) {
+TEST(Partition, ByHand) {
     const auto residual = [](std::vector<double> w) { return partition_residual(w); };
     EXPECT_EQ(residual({0.5, 0.25}), -0.25);
     EXPECT_EQ(residual({0.25, 0.25, 0.25, 0.25}), 0);
@@ -41,7 +41,7 @@ TEST(Partition, by_hand) {
     EXPECT_FALSE(std::signbit(residual({0.5, 0.5})));               // zero is +0
 }
 
-TEST(Partition, equals_the_second_path) {
+TEST(Partition, EqualsTheSecondPath) {
     for (int k = 0; k < 20000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("partition"), static_cast<std::uint64_t>(k));
         const Kind kind = all_kinds[r.below(all_kinds.size())];
@@ -54,7 +54,7 @@ TEST(Partition, equals_the_second_path) {
     }
 }
 
-TEST(Reproduction, by_hand) {
+TEST(Reproduction, ByHand) {
     const std::array<double, 4> none{}, first{1, 0, 0, 0};
     const Case flat{Simplex::triangle, {0, 0, 8, 0, 0, 8}, {3, 4}, {}};
     EXPECT_EQ(reproduction_residual(flat, first), 5);
@@ -74,7 +74,7 @@ TEST(Reproduction, by_hand) {
     EXPECT_EQ(reproduction_residual(line, first), 5);
 }
 
-TEST(Reproduction, equals_the_second_path) {
+TEST(Reproduction, EqualsTheSecondPath) {
     for (const Kind kind : all_kinds) {
         const int count = kind == Kind::bit_patterns ? 100 : 600;
         for (int k = 0; k < count; ++k) {

@@ -47,7 +47,7 @@ std::uint64_t near_a_tie(base::Random& r, int length) {
     }
 }
 
-TEST(RoundScaled, by_hand) {
+TEST(RoundScaled, ByHand) {
     const std::uint64_t one = std::uint64_t{1} << 60;
     const auto round = [](std::uint64_t q, Tail tail, int exponent) { return *round_scaled(q, tail, exponent); };
     EXPECT_EQ(round(one, Tail::zero, -60), 1);
@@ -62,7 +62,7 @@ TEST(RoundScaled, by_hand) {
     EXPECT_EQ(round_scaled(one + 129, Tail::unknown, -60), 1 + 0x1p-52);
 }
 
-TEST(RoundScaled, ends_of_the_range) {
+TEST(RoundScaled, EndsOfTheRange) {
     const std::uint64_t one = std::uint64_t{1} << 63;
     const auto round = [](std::uint64_t q, Tail tail, int exponent) { return *round_scaled(q, tail, exponent); };
     // The largest double and half an ulp: a tie that goes to infinity.
@@ -87,7 +87,7 @@ TEST(RoundScaled, ends_of_the_range) {
     EXPECT_EQ(round(ones, Tail::zero, -1023 - 63), 0x1p-1022);
 }
 
-TEST(RoundScaled, equals_the_definition_in_every_regime) {
+TEST(RoundScaled, EqualsTheDefinitionInEveryRegime) {
     const Q third(1, 3);
     int open = 0;
     for (int k = 0; k < 20000; ++k) {
@@ -132,7 +132,7 @@ void check_quotient(const Q& n, const Q& d, int exponent) {
 
 // Quotients that lie on a tie or one unit of the numerator beside it: the leading bits cannot tell, the long division
 // and its rest must. Catches the rest ignored, and a shortcut that trusts its bounds where they differ.
-TEST(RoundQuotient, ties_and_their_neighbours) {
+TEST(RoundQuotient, TiesAndTheirNeighbours) {
     for (int k = 0; k < 6000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("quotient"), static_cast<std::uint64_t>(k));
         std::vector<std::uint64_t> words(static_cast<std::size_t>(r.integer(1, 4)));
@@ -148,7 +148,7 @@ TEST(RoundQuotient, ties_and_their_neighbours) {
     }
 }
 
-TEST(RoundQuotient, lengths_about_the_limbs) {
+TEST(RoundQuotient, LengthsAboutTheLimbs) {
     // Numerators and denominators of every length about 63, 119 and 128 bits: all ones, a single one, and next to it.
     for (const int n_length : {1, 2, 53, 62, 63, 64, 65, 118, 119, 120, 127, 128, 129, 182, 183, 191, 192, 193, 256}) {
         for (const int d_length : {1, 2, 53, 62, 63, 64, 65, 118, 119, 127, 128, 129, 192, 193, 252}) {
@@ -163,7 +163,7 @@ TEST(RoundQuotient, lengths_about_the_limbs) {
     }
 }
 
-TEST(RoundQuotient, zero_is_positive) {
+TEST(RoundQuotient, ZeroIsPositive) {
     for (const int sign : {-1, 1}) {
         EXPECT_EQ(std::bit_cast<std::uint64_t>(round_quotient(BigInteger(0), BigInteger(sign))), 0U);
     }
@@ -178,7 +178,7 @@ void check_root(const Q& n, const Q& d, int exponent) {
 }
 
 // Squares of ties, and one unit beside them: catches the rest of the root or of the division ignored.
-TEST(RoundRoot, squares_of_ties_and_their_neighbours) {
+TEST(RoundRoot, SquaresOfTiesAndTheirNeighbours) {
     for (int k = 0; k < 4000; ++k) {
         base::Random r = base::Random::stream(1, base::hash64("root"), static_cast<std::uint64_t>(k));
         const Q root = word(near_a_tie(r, r.integer(54, 57)));

@@ -30,7 +30,7 @@ std::int64_t expected(double u, std::int64_t size, bool repeat) {
     return floor_of(x * mpq_class(static_cast<long>(size)));
 }
 
-TEST(TexelOracle, by_hand) {
+TEST(TexelOracle, ByHand) {
     for (const auto& [u, clamp, repeat] : {std::tuple{0.0, 0, 0},
                                            {0.25, 1, 1},
                                            {0.5, 2, 2},
@@ -50,7 +50,7 @@ TEST(TexelOracle, by_hand) {
     EXPECT_EQ(oracle_texel(-0x1.fffffffffffffp+1023, 7, false), 0);
 }
 
-TEST(TexelOracle, equals_the_definition) {
+TEST(TexelOracle, EqualsTheDefinition) {
     for (std::uint64_t k = 0; k < 20000; ++k) {
         base::Random r = base::Random::stream(3, base::hash64("texel"), k);
         const auto size = 1 + static_cast<std::int64_t>(r.below(std::uint64_t{1} << r.integer(0, 31)));

@@ -75,7 +75,7 @@ protected:
     std::size_t tried_ = 0, failed_ = 0, ended_ = 0;
 };
 
-TEST_P(Faults, leave_whole_files_and_one_error) {
+TEST_P(Faults, LeaveWholeFilesAndOneError) {
     const auto begin = std::chrono::steady_clock::now();
     for (const auto& [kind, count] : undisturbed_.calls()) fails(kind, "", false);
     for (const std::string kind : {"read", "write"})
@@ -91,7 +91,7 @@ TEST_P(Faults, leave_whole_files_and_one_error) {
 
 #ifdef BARYCERT_TETGEN_PROGRAM
 // Libraries that promise to throw nothing need memory, too.
-TEST(FaultsOfOptions, no_allocation_ends_the_program_by_a_signal) {
+TEST(FaultsOfOptions, NoAllocationEndsTheProgramByASignal) {
     long failed = 0;
     for (long n = 1;; ++n) {
         const Scratch logs;

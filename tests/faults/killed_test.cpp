@@ -13,7 +13,7 @@ namespace {
 
 class Killed : public ::testing::TestWithParam<Command> {};
 
-TEST_P(Killed, leaves_whole_files) {
+TEST_P(Killed, LeavesWholeFiles) {
     const char* const number = std::getenv("BARYCERT_KILLS");
     const int kills = number == nullptr ? 6 : std::atoi(number);
     const Undisturbed undisturbed(GetParam());

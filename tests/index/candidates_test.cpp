@@ -69,7 +69,7 @@ std::size_t expect_complete(int d, const std::vector<Item>& items, Meet meet) {
     return meeting;
 }
 
-TEST(Candidates, leave_out_none_that_meets) {
+TEST(Candidates, LeaveOutNoneThatMeets) {
     for (const int d : {2, 3}) {
         for (const bool lattice : {false, true}) {
             for (const double scale : {1.0, 1e-300, 1e300, 0x1p-1070}) {
@@ -129,7 +129,7 @@ Mesh pinwheel(int d, int blades) {
 }
 
 // Every pair of blades has boxes that meet.
-TEST(Candidates, are_few_in_a_pinwheel) {
+TEST(Candidates, AreFewInAPinwheel) {
     for (const int d : {2, 3}) {
         std::array<double, 2> named{};
         for (const int blades : {1000, 4000}) {
@@ -152,7 +152,7 @@ TEST(Candidates, are_few_in_a_pinwheel) {
     }
 }
 
-TEST(Candidates, a_pinwheel_is_certified_in_time) {
+TEST(Candidates, APinwheelIsCertifiedInTime) {
     const CheckReport r = quick(pinwheel(2, 30000));
     EXPECT_TRUE(r.certified());
     EXPECT_LT(r.seconds, 10 * testing::slowdown) << "0.2 s on one core of 2.5 GHz; two minutes if every pair is asked";

@@ -187,7 +187,7 @@ bool same_bytes(const index::Buffer<T>& a, const index::Buffer<T>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.bytes()) == 0;
 }
 
-TEST(IndexProof, D1_TheIndexHasTheSameBytesForAnyNumberOfThreads) {
+TEST(IndexProof, D1TheIndexHasTheSameBytesForAnyNumberOfThreads) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     base::Random random(4);
     for (const int d : {2, 3}) {

@@ -89,7 +89,7 @@ void change(const std::string& path, Change how) {
     std::filesystem::rename(path + ".new", path);
 }
 
-TEST(ChangingFiles, a_row_of_points_that_is_cut_off_is_no_bad_row) {
+TEST(ChangingFiles, ARowOfPointsThatIsCutOffIsNoBadRow) {
     const TemporaryFolder folder;
     const std::string path = folder / "p.csv", text = "x y z\n" + rows(-1);
     for (const std::size_t cut : {text.size() - 1, text.size() - 4, text.rfind('\n', text.size() - 2) + 1}) {
@@ -107,7 +107,7 @@ TEST(ChangingFiles, a_row_of_points_that_is_cut_off_is_no_bad_row) {
     }
 }
 
-TEST(ChangingFiles, are_read_as_they_were_or_refused) {
+TEST(ChangingFiles, AreReadAsTheyWereOrRefused) {
     std::mt19937 random(1);
     const TemporaryFolder folder;
     put(folder / "m.ele", "1 4 0\n0 0 1 2 3\n");

@@ -14,7 +14,7 @@ void expect_csv_refused(const std::string& text, int dimension, const Expected& 
     }
 }
 
-TEST(CsvErrors, coordinates) {
+TEST(CsvErrors, Coordinates) {
     const auto bad = [](std::size_t line, const char* what, const char* expected, const char* found,
                         const char* remedy) {
         return Expected{line, what, expected, found, remedy};
@@ -49,7 +49,7 @@ TEST(CsvErrors, coordinates) {
     expect_csv_refused("z,x,y\n1,2,3\n1,b,3\n", 3, bad(3, x, "a number", "\"b\"", nullptr));  // by name, not by place
 }
 
-TEST(CsvErrors, a_file_that_cannot_be_read_has_not_ended) {
+TEST(CsvErrors, AFileThatCannotBeReadHasNotEnded) {
     const TemporaryFolder folder;
     std::filesystem::create_symlink("/proc/self/mem", folder / "p.csv");
     expect_error(read_file(folder / "p.csv", 3), "/p.csv",
@@ -57,7 +57,7 @@ TEST(CsvErrors, a_file_that_cannot_be_read_has_not_ended) {
 }
 
 // Files of the system say that they have no bytes; others grow while they are read.
-TEST(CsvErrors, a_file_that_is_longer_than_it_says) {
+TEST(CsvErrors, AFileThatIsLongerThanItSays) {
     const std::string path = "/proc/self/limits", whole = get(path);
     LineReader reader(path);
     std::string lines;
@@ -66,7 +66,7 @@ TEST(CsvErrors, a_file_that_is_longer_than_it_says) {
     EXPECT_EQ(lines, whole);
 }
 
-TEST(CsvErrors, numbers_of_fields) {
+TEST(CsvErrors, NumbersOfFields) {
     expect_csv_refused(
         "1,2,3\n1,2\n", 3,
         {2, "too few fields in a line", "3, separated by commas, as in the first line", "2", "same columns"});
@@ -88,7 +88,7 @@ TEST(CsvErrors, numbers_of_fields) {
         {1, "too few columns for a point", "2, for the mesh is 2-dimensional", "1 columns without names", nullptr});
 }
 
-TEST(CsvErrors, headers) {
+TEST(CsvErrors, Headers) {
     const char* const unnamed = "the header does not name the coordinates";
     expect_csv_refused(
         "x,y\n1,2\n", 3,
@@ -104,7 +104,7 @@ TEST(CsvErrors, headers) {
     expect_csv_refused("x y z\n1,2,3\n", 3, {2, "bad coordinate x", "a number", "\"1,2,3\"", nullptr});
 }
 
-TEST(CsvErrors, quotes) {
+TEST(CsvErrors, Quotes) {
     const char* const what = "a quoted field is not closed";
     expect_csv_refused("x,y,z,n\n1,2,3,\"a\n4,5,6,b\"\n", 3, {2, what, nullptr, "\"1,2,3,\"a\"", "close the quote"});
     expect_csv_refused("x,y,z,n\n4,5,6,\"b\"c\n", 3, {2, what, nullptr, nullptr, nullptr});
@@ -113,7 +113,7 @@ TEST(CsvErrors, quotes) {
     expect_csv_refused("x,y,z,n\n4,5,6,\"\"\"\n", 3, {2, what, nullptr, nullptr, nullptr});
 }
 
-TEST(CsvErrors, nothing_to_read) {
+TEST(CsvErrors, NothingToRead) {
     expect_csv_refused("", 3,
                        {0, "the file is empty", "a header line or a point", "nothing", "a file with a header only"});
     expect_csv_refused("\n# x,y,z\n", 3,
@@ -121,7 +121,7 @@ TEST(CsvErrors, nothing_to_read) {
     expect_csv_refused("\xEF\xBB\xBF", 3, {0, "the file is empty", nullptr, "nothing", nullptr});
 }
 
-TEST(CsvErrors, no_text) {
+TEST(CsvErrors, NoText) {
     using namespace std::string_literals;
     const Expected cr{1, "lines end with CR alone", "LF or CR LF", "CR alone", "save the file with LF or CR LF"};
     expect_csv_refused("x,y,z\r1,2,3\r4,5,6\r", 3, cr);
@@ -143,7 +143,7 @@ TEST(CsvErrors, no_text) {
 }
 
 // "0.2" may be the beginning of "0.25".
-TEST(CsvErrors, numbers_that_the_end_of_the_file_may_have_cut) {
+TEST(CsvErrors, NumbersThatTheEndOfTheFileMayHaveCut) {
     const Expected cut{2, "the last row has no line end, so the file may be cut short", "a line end",
                        "the end of the file", "end the last line"};
     for (const char* text :
@@ -160,7 +160,7 @@ TEST(CsvErrors, numbers_that_the_end_of_the_file_may_have_cut) {
     expect_csv_refused("1,2,3\n4,5,1e", 3, {2, "bad coordinate z", nullptr, "\"1e\"", nullptr});
 }
 
-TEST(CsvErrors, an_error_stays) {
+TEST(CsvErrors, AnErrorStays) {
     const TemporaryFolder folder;
     put(folder / "p.csv", "1,2\n3,4\nx,5\n6,7\n");
     const auto source = open_points(folder / "p.csv", 2);
@@ -174,7 +174,7 @@ TEST(CsvErrors, an_error_stays) {
     EXPECT_EQ(out, (std::vector<double>{1, 2, 3, 4}));
 }
 
-TEST(CsvErrors, files_that_cannot_be_opened) {
+TEST(CsvErrors, FilesThatCannotBeOpened) {
     const TemporaryFolder folder;
     expect_error(read_file(folder / "none.csv", 3), "/none.csv",
                  {0, "cannot read the file", nullptr, "No such file or directory", "check the path"});

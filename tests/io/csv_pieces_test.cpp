@@ -54,7 +54,7 @@ Text text_of(std::size_t size, char separator, base::Random& random) {
     return text;
 }
 
-TEST(CsvPieces, law_points_are_those_of_the_lines) {
+TEST(CsvPieces, LawPointsAreThoseOfTheLines) {
     base::Random random(31);
     for (const char separator : {',', ';', '\t', ' '}) {
         for (const std::size_t size : {std::size_t{1} << 12, std::size_t{1} << 18, std::size_t{3} << 20}) {
@@ -73,7 +73,7 @@ TEST(CsvPieces, law_points_are_those_of_the_lines) {
     }
 }
 
-TEST(CsvPieces, law_a_block_is_full_until_the_end) {
+TEST(CsvPieces, LawABlockIsFullUntilTheEnd) {
     base::Random random(32);
     const Text text = text_of(std::size_t{2} << 20, ',', random);
     const TemporaryFolder folder;
@@ -91,7 +91,7 @@ TEST(CsvPieces, law_a_block_is_full_until_the_end) {
     EXPECT_EQ(points, text.points);
 }
 
-TEST(CsvPieces, the_first_bad_line_is_told_whatever_comes_after) {
+TEST(CsvPieces, TheFirstBadLineIsToldWhateverComesAfter) {
     base::Random random(33);
     const std::size_t size = std::size_t{5} << 19;
     for (int round = 0; round < 12; ++round) {
@@ -129,7 +129,7 @@ TEST(CsvPieces, the_first_bad_line_is_told_whatever_comes_after) {
     }
 }
 
-TEST(CsvPieces, the_end_of_a_large_file) {
+TEST(CsvPieces, TheEndOfALargeFile) {
     base::Random random(34);
     const Text text = text_of(std::size_t{3} << 19, ',', random);
     const std::size_t lines = static_cast<std::size_t>(std::count(text.bytes.begin(), text.bytes.end(), '\n'));

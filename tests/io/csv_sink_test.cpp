@@ -28,7 +28,7 @@ std::string written(const RowData& data) {
     return get(folder / "r.csv");
 }
 
-TEST(CsvSink, the_text) {
+TEST(CsvSink, TheText) {
     EXPECT_EQ(written(two_rows({.dimension = 3, .fields = {{"p"}, {"T"}}, .distances = true})),
               "x,y,z,cell,feature,p,T,distance\n"
               "1,2.5,-0,12,face,0.3,nan,0\n"
@@ -46,13 +46,13 @@ TEST(CsvSink, the_text) {
               "x,y,z,cell,feature,p\n");
 }
 
-TEST(CsvSink, names_are_quoted_where_they_must_be) {
+TEST(CsvSink, NamesAreQuotedWhereTheyMustBe) {
     const RowData data = random_rows(
         0, {.dimension = 2, .fields = {{"a b"}, {"a,b"}, {"a\"b"}, {"a\nb"}, {"a\rb"}, {""}, {"\xC3\xA4"}}}, 1);
     EXPECT_EQ(written(data), "x,y,cell,feature,a b,\"a,b\",\"a\"\"b\",\"a\nb\",\"a\rb\",,\xC3\xA4\n");
 }
 
-TEST(CsvSink, columns_of_one_name_are_refused) {
+TEST(CsvSink, ColumnsOfOneNameAreRefused) {
     const TemporaryFolder folder;
     for (const char* file : {"r.csv", "r.vtu", "r.npy"}) {
         const auto sink = open_table(folder / file, {.dimension = 2, .fields = {{"v", 2}, {"v.0"}}});
@@ -93,7 +93,7 @@ void expect_round_trip(const std::string& text, const RowData& data) {
     EXPECT_FALSE(std::getline(lines, line));
 }
 
-TEST(CsvSink, every_number_reads_back_to_the_same_bits) {
+TEST(CsvSink, EveryNumberReadsBackToTheSameBits) {
     // The longest row is 2 MB: then a piece is one row.
     std::vector<std::string> many;
     for (int i = 0; i < 80000; ++i) many.push_back("v" + std::to_string(i));
@@ -123,7 +123,7 @@ TEST(CsvSink, every_number_reads_back_to_the_same_bits) {
     }
 }
 
-TEST(CsvSink, the_standard_output) {
+TEST(CsvSink, TheStandardOutput) {
     const TemporaryFolder folder;
     const RowData data = random_rows(1000, {.dimension = 3, .fields = {{"p"}}}, 9);
     put(folder / "out", "before\n");

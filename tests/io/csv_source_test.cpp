@@ -16,7 +16,7 @@ void expect_points(const std::string& text, int dimension, const std::vector<dou
     }
 }
 
-TEST(CsvSource, separators) {
+TEST(CsvSource, Separators) {
     const std::vector<double> points{1, 2.5, -3, 4e2, .5, 6.};
     expect_points("1,2.5,-3\n4e2,.5,6.\n", 3, points);
     expect_points("1;2.5;-3\n4e2;.5;6.\n", 3, points);
@@ -24,14 +24,14 @@ TEST(CsvSource, separators) {
     expect_points("1 2.5 -3\n4e2 .5 6.\n", 3, points);
 }
 
-TEST(CsvSource, blanks_around_fields) {
+TEST(CsvSource, BlanksAroundFields) {
     expect_points(" 1 , 2.5\t,  -3 \n4e2,.5, +6.\t\n", 3, {1, 2.5, -3, 4e2, .5, 6});
     expect_points("   1    2   3   \n4  5  6\n", 3, {1, 2, 3, 4, 5, 6});
     expect_points("1 2 3\n4\t5\t\t6\n", 3, {1, 2, 3, 4, 5, 6});
     expect_points("1\t 2\t3 \n", 3, {1, 2, 3});
 }
 
-TEST(CsvSource, headers) {
+TEST(CsvSource, Headers) {
     expect_points("x,y,z\n1,2,3\n", 3, {1, 2, 3});
     expect_points("Z;name;X;Y\n1;a;2;3\n", 3, {2, 3, 1});
     expect_points("\"X\" \"Y\" \"Z\" \"a b\"\n1 2 3 \"4 5\"\n", 3, {1, 2, 3});
@@ -45,23 +45,23 @@ TEST(CsvSource, headers) {
     expect_points("x,y,z", 3, {});
 }
 
-TEST(CsvSource, two_dimensions_take_two_columns) {
+TEST(CsvSource, TwoDimensionsTakeTwoColumns) {
     expect_points("z,y,x\n0,2,3\n-0.0,4,5\n", 2, {3, 2, 5, 4});
     expect_points("name,y,x\na,2,3\n", 2, {3, 2});
     expect_points("1 2\n3 4\n", 2, {1, 2, 3, 4});
 }
 
-TEST(CsvSource, columns_that_are_passed_over_may_hold_anything) {
+TEST(CsvSource, ColumnsThatArePassedOverMayHoldAnything) {
     expect_points("x,y,z,name\n1,2,3,\"a, \"\"b\"\" # c\"\n4,5,6,\n7,8,9,5\" pipe\n", 3, {1, 2, 3, 4, 5, 6, 7, 8, 9});
     expect_points("x,y,z,t\n1,2,3,nan\n4,5,6,inf\n", 3, {1, 2, 3, 4, 5, 6});
     expect_points("a,x,y,z\n\"\",1,2,3\n\"\"\"\",4,5,6\n", 3, {1, 2, 3, 4, 5, 6});
 }
 
-TEST(CsvSource, quoted_numbers) {
+TEST(CsvSource, QuotedNumbers) {
     expect_points("\"1\",\" 2.5 \",\"-3\"\n\"4\" , 5,\"6\"\n", 3, {1, 2.5, -3, 4, 5, 6});
 }
 
-TEST(CsvSource, comments_blank_lines_and_line_ends) {
+TEST(CsvSource, CommentsBlankLinesAndLineEnds) {
     expect_points("# c, d\n\n  # e\nx,y,z\n\n# f\n1,2,3\n \t \n4,5,6\n#\n", 3, {1, 2, 3, 4, 5, 6});
     expect_points("x,y,z\r\n1,2,3\r\n\r\n4,5,6\r\n", 3, {1, 2, 3, 4, 5, 6});
     expect_points("1,2,3\r\n4,5,6\r", 3, {1, 2, 3, 4, 5, 6});
@@ -76,7 +76,7 @@ TEST(CsvSource, comments_blank_lines_and_line_ends) {
 }
 
 // What ends the last number needs not be a line end.
-TEST(CsvSource, last_lines_without_line_end) {
+TEST(CsvSource, LastLinesWithoutLineEnd) {
     expect_points("1,2,3\n4,5,6 ", 3, {1, 2, 3, 4, 5, 6});
     expect_points("1 2 3\n4 5 6\t", 3, {1, 2, 3, 4, 5, 6});
     expect_points("1,2,3\n4,5,\"6\"", 3, {1, 2, 3, 4, 5, 6});
@@ -87,7 +87,7 @@ TEST(CsvSource, last_lines_without_line_end) {
     expect_points("1,2,3\n  ", 3, {1, 2, 3});
 }
 
-TEST(CsvSource, the_same_numbers_as_strtod) {
+TEST(CsvSource, TheSameNumbersAsStrtod) {
     base::Random random(7);
     std::string text = "x,y\n";
     std::vector<double> expected;
@@ -119,7 +119,7 @@ TEST(CsvSource, the_same_numbers_as_strtod) {
     EXPECT_EQ(bits_of(*points), bits_of(expected));
 }
 
-TEST(CsvSource, lines_across_the_chunks_of_the_reader) {
+TEST(CsvSource, LinesAcrossTheChunksOfTheReader) {
     std::string text = "x,y,z,a\n";
     std::vector<double> expected;
     for (int i = 0; i < 200000; ++i) {
@@ -130,7 +130,7 @@ TEST(CsvSource, lines_across_the_chunks_of_the_reader) {
     expect_points(text, 3, expected);
 }
 
-TEST(CsvSource, reads_to_the_end_and_then_nothing) {
+TEST(CsvSource, ReadsToTheEndAndThenNothing) {
     const TemporaryFolder folder;
     put(folder / "p.CSV", "1,2\n3,4\n");
     const auto source = open_points(folder / "p.CSV", 2);

@@ -35,7 +35,7 @@ void expect_sane(const Result<std::vector<double>>& read, const std::string& byt
     ASSERT_LE(read.error().line, static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\n')) + 1);
 }
 
-TEST(Damage, samples_are_good) {
+TEST(Damage, SamplesAreGood) {
     for (const Sample& sample : samples()) {
         const Result<std::vector<double>> read = read_bytes(sample.name, sample.bytes, 3);
         ASSERT_TRUE(read) << sample.name << ": " << read.error().message();
@@ -43,7 +43,7 @@ TEST(Damage, samples_are_good) {
     }
 }
 
-TEST(Damage, a_file_cut_anywhere) {
+TEST(Damage, AFileCutAnywhere) {
     for (const Sample& sample : samples()) {
         const std::vector<double> whole = read_bytes(sample.name, sample.bytes, 3).value();
         for (std::size_t size = 0; size < sample.bytes.size(); ++size) {
@@ -70,7 +70,7 @@ TEST(Damage, a_file_cut_anywhere) {
     }
 }
 
-TEST(Damage, changed_bytes) {
+TEST(Damage, ChangedBytes) {
     constexpr std::string_view alphabet = "0123456789  \n\n\r\t,;+-.#\"'eExyz()[]{}\xFF\xEF";
     const std::vector<Sample> all = samples();
     const TemporaryFolder folder;
@@ -101,7 +101,7 @@ TEST(Damage, changed_bytes) {
     EXPECT_GT(refused, 500);
 }
 
-TEST(Damage, random_bytes) {
+TEST(Damage, RandomBytes) {
     const TemporaryFolder folder;
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {
         base::Random random(seed);

@@ -34,7 +34,7 @@ private:
 class Failures : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(, Failures, ::testing::Values("r.csv", "r.npy"));
 
-TEST_P(Failures, no_more_room) {
+TEST_P(Failures, NoMoreRoom) {
     const TemporaryFolder folder;
     put(folder / GetParam(), "old");
     const RowData data = random_rows(20000, one_column, 1);
@@ -61,7 +61,7 @@ TEST_P(Failures, no_more_room) {
     }
 }
 
-TEST_P(Failures, no_more_room_at_the_end) {
+TEST_P(Failures, NoMoreRoomAtTheEnd) {
     const TemporaryFolder folder;
     put(folder / GetParam(), "old");
     {
@@ -72,7 +72,7 @@ TEST_P(Failures, no_more_room_at_the_end) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
-TEST_P(Failures, no_folder) {
+TEST_P(Failures, NoFolder) {
     const TemporaryFolder folder;
     expect_error(
         open_table(folder / "none/" + GetParam(), one_column), GetParam(),
@@ -82,7 +82,7 @@ TEST_P(Failures, no_folder) {
                  {0, "cannot write the file", nullptr, "Is a directory", "name a file"});
 }
 
-TEST_P(Failures, no_permission) {
+TEST_P(Failures, NoPermission) {
     if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
     const TemporaryFolder folder;
     ASSERT_EQ(::chmod((folder / "").c_str(), 0500), 0);
@@ -92,7 +92,7 @@ TEST_P(Failures, no_permission) {
                  {0, "cannot make a file beside the target", nullptr, "Permission denied", "may write"});
 }
 
-TEST_P(Failures, nothing_without_a_commit) {
+TEST_P(Failures, NothingWithoutACommit) {
     const TemporaryFolder folder;
     put(folder / GetParam(), "old");
     {
@@ -105,7 +105,7 @@ TEST_P(Failures, nothing_without_a_commit) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
-TEST_P(Failures, rows_that_do_not_fit) {
+TEST_P(Failures, RowsThatDoNotFit) {
     const RowData data = random_rows(4, {.dimension = 3, .fields = {{"p"}}, .distances = true}, 1);
     const std::vector<Feature> degenerate(4, Feature::degenerate);
     for (int i = 0; i < 8; ++i) {
@@ -134,7 +134,7 @@ TEST_P(Failures, rows_that_do_not_fit) {
     }
 }
 
-TEST(FailuresOfDevices, a_full_device) {
+TEST(FailuresOfDevices, AFullDevice) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
     const TemporaryFolder folder;
     std::filesystem::create_symlink("/dev/full", folder / "full.csv");
@@ -144,7 +144,7 @@ TEST(FailuresOfDevices, a_full_device) {
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
 }
 
-TEST(FailuresOfDevices, a_reader_that_has_gone) {
+TEST(FailuresOfDevices, AReaderThatHasGone) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     ::close(ends[0]);

@@ -20,7 +20,7 @@ const char* const vtk_text =
     "# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\n"
     "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n";
 
-TEST(MeshFormat, first_bytes_count_more_than_suffixes) {
+TEST(MeshFormat, FirstBytesCountMoreThanSuffixes) {
     const TemporaryFolder folder;
     for (const char* name : {"a.msh", "a.vtk", "a.VTU", "a", "a.dat", "a.mesh", "a.node"}) {
         put(folder / name, msh_text);
@@ -34,7 +34,7 @@ TEST(MeshFormat, first_bytes_count_more_than_suffixes) {
     }
 }
 
-TEST(MeshFormat, stems_of_tetgen) {
+TEST(MeshFormat, StemsOfTetgen) {
     const TemporaryFolder folder;
     for (const char* stem : {"m", "m.1", "m.msh", "m.vtu", "m.inp"}) {
         put(folder / (std::string(stem) + ".node"), tetrahedron_node);
@@ -56,7 +56,7 @@ struct Other {
     const char* remedy;  ///< part of it
 };
 
-TEST(MeshFormat, files_that_are_not_read) {
+TEST(MeshFormat, FilesThatAreNotRead) {
     const std::string hdf5 = "\x89HDF\r\n\x1a\n and more";
     const std::vector<Other> others{
         {"a.cgns", hdf5, "a CGNS file", "pvpython"},
@@ -104,7 +104,7 @@ TEST(MeshFormat, files_that_are_not_read) {
     }
 }
 
-TEST(MeshFormat, files_that_meshio_reads) {
+TEST(MeshFormat, FilesThatMeshioReads) {
     const std::string hdf5 = "\x89HDF\r\n\x1a\n and more";
     const std::vector<Other> others{
         {"a.inp", "", "abaqus", ""},
@@ -133,7 +133,7 @@ TEST(MeshFormat, files_that_meshio_reads) {
     }
 }
 
-TEST(MeshFormat, packed_parts_of_a_mesh) {
+TEST(MeshFormat, PackedPartsOfAMesh) {
     const TemporaryFolder folder;
     put(folder / "a.node", "\x1f\x8b\x08");
     put(folder / "a.ele", "\x1f\x8b\x08");
@@ -146,7 +146,7 @@ TEST(MeshFormat, packed_parts_of_a_mesh) {
     EXPECT_NE(read_plc(folder / "p.poly").error().what.find("packed by gzip"), std::string::npos);
 }
 
-TEST(MeshFormat, what_is_not_there) {
+TEST(MeshFormat, WhatIsNotThere) {
     const TemporaryFolder folder;
     for (const char* name : {"a.msh", "a.vtu", "a.VTK"}) {
         const Error error = read_mesh(folder / name).error();
@@ -167,7 +167,7 @@ TEST(MeshFormat, what_is_not_there) {
     EXPECT_NE(read_mesh(folder / "bin").error().remedy.find("Chaste"), std::string::npos);
 }
 
-TEST(MeshFormat, write_by_suffix) {
+TEST(MeshFormat, WriteBySuffix) {
     const TemporaryFolder folder;
     put(folder / "a.msh", msh_text);
     const Mesh mesh = read_mesh(folder / "a.msh").value();

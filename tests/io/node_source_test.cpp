@@ -4,7 +4,7 @@
 namespace barycert::io::testing {
 namespace {
 
-TEST(NodeSource, accepted) {
+TEST(NodeSource, Accepted) {
     const std::vector<double> points{1, 2, 3, 4, 5, 6.5};
     for (const char* text :
          {"2 3 0 0\n0 1 2 3\n1 4 5 6.5\n", "2 3 0 0\n1 1 2 3\n2 4 5 6.5\n", "2\n1, 1, 2, 3\n2, 4, 5, 6.5\n",
@@ -20,13 +20,13 @@ TEST(NodeSource, accepted) {
     EXPECT_TRUE(read_bytes("p.node", "0 3 0 0\n", 3).value().empty());
 }
 
-TEST(NodeSource, tells_the_count) {
+TEST(NodeSource, TellsTheCount) {
     const TemporaryFolder folder;
     put(folder / "p.node", "2 3\n1 0 0 0\n2 1 1 1\n");
     EXPECT_EQ(open_points(folder / "p.node", 3).value()->count(), 2U);
 }
 
-TEST(NodeSource, refused) {
+TEST(NodeSource, Refused) {
     const auto refused = [](const std::string& text, int dimension, const Expected& expected) {
         SCOPED_TRACE(text);
         expect_error(read_bytes("p.node", text, dimension, 1), "/p.node", expected);
@@ -55,7 +55,7 @@ TEST(NodeSource, refused) {
     refused("2000000000 3 0 0\n1 0 0 0\n", 3, {3, "the file ends too early", nullptr, "1", nullptr});
 }
 
-TEST(NodeSource, the_points_of_real_meshes) {
+TEST(NodeSource, ThePointsOfRealMeshes) {
     int files = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(BARYCERT_DATA_DIR)) {
         if (entry.path().extension() != ".node") continue;

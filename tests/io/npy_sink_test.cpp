@@ -61,7 +61,7 @@ void expect_rows(const std::string& data, const RowData& rows) {
     }
 }
 
-TEST(NpySink, header_and_rows) {
+TEST(NpySink, HeaderAndRows) {
     const RowData data = random_rows(20000, {.dimension = 3, .fields = {{"p"}, {"T"}}, .distances = true}, 3);
     for (const std::size_t block : {std::size_t{1}, std::size_t{999}, std::size_t{100000}}) {
         const TemporaryFolder folder;
@@ -77,7 +77,7 @@ TEST(NpySink, header_and_rows) {
     }
 }
 
-TEST(NpySink, many_rows_at_once) {
+TEST(NpySink, ManyRowsAtOnce) {
     const TemporaryFolder folder;
     const RowData data = random_rows(200000, {.fields = {{"a"}, {"b"}}, .distances = true}, 8);
     ASSERT_TRUE(write_rows(folder / "many.npy", data, 200000));
@@ -87,7 +87,7 @@ TEST(NpySink, many_rows_at_once) {
     expect_rows(parts_of(bytes).data, data);
 }
 
-TEST(NpySink, two_dimensions_and_no_rows) {
+TEST(NpySink, TwoDimensionsAndNoRows) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_rows(folder / "r.npy", random_rows(0, {.dimension = 2}, 3), 1));
     const Parts parts = parts_of(get(folder / "r.npy"));
@@ -97,7 +97,7 @@ TEST(NpySink, two_dimensions_and_no_rows) {
     EXPECT_EQ(parts.data, "");
 }
 
-TEST(NpySink, versions) {
+TEST(NpySink, Versions) {
     const TemporaryFolder folder;
     std::vector<std::string> many;
     for (int i = 0; i < 5000; ++i) many.push_back("column" + std::to_string(i));
@@ -113,7 +113,7 @@ TEST(NpySink, versions) {
     EXPECT_NE(three.text.find("('\xC3\xA4', '<f8')"), std::string::npos);
 }
 
-TEST(NpySink, names) {
+TEST(NpySink, Names) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_rows(folder / "r.npy",
                            random_rows(3, {.dimension = 2, .fields = {{"it's"}, {"a\\b"}, {"a\nb"}, {"distance"}}}, 3),
@@ -143,7 +143,7 @@ TEST(NpySink, names) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
-TEST(NpySink, devices_are_refused) {
+TEST(NpySink, DevicesAreRefused) {
     const TemporaryFolder folder;
     std::filesystem::create_symlink("/dev/null", folder / "null.npy");
     expect_error(open_table(folder / "null.npy", {}), "/null.npy",

@@ -28,7 +28,7 @@ void expect_points(const std::string& bytes, const std::vector<double>& expected
     }
 }
 
-TEST(NpySource, types_orders_and_versions) {
+TEST(NpySource, TypesOrdersAndVersions) {
     for (const int version : {1, 2, 3}) {
         expect_points(npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(points), version), points);
         expect_points(npy_bytes(npy_dictionary(">f8", "(3, 3)"), as_bytes(points, true), version), points);
@@ -42,7 +42,7 @@ TEST(NpySource, types_orders_and_versions) {
     expect_points(npy_bytes(npy_dictionary("<f8", "(0, 3)"), ""), {});
 }
 
-TEST(NpySource, forms_of_the_header) {
+TEST(NpySource, FormsOfTheHeader) {
     const std::string data = as_bytes(points);
     for (const char* text : {"{'shape': (3, 3), 'fortran_order': False, 'descr': '<f8'}",
                              "{\"descr\":\"<f8\",\"fortran_order\":False,\"shape\":(3,3)}",
@@ -52,7 +52,7 @@ TEST(NpySource, forms_of_the_header) {
     }
 }
 
-TEST(NpySource, blocks_larger_than_the_buffer) {
+TEST(NpySource, BlocksLargerThanTheBuffer) {
     std::vector<double> many(300000);
     for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<double>(i) * 0.1;
     const std::string bytes = npy_bytes(npy_dictionary("<f8", "(100000, 3)"), as_bytes(many));
@@ -63,7 +63,7 @@ TEST(NpySource, blocks_larger_than_the_buffer) {
     EXPECT_EQ(bits_of(read_bytes("p.npy", fortran, 3, 70001).value()), bits_of(many));
 }
 
-TEST(NpySource, tells_the_count) {
+TEST(NpySource, TellsTheCount) {
     const TemporaryFolder folder;
     put(folder / "p.npy", npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(points)));
     EXPECT_EQ(open_points(folder / "p.npy", 3).value()->count(), 3U);
@@ -73,7 +73,7 @@ void expect_npy_refused(const std::string& bytes, int dimension, const Expected&
     expect_error(read_bytes("p.npy", bytes, dimension), "/p.npy", expected);
 }
 
-TEST(NpySource, types_that_are_refused) {
+TEST(NpySource, TypesThatAreRefused) {
     for (const char* type : {"|O", "=f8", "f8", "<f8x", "<i", "|O8"}) {
         SCOPED_TRACE(type);
         expect_npy_refused(npy_bytes(npy_dictionary(type, "(3, 3)"), as_bytes(points)), 3,
@@ -89,7 +89,7 @@ TEST(NpySource, types_that_are_refused) {
     }
 }
 
-TEST(NpySource, shapes_that_are_refused) {
+TEST(NpySource, ShapesThatAreRefused) {
     const auto shaped = [](const char* shape) { return npy_bytes(npy_dictionary("<f8", shape), as_bytes(points)); };
     const char* const what = "an array of another shape";
     expect_npy_refused(shaped("(9,)"), 3,
@@ -111,7 +111,7 @@ TEST(NpySource, shapes_that_are_refused) {
                        {0, "the file ends too early", nullptr, "72 bytes", nullptr});  // 24 n wraps round
 }
 
-TEST(NpySource, headers_that_are_refused) {
+TEST(NpySource, HeadersThatAreRefused) {
     const char* const what = "cannot read the header of the NPY file";
     expect_npy_refused("", 3, {0, what, nullptr, "nothing", "numpy.save"});
     expect_npy_refused("1,2,3\n4,5,6\n", 3, {0, what, "a file that begins with \\x93NUMPY", "\"1,2,3\\n\"", nullptr});
@@ -141,7 +141,7 @@ TEST(NpySource, headers_that_are_refused) {
     }
 }
 
-TEST(NpySource, points_that_are_not_finite) {
+TEST(NpySource, PointsThatAreNotFinite) {
     std::vector<double> bad = points;
     bad[5] = std::numeric_limits<double>::quiet_NaN();
     const Expected nan{0, "a point that is not finite", "finite coordinates", "nan at [1, 2]", "isfinite"};
@@ -152,7 +152,7 @@ TEST(NpySource, points_that_are_not_finite) {
                        {0, "a point that is not finite", nullptr, "-inf at [2, 1]", nullptr});
 }
 
-TEST(NpySource, files_that_cannot_be_opened) {
+TEST(NpySource, FilesThatCannotBeOpened) {
     const TemporaryFolder folder;
     expect_error(read_file(folder / "none.npy", 3), "/none.npy",
                  {0, "cannot read the file", nullptr, "No such file or directory", "check the path"});
@@ -164,7 +164,7 @@ TEST(NpySource, files_that_cannot_be_opened) {
                  {0, "cannot read the file", "a regular file", "a pipe or device", nullptr});
 }
 
-TEST(NpySource, a_file_that_shrinks_is_told) {
+TEST(NpySource, AFileThatShrinksIsTold) {
     const TemporaryFolder folder;
     put(folder / "p.npy", npy_bytes(npy_dictionary("<f8", "(3, 3)"), as_bytes(points)));
     const auto source = open_points(folder / "p.npy", 3);

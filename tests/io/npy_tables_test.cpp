@@ -23,7 +23,7 @@ void expect_refused(const std::string& bytes, int dimension, const PointOptions&
     expect_error(read_carried_bytes("p.npy", bytes, dimension, options), "/p.npy", expected);
 }
 
-TEST(NpyTables, fields_by_their_names) {
+TEST(NpyTables, FieldsByTheirNames) {
     const std::string bytes = npy_bytes(
         structured("[('id', '<i4'), ('Z', '<f4'), ('x', '<f8'), ('y', '|i1'), ('n', '|S3'), (('t', 'w'), '<U2')]",
                    "(2,)"),
@@ -55,7 +55,7 @@ TEST(NpyTables, fields_by_their_names) {
                    {0, "no such column", "\"h\"", "\"id\", \"Z\", \"x\", \"y\", \"n\", \"w\"", nullptr});
 }
 
-TEST(NpyTables, fields_of_several_values_and_holes) {
+TEST(NpyTables, FieldsOfSeveralValuesAndHoles) {
     const std::string bytes = npy_bytes(
         structured("[('p', '<f8', (2,)), ('', '|V2'), ('s', [('a', '<i2'), ('b', '>f4', (3,))]), ('k', '>u2', (1, 2))]",
                    "(1,)"),
@@ -75,7 +75,7 @@ TEST(NpyTables, fields_of_several_values_and_holes) {
                    {0, "the header does not name the coordinates", nullptr, nullptr, "options.columns p.0,p.1"});
 }
 
-TEST(NpyTables, integers_are_exact_or_refused) {
+TEST(NpyTables, IntegersAreExactOrRefused) {
     const auto plain = [](const char* type, const std::string& data) {
         return npy_bytes(npy_dictionary(type, "(1, 2)"), data);
     };
@@ -109,7 +109,7 @@ TEST(NpyTables, integers_are_exact_or_refused) {
                    {0, "row 0 of column \"n\"", "characters of Unicode", nullptr, nullptr});
 }
 
-TEST(NpyTables, columns_of_an_array_by_number) {
+TEST(NpyTables, ColumnsOfAnArrayByNumber) {
     const std::string rows = packed(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0), shape = "(2, 4)";
     const PointOptions options{.columns = {"2,3,4"}, .keep = {"id=column1"}};
     for (const bool fortran : {false, true}) {
@@ -125,7 +125,7 @@ TEST(NpyTables, columns_of_an_array_by_number) {
         {0, "an array of another shape", "(n, 3), for the mesh is 3-dimensional", "(2, 4)", "options.columns 1,2,3"});
 }
 
-TEST(NpyTables, types_that_are_no_table) {
+TEST(NpyTables, TypesThatAreNoTable) {
     for (const char* fields :
          {"[('x', '<f8'), ('y', '|O')]", "[('x', '<f8'), ('y', '<f8', (-1,))]", "[('x', '<f8'), 'y']",
           "[('x', '<f8'), ('y', '<f8', (4294967296, 4294967296, 4294967296))]", "[('x',), ('y',)]",
@@ -150,7 +150,7 @@ TEST(NpyTables, types_that_are_no_table) {
         read_carried_bytes("p.npy", npy_bytes(structured(good, "(0,)"), ""), 2, as_it_is).value().points.empty());
 }
 
-TEST(NpyTables, names_with_escapes_and_other_letters) {
+TEST(NpyTables, NamesWithEscapesAndOtherLetters) {
     const std::string fields = R"([('x', '<f8'), ("y", '<f8'), ('it\'s', '<f8'), ('a\nb\\\x41\u20ac', '<f8')])";
     Result<CarriedPoints> read =
         read_carried_bytes("p.npy", npy_bytes(structured(fields, "(1,)"), packed(1.0, 2.0, 3.0, 4.0)), 2, all);
@@ -170,7 +170,7 @@ TEST(NpyTables, names_with_escapes_and_other_letters) {
 }
 
 /// Cut and flipped at every byte: an error, or points and columns of as many values.
-TEST(NpyTables, damage_at_every_byte) {
+TEST(NpyTables, DamageAtEveryByte) {
     const std::string bytes = npy_bytes(
         structured("[('x', '<f8'), ('n', '<U2'), ('y', '>i2', (1,)), ('', '|V1'), ('y', '<f4'), ('s', '|S3')]", "(2,)"),
         packed(1.0, U'a', U'b') + "\x01\x02v" + packed(0.5F) + "abc" + packed(2.0, U'c', U'd') + "\x03\x04w" +

@@ -67,7 +67,7 @@ assert z['indptr'].dtype == 'i4' and (z['indptr'] == indptr).all()
 assert z['cell'].dtype == 'i8' and (z['cell'] == cells).all()
 )";
 
-TEST(NpzWeights, are_what_numpy_reads) {
+TEST(NpzWeights, AreWhatNumpyReads) {
     const std::string python = python_with("numpy");
     if (python.empty()) GTEST_SKIP() << "python3 has no numpy";
     for (const std::size_t rows : {0, 1, 100000}) {
@@ -78,7 +78,7 @@ TEST(NpzWeights, are_what_numpy_reads) {
     }
 }
 
-TEST(NpzWeights, are_what_scipy_reads) {
+TEST(NpzWeights, AreWhatScipyReads) {
     const std::string python = python_with("scipy.sparse");
     if (python.empty()) GTEST_SKIP() << "python3 has no scipy";
     for (const std::size_t rows : {0, 1, 3000}) {
@@ -98,7 +98,7 @@ assert (W != M.tocsr()).nnz == 0
 
 // Sizes beyond 4 GiB, and more entries than 32 bits count, stand in other fields; no test writes so much. What is asked
 // of the headers of small files is that a strict reader takes them.
-TEST(NpzWeights, are_a_zip_archive) {
+TEST(NpzWeights, AreAZipArchive) {
     const TemporaryFolder folder;
     write_weights(folder, 10, 1000);
     const std::string bytes = get(folder / "w.npz");
@@ -109,7 +109,7 @@ TEST(NpzWeights, are_a_zip_archive) {
     EXPECT_EQ(get(again / "w.npz"), bytes) << "no dates, no names of users";
 }
 
-TEST(NpzWeights, appear_whole_or_not_at_all) {
+TEST(NpzWeights, AppearWholeOrNotAtAll) {
     const TemporaryFolder folder;
     {
         auto file = WeightsFile::open(folder / "w.npz", 10);

@@ -23,7 +23,7 @@ bool python(const TemporaryFolder& folder, const std::string& script) {
     return std::system(("cd '" + folder / "." + "' && " + python_with_numpy() + " script.py").c_str()) == 0;
 }
 
-TEST(NumPy, reads_what_is_written) {
+TEST(NumPy, ReadsWhatIsWritten) {
     if (python_with_numpy().empty()) GTEST_SKIP() << "no python3 with numpy";
     const TemporaryFolder folder;
     const RowData data =
@@ -51,7 +51,7 @@ assert b''.join(f + b'\n' for f in a['feature']) == open('features', 'rb').read(
 )"));
 }
 
-TEST(NumPy, writes_what_is_read) {
+TEST(NumPy, WritesWhatIsRead) {
     if (python_with_numpy().empty()) GTEST_SKIP() << "no python3 with numpy";
     const TemporaryFolder folder;
     const std::vector<double> points = random_rows(3000, {.dimension = 3}, 22).points;
@@ -96,7 +96,7 @@ np.savetxt('blanks.csv', a)
     EXPECT_EQ(bits_of(read_file(folder / "blanks.csv", 3, 1000).value()), bits_of(points));
 }
 
-TEST(NumPy, columns_are_carried_through_as_they_are) {
+TEST(NumPy, ColumnsAreCarriedThroughAsTheyAre) {
     if (python_with_numpy().empty()) GTEST_SKIP() << "no python3 with numpy";
     const TemporaryFolder folder;
     ASSERT_TRUE(python(folder, R"(

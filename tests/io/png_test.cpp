@@ -96,7 +96,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-TEST(ColourMap, is_the_curve_that_it_says) {
+TEST(ColourMap, IsTheCurveThatItSays) {
     const auto curve = [](double t) {
         const double hue = (305 + (108 - 305) * t) * std::numbers::pi / 180;
         const double chroma = 0.12 * (1 - t) * (1 - 2 * t) + 0.10 * 4 * t * (1 - t) + 0.17 * t * (2 * t - 1);
@@ -140,7 +140,7 @@ double rounding_of(const io::Colour& c) {
 
 /// What the map is for. The distance of colours 16 steps apart is the same everywhere, but for their rounding and for
 /// the chord being shorter than the curve: its hue turns by 12.4 degrees, which makes at most 0.2 % (angle^2 / 24).
-TEST(ColourMap, equal_steps_and_ever_lighter) {
+TEST(ColourMap, EqualStepsAndEverLighter) {
     double min = 1, max = 0;
     for (int i = 0; i + 16 < io::colour_count; ++i) {
         const double apart = distance(oklab(io::colour(i)), oklab(io::colour(i + 16)));
@@ -153,7 +153,7 @@ TEST(ColourMap, equal_steps_and_ever_lighter) {
     for (int i = 1; i < io::colour_count; ++i) EXPECT_GT(oklab(io::colour(i))[0], oklab(io::colour(i - 1))[0]) << i;
 }
 
-TEST(Png, every_pixel_is_the_colour_of_its_value) {
+TEST(Png, EveryPixelIsTheColourOfItsValue) {
     // 3 by 2, the first line at the bottom.
     const std::vector<double> values{0, 1, 2, 255, 254.5, 256};
     SliceCounts counts;
@@ -172,7 +172,7 @@ TEST(Png, every_pixel_is_the_colour_of_its_value) {
     EXPECT_EQ(counts.below + counts.above + counts.not_finite + counts.outside, 0U);
 }
 
-TEST(Png, a_range_that_is_given) {
+TEST(Png, ARangeThatIsGiven) {
     const std::vector<double> values{-1, 0, std::nextafter(1.0, 0), 1, 1.5, nan};
     SliceCounts counts;
     const Picture p = drawn({.width = 6, .height = 1, .values = values, .range = {{0.0, 1.0}}}, &counts);
@@ -185,7 +185,7 @@ TEST(Png, a_range_that_is_given) {
     EXPECT_EQ(counts.not_finite, 1U);
 }
 
-TEST(Png, outside_and_not_finite_are_transparent) {
+TEST(Png, OutsideAndNotFiniteAreTransparent) {
     const std::vector<double> values{1e300, 3, inf, -inf, nan, 4, 5};
     const std::vector<std::uint8_t> valid{0, 1, 1, 1, 1, 1, 1};
     SliceCounts counts;
@@ -200,7 +200,7 @@ TEST(Png, outside_and_not_finite_are_transparent) {
     EXPECT_EQ(counts.high, 5);
 }
 
-TEST(Png, one_value_has_the_colour_in_the_middle) {
+TEST(Png, OneValueHasTheColourInTheMiddle) {
     for (const double x : {0.0, -0.0, 1.0, -7e300, 5e-324}) {
         const std::vector<double> values{x, x};
         const Picture p = drawn({.width = 1, .height = 2, .values = values});
@@ -214,7 +214,7 @@ TEST(Png, one_value_has_the_colour_in_the_middle) {
     EXPECT_EQ(p.at(2, 0), colour_of(255));
 }
 
-TEST(Png, any_magnitude) {
+TEST(Png, AnyMagnitude) {
     constexpr double max = std::numeric_limits<double>::max();
     const std::vector<double> large{-max, 0, max, -max / 2};
     Picture p = drawn({.width = 4, .height = 1, .values = large});
@@ -229,7 +229,7 @@ TEST(Png, any_magnitude) {
     EXPECT_EQ(p.at(2, 0), colour_of(255));
 }
 
-TEST(Png, all_nan) {
+TEST(Png, AllNan) {
     const TemporaryFolder folder;
     const std::vector<double> values(35, nan);
     SliceCounts counts;
@@ -242,7 +242,7 @@ TEST(Png, all_nan) {
     EXPECT_TRUE(std::isnan(counts.low) && std::isnan(counts.high));
 }
 
-TEST(Png, sizes) {
+TEST(Png, Sizes) {
     for (const auto& [width, height] : std::vector<std::pair<std::size_t, std::size_t>>{
              {1, 1}, {1, 1000}, {1000, 1}, {2, 3}, {640, 480}, {4096, 4096}, {1000000, 1}, {1, 1000000}}) {
         SCOPED_TRACE(std::to_string(width) + " by " + std::to_string(height));
@@ -265,7 +265,7 @@ TEST(Png, sizes) {
     }
 }
 
-TEST(Png, the_shape_of_the_plane) {
+TEST(Png, TheShapeOfThePlane) {
     const std::vector<double> values{0, 1, 2, 3, 4, 256};
     Picture p = drawn({.width = 3, .height = 2, .values = values, .aspect = 2});
     ASSERT_EQ(p.width, 6U);
@@ -285,7 +285,7 @@ TEST(Png, the_shape_of_the_plane) {
     for (std::size_t x = 0; x < 4; ++x) EXPECT_EQ(p.at(x, 1), colour_of(shown[x]));
 }
 
-TEST(Png, the_bar_stands_beside_the_slice) {
+TEST(Png, TheBarStandsBesideTheSlice) {
     const TemporaryFolder folder;
     std::vector<double> values(40 * 30);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i % 97);
@@ -324,7 +324,7 @@ std::vector<std::string> panel(double low, double high, std::size_t height) {
     return rows;
 }
 
-TEST(Png, numbers_at_the_bar) {
+TEST(Png, NumbersAtTheBar) {
     const std::vector<std::string> rows = panel(-1.5, 10, 25);
     const std::vector<std::string> high{
         "  #    ###              ", " ##   #   #             ", "# #   #   #             ", "  #   #   #             ",
@@ -351,7 +351,7 @@ TEST(Png, numbers_at_the_bar) {
     for (std::size_t r = 11; r < 25; ++r) EXPECT_EQ(one[r].find('#'), std::string::npos);
 }
 
-TEST(Png, round_numbers_between_the_ends_of_the_bar) {
+TEST(Png, RoundNumbersBetweenTheEndsOfTheBar) {
     // The rows of marks beside the bar, and the numbers there: -1.5 to 10 over 192 pixels.
     const auto marks = [](double low, double high, std::size_t height) {
         std::vector<std::size_t> rows;
@@ -375,7 +375,7 @@ TEST(Png, round_numbers_between_the_ends_of_the_bar) {
     }
 }
 
-TEST(Png, errors) {
+TEST(Png, Errors) {
     const TemporaryFolder folder;
     const std::vector<double> values(6);
     const std::vector<std::uint8_t> valid(5);
@@ -419,7 +419,7 @@ TEST(Png, errors) {
               "make the folder first, or name another one");
 }
 
-TEST(Png, a_full_disk_leaves_the_target) {
+TEST(Png, AFullDiskLeavesTheTarget) {
     const TemporaryFolder folder;
     testing::put(folder / "s.png", "old");
     std::vector<double> values(1000000);
@@ -447,7 +447,7 @@ TEST(Png, a_full_disk_leaves_the_target) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
-TEST(indexed_png, every_pixel_is_its_colour) {
+TEST(IndexedPng, EveryPixelIsItsColour) {
     const std::vector<Colour> colours{{1, 2, 3}, {255, 255, 255}, {0, 114, 178}, {32, 32, 32}};
     for (const std::size_t width : {1U, 3U, 16U}) {
         std::vector<std::uint8_t> pixels;

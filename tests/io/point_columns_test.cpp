@@ -18,7 +18,7 @@ void expect_refused(const std::string& name, const std::string& bytes, int dimen
     expect_error(read_carried_bytes(name, bytes, dimension, options), "/" + name, expected);
 }
 
-TEST(PointColumns, without_names_nothing_is_guessed) {
+TEST(PointColumns, WithoutNamesNothingIsGuessed) {
     const char* const what = "it is not clear which columns are the coordinates";
     expect_refused("p.csv", "1,2,3,4\n", 3, none,
                    {1, what, "3 columns, or names for them", "4 columns without names",
@@ -34,7 +34,7 @@ TEST(PointColumns, without_names_nothing_is_guessed) {
     EXPECT_EQ(points_of("1;2;3; ;\n4;5;6;;\"\"\n", 3, none), (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }
 
-TEST(PointColumns, by_number_and_by_name) {
+TEST(PointColumns, ByNumberAndByName) {
     EXPECT_EQ(points_of("1,2,3,4\n", 3, {.columns = {"2,3,4"}}), (std::vector<double>{2, 3, 4}));
     EXPECT_EQ(points_of("1,2,3,4\n", 3, {.columns = {"4", "1", "2"}}), (std::vector<double>{4, 1, 2}));
     EXPECT_EQ(points_of("1,2,3,x\n", 3, {.columns = {"1,2,3"}}), (std::vector<double>{1, 2, 3}));
@@ -64,7 +64,7 @@ TEST(PointColumns, by_number_and_by_name) {
     expect_refused("p.csv", "1,2,a,4\n", 3, {.columns = {"2,3,4"}}, {1, "bad coordinate y", nullptr, "\"a\"", nullptr});
 }
 
-TEST(PointColumns, in_the_plane_z_is_zero_or_left_out) {
+TEST(PointColumns, InThePlaneZIsZeroOrLeftOut) {
     Result<CarriedPoints> read =
         read_carried_bytes("p.csv", "x,y,z\n1,2,0\n3,4,-0.0\n", 2, {.columns = {}, .keep = {}});
     ASSERT_TRUE(read) << read.error().message();
@@ -77,7 +77,7 @@ TEST(PointColumns, in_the_plane_z_is_zero_or_left_out) {
     expect_refused("p.csv", "x,y,z\n1,2,a\n", 2, none, {2, "bad coordinate z", nullptr, nullptr, nullptr});
 }
 
-TEST(PointColumns, columns_are_carried_through_as_they_stand) {
+TEST(PointColumns, ColumnsAreCarriedThroughAsTheyStand) {
     const std::string text =
         "id,x,name,y,z,t\n007,1,\"a, \"\"b\"\" \",2,3,1.50\n-0,4,,5,6,\n9, 7 , c d ,8,9,1e400\n\n# c\n12,1,#,2,3,nan\n";
     for (const std::size_t block : {std::size_t{1}, std::size_t{2}, std::size_t{100}}) {
@@ -106,7 +106,7 @@ TEST(PointColumns, columns_are_carried_through_as_they_stand) {
               "guessed: there is no header: the first line is a point\n");
 }
 
-TEST(PointColumns, columns_that_cannot_be_kept) {
+TEST(PointColumns, ColumnsThatCannotBeKept) {
     const std::string text = "x,y,n,\"a,b\"\n1,2,3,4\n";
     const auto refused = [&](std::vector<std::string> keep, const Expected& expected) {
         expect_refused("p.csv", text, 2, {.columns = {}, .keep = std::move(keep)}, expected);
@@ -122,7 +122,7 @@ TEST(PointColumns, columns_that_cannot_be_kept) {
     refused({"n", "n=a,b"}, {1, "two columns to keep have the same name", nullptr, "\"n\"", "NEW=NAME"});
 }
 
-TEST(PointColumns, types_are_those_of_all_values) {
+TEST(PointColumns, TypesAreThoseOfAllValues) {
     const auto types = [](const std::string& values) {
         std::string text = "x,y,c\n";
         for (std::size_t begin = 0; begin <= values.size();) {
@@ -164,7 +164,7 @@ TEST(PointColumns, types_are_those_of_all_values) {
 }
 
 // Who prints a double with 17 digits or more means that double; other digits are lost, and that is told.
-TEST(PointColumns, decimals_that_no_double_holds_are_told) {
+TEST(PointColumns, DecimalsThatNoDoubleHoldsAreTold) {
     const TemporaryFolder folder;
     const auto told = [&](const std::string& value) {
         put(folder / "p.csv", "x,y,c\n1,2,0.5\n1,2," + value + "\n");
@@ -187,7 +187,7 @@ TEST(PointColumns, decimals_that_no_double_holds_are_told) {
     EXPECT_EQ(told("1e-400"), "numbers of column c that are too small for a double to 0");
 }
 
-TEST(PointColumns, a_type_that_shows_late_is_that_of_all) {
+TEST(PointColumns, ATypeThatShowsLateIsThatOfAll) {
     std::string text = "x,y,c\n";
     for (int i = 0; i < 100000; ++i) text += "1,2," + std::to_string(i) + "\n";
     text += "1,2,a\n";
@@ -204,7 +204,7 @@ TEST(PointColumns, a_type_that_shows_late_is_that_of_all) {
     expect_error(bad, "p.csv", {100003, "bad coordinate y", nullptr, "\"b\"", nullptr});
 }
 
-TEST(PointColumns, values_that_the_end_may_have_cut) {
+TEST(PointColumns, ValuesThatTheEndMayHaveCut) {
     const Expected cut{2, "the last row has no line end, so the file may be cut short", "a line end",
                        "the end of the file", "end the last line"};
     for (const bool typed : {false, true}) {
@@ -221,12 +221,12 @@ TEST(PointColumns, values_that_the_end_may_have_cut) {
     }
 }
 
-TEST(PointColumns, pipes_cannot_be_read_twice) {
+TEST(PointColumns, PipesCannotBeReadTwice) {
     expect_error(open_points("-", 3, {.columns = {}, .keep = {"all"}, .typed = true}), "standard input",
                  {0, "the types of columns cannot be found in a stream", nullptr, nullptr, "write CSV"});
 }
 
-TEST(PointColumns, of_node_files) {
+TEST(PointColumns, OfNodeFiles) {
     const std::string text = "2 3 2 1\n1 1 2 0 7 0.5 3\n2 4 5 0 8 0.25 -4\n";
     Result<CarriedPoints> read = read_carried_bytes("p.node", text, 3, {.columns = {}, .keep = {"all"}});
     ASSERT_TRUE(read) << read.error().message();
@@ -247,7 +247,7 @@ TEST(PointColumns, of_node_files) {
                    {0, "no such column", "\"3\"", "\"x\", \"y\"", nullptr});
 }
 
-TEST(PointColumns, of_meshes) {
+TEST(PointColumns, OfMeshes) {
     const TemporaryFolder folder;
     put(folder / "m.node", "4 3 1 1\n0 0 0 0 1 5\n1 1 0 0 2 6\n2 0 1 0 3 7\n3 0 0 1 4 8\n");
     put(folder / "m.ele", "1 4\n0 0 1 2 3\n");

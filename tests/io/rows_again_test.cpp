@@ -43,7 +43,7 @@ Status write_carried(const std::string& path, RowData data, std::vector<Column>&
     return (*sink)->commit();
 }
 
-TEST(RowsAgain, every_column_has_the_same_values) {
+TEST(RowsAgain, EveryColumnHasTheSameValues) {
     base::Random random(17);
     for (const std::string name : {"r.csv", "r.npy"}) {
         for (const int dimension : {2, 3}) {
@@ -85,7 +85,7 @@ TEST(RowsAgain, every_column_has_the_same_values) {
     }
 }
 
-TEST(RowsAgain, the_text_of_carried_columns) {
+TEST(RowsAgain, TheTextOfCarriedColumns) {
     RowData data = random_rows(3, {.dimension = 2}, 1);
     data.points = {1, 2, 3, 4, 5, 6};
     data.cells = {0, -1, 2};
@@ -100,7 +100,7 @@ TEST(RowsAgain, the_text_of_carried_columns) {
               "3,4,-1,outside,\"x, \"\"y\"\"\",0,nan\n5,6,2,face,\" c\",7,-0\n");
 }
 
-TEST(RowsAgain, long_texts) {
+TEST(RowsAgain, LongTexts) {
     RowData data = random_rows(40, {.dimension = 2}, 1);
     std::vector<std::string> texts;
     for (std::size_t i = 0; i < 40; ++i) texts.emplace_back(i * 3000, i % 2 == 0 ? '"' : 'a');
@@ -114,7 +114,7 @@ TEST(RowsAgain, long_texts) {
     }
 }
 
-TEST(RowsAgain, columns_that_do_not_fit_are_refused) {
+TEST(RowsAgain, ColumnsThatDoNotFitAreRefused) {
     const TemporaryFolder folder;
     const RowData data = random_rows(2, {.dimension = 2}, 1);
     for (const char* name : {"r.csv", "r.npy"}) {

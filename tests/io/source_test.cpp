@@ -5,7 +5,7 @@
 namespace barycert::io::testing {
 namespace {
 
-TEST(Formats, by_suffix) {
+TEST(Formats, BySuffix) {
     EXPECT_EQ(io::format_of("-").value(), io::FileFormat::csv);
     EXPECT_EQ(io::format_of("a/b.c.csv").value(), io::FileFormat::csv);
     EXPECT_EQ(io::format_of("B.NPY").value(), io::FileFormat::npy);
@@ -21,7 +21,7 @@ TEST(Formats, by_suffix) {
     EXPECT_FALSE(io::format_of("csv"));
 }
 
-TEST(Formats, sources) {
+TEST(Formats, Sources) {
     expect_error(open_points("p.vtu", 3), "p.vtu",
                  {0, "cannot read the file", nullptr, "No such file or directory", nullptr});
     expect_error(open_points("p.txt", 3), "p.txt",
@@ -33,7 +33,7 @@ TEST(Formats, sources) {
     expect_error(open_points("p.csv", 4), "p.csv", {0, "points can have 2 or 3 coordinates", "2 or 3", "4", nullptr});
 }
 
-TEST(Formats, sinks) {
+TEST(Formats, Sinks) {
     expect_error(open_table("p.node", {}), "p.node",
                  {0, "cannot write rows in the format of that suffix",
                   ".csv, .npy or .vtu, or - for CSV on the standard output", "a format for points alone", nullptr});
@@ -43,7 +43,7 @@ TEST(Formats, sinks) {
                  {0, "points of rows can have 2 or 3 coordinates", "2 or 3", "1", nullptr});
 }
 
-TEST(MemorySource, gives_the_points) {
+TEST(MemorySource, GivesThePoints) {
     const auto source = memory_points({1, 2, 3, 4, 5, 6, 7}, 2);
     EXPECT_EQ(source->dimension(), 2);
     EXPECT_EQ(source->count(), 3U);

@@ -53,7 +53,7 @@ void expect_flat(PointSource& source, std::size_t count) {
     std::printf("    %.0f ns a point\n", seconds_since(start) / static_cast<double>(count) * 1e9);
 }
 
-TEST(Streams, the_standard_input_is_a_pipe) {
+TEST(Streams, TheStandardInputIsAPipe) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     const Redirected in(STDIN_FILENO, ends[0]);
@@ -68,7 +68,7 @@ TEST(Streams, the_standard_input_is_a_pipe) {
     EXPECT_EQ(*points, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
-TEST(Streams, a_point_is_given_before_the_next_has_come) {
+TEST(Streams, APointIsGivenBeforeTheNextHasCome) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     const Redirected in(STDIN_FILENO, ends[0]);
@@ -92,7 +92,7 @@ TEST(Streams, a_point_is_given_before_the_next_has_come) {
     EXPECT_EQ(points, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
 }
 
-TEST(Streams, errors_of_the_standard_input_have_lines) {
+TEST(Streams, ErrorsOfTheStandardInputHaveLines) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     const Redirected in(STDIN_FILENO, ends[0]);
@@ -101,7 +101,7 @@ TEST(Streams, errors_of_the_standard_input_have_lines) {
     expect_error(read_file("-", 3), "standard input", {2, "bad coordinate z", "a number", "\"c\"", nullptr});
 }
 
-TEST(Streams, a_number_cut_on_the_standard_input) {
+TEST(Streams, ANumberCutOnTheStandardInput) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     const Redirected in(STDIN_FILENO, ends[0]);
@@ -111,7 +111,7 @@ TEST(Streams, a_number_cut_on_the_standard_input) {
                  {2, "the last row has no line end, so the file may be cut short", "a line end", nullptr, nullptr});
 }
 
-TEST(Streams, five_million_points_of_a_pipe) {
+TEST(Streams, FiveMillionPointsOfAPipe) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     const Redirected in(STDIN_FILENO, ends[0]);
@@ -134,7 +134,7 @@ TEST(Streams, five_million_points_of_a_pipe) {
     writer.join();
 }
 
-TEST(Streams, five_million_points_of_npy) {
+TEST(Streams, FiveMillionPointsOfNpy) {
     const TemporaryFolder folder;
     for (const bool fortran : {false, true}) {
         const std::string head = npy_bytes(npy_dictionary("<f8", "(5000000, 3)", fortran), "");
@@ -146,7 +146,7 @@ TEST(Streams, five_million_points_of_npy) {
     }
 }
 
-TEST(Streams, five_million_points_of_node) {
+TEST(Streams, FiveMillionPointsOfNode) {
     const TemporaryFolder folder;
     {
         std::ofstream out(folder / "p.node", std::ios::binary);
@@ -165,7 +165,7 @@ TEST(Streams, five_million_points_of_node) {
     expect_flat(**source, many);
 }
 
-TEST(Streams, rows_out) {
+TEST(Streams, RowsOut) {
     const RowData data = random_rows(100000, {.dimension = 3, .fields = {{"p"}}}, 31);
     RowData plain = data;  // numbers as they come from sampling, not of all magnitudes
     base::Random random(5);

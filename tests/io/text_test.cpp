@@ -27,13 +27,13 @@ Rows drawn(std::string_view text, std::size_t scale) {
     return rows;
 }
 
-TEST(Text, every_printable_character_has_a_shape_of_its_own) {
+TEST(Text, EveryPrintableCharacterHasAShapeOfItsOwn) {
     std::set<Rows> shapes;
     for (char c = ' '; c <= '~'; ++c) EXPECT_TRUE(shapes.insert(drawn(std::string(1, c), 1)).second) << c;
     EXPECT_TRUE(shapes.insert(drawn("\n", 1)).second) << "what is not printable is a box";
 }
 
-TEST(Text, is_read) {
+TEST(Text, IsRead) {
     EXPECT_EQ(drawn("T=1", 1), (Rows{"#####         #  ", "  #          ##  ", "  #   ##### # #  ", "  #           #  ",
                                      "  #   #####   #  ", "  #           #  ", "  #         #####"}));
     // Scaled up: each dot a square.
@@ -48,7 +48,7 @@ TEST(Text, is_read) {
     EXPECT_EQ(text_width(0), 0U);
 }
 
-TEST(Caption, round_lengths) {
+TEST(Caption, RoundLengths) {
     for (const auto& [limit, length] : std::vector<std::pair<double, double>>{{1, 1},
                                                                               {0.99, 0.5},
                                                                               {1.99, 1},
@@ -68,7 +68,7 @@ TEST(Caption, round_lengths) {
         EXPECT_EQ(round_length(limit), length) << limit;
 }
 
-TEST(Caption, a_title_and_a_scale_of_lengths) {
+TEST(Caption, ATitleAndAScaleOfLengths) {
     const Caption both("T", 0.01, 100, 130, 1), none("", 0, 100, 130, 1);
     EXPECT_EQ(none.height(), 0U);
     EXPECT_EQ(Caption("T", 0, 100, 130, 1).height(), 15U);
@@ -89,7 +89,7 @@ TEST(Caption, a_title_and_a_scale_of_lengths) {
     EXPECT_EQ(rows[14].find('#'), std::string::npos) << "white between the lines";
 }
 
-TEST(Caption, what_has_no_place_is_cut_or_left_out) {
+TEST(Caption, WhatHasNoPlaceIsCutOrLeftOut) {
     const Caption narrow("a long title", 1, 20, 20, 1);
     std::vector<std::uint8_t> pixels(4 * 20, 0);
     EXPECT_EQ(narrow.height(), 15U) << "no scale";

@@ -87,7 +87,7 @@ Both both(SampleJob job, const TemporaryFolder& folder) {
     return result;
 }
 
-TEST(FewPoints, same_bytes_as_with_an_index) {
+TEST(FewPoints, SameBytesAsWithAnIndex) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_tetgen(cube(), folder / "cube"));
     put_points(folder / "few.csv", points(), 1);
@@ -132,7 +132,7 @@ TEST(FewPoints, same_bytes_as_with_an_index) {
     }
 }
 
-TEST(FewPoints, the_summary_names_the_way) {
+TEST(FewPoints, TheSummaryNamesTheWay) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_tetgen(cube(), folder / "cube"));
     put(folder / "p.csv", "0.5,0.5,0.5\n");
@@ -152,7 +152,7 @@ TEST(FewPoints, the_summary_names_the_way) {
     EXPECT_EQ(none.rows, "x,y,z,cell,feature,attribute1\n");
 }
 
-TEST(FewPoints, where_most_cells_may_hold_a_point_there_is_an_index) {
+TEST(FewPoints, WhereMostCellsMayHoldAPointThereIsAnIndex) {
     const TemporaryFolder folder;
     Mesh mesh = cube();
     // All cells in one bin, but for a node far away.

@@ -122,7 +122,7 @@ protected:
 
 std::unique_ptr<TemporaryFolder> Stream::folder_;
 
-TEST_F(Stream, law_rows_do_not_depend_on_threads_or_blocks) {
+TEST_F(Stream, LawRowsDoNotDependOnThreadsOrBlocks) {
     const How how{.count = 700'000, .low = -0.1, .outside = {}, .threads = 1};
     SampleReport first;
     const auto [rows, error] = go(how, &first);
@@ -156,7 +156,7 @@ TEST_F(Stream, law_rows_do_not_depend_on_threads_or_blocks) {
     }
 }
 
-TEST_F(Stream, few_points_and_none) {
+TEST_F(Stream, FewPointsAndNone) {
     for (const std::uint64_t count : {0, 1, 2, 16383, 16384, 16385, 32768}) {
         for (const bool known : {true, false}) {
             const auto [rows, error] = go({.count = count, .known = known});
@@ -167,7 +167,7 @@ TEST_F(Stream, few_points_and_none) {
     }
 }
 
-TEST_F(Stream, the_first_error_in_the_order_of_points_is_told) {
+TEST_F(Stream, TheFirstErrorInTheOrderOfPointsIsTold) {
     for (const int threads : {1, 2, 8}) {
         for (const std::uint64_t at : {0, 1, 20'000, 50'000, 99'999}) {
             const auto [rows, error] = go({.source_fault = at, .threads = threads});
@@ -199,7 +199,7 @@ TEST_F(Stream, the_first_error_in_the_order_of_points_is_told) {
     }
 }
 
-TEST_F(Stream, progress_counts_upwards_and_may_do_what_it_wants_to_its_thread) {
+TEST_F(Stream, ProgressCountsUpwardsAndMayDoWhatItWantsToItsThread) {
     std::uint64_t last = 0, calls = 0;
     const auto count = [&](const JobProgress& p) {
         if (p.stage != "points") return;
@@ -218,7 +218,7 @@ TEST_F(Stream, progress_counts_upwards_and_may_do_what_it_wants_to_its_thread) {
 }
 
 /// As pipes and parsers do.
-TEST_F(Stream, what_a_stage_throws_reaches_the_caller) {
+TEST_F(Stream, WhatAStageThrowsReachesTheCaller) {
     const auto thrower = [](const JobProgress& p) {
         if (p.stage == "points") throw std::runtime_error("enough");
     };

@@ -42,7 +42,7 @@ protected:
 };
 
 // Products of numbers so small are rounded to multiples of 2^-1074, which the bounds of the filter leave out.
-TEST_P(CellSigns, of_points_in_the_planes_of_tiny_cells) {
+TEST_P(CellSigns, OfPointsInThePlanesOfTinyCells) {
     for (int exponent : {-300, -358, -360, -362, -365, -500, -537, -539, -541, -545}) {
         for (int i = 0; i < 1000; ++i) {
             const std::vector<double> v = whole_numbers(d_, 1 << 10, exponent, random_);
@@ -58,7 +58,7 @@ TEST_P(CellSigns, of_points_in_the_planes_of_tiny_cells) {
 }
 
 // The walk of one point has a filter of its own.
-TEST_P(CellSigns, of_points_in_the_faces_of_tiny_meshes) {
+TEST_P(CellSigns, OfPointsInTheFacesOfTinyMeshes) {
     std::size_t found = 0;
     for (int exponent : {-300, -360, -362, -365, -500, -539, -541}) {
         for (int i = 0; i < 300; ++i) {
@@ -84,7 +84,7 @@ TEST_P(CellSigns, of_points_in_the_faces_of_tiny_meshes) {
 }
 
 // Far from a cell that is nearly flat each weight is large and certain, and only their sum is not.
-TEST_P(CellSigns, far_from_cells_that_are_nearly_flat) {
+TEST_P(CellSigns, FarFromCellsThatAreNearlyFlat) {
     for (int i = 0; i < 20000; ++i) {
         std::vector<double> v;
         const double slope = random_.unit(), other = random_.unit();
@@ -101,7 +101,7 @@ TEST_P(CellSigns, far_from_cells_that_are_nearly_flat) {
     EXPECT_LT(tiers_.filter, tiers_.cases());
 }
 
-TEST_P(CellSigns, an_ulp_from_the_planes_of_cells) {
+TEST_P(CellSigns, AnUlpFromThePlanesOfCells) {
     for (int i = 0; i < 20000; ++i) {
         std::vector<double> v;
         for (std::size_t n = 0; n < d_ * (d_ + 1); ++n) v.push_back(random_.unit());

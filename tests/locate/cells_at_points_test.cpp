@@ -51,7 +51,7 @@ Mesh shuffled(Mesh mesh, base::Random& random) {
     return renumbered(mesh, random);
 }
 
-TEST(CellsAtPoints, law_every_cell_whose_box_holds_a_point_is_found) {
+TEST(CellsAtPoints, LawEveryCellWhoseBoxHoldsAPointIsFound) {
     base::Random random(71);
     for (const int d : {2, 3}) {
         for (const auto& [factor, shift] : std::vector<std::pair<double, double>>{
@@ -73,13 +73,13 @@ TEST(CellsAtPoints, law_every_cell_whose_box_holds_a_point_is_found) {
     }
 }
 
-TEST(CellsAtPoints, more_points_than_the_coarser_grid_is_for) {
+TEST(CellsAtPoints, MorePointsThanTheCoarserGridIsFor) {
     base::Random random(72);
     const Mesh mesh = shuffled(box(3, {9, 9, 9}), random);
     expect_found(mesh, inner_points(mesh, 3000, random), "many");
 }
 
-TEST(CellsAtPoints, flat_meshes_and_cells_of_very_different_size) {
+TEST(CellsAtPoints, FlatMeshesAndCellsOfVeryDifferentSize) {
     base::Random random(73);
     Mesh flat = mapped(box(3, {6, 6, 2}), {1, 1, 0}, {0, 0, 0.5});
     expect_found(flat, inner_points(flat, 20, random), "flat");
@@ -92,7 +92,7 @@ TEST(CellsAtPoints, flat_meshes_and_cells_of_very_different_size) {
     expect_found(nested, inner_points(nested, 10, random), "nested");
 }
 
-TEST(CellsAtPoints, few_others_are) {
+TEST(CellsAtPoints, FewOthersAre) {
     base::Random random(74);
     const Mesh mesh = shuffled(box(3, {24, 24, 24}), random);
     const std::size_t cells = mesh.cell_count();  // 82,944
@@ -106,7 +106,7 @@ TEST(CellsAtPoints, few_others_are) {
     EXPECT_LE(expect_found(mesh, near, "near"), 200U);
 }
 
-TEST(CellsAtPoints, nothing_if_there_are_too_many_or_a_corner_is_no_node) {
+TEST(CellsAtPoints, NothingIfThereAreTooManyOrACornerIsNoNode) {
     base::Random random(75);
     Mesh mesh = shuffled(box(3, {10, 10, 10}), random);
     const std::vector<double> points = inner_points(mesh, 50, random);

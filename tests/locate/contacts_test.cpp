@@ -37,23 +37,23 @@ void expect_right_renumbered(const Mesh& mesh, const std::string& what) {
     }
 }
 
-TEST(LocateContacts, L1_CubesThatShareAVertex) {
+TEST(LocateContacts, L1CubesThatShareAVertex) {
     expect_right_renumbered(cubes(2, {2, 2, 1}, [](int x, int y, int) { return x == y; }), "two squares");
     expect_right_renumbered(cubes(3, {2, 2, 2}, [](int x, int y, int z) { return x == y && y == z; }), "two cubes");
 }
 
-TEST(LocateContacts, L1_CubesThatShareAnEdge) {
+TEST(LocateContacts, L1CubesThatShareAnEdge) {
     expect_right_renumbered(cubes(3, {2, 2, 1}, [](int x, int y, int) { return x == y; }), "two cubes");
     expect_right_renumbered(cubes(3, {2, 2, 3}, [](int x, int y, int) { return x != y; }), "two columns");
 }
 
-TEST(LocateContacts, L1_Chequered) {
+TEST(LocateContacts, L1Chequered) {
     const auto odd = [](int x, int y, int z) { return (x + y + z) % 2 == 1; };
     expect_right_renumbered(cubes(2, {5, 4, 1}, odd), "chequered squares");
     expect_right_renumbered(cubes(3, {4, 4, 4}, odd), "chequered cubes");
 }
 
-TEST(LocateContacts, L1_PartsApartAndCavities) {
+TEST(LocateContacts, L1PartsApartAndCavities) {
     const auto slabs = [](int x, int, int) { return x % 2 == 0; };
     expect_right_renumbered(cubes(2, {7, 2, 1}, slabs), "strips");
     expect_right_renumbered(cubes(3, {7, 2, 2}, slabs), "slabs");
@@ -74,7 +74,7 @@ TEST(LocateContacts, L1_PartsApartAndCavities) {
 }
 
 // What shares no nodes but touches is no complex: it must be asked cell by cell.
-TEST(LocateContacts, L1_PartsThatShareNoNodes) {
+TEST(LocateContacts, L1PartsThatShareNoNodes) {
     for (const int d : {2, 3}) {
         base::Random random(1);
         const Mesh one = box(d, {2, 2, 2});

@@ -11,7 +11,7 @@
 namespace barycert::testing {
 namespace {
 
-TEST(LocateData, L1_L2_OwnMeshes) {
+TEST(LocateData, L1L2OwnMeshes) {
     for (const char* stem : {"bracket", "cube-hole", "cube-hole-o2", "lattice-box", "lattice-eighths", "needle-slit",
                              "plate", "torus", "flange"}) {
         base::Random random(base::hash64(stem));
@@ -22,7 +22,7 @@ TEST(LocateData, L1_L2_OwnMeshes) {
 }
 
 // Holes, slits and thin walls are no different where the numbers are.
-TEST(LocateData, L1_L2_OwnMeshesElsewhere) {
+TEST(LocateData, L1L2OwnMeshesElsewhere) {
     struct Place {
         std::array<double, 3> factor, shift;
     };
@@ -38,7 +38,7 @@ TEST(LocateData, L1_L2_OwnMeshesElsewhere) {
     }
 }
 
-TEST(LocateData, L1_L2_FlippedAndRenumbered) {
+TEST(LocateData, L1L2FlippedAndRenumbered) {
     for (const char* stem : {"cube-hole", "lattice-eighths", "plate"}) {
         base::Random random(base::hash64(stem));
         Mesh mesh = renumbered(own_mesh(stem), random);
@@ -47,7 +47,7 @@ TEST(LocateData, L1_L2_FlippedAndRenumbered) {
     }
 }
 
-TEST(LocateData, L1_L2_SharedMeshes) {
+TEST(LocateData, L1L2SharedMeshes) {
     const std::string folder = BARYCERT_SHARED_DATA_DIR "/tetgen";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
     for (const char* stem : {"Cube21", "ellipsoid_15811_elements", "cylinder_14748_elem", "cube_136_elements",

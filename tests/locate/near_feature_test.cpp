@@ -8,7 +8,7 @@
 namespace barycert::testing {
 namespace {
 
-TEST(NearFeature, does_not_depend_on_the_guess) {
+TEST(NearFeature, DoesNotDependOnTheGuess) {
     base::Random random(1);
     std::array<std::size_t, 4> found{};
     for (int i = 0; i < 4000; ++i) {

@@ -81,7 +81,7 @@ std::size_t expect_exact(const Mesh& mesh, const std::vector<double>& points, co
     return asked;
 }
 
-TEST(LocateNearest, N1_ExactlyFromAnywhere) {
+TEST(LocateNearest, N1ExactlyFromAnywhere) {
     for (const int d : {2, 3}) {
         for (const double size : {1.0, 0.1, 1e-300, 1e-150, 0x1p-1060, 1e290}) {
             base::Random random = base::Random::stream(71, static_cast<std::uint64_t>(d), 0);
@@ -97,7 +97,7 @@ TEST(LocateNearest, N1_ExactlyFromAnywhere) {
 }
 
 // Overlapping, degenerate, of any orientation; nodes of different numbers at one place, where points tie.
-TEST(LocateNearest, N1_ExactlyOnAnyMesh) {
+TEST(LocateNearest, N1ExactlyOnAnyMesh) {
     std::size_t asked = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < 25 && !HasFailure(); ++i) {
@@ -111,7 +111,7 @@ TEST(LocateNearest, N1_ExactlyOnAnyMesh) {
 }
 
 // A cell and its mirror image, of which one number is an ulp away; points between them, in the mirror.
-TEST(LocateNearest, N1_ExactlyWhereAnUlpDecides) {
+TEST(LocateNearest, N1ExactlyWhereAnUlpDecides) {
     std::size_t asked = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t i = 0; i < 1500 && !HasFailure(); ++i) {
@@ -137,7 +137,7 @@ TEST(LocateNearest, N1_ExactlyWhereAnUlpDecides) {
 }
 
 // Cells almost flat, whose faces have hardly a normal.
-TEST(LocateNearest, N1_ExactlyOnThinCells) {
+TEST(LocateNearest, N1ExactlyOnThinCells) {
     for (const int d : {2, 3}) {
         for (const double thin : {1e-8, 1e-16, 1e-150, 1e-300}) {
             base::Random random = base::Random::stream(73, static_cast<std::uint64_t>(d), 0);
@@ -149,7 +149,7 @@ TEST(LocateNearest, N1_ExactlyOnThinCells) {
     }
 }
 
-TEST(LocateNearest, N1_InsideACellIsThatPoint) {
+TEST(LocateNearest, N1InsideACellIsThatPoint) {
     for (const int d : {2, 3}) {
         const Mesh mesh = box(d, {2, 2, 2});
         const auto locator = Locator::build(mesh, {.prove = false});
@@ -180,7 +180,7 @@ std::uint64_t work_at(const Locator& locator, double away, std::size_t kind) {
 }
 
 // N2: the number of boxes and cells does not grow with the distance.
-TEST(LocateNearest, N2_FarPointsCostNoMore) {
+TEST(LocateNearest, N2FarPointsCostNoMore) {
     for (const int d : {2, 3}) {
         Mesh mesh = d == 2 ? box(2, {64, 64, 0}) : box(3, {16, 16, 16});
         const double factor = d == 2 ? 0.25 : 1;
@@ -201,7 +201,7 @@ TEST(LocateNearest, N2_FarPointsCostNoMore) {
 }
 
 // Within a limit far below the distance nothing but the box of the mesh is looked at.
-TEST(LocateNearest, N2_BeyondTheLimit) {
+TEST(LocateNearest, N2BeyondTheLimit) {
     const Mesh mesh = box(3, {8, 8, 8});
     const auto locator = Locator::build(mesh, {.prove = false});
     for (const double away : {1e2, 1e15, 1e300}) {

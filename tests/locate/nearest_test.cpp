@@ -166,7 +166,7 @@ TEST(LocateNearest, FarPoints) {
 }
 
 // L3: what is not there cannot be near.
-TEST(LocateNearest, L3_DegenerateCellsAreNeverChosen) {
+TEST(LocateNearest, L3DegenerateCellsAreNeverChosen) {
     for (const int d : {2, 3}) {
         Mesh mesh = box(d, {2, 1, 1});
         const auto far = add_node(mesh, d == 2 ? std::vector<double>{9, 0.5} : std::vector<double>{9, 0.5, 0.5});

@@ -95,7 +95,7 @@ Told ask(const Mesh& mesh, Detail detail, base::Random& random, const std::strin
     return told;
 }
 
-TEST(LocateOccupancy, L1_NoCellWhereThereIsNone_Soups) {
+TEST(LocateOccupancy, L1NoCellWhereThereIsNoneSoups) {
     for (const int d : {2, 3}) {
         Told all;
         for (std::uint64_t n = 0; n < 60 && !::testing::Test::HasFailure(); ++n) {
@@ -112,7 +112,7 @@ TEST(LocateOccupancy, L1_NoCellWhereThereIsNone_Soups) {
     }
 }
 
-TEST(LocateOccupancy, L1_NoCellWhereThereIsNone_AnyMagnitude) {
+TEST(LocateOccupancy, L1NoCellWhereThereIsNoneAnyMagnitude) {
     for (const int d : {2, 3}) {
         for (const std::array<double, 3> factor : {std::array<double, 3>{1, 1, 1},
                                                    {1e300, 1e300, 1e300},
@@ -173,7 +173,7 @@ TEST(LocateOccupancy, NoRoom) {
 }
 
 // All ways of asking, with the occupancy made: the batch is long enough.
-TEST(LocateOccupancy, L1_L2_L3_EveryWay) {
+TEST(LocateOccupancy, L1L2L3EveryWay) {
     for (const int d : {2, 3}) {
         for (std::uint64_t n = 0; n < 40 && !::testing::Test::HasFailure(); ++n) {
             base::Random random = base::Random::stream(14, n, static_cast<std::uint64_t>(d));

@@ -38,7 +38,7 @@ std::vector<std::size_t> shuffled(std::size_t n, base::Random& random) {
 }
 
 // More points than fit in a block, of all kinds: threads, targets, methods and the order of points change nothing.
-TEST(LocateOrder, D1_ManyPoints) {
+TEST(LocateOrder, D1ManyPoints) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"cube-hole", "lattice-eighths", "plate"}) {
         base::Random random(base::hash64(stem));
@@ -71,7 +71,7 @@ TEST(LocateOrder, D1_ManyPoints) {
 }
 
 // Cells in another order: owners are those of lowest index in the new order among the same cells.
-TEST(LocateOrder, L1_CellsPermuted) {
+TEST(LocateOrder, L1CellsPermuted) {
     for (const char* stem : {"cube-hole", "lattice-box", "plate"}) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = own_mesh(stem);
@@ -108,7 +108,7 @@ TEST(LocateOrder, L1_CellsPermuted) {
 }
 
 // A walk from any cell to any point.
-TEST(LocateOrder, D1_Hints) {
+TEST(LocateOrder, D1Hints) {
     for (const char* stem : {"bracket", "torus", "plate"}) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = own_mesh(stem);

@@ -16,7 +16,7 @@ std::string text_of(const std::array<double, 3>& x) {
     return testing::text_of(x.data(), 3);
 }
 
-TEST(LocateRanges, L1_L2_AnyMagnitude) {
+TEST(LocateRanges, L1L2AnyMagnitude) {
     for (const int d : {2, 3}) {
         const Mesh lattice = box(d, {4, 4, 3});
         for (const std::array<double, 3> factor : {std::array<double, 3>{1e300, 1e300, 1e300},
@@ -36,7 +36,7 @@ TEST(LocateRanges, L1_L2_AnyMagnitude) {
 }
 
 // From the lowest double to the max_double: differences of coordinates overflow.
-TEST(LocateRanges, L1_L2_AllOfTheDoubles) {
+TEST(LocateRanges, L1L2AllOfTheDoubles) {
     for (const int d : {2, 3}) {
         base::Random random(8);
         Mesh mesh = box(d, {2, 2, 2});
@@ -48,7 +48,7 @@ TEST(LocateRanges, L1_L2_AllOfTheDoubles) {
     }
 }
 
-TEST(LocateRanges, L1_L2_FarFromTheOrigin) {
+TEST(LocateRanges, L1L2FarFromTheOrigin) {
     for (const int d : {2, 3}) {
         const Mesh lattice = mapped(box(d, {4, 3, 3}), {0.1, 0.1, 0.1}, {});
         for (const std::array<double, 3> shift : {std::array<double, 3>{1e6, 1e6, 1e6},
@@ -65,7 +65,7 @@ TEST(LocateRanges, L1_L2_FarFromTheOrigin) {
 }
 
 // Boxes of few ulps: most coordinates are nodes, and bins are as small as coordinates go.
-TEST(LocateRanges, L1_L2_AFewUlpsWide) {
+TEST(LocateRanges, L1L2AFewUlpsWide) {
     for (const int d : {2, 3}) {
         for (const double at : {1.0, 0.1, -1e300, 1e-310, 0x1p-1022}) {
             base::Random random(10);
@@ -82,7 +82,7 @@ TEST(LocateRanges, L1_L2_AFewUlpsWide) {
 }
 
 // All points nearly in a plane, or on a line.
-TEST(LocateRanges, L1_L2_ThinDomains) {
+TEST(LocateRanges, L1L2ThinDomains) {
     for (const int d : {2, 3}) {
         for (const double thin : {1e-8, 1e-16, 1e-200, 5e-324}) {
             for (const double shift : {0.0, 1.0}) {
@@ -102,7 +102,7 @@ TEST(LocateRanges, L1_L2_ThinDomains) {
 }
 
 // Cells of 1e-9 of the domain and less in one corner: there all share a bin.
-TEST(LocateRanges, L1_L2_Graded) {
+TEST(LocateRanges, L1L2Graded) {
     for (const int d : {2, 3}) {
         for (const double steepness : {8.0, 20.0, 100.0}) {
             base::Random random(12);
@@ -118,7 +118,7 @@ TEST(LocateRanges, L1_L2_Graded) {
 }
 
 // Far outside, on the box but outside the mesh, and at the max_double doubles, whatever the mesh.
-TEST(LocateRanges, L1_PointsOutside) {
+TEST(LocateRanges, L1PointsOutside) {
     for (const int d : {2, 3}) {
         base::Random random(13);
         std::vector<bool> keep(static_cast<std::size_t>(d == 2 ? 18 : 162), true);

@@ -27,7 +27,7 @@ std::vector<double> half_lattice(int d, int from, int to) {
     return points;
 }
 
-TEST(LocateSoups, L1_L2_L3_SmallSoups) {
+TEST(LocateSoups, L1L2L3SmallSoups) {
     for (const int d : {2, 3}) {
         for (std::uint64_t n = 0; n < 250 && !::testing::Test::HasFailure(); ++n) {
             base::Random random = base::Random::stream(1, n, static_cast<std::uint64_t>(d));
@@ -41,7 +41,7 @@ TEST(LocateSoups, L1_L2_L3_SmallSoups) {
 }
 
 // Small complexes whose parts touch in vertices and edges: the owner of a point may be in another part.
-TEST(LocateSoups, L1_L2_SmallComplexes) {
+TEST(LocateSoups, L1L2SmallComplexes) {
     int certified = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t n = 0; n < 250 && !::testing::Test::HasFailure(); ++n) {
@@ -58,7 +58,7 @@ TEST(LocateSoups, L1_L2_SmallComplexes) {
 }
 
 // Hundreds of cells over each other.
-TEST(LocateSoups, L1_L2_L3_DenseSoups) {
+TEST(LocateSoups, L1L2L3DenseSoups) {
     for (const int d : {2, 3}) {
         for (const bool lattice : {false, true}) {
             base::Random random(static_cast<std::uint64_t>(3 + d));
@@ -75,7 +75,7 @@ TEST(LocateSoups, L1_L2_L3_DenseSoups) {
 }
 
 // One cell in the other, each a little smaller, in this order and the opposite one.
-TEST(LocateSoups, L1_L2_NestedCells) {
+TEST(LocateSoups, L1L2NestedCells) {
     for (const int d : {2, 3}) {
         for (const bool outermost_first : {true, false}) {
             base::Random random(4);
@@ -94,7 +94,7 @@ TEST(LocateSoups, L1_L2_NestedCells) {
 }
 
 // A proper mesh with every cell twice, with flat cells between, and with nodes that no cell uses far away.
-TEST(LocateSoups, L1_L2_L3_CellsTwiceFlatOnesAndLonelyNodes) {
+TEST(LocateSoups, L1L2L3CellsTwiceFlatOnesAndLonelyNodes) {
     for (const int d : {2, 3}) {
         base::Random random(5);
         const Mesh good = box(d, {3, 3, 2});
@@ -125,7 +125,7 @@ TEST(LocateSoups, L1_L2_L3_CellsTwiceFlatOnesAndLonelyNodes) {
     }
 }
 
-TEST(LocateSoups, L1_L3_NoCellOneCellOnlyFlatCells) {
+TEST(LocateSoups, L1L3NoCellOneCellOnlyFlatCells) {
     for (const int d : {2, 3}) {
         base::Random random(6);
         Mesh none;

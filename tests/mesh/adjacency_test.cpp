@@ -44,35 +44,35 @@ Mesh mesh_of(int dimension, std::size_t nodes, Indices cells) {
     return mesh;
 }
 
-TEST(Adjacency, two_tetrahedra) {
+TEST(Adjacency, TwoTetrahedra) {
     const Mesh mesh = mesh_of(3, 5, {0, 1, 2, 3, 4, 3, 2, 1});
     const Indices neighbours = mesh::compute_neighbours(mesh);
     EXPECT_EQ(neighbours, (Indices{1, -1, -1, -1, 0, -1, -1, -1}));
     EXPECT_EQ(mesh::hull_facets(mesh, neighbours), (std::vector<std::int64_t>{1, 2, 3, 5, 6, 7}));
 }
 
-TEST(Adjacency, two_triangles) {
+TEST(Adjacency, TwoTriangles) {
     const Mesh mesh = mesh_of(2, 4, {0, 1, 2, 3, 2, 1});
     EXPECT_EQ(mesh::compute_neighbours(mesh), (Indices{1, -1, -1, 0, -1, -1}));
 }
 
-TEST(Adjacency, of_three_cells_at_a_facet_the_lowest_two_are_neighbours) {
+TEST(Adjacency, OfThreeCellsAtAFacetTheLowestTwoAreNeighbours) {
     const Mesh mesh = mesh_of(3, 6, {3, 0, 1, 2, 0, 1, 2, 4, 2, 1, 0, 5});
     EXPECT_EQ(mesh::compute_neighbours(mesh), (Indices{1, -1, -1, -1, -1, -1, -1, 0, -1, -1, -1, -1}));
 }
 
-TEST(Adjacency, a_cell_is_not_its_own_neighbour) {
+TEST(Adjacency, ACellIsNotItsOwnNeighbour) {
     const Mesh mesh = mesh_of(3, 4, {0, 0, 1, 2});  // the facets opposite to both corners 0 are 0 1 2
     EXPECT_EQ(mesh::compute_neighbours(mesh), Indices(4, -1));
 }
 
-TEST(Adjacency, empty) {
+TEST(Adjacency, Empty) {
     const Mesh mesh = mesh_of(3, 0, {});
     EXPECT_TRUE(mesh::compute_neighbours(mesh).empty());
     EXPECT_TRUE(mesh::hull_facets(mesh, {}).empty());
 }
 
-TEST(Adjacency, as_the_definition_says) {
+TEST(Adjacency, AsTheDefinitionSays) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         base::Random random = base::Random::stream(1, seed, 0);
         const int dimension = random.integer(2, 3);

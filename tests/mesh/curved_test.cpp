@@ -52,7 +52,7 @@ Mesh turned(Mesh mesh, double unit = 1) {
     return mesh;
 }
 
-TEST(Curved, ball_whose_outer_nodes_lie_on_the_sphere) {
+TEST(Curved, BallWhoseOuterNodesLieOnTheSphere) {
     for (const int d : {2, 3}) {
         std::vector<std::uint8_t> each{7};
         expect_straight(curved_cells(straight_ball(d), &each));
@@ -71,14 +71,14 @@ TEST(Curved, ball_whose_outer_nodes_lie_on_the_sphere) {
     }
 }
 
-TEST(Curved, linear_meshes_have_none) {
+TEST(Curved, LinearMeshesHaveNone) {
     Mesh mesh = curved_ball(3);
     mesh.mid_nodes.clear();
     expect_straight(curved_cells(mesh));
     expect_straight(curved_cells(Mesh()));
 }
 
-TEST(Curved, middles_that_were_computed_or_written_with_16_digits_are_middles) {
+TEST(Curved, MiddlesThatWereComputedOrWrittenWith16DigitsAreMiddles) {
     for (const int d : {2, 3}) {
         for (const double unit : {1.0, 1e-3, 1e6, 1e300, 1e-300}) {
             const Mesh mesh = turned(straight_ball(d), unit);
@@ -88,7 +88,7 @@ TEST(Curved, middles_that_were_computed_or_written_with_16_digits_are_middles) {
     }
 }
 
-TEST(Curved, what_the_digits_of_coordinates_explain_is_rounding) {
+TEST(Curved, WhatTheDigitsOfCoordinatesExplainIsRounding) {
     for (const int d : {2, 3}) {
         const Mesh mesh = turned(straight_ball(d));
         for (const char* const format : {"%.6g", "%.6f", "%.9g", "%.12e"}) {
@@ -117,7 +117,7 @@ TEST(Curved, what_the_digits_of_coordinates_explain_is_rounding) {
 }
 
 // Coordinates of one digit, whose unit is a tenth: no deviation of that size is put down to rounding.
-TEST(Curved, few_digits_hide_no_curve) {
+TEST(Curved, FewDigitsHideNoCurve) {
     Mesh mesh = straight_ball(2);
     mesh.points[mesh.points.size() - 2] += 0.1;
     expect_curved(curved_cells(mesh), 1, 0.1 / std::sqrt(2.0));
@@ -132,7 +132,7 @@ TEST(Curved, few_digits_hide_no_curve) {
 }
 
 // What a mesher computes on a straight line, and a motion there and back.
-TEST(Curved, errors_of_arithmetic_are_rounding) {
+TEST(Curved, ErrorsOfArithmeticAreRounding) {
     for (const int d : {2, 3}) {
         Mesh moved = turned(straight_ball(d));
         for (double& x : moved.points) x = (x + 1000) - 1000;
@@ -148,7 +148,7 @@ TEST(Curved, errors_of_arithmetic_are_rounding) {
 }
 
 // A node far away makes the rest no straighter.
-TEST(Curved, measured_where_it_is) {
+TEST(Curved, MeasuredWhereItIs) {
     for (const double far : {1e6, 1e15, 1e300}) {
         Mesh mesh = curved_ball(3, 1e-6);
         mesh.points.insert(mesh.points.end(), {far, far, far});
@@ -156,7 +156,7 @@ TEST(Curved, measured_where_it_is) {
     }
 }
 
-TEST(Curved, scaling_by_powers_of_two_changes_nothing) {
+TEST(Curved, ScalingByPowersOfTwoChangesNothing) {
     for (const double scale : {0x1p-1000, 0x1p-30, 0x1p+700, 0x1p+1023}) {
         for (const Mesh& unscaled : {turned(curved_ball(3)), turned(straight_ball(3))}) {
             Mesh mesh = unscaled;
@@ -167,7 +167,7 @@ TEST(Curved, scaling_by_powers_of_two_changes_nothing) {
     }
 }
 
-TEST(Curved, subnormal_numbers) {
+TEST(Curved, SubnormalNumbers) {
     const double unit = std::numeric_limits<double>::denorm_min();
     Mesh mesh = straight_ball(2);
     for (double& x : mesh.points) x *= 3 * unit;  // a middle of 1.5 units is one or two
@@ -179,7 +179,7 @@ TEST(Curved, subnormal_numbers) {
     EXPECT_EQ(curved_cells(mesh).cells, 1U);
 }
 
-TEST(Curved, broken_meshes_are_measured_as_far_as_they_can_be) {
+TEST(Curved, BrokenMeshesAreMeasuredAsFarAsTheyCanBe) {
     Mesh mesh = curved_ball(3);
     mesh.cells[1] = 1000;
     mesh.mid_nodes[9] = -1;
@@ -199,7 +199,7 @@ TEST(Curved, broken_meshes_are_measured_as_far_as_they_can_be) {
     EXPECT_NE(message(curved_cells(mesh)).find("off edges of length 0"), std::string::npos);
 }
 
-TEST(Curved, words) {
+TEST(Curved, Words) {
     const CurvedCells found = curved_cells(curved_ball(3));
     EXPECT_EQ(message(found),
               "8 cells are curved: mid-edge nodes lie up to 0.21 of the edge off its middle; sides were taken "

@@ -17,7 +17,7 @@ Result<Mesh> read_tetrahedron(const std::string& listed) {
         "1 10\n0 0 1 2 3 " + listed + "\n");
 }
 
-TEST(MidEdges, orders_of_tetrahedra) {
+TEST(MidEdges, OrdersOfTetrahedra) {
     struct Row {
         const char* listed;
         MidEdgeOrder order;
@@ -32,14 +32,14 @@ TEST(MidEdges, orders_of_tetrahedra) {
     }
 }
 
-TEST(MidEdges, an_unknown_order_is_refused) {
+TEST(MidEdges, AnUnknownOrderIsRefused) {
     expect_error(read_tetrahedron("5 4 6 7 8 9"), ".ele", 1, "the order of the mid-edge nodes is unknown", nullptr,
                  "another order in most cells", nullptr);
     expect_error(read_tetrahedron("4 5 6 8 7 9"), ".ele", 1, "the order of the mid-edge nodes is unknown", nullptr,
                  nullptr, nullptr);
 }
 
-TEST(MidEdges, orders_of_triangles) {
+TEST(MidEdges, OrdersOfTriangles) {
     const std::string node = "6 2\n1 0 0\n2 2 0\n3 0 2\n4 1 0\n5 1 1\n6 0 1\n";
     const Result<Mesh> vtk = read_texts(node, "1 6\n1 1 2 3 4 5 6\n");
     ASSERT_TRUE(vtk) << vtk.error().message();
@@ -52,7 +52,7 @@ TEST(MidEdges, orders_of_triangles) {
     EXPECT_FALSE(read_texts(node, "1 6\n1 1 2 3 6 5 4\n"));
 }
 
-TEST(MidEdges, degenerate_cells_abstain) {
+TEST(MidEdges, DegenerateCellsAbstain) {
     // All ten nodes of the second cell coincide; it says nothing and is brought into order with the rest.
     const Result<Mesh> mesh =
         read_texts("10 3\n0 0 0 0\n1 2 0 0\n2 0 2 0\n3 0 0 2\n4 1 0 0\n5 1 1 0\n6 0 1 0\n7 0 0 1\n8 1 0 1\n9 0 1 1\n",
@@ -66,7 +66,7 @@ TEST(MidEdges, degenerate_cells_abstain) {
     EXPECT_EQ(silent->notes.front().kind, Note::Kind::guessed);
 }
 
-TEST(MidEdges, found_at_any_scale_and_for_curved_cells) {
+TEST(MidEdges, FoundAtAnyScaleAndForCurvedCells) {
     for (const double scale : {1e-300, 1e-160, 1.0, 1e160, 8e307}) {
         for (const int dimension : {2, 3}) {
             for (const MidEdgeOrder order : orders_in(dimension)) {
@@ -88,7 +88,7 @@ TEST(MidEdges, found_at_any_scale_and_for_curved_cells) {
 }
 
 // Where offsets are so unlike that squares would underflow, or halves of them would.
-TEST(MidEdges, found_in_thin_cells_and_among_subnormal_numbers) {
+TEST(MidEdges, FoundInThinCellsAndAmongSubnormalNumbers) {
     const double tiny = std::numeric_limits<double>::denorm_min();
     for (const auto& [x, y] : {std::pair(1.0, 1e-170), {4 * tiny, 4 * tiny}, {1e300, 1e-300}}) {
         Mesh mesh;

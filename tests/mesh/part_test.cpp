@@ -20,7 +20,7 @@ Mesh random_mesh(int dimension, bool quadratic, base::Random& random) {
     return mesh;
 }
 
-TEST(Part, has_the_cells_their_nodes_and_their_values) {
+TEST(Part, HasTheCellsTheirNodesAndTheirValues) {
     base::Random random(5);
     for (int round = 0; round < 200; ++round) {
         const int d = 2 + static_cast<int>(random.below(2));

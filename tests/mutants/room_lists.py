@@ -95,14 +95,14 @@ class Room:
 
 
 ROOMS = {
-    "check": Room("check", 30, CHECK, ["meshes"], left_out=["Regressions.time_of_cells_one_in_another", "Contacts.of_extreme_coordinates"],
-                  last=["Defects.in_pairs*", "Theorem.*", "Candidates.*", "Robustness.same_from_any_threads"]),
+    "check": Room("check", 30, CHECK, ["meshes"], left_out=["HardMeshes.TimeOfCellsOneInAnother", "Contacts.OfExtremeCoordinates"],
+                  last=["Defects.InPairs*", "Theorem.*", "Candidates.*", "Robustness.SameFromAnyThreads"]),
     "locate": Room("locate", 60, LOCATE, ["meshes", "nearest"],
-                   last=["LocateSoups.L1_L2_*", "LocateNearest.N1_*", "LocateNearest.O*", "LocateData.*", "LocateRanges.*"]),
+                   last=["LocateSoups.L1L2*", "LocateNearest.N1*", "LocateNearest.O*", "LocateData.*", "LocateRanges.*"]),
     "sample": Room("sample", 100, SAMPLE, ["meshes", "weights", "expressions", "maps"], left_out=["ResampleBounds.NearFacesOfSlivers"],
                    last=["ResampleFuzz.*", "ResampleBounds.AlongFaces", "ResampleValues.A*", "ResampleOrder.*", "ResampleBoxes.PartsAndSlabs",
                          "SampleOrder.*", "ResampleCells.Slivers", "ResampleMeshes.AnyScale"]),
     # What decides whether a kernel is wrong, and by how much.
-    "audit": Room("audit", 60, AUDIT, last=["contained.*", "gaps.*"],
+    "audit": Room("audit", 60, AUDIT, last=["Contained.*", "Gaps.*"],
                   only=["asking.cpp", "block.cpp", "judge.cpp", "pictures.cpp", "statistics.cpp", "thresholds.cpp"]),
 }

@@ -39,7 +39,7 @@ std::vector<Rows> split(const Rows& polygon, std::size_t row) {
     return all;
 }
 
-TEST(ClipTriangle, C1_C2_AsTheJudgeSays) {
+TEST(ClipTriangle, C1C2AsTheJudgeSays) {
     base::Random random(1);
     std::size_t cut = 0, outside = 0, inside = 0, eye = 0, most = 0;
     for (int k = 0; k < 6000; ++k) {
@@ -109,7 +109,7 @@ TEST(ClipTriangle, TouchingIsOutside) {
     EXPECT_EQ(clip_triangle(Rows{1, 0, 0, 1, 1, 0.5, 0, 1, 1, 1, 0, 1}, polygon).value(), Clip::inside);
 }
 
-TEST(ClipTriangle, C3_SharedEdgesHaveTheSameBits) {
+TEST(ClipTriangle, C3SharedEdgesHaveTheSameBits) {
     base::Random random(2);
     std::size_t shared = 0;
     for (int k = 0; k < 4000; ++k) {
@@ -164,7 +164,7 @@ void expect_not_clipped_again(const Rows& triangle, std::size_t row) {
     }
 }
 
-TEST(ClipTriangle, C4_TheClippedIsNotClippedAgain) {
+TEST(ClipTriangle, C4TheClippedIsNotClippedAgain) {
     EXPECT_TRUE(rc::check("clipped polygons lie in the volume", [](std::uint64_t seed) {
         base::Random random(seed);
         for (int k = 0; k < 50; ++k) {
@@ -220,7 +220,7 @@ void expect_segment(const ClippedSegment& part, const std::vector<RationalRow>& 
     }
 }
 
-TEST(ClipSegment, C1_C2_ByAHalfSpace) {
+TEST(ClipSegment, C1C2ByAHalfSpace) {
     base::Random random(3);
     for (int k = 0; k < 5000; ++k) {
         const auto d = static_cast<int>(1 + random.below(3));
@@ -235,7 +235,7 @@ TEST(ClipSegment, C1_C2_ByAHalfSpace) {
     }
 }
 
-TEST(ClipSegment, C1_C2_C4_ByABox) {
+TEST(ClipSegment, C1C2C4ByABox) {
     base::Random random(4);
     std::size_t both = 0;
     for (int k = 0; k < 5000; ++k) {

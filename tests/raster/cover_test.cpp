@@ -54,7 +54,7 @@ double coordinate(base::Random& random, int side) {
     }
 }
 
-TEST(Cover, R1_AsTheJudgeSays) {
+TEST(Cover, R1AsTheJudgeSays) {
     base::Random random(1);
     for (int k = 0; k < 3000; ++k) {
         Corners t;
@@ -63,7 +63,7 @@ TEST(Cover, R1_AsTheJudgeSays) {
     }
 }
 
-TEST(Cover, R1_AnyFiniteCoordinates) {
+TEST(Cover, R1AnyFiniteCoordinates) {
     base::Random random(2);
     for (int k = 0; k < 2000; ++k) {
         Corners t;
@@ -112,7 +112,7 @@ std::vector<Corners> jittered_square(int cells, double size, bool ulps, base::Ra
     return triangles;
 }
 
-TEST(Cover, R1_EachPixelOnceInJitteredSquares) {
+TEST(Cover, R1EachPixelOnceInJitteredSquares) {
     base::Random random(3);
     for (int round = 0; round < 60; ++round) {
         const int cells = 1 + static_cast<int>(random.below(12)), side = 1 + static_cast<int>(random.below(40));
@@ -125,7 +125,7 @@ TEST(Cover, R1_EachPixelOnceInJitteredSquares) {
     }
 }
 
-TEST(Cover, R1_EachPixelOnceInFansOfSlivers) {
+TEST(Cover, R1EachPixelOnceInFansOfSlivers) {
     base::Random random(4);
     for (int round = 0; round < 40; ++round) {
         const double side = 24;
@@ -157,14 +157,14 @@ TEST(Cover, R1_EachPixelOnceInFansOfSlivers) {
     }
 }
 
-TEST(Cover, R1_TopAndLeftSides) {
+TEST(Cover, R1TopAndLeftSides) {
     // A square of two triangles with its sides on centres: left and top belong to it, right and bottom do not.
     const std::vector<int> counts = counts_of({4, 4}, {{0.5, 0.5, 2.5, 0.5, 2.5, 2.5}, {0.5, 0.5, 2.5, 2.5, 0.5, 2.5}});
     const std::vector<int> expected{0, 0, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0};
     EXPECT_EQ(counts, expected);
 }
 
-TEST(Cover, R2_NothingForZeroArea) {
+TEST(Cover, R2NothingForZeroArea) {
     base::Random random(5);
     for (int k = 0; k < 500; ++k) {
         // Exactly on a line: a, b and a + 2 (b - a) with small integers; or two equal vertices.

@@ -256,7 +256,7 @@ Scene jittered_floor(base::Random& random, int cells, double half) {
     return s;
 }
 
-TEST(Render, R1_EachPixelOnceAcrossClippedEdges) {
+TEST(Render, R1EachPixelOnceAcrossClippedEdges) {
     base::Random random(5);
     for (int k = 0; k < 60; ++k) {
         Scene s = jittered_floor(random, 8, 30);

@@ -66,7 +66,7 @@ double figure(const Json& x) {
     return number == std::numeric_limits<double>::max() ? std::numeric_limits<double>::infinity() : number;
 }
 
-TEST(audit_html, is_well_formed_with_and_without_pictures) {
+TEST(AuditHtml, IsWellFormedWithAndWithoutPictures) {
     std::vector<Kernel> kernels;
     for (const KernelResult& k : audited().kernels) kernels.push_back(k.kernel);
     expect_well_formed(page_of(audited()), true);
@@ -78,7 +78,7 @@ TEST(audit_html, is_well_formed_with_and_without_pictures) {
     expect_well_formed(page_of(only_kernel("triangle.signed-area")), true);
 }
 
-TEST(audit_html, the_league_is_the_json) {
+TEST(AuditHtml, TheLeagueIsTheJson) {
     const std::string page = page_of(audited());
     const Json report = Json::parse(audit_json(audited()));
     std::size_t at = 0;
@@ -121,7 +121,7 @@ TEST(audit_html, the_league_is_the_json) {
     }
 }
 
-TEST(audit_html, every_witness_of_the_json_has_its_command) {
+TEST(AuditHtml, EveryWitnessOfTheJsonHasItsCommand) {
     const std::string page = page_of(audited(), {.style = {.witness_path = "it's.json"}});
     const Json report = Json::parse(audit_json(audited()));
     EXPECT_GT(report["witnesses"].size(), 100U);
@@ -132,7 +132,7 @@ TEST(audit_html, every_witness_of_the_json_has_its_command) {
     }
 }
 
-TEST(audit_html, of_one_kernel_its_families) {
+TEST(AuditHtml, OfOneKernelItsFamilies) {
     const AuditReport report = only_kernel("tetrahedron.cramer");
     const std::string page = page_of(report);
     const Json kernel = Json::parse(audit_json(report))["kernels"][0];
@@ -146,7 +146,7 @@ TEST(audit_html, of_one_kernel_its_families) {
     }
 }
 
-TEST(audit_html, verdicts) {
+TEST(AuditHtml, Verdicts) {
     EXPECT_TRUE(has(page_of(audited()), "<section class=\"verdict bad\"><b>"));
     EXPECT_TRUE(has(page_of(audited()), "Certified and wrong all the same: tetrahedron.stubborn."));
     const std::string right = page_of(only_kernel("triangle.exact"));
@@ -154,13 +154,13 @@ TEST(audit_html, verdicts) {
     EXPECT_TRUE(has(right, "No witness: every weight and value is correctly rounded."));
 }
 
-TEST(audit_html, commands_begin_as_the_user_calls_the_program) {
+TEST(AuditHtml, CommandsBeginAsTheUserCallsTheProgram) {
     AuditReport report = audited();
     report.verdicts.assign(report.meshes.size(), Verdict::not_certified);
     EXPECT_TRUE(has(page_of(report, {.style = {.command = "./run barycert"}}), "(why: ./run barycert check MESH)"));
 }
 
-TEST(audit_html, no_time_where_nothing_was_timed) {
+TEST(AuditHtml, NoTimeWhereNothingWasTimed) {
     AuditReport report = only_kernel("triangle.signed-area");
     EXPECT_TRUE(has(page_of(report), " ns an evaluation"));
     report.kernels.front().ns = 0;
@@ -169,7 +169,7 @@ TEST(audit_html, no_time_where_nothing_was_timed) {
     EXPECT_EQ(row_of(page_of(report), "Kernels, worst first", "triangle.signed-area").shown.back(), "-");
 }
 
-TEST(audit_html, says_how_it_was_made_once) {
+TEST(AuditHtml, SaysHowItWasMadeOnce) {
     const std::string page = page_of(audited()), line = environment_line(audited().environment);
     const std::size_t at = page.find(line);
     ASSERT_NE(at, std::string::npos);
@@ -177,7 +177,7 @@ TEST(audit_html, says_how_it_was_made_once) {
     EXPECT_TRUE(has(page, "<dd>seed 1, 30 cases per family and simplex, 2 threads, "));
 }
 
-TEST(audit_html, text_from_outside_stays_text) {
+TEST(AuditHtml, TextFromOutsideStaysText) {
     AuditReport report = audited();
     const std::string evil = "<script>alert(1)</script>&\"'\x1b\xff";
     report.meshes = {evil};
@@ -237,7 +237,7 @@ MeshMap small_map() {
     return map;
 }
 
-TEST(audit_html, maps_of_meshes) {
+TEST(AuditHtml, MapsOfMeshes) {
     EXPECT_FALSE(has(page_of(audited()), "Maps of the mesh"));
     MeshMap none;
     none.mesh = "<broken>";
@@ -260,7 +260,7 @@ TEST(audit_html, maps_of_meshes) {
     EXPECT_FALSE(has(page, "</i>&lt; 1e-7</span>"));
 }
 
-TEST(page, base64) {
+TEST(Page, Base64) {
     using report::data_uri;
     EXPECT_EQ(data_uri("a/b", ""), "data:a/b;base64,");
     EXPECT_EQ(data_uri("a/b", "M"), "data:a/b;base64,TQ==");

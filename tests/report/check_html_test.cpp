@@ -82,7 +82,7 @@ std::uint64_t all(const Histogram& h) {
     return sum;
 }
 
-TEST(check_html, says_what_is_wrong_before_all_and_praises_nothing_else) {
+TEST(CheckHtml, SaysWhatIsWrongBeforeAllAndPraisesNothingElse) {
     const Mesh mesh = cracked_and_hanging();
     const std::string page = check_html(checked(mesh), mesh, "part");
     EXPECT_FALSE(contains(page, "exactly equal")) << "green, on a page that says NOT certified";

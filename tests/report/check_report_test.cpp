@@ -38,7 +38,7 @@ CheckReport with_finding(DefectKind problem, std::uint64_t count, bool at_least 
     return r;
 }
 
-TEST(check_terminal, the_first_line_is_the_verdict) {
+TEST(CheckTerminal, TheFirstLineIsTheVerdict) {
     EXPECT_EQ(lines_of(text(own_mesh("bracket"))).front(),
               "part: certified: 2400 cells partition a domain of 1 part, 0 cavities, 1 tunnel");
     EXPECT_EQ(lines_of(text(own_mesh("cube-hole"))).front(),
@@ -58,7 +58,7 @@ TEST(check_terminal, the_first_line_is_the_verdict) {
     EXPECT_TRUE(contains(lines_of(text(thoroughly_broken())).front(), " more defects"));
 }
 
-TEST(check_terminal, every_problem_has_words_for_one_and_for_more) {
+TEST(CheckTerminal, EveryProblemHasWordsForOneAndForMore) {
     for (const DefectText& t : defect_texts) {
         if (!t.breaks) continue;
         const std::string one = lines_of(text(with_finding(t.kind, 1), {})).front();
@@ -70,7 +70,7 @@ TEST(check_terminal, every_problem_has_words_for_one_and_for_more) {
     }
 }
 
-TEST(check_terminal, causes_stand_with_what_they_break) {
+TEST(CheckTerminal, CausesStandWithWhatTheyBreak) {
     const Mesh mesh = cracked_and_hanging();
     const std::string all = text(mesh), above = all.substr(0, all.find("Notes: these do not affect"));
     EXPECT_TRUE(contains(above, "\n    node 0 within edge 9 10 of cell 2")) << all;
@@ -82,7 +82,7 @@ TEST(check_terminal, causes_stand_with_what_they_break) {
     EXPECT_FALSE(contains(all, "merge coincident nodes, or move the parts apart"));
 }
 
-TEST(check_terminal, what_was_repaired_and_what_remains) {
+TEST(CheckTerminal, WhatWasRepairedAndWhatRemains) {
     const Mesh mesh = cracked_and_hanging();
     FixedMesh fixed{.file = "copy.vtu", .done = {}, .after = {}};
     fixed.after = checked(fix_mesh(mesh, {}, fixed.done).value());
@@ -99,7 +99,7 @@ TEST(check_terminal, what_was_repaired_and_what_remains) {
               0U);
 }
 
-TEST(check_terminal, lines_fit_a_terminal) {
+TEST(CheckTerminal, LinesFitATerminal) {
     const std::vector<Mesh> meshes{own_mesh("bracket"),  own_mesh("plate"),   Mesh(),
                                    overlapping(),        thoroughly_broken(), broken_plane(),
                                    cracked_and_hanging()};
@@ -120,7 +120,7 @@ TEST(check_terminal, lines_fit_a_terminal) {
     for (const std::string& line : lines_of(text(wide, {}))) EXPECT_LE(line.size(), 100U) << line;
 }
 
-TEST(check_terminal, conditions_say_how_often_they_fail) {
+TEST(CheckTerminal, ConditionsSayHowOftenTheyFail) {
     const auto row = [](const std::string& shown, const std::string& start) {
         for (const std::string& line : lines_of(shown)) {
             if (line.rfind(start, 0) == 0) return line.substr(line.find_last_of(' ') + 1);
@@ -146,7 +146,7 @@ TEST(check_terminal, conditions_say_how_often_they_fail) {
     EXPECT_TRUE(contains(text(thoroughly_broken()), "P2 to P5 leave out cells with an invalid index"));
 }
 
-TEST(check_report, fields_that_are_not_finite) {
+TEST(CheckReport, FieldsThatAreNotFinite) {
     Mesh mesh = pair_of_cells();
     const double nan = std::numeric_limits<double>::quiet_NaN();
     mesh.point_fields = {{"T", 2, {1, nan, 2, -HUGE_VAL, 0, 0, 1, 1, nan, 0}}, {"whole", 1, {1, 2, 3, 4, 5}}};
@@ -163,7 +163,7 @@ TEST(check_report, fields_that_are_not_finite) {
     EXPECT_EQ(json(check_mesh(pair_of_cells()))["not_finite"], Json::array());
 }
 
-TEST(check_terminal, long_lists_are_cut_and_say_so) {
+TEST(CheckTerminal, LongListsAreCutAndSaySo) {
     Mesh mesh = own_mesh("cube-hole");
     for (std::size_t cell = 0; cell < 40; ++cell) std::swap(mesh.cells[4 * cell], mesh.cells[4 * cell + 1]);
     mesh.neighbours.clear();
@@ -181,7 +181,7 @@ TEST(check_terminal, long_lists_are_cut_and_say_so) {
     EXPECT_TRUE(contains(more, "NOT certified: at least 1000 pairs of cells overlap\n"));
 }
 
-TEST(check_terminal, a_folded_cell_is_not_mended_by_its_orientation) {
+TEST(CheckTerminal, AFoldedCellIsNotMendedByItsOrientation) {
     // Cell 1 with its apex pushed through the common facet: the order of its corners is wrong for that reason.
     Mesh mesh = pair_of_cells();
     mesh.points[14] = 0.125;
@@ -192,7 +192,7 @@ TEST(check_terminal, a_folded_cell_is_not_mended_by_its_orientation) {
     EXPECT_TRUE(contains(text(mesh), "writes a copy with positive cells\n"));
 }
 
-TEST(check_terminal, witnesses_are_exact_or_say_that_they_are_rounded) {
+TEST(CheckTerminal, WitnessesAreExactOrSayThatTheyAreRounded) {
     const std::string shown = text(overlapping());
     EXPECT_TRUE(contains(shown, "cells 0 and 1 overlap: (")) << shown;
     EXPECT_TRUE(contains(shown, "\n    (0x1."));
@@ -222,13 +222,13 @@ TEST(check_terminal, witnesses_are_exact_or_say_that_they_are_rounded) {
     EXPECT_TRUE(contains(text(r, {}), "touch in an area"));
 }
 
-TEST(check_terminal, places_are_positions_whatever_the_file_counts_from) {
+TEST(CheckTerminal, PlacesArePositionsWhateverTheFileCountsFrom) {
     EXPECT_TRUE(
         contains(text(own_mesh("bracket")), "numbered from 0 in file order (the file itself numbers from 1).\n"));
     EXPECT_TRUE(contains(text(own_mesh("torus")), "numbered from 0 in file order.\n"));
 }
 
-TEST(check_terminal, in_the_plane_there_are_areas_and_holes) {
+TEST(CheckTerminal, InThePlaneThereAreAreasAndHoles) {
     const std::string shown = text(own_mesh("plate"));
     EXPECT_FALSE(contains(shown, "volume"));
     EXPECT_FALSE(contains(shown, "tunnel"));
@@ -238,14 +238,14 @@ TEST(check_terminal, in_the_plane_there_are_areas_and_holes) {
     EXPECT_TRUE(contains(text(broken_plane()), "cells 0 and 1 overlap: ("));
 }
 
-TEST(check_terminal, volumes_tell_whether_they_are_equal) {
+TEST(CheckTerminal, VolumesTellWhetherTheyAreEqual) {
     EXPECT_TRUE(contains(text(pair_of_cells()),
                          "0.3333333333333333 in the cells, 0.3333333333333333 inside the boundary: "
                          "exactly equal\n"));
     EXPECT_TRUE(contains(text(thoroughly_broken()), "NOT equal\n"));
 }
 
-TEST(check_terminal, delaunay_only_if_asked) {
+TEST(CheckTerminal, DelaunayOnlyIfAsked) {
     const Mesh mesh = own_mesh("plate");
     EXPECT_FALSE(contains(text(checked(mesh), mesh), "Delaunay"));
     CheckReport r = checked(pair_of_cells(), true);
@@ -258,7 +258,7 @@ TEST(check_terminal, delaunay_only_if_asked) {
                  "           worst: node 11 lies inside the circumsphere of cell 7, 0.25 of its radius deep\n"));
 }
 
-TEST(check_terminal, measures_have_their_worst_cell) {
+TEST(CheckTerminal, MeasuresHaveTheirWorstCell) {
     // Cell 1 is the flatter one.
     const Mesh mesh = tetrahedra({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -0.125}, {0, 1, 2, 3, 0, 2, 1, 4});
     Lines rows;
@@ -271,7 +271,7 @@ TEST(check_terminal, measures_have_their_worst_cell) {
     EXPECT_TRUE(contains(flat, "         inf         inf         inf           0\n")) << flat;
 }
 
-TEST(check_terminal, colour_changes_no_letter) {
+TEST(CheckTerminal, ColourChangesNoLetter) {
     for (const Mesh& mesh : {own_mesh("bracket"), thoroughly_broken()}) {
         const CheckReport r = checked(mesh);
         std::string coloured = text(r, mesh, true);
@@ -282,7 +282,7 @@ TEST(check_terminal, colour_changes_no_letter) {
     }
 }
 
-TEST(check_json, says_what_the_report_says) {
+TEST(CheckJson, SaysWhatTheReportSays) {
     const Mesh mesh = own_mesh("bracket");
     const CheckReport r = checked(mesh, true);
     const Json j = json(r);
@@ -308,7 +308,7 @@ TEST(check_json, says_what_the_report_says) {
     EXPECT_EQ(j["problem_bits"][4], "degenerate_cell");
 }
 
-TEST(check_json, findings_and_contacts_stand_whole) {
+TEST(CheckJson, FindingsAndContactsStandWhole) {
     const CheckReport r = checked(thoroughly_broken());
     const Json j = json(r);
     EXPECT_EQ(j["verdict"], "not certified");
@@ -348,7 +348,7 @@ void expect_numbers(const Json& value, const std::string& where) {
     }
 }
 
-TEST(check_json, knows_no_nan_and_does_not_hide_infinity) {
+TEST(CheckJson, KnowsNoNanAndDoesNotHideInfinity) {
     const Json flat = json(checked(tetrahedra({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, {0, 1, 2, 3})));
     EXPECT_EQ(flat["measures"]["condition"]["most"], std::numeric_limits<double>::max());
     EXPECT_EQ(flat["measures"]["aspect"]["most"], std::numeric_limits<double>::max());
@@ -366,7 +366,7 @@ TEST(check_json, knows_no_nan_and_does_not_hide_infinity) {
     EXPECT_FALSE(contains(nowhere.dump(), "nan"));
 }
 
-TEST(check_json, a_name_that_is_no_utf8_is_no_crash) {
+TEST(CheckJson, ANameThatIsNoUtf8IsNoCrash) {
     EXPECT_TRUE(contains(check_json(checked(pair_of_cells()), "\xff", measure_environment()), "\xef\xbf\xbd"));
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double max = std::numeric_limits<double>::max();
 
-TEST(json_figure, no_figure_is_null_and_infinity_is_not) {
+TEST(JsonFigure, NoFigureIsNullAndInfinityIsNot) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(figure(nan).is_null());
     EXPECT_EQ(figure(infinity), max);
@@ -25,13 +25,13 @@ TEST(json_figure, no_figure_is_null_and_infinity_is_not) {
     EXPECT_EQ(magnitude(infinity), max);
 }
 
-TEST(json_record, keys_and_values_in_turn) {
+TEST(JsonRecord, KeysAndValuesInTurn) {
     const std::optional<int> some = 3, none;
     EXPECT_EQ(record("b", 1, "a", infinity, "c", some, "d", none, "e", "text").dump(),
               R"({"b":1,"a":1.7976931348623157e+308,"c":3,"d":null,"e":"text"})");
 }
 
-TEST(json_text, is_utf8_and_ends_with_a_line_break) {
+TEST(JsonText, IsUtf8AndEndsWithALineBreak) {
     const nlohmann::ordered_json j{{"name", "a\xff"}};
     EXPECT_EQ(base::json_text(j, 1), "{\n \"name\": \"a\xef\xbf\xbd\"\n}\n");
     EXPECT_EQ(base::json_text(j, 2).substr(0, 5), "{\n  \"");

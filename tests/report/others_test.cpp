@@ -37,7 +37,7 @@ std::string refusal(const Json& j) {
     return read ? "" : read.error().message();
 }
 
-TEST(others, flags_are_read_as_they_stand) {
+TEST(Others, FlagsAreReadAsTheyStand) {
     const Json j = whole("flags");
     const auto m = std::get<FlagsMatrix>(read_other_results(std::string(BARYCERT_OTHERS) + "/flags.json").value());
     EXPECT_EQ(m.seed, j["seed"]);
@@ -59,7 +59,7 @@ TEST(others, flags_are_read_as_they_stand) {
     }
 }
 
-TEST(others, systems_are_read_as_they_stand) {
+TEST(Others, SystemsAreReadAsTheyStand) {
     const Json j = whole("systems");
     const auto s = std::get<SystemsLeague>(read_other_results(std::string(BARYCERT_OTHERS) + "/systems.json").value());
     EXPECT_EQ(s.count, j["count"]);
@@ -78,7 +78,7 @@ TEST(others, systems_are_read_as_they_stand) {
     }
 }
 
-TEST(others, bad_files_are_refused_with_the_place) {
+TEST(Others, BadFilesAreRefusedWithThePlace) {
     EXPECT_NE(read_text("").error().message().find("expected JSON, found something else, or a part of it; make one"),
               std::string::npos);
     const std::string text = whole("flags").dump();
@@ -134,7 +134,7 @@ std::string page_with(std::vector<OtherResults> others) {
     return audit_html(audited(), {.others = std::move(others)}).value();
 }
 
-TEST(others, on_the_page_as_tables_that_sort) {
+TEST(Others, OnThePageAsTablesThatSort) {
     EXPECT_EQ(page_with({}).find("Formulas under compiler flags"), std::string::npos);
     const auto read = [](const char* name) {
         return read_other_results(std::string(BARYCERT_OTHERS) + "/" + name + ".json").value();
@@ -179,7 +179,7 @@ TEST(others, on_the_page_as_tables_that_sort) {
     }
 }
 
-TEST(others, text_of_the_files_stays_text) {
+TEST(Others, TextOfTheFilesStaysText) {
     const std::string evil = "<script>alert(1)</script>&\"'\x1b\xff";
     FlagsMatrix m;
     m.compilers = {evil};

@@ -184,18 +184,18 @@ std::set<std::string> without_templates(std::set<std::string> names) {
     return names;
 }
 
-TEST(schema, every_member_written_is_documented) {
+TEST(Schema, EveryMemberWrittenIsDocumented) {
     const Schema schema = schema_with_all_reports();
     EXPECT_EQ(schema.complaints, std::vector<std::string>{});
 }
 
-TEST(schema, every_member_documented_is_written) {
+TEST(Schema, EveryMemberDocumentedIsWritten) {
     const Schema schema = schema_with_all_reports();
     EXPECT_EQ(schema.seen, without_templates(schema.documented()));
     EXPECT_GT(schema.seen.size(), 100U);
 }
 
-TEST(schema, null_is_met_where_it_is_documented_and_so_is_a_figure) {
+TEST(Schema, NullIsMetWhereItIsDocumentedAndSoIsAFigure) {
     const Schema schema = schema_with_all_reports();
     std::vector<std::string> differ;  // gtest cuts long sets off
     const std::set<std::string> nullable = without_templates(schema.nullable());
@@ -204,7 +204,7 @@ TEST(schema, null_is_met_where_it_is_documented_and_so_is_a_figure) {
     EXPECT_EQ(schema.seen_value, schema.seen);
 }
 
-TEST(schema, the_check_itself_finds_faults) {
+TEST(Schema, TheCheckItselfFindsFaults) {
     Json report = Json::parse(audit_json(audited()));
     const auto complaints = [](const Json& changed) {
         Schema schema(BARYCERT_SCHEMA);
@@ -227,7 +227,7 @@ TEST(schema, the_check_itself_finds_faults) {
     EXPECT_EQ(complaints(hex), std::vector<std::string>{"report.witnesses[].point[] is no hex: \"0x1.80p+1\""});
 }
 
-TEST(schema, numbers_read_back_to_the_same_bits) {
+TEST(Schema, NumbersReadBackToTheSameBits) {
     const Json report = Json::parse(audit_json(audited()));
     for (std::size_t i = 0; i < audited().kernels.size(); ++i) {
         const KernelResult& k = audited().kernels[i];
@@ -246,7 +246,7 @@ TEST(schema, numbers_read_back_to_the_same_bits) {
     }
 }
 
-TEST(schema, an_infinite_residual_is_not_hidden_by_null) {
+TEST(Schema, AnInfiniteResidualIsNotHiddenByNull) {
     AuditReport report = audited();
     report.kernels.resize(1);
     report.kernels[0].total.reproduction_residual.value = std::numeric_limits<double>::infinity();
@@ -256,7 +256,7 @@ TEST(schema, an_infinite_residual_is_not_hidden_by_null) {
     EXPECT_TRUE(j["worst_partition_residual"].is_null());
 }
 
-TEST(schema, the_number_is_the_documented_one) {
+TEST(Schema, TheNumberIsTheDocumentedOne) {
     EXPECT_EQ(audit_schema, 1);
     EXPECT_EQ(witness_schema, 1);
     EXPECT_EQ(check_schema, 1);

@@ -27,7 +27,7 @@ double wrong_share(const KernelResult& k) {
     return static_cast<double>(k.total.wrong_cases) / static_cast<double>(k.total.cases);
 }
 
-TEST(terminal_report, worst_first) {
+TEST(TerminalReport, WorstFirst) {
     const auto& kernels = audited().kernels;
     EXPECT_EQ(kernels.front().kernel.name, "tetrahedron.stubborn") << "a false certificate is the worst of all";
     EXPECT_TRUE(std::is_sorted(kernels.begin() + 1, kernels.end(),
@@ -45,7 +45,7 @@ TEST(terminal_report, worst_first) {
     EXPECT_TRUE(contains(text_of(), "    certifies its answers, and "));
 }
 
-TEST(terminal_report, what_a_kernel_did_besides_stands_below_its_row) {
+TEST(TerminalReport, WhatAKernelDidBesidesStandsBelowItsRow) {
     AuditReport report = audited();
     KernelResult& k = report.kernels[1];
     k.total.counts[static_cast<std::size_t>(Finding::crashed)] = 3;
@@ -59,7 +59,7 @@ TEST(terminal_report, what_a_kernel_did_besides_stands_below_its_row) {
     }
 }
 
-TEST(terminal_report, an_accident_is_no_weight) {
+TEST(TerminalReport, AnAccidentIsNoWeight) {
     AuditReport report = audited();
     KernelResult& k = report.kernels[0];
     Witness& w = k.witnesses.at(0);
@@ -75,7 +75,7 @@ TEST(terminal_report, an_accident_is_no_weight) {
     EXPECT_TRUE(contains(narrow(report), "(false_inside, a weight that is not finite)"));
 }
 
-TEST(terminal_report, what_was_not_run_is_not_right) {
+TEST(TerminalReport, WhatWasNotRunIsNotRight) {
     AuditReport report = audited();
     report.kernels.resize(1);
     KernelResult& k = report.kernels[0];
@@ -92,7 +92,7 @@ TEST(terminal_report, what_was_not_run_is_not_right) {
     EXPECT_TRUE(contains(narrow(report), "none of 2 kernels gives a wrong answer, but not all cases were run\n"));
 }
 
-TEST(terminal_report, green_is_what_is_right_in_every_case) {
+TEST(TerminalReport, GreenIsWhatIsRightInEveryCase) {
     AuditReport report = audited();
     std::erase_if(report.kernels, [](const KernelResult& k) { return k.kernel.name != "triangle.exact"; });
     report.kernels.push_back(report.kernels.front());
@@ -106,13 +106,13 @@ TEST(terminal_report, green_is_what_is_right_in_every_case) {
     }
 }
 
-TEST(terminal_report, no_time_where_nothing_was_timed) {
+TEST(TerminalReport, NoTimeWhereNothingWasTimed) {
     AuditReport report = audited();
     for (KernelResult& k : report.kernels) k.ns = 0;
     for (const bool wide : {false, true}) EXPECT_FALSE(contains(audit_text(report, {.wide = wide}), " 0.0\n"));
 }
 
-TEST(terminal_report, columns_stand_under_each_other) {
+TEST(TerminalReport, ColumnsStandUnderEachOther) {
     // No kernel's figures are wider than their columns: all rows end where the head ends.
     std::size_t head = 0, rows = 0;
     for (const std::string& line : lines_of(text_of())) {
@@ -132,7 +132,7 @@ std::size_t columns(const std::string& line) {
     return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-TEST(terminal_report, fits_a_terminal) {
+TEST(TerminalReport, FitsATerminal) {
     AuditReport one = audited();
     for (const char* kernel : {"", "tetrahedron.cramer", "tetrahedron.silent", "triangle.exact"}) {
         one = audited();
@@ -144,7 +144,7 @@ TEST(terminal_report, fits_a_terminal) {
     }
 }
 
-TEST(terminal_report, one_line_a_kernel_with_its_figures) {
+TEST(TerminalReport, OneLineAKernelWithItsFigures) {
     const std::string text = narrow(audited());
     const auto lines = lines_of(text);
     for (const KernelResult& k : audited().kernels) {
@@ -170,7 +170,7 @@ TEST(terminal_report, one_line_a_kernel_with_its_figures) {
     EXPECT_TRUE(contains(text, "barycert replay --kernel tetrahedron.stubborn "));
 }
 
-TEST(terminal_report, one_kernel_family_by_family) {
+TEST(TerminalReport, OneKernelFamilyByFamily) {
     AuditReport one = audited();
     std::erase_if(one.kernels, [](const KernelResult& k) { return k.kernel.name != "tetrahedron.cramer"; });
     const std::string text = narrow(one);
@@ -193,7 +193,7 @@ TEST(terminal_report, one_kernel_family_by_family) {
     EXPECT_FALSE(contains(text_of(), "\nformula"));
 }
 
-TEST(terminal_report, every_family_and_simplex_has_a_row_with_its_worst_kernel) {
+TEST(TerminalReport, EveryFamilyAndSimplexHasARowWithItsWorstKernel) {
     const std::string text = text_of();
     const auto lines = lines_of(text);
     std::size_t rows = 0;
@@ -225,7 +225,7 @@ TEST(terminal_report, every_family_and_simplex_has_a_row_with_its_worst_kernel) 
     EXPECT_EQ(rows, expected);
 }
 
-TEST(terminal_report, commands_name_what_they_need) {
+TEST(TerminalReport, CommandsNameWhatTheyNeed) {
     const std::string plain = text_of();
     EXPECT_TRUE(contains(plain, "barycert replay --kernel "));
     EXPECT_FALSE(contains(plain, "--mesh"));
@@ -240,7 +240,7 @@ TEST(terminal_report, commands_name_what_they_need) {
     }
 }
 
-TEST(terminal_report, colour_changes_no_letter) {
+TEST(TerminalReport, ColourChangesNoLetter) {
     std::string coloured = text_of({.colour = true});
     EXPECT_TRUE(contains(coloured, "\033["));
     for (std::size_t at; (at = coloured.find('\033')) != std::string::npos;)

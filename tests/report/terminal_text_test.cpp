@@ -11,7 +11,7 @@
 namespace barycert::report {
 namespace {
 
-TEST(brief_count, digits_while_they_fit) {
+TEST(BriefCount, DigitsWhileTheyFit) {
     EXPECT_EQ(brief_count(0), "-");
     EXPECT_EQ(brief_count(1), "1");
     EXPECT_EQ(brief_count(9999), "9999");
@@ -22,7 +22,7 @@ TEST(brief_count, digits_while_they_fit) {
         EXPECT_LE(brief_count(edge).size(), 5U) << edge;
 }
 
-TEST(brief, three_digits) {
+TEST(Brief, ThreeDigits) {
     EXPECT_EQ(brief(0), "0");
     EXPECT_EQ(brief(-1), "-");
     EXPECT_EQ(brief(std::numeric_limits<double>::quiet_NaN()), "-");
@@ -36,7 +36,7 @@ TEST(brief, three_digits) {
     for (double x = 4e-324; x < 1e308; x *= 1.7) EXPECT_LE(brief(x).size(), 9U) << x;
 }
 
-TEST(percent, zero_and_hundred_only_when_they_are) {
+TEST(Percent, ZeroAndHundredOnlyWhenTheyAre) {
     EXPECT_EQ(percent(0, 10), "0");
     EXPECT_EQ(percent(10, 10), "100");
     EXPECT_EQ(percent(0, 0), "0");
@@ -62,7 +62,7 @@ TEST(percent, zero_and_hundred_only_when_they_are) {
     }
 }
 
-TEST(colours, only_when_on) {
+TEST(Colours, OnlyWhenOn) {
     Document d;
     for (const Tone tone : {Tone::plain, Tone::good, Tone::bad, Tone::strong, Tone::soft}) d.say("x", tone);
     EXPECT_EQ(terminal_text(d, false), "x\nx\nx\nx\nx\n");

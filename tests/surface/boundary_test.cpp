@@ -83,7 +83,7 @@ Surface expect_right_boundary(const Mesh& mesh, CutOptions options) {
     return s;
 }
 
-TEST(Boundary, of_boxes_and_of_anything) {
+TEST(Boundary, OfBoxesAndOfAnything) {
     for (const int d : {2, 3}) {
         for (std::uint64_t k = 0; k < 100 && !HasFailure(); ++k) {
             base::Random r = base::Random::stream(19, base::hash64("boundary"), k);
@@ -96,7 +96,7 @@ TEST(Boundary, of_boxes_and_of_anything) {
     }
 }
 
-TEST(Boundary, of_own_meshes_is_closed) {
+TEST(Boundary, OfOwnMeshesIsClosed) {
     for (const char* const name : {"bracket", "flange", "torus", "cube-hole", "plate"}) {
         SCOPED_TRACE(name);
         const Surface s = expect_right_boundary(own_mesh(name), {});

@@ -35,7 +35,7 @@ Cut expect_right(const Mesh& mesh, const Field& field, double value, int compone
     return *cut;
 }
 
-TEST(Isosurface, K1_K2_K3_K4_of_any_field_in_any_box) {
+TEST(Isosurface, K1K2K3K4OfAnyFieldInAnyBox) {
     std::uint64_t parts = 0, at_nodes = 0, exact = 0;
     for (const int d : {2, 3}) {
         for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
@@ -63,7 +63,7 @@ TEST(Isosurface, K1_K2_K3_K4_of_any_field_in_any_box) {
     EXPECT_GT(exact, 300U);
 }
 
-TEST(Isosurface, of_grown_complexes_and_of_anything) {
+TEST(Isosurface, OfGrownComplexesAndOfAnything) {
     for (const int d : {2, 3}) {
         for (std::uint64_t k = 0; k < 200 && !HasFailure(); ++k) {
             base::Random r = base::Random::stream(14, base::hash64("iso complexes"), k);
@@ -77,7 +77,7 @@ TEST(Isosurface, of_grown_complexes_and_of_anything) {
     }
 }
 
-TEST(Isosurface, K2_of_own_meshes) {
+TEST(Isosurface, K2OfOwnMeshes) {
     for (const char* const name : {"bracket", "flange", "torus", "cube-hole", "plate", "lattice-box", "needle-slit"}) {
         SCOPED_TRACE(name);
         const Mesh mesh = own_mesh(name);
@@ -96,7 +96,7 @@ TEST(Isosurface, K2_of_own_meshes) {
 }
 
 // One cell, every state of its corners: what is where, by hand.
-TEST(Isosurface, one_tetrahedron_by_hand) {
+TEST(Isosurface, OneTetrahedronByHand) {
     Mesh mesh;
     mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     mesh.cells = {0, 1, 2, 3};
@@ -132,7 +132,7 @@ TEST(Isosurface, one_tetrahedron_by_hand) {
     EXPECT_EQ(*(first + 1 == turned.cells.end() ? turned.cells.begin() : first + 1), 1);
 }
 
-TEST(Isoline, one_triangle_by_hand) {
+TEST(Isoline, OneTriangleByHand) {
     Mesh mesh;
     mesh.dimension = 2;
     mesh.points = {0, 0, 1, 0, 0, 1};
@@ -152,7 +152,7 @@ TEST(Isoline, one_triangle_by_hand) {
 }
 
 // A face of three nodes on the value with both cells outside is a sheet, and has two sides.
-TEST(Isosurface, a_sheet_has_two_sides) {
+TEST(Isosurface, ASheetHasTwoSides) {
     Mesh mesh;
     mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1};
     mesh.cells = {0, 1, 2, 3, 0, 2, 1, 4};
@@ -164,7 +164,7 @@ TEST(Isosurface, a_sheet_has_two_sides) {
 }
 
 // A flat cell between two others: its part closes the gap, turned as they are.
-TEST(Isosurface, flat_cells_fit_their_neighbours) {
+TEST(Isosurface, FlatCellsFitTheirNeighbours) {
     std::uint64_t flat = 0;
     for (std::uint64_t k = 0; k < 300 && !HasFailure(); ++k) {
         base::Random r = base::Random::stream(15, base::hash64("flat cells"), k);
@@ -181,7 +181,7 @@ TEST(Isosurface, flat_cells_fit_their_neighbours) {
     EXPECT_GT(flat, 100U);
 }
 
-TEST(Isosurface, D1_the_same_bits_and_tiers_on_every_simd_target) {
+TEST(Isosurface, D1TheSameBitsAndTiersOnEverySimdTarget) {
     base::Random r(21);
     const Mesh mesh = own_mesh("cube-hole");
     const Field f = random_field(r, "f", mesh.point_count(), 1, 1), g = random_field(r, "g", mesh.point_count(), 3, 1);
@@ -203,7 +203,7 @@ TEST(Isosurface, D1_the_same_bits_and_tiers_on_every_simd_target) {
     use_simd_target("");
 }
 
-TEST(Isosurface, what_does_not_fit_is_refused) {
+TEST(Isosurface, WhatDoesNotFitIsRefused) {
     const Mesh mesh = box(3, {1, 1, 1}), flat = box(2, {1, 1, 1});
     const Field f{"f", 2, std::vector<double>(16, 1)}, g{"g", 1, std::vector<double>(4, 1)};
     const auto says = [](const auto& result, const std::string& part) {
@@ -238,7 +238,7 @@ TEST(Isosurface, what_does_not_fit_is_refused) {
     says(boundary(broken), "neither 2 nor 3");
 }
 
-TEST(Isosurface, nothing_comes_of_nothing) {
+TEST(Isosurface, NothingComesOfNothing) {
     const Field f{"f", 1, {}};
     const Cut cut = isosurface(Mesh(), f, 0).value();
     EXPECT_EQ(cut.surface.point_count() + cut.surface.cell_count(), 0U);
@@ -249,7 +249,7 @@ TEST(Isosurface, nothing_comes_of_nothing) {
     EXPECT_EQ(none.counts.not_finite, mesh.cell_count());
 }
 
-TEST(Isosurface, second_order_cells_are_told) {
+TEST(Isosurface, SecondOrderCellsAreTold) {
     const Mesh mesh = own_mesh("cube-hole-o2");
     ASSERT_FALSE(mesh.mid_nodes.empty());
     const Field& f = mesh.point_fields.front();

@@ -39,7 +39,7 @@ Plane random_plane(base::Random& r, const Mesh& mesh) {
     return plane;
 }
 
-TEST(Slice, K1_K2_K3_K4_of_any_plane_in_any_box) {
+TEST(Slice, K1K2K3K4OfAnyPlaneInAnyBox) {
     std::uint64_t parts = 0, at_nodes = 0, quick = 0;
     for (std::uint64_t k = 0; k < 400 && !HasFailure(); ++k) {
         base::Random r = base::Random::stream(16, base::hash64("slice"), k);
@@ -58,7 +58,7 @@ TEST(Slice, K1_K2_K3_K4_of_any_plane_in_any_box) {
 }
 
 // Numbers of which floating point makes nothing: planes that graze, coordinates far apart.
-TEST(Slice, of_numbers_of_any_kind) {
+TEST(Slice, OfNumbersOfAnyKind) {
     for (std::uint64_t k = 0; k < 200 && !HasFailure(); ++k) {
         base::Random r = base::Random::stream(17, base::hash64("slice, any"), k);
         Mesh mesh = box(3, {2, 1, 1});
@@ -100,7 +100,7 @@ double near_a_half(const mpq_class& x) {
 }
 
 // Values as near to the middle between two doubles as can be, from heights that are small differences of large terms.
-TEST(Slice, K1_near_ties_where_heights_cancel_out) {
+TEST(Slice, K1NearTiesWhereHeightsCancelOut) {
     std::uint64_t exact = 0;
     for (std::uint64_t k = 0; k < 500 && !HasFailure(); ++k) {
         base::Random r = base::Random::stream(20, base::hash64("slice, ties"), k);
@@ -124,7 +124,7 @@ TEST(Slice, K1_near_ties_where_heights_cancel_out) {
     EXPECT_GE(exact, 400U);
 }
 
-TEST(Slice, through_the_lattice_of_the_box) {
+TEST(Slice, ThroughTheLatticeOfTheBox) {
     const Mesh mesh = box(3, {2, 2, 2});
     double expected = 4;
     for (const double at : {0.0, 0.5, 1.0, 1.5, 2.0}) {
@@ -148,7 +148,7 @@ TEST(Slice, through_the_lattice_of_the_box) {
     }
 }
 
-TEST(Slice, the_offset_of_a_plane_through_a_point_is_rounded_once) {
+TEST(Slice, TheOffsetOfAPlaneThroughAPointIsRoundedOnce) {
     for (std::uint64_t k = 0; k < 500; ++k) {
         base::Random r = base::Random::stream(18, base::hash64("planes"), k);
         std::array<double, 3> p{}, n{};
@@ -163,7 +163,7 @@ TEST(Slice, the_offset_of_a_plane_through_a_point_is_rounded_once) {
     }
 }
 
-TEST(Slice, what_is_no_plane_is_refused) {
+TEST(Slice, WhatIsNoPlaneIsRefused) {
     const Mesh mesh = box(3, {1, 1, 1});
     for (const Plane& plane : {Plane{{0, 0, 0}, 1}, Plane{{0, std::nan(""), 1}, 1}, Plane{{0, 0, 1}, HUGE_VAL}}) {
         const auto cut = slice(mesh, plane);

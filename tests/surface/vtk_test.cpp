@@ -90,7 +90,7 @@ Measures contour_by_vtk(const Mesh& mesh, const Field& field, double value) {
     return m;
 }
 
-TEST(IsosurfaceBesideVtk, area_and_parts_of_own_meshes) {
+TEST(IsosurfaceBesideVtk, AreaAndPartsOfOwnMeshes) {
     for (const char* const name : {"bracket", "flange", "torus", "cube-hole"}) {
         SCOPED_TRACE(name);
         const Mesh mesh = own_mesh(name);

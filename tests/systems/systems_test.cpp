@@ -42,7 +42,7 @@ private:
 
 constexpr const char* reason = "lattice: ended by itself with code 3: out of luck";
 
-TEST_F(Failing, never) {
+TEST_F(Failing, Never) {
     const Standing s = asked(answering(2));
     EXPECT_EQ(s.total.points, 80U);
     EXPECT_EQ(s.total.missed + s.total.invented + s.total.wrong_cell, 0U);
@@ -51,7 +51,7 @@ TEST_F(Failing, never) {
     EXPECT_EQ(s.ns.size(), 1U);
 }
 
-TEST_F(Failing, at_once) {
+TEST_F(Failing, AtOnce) {
     const Standing s = asked(answering(0));
     EXPECT_EQ(s.total.points, 0U);
     EXPECT_EQ(s.failures, std::vector<std::string>{reason});
@@ -62,7 +62,7 @@ TEST_F(Failing, at_once) {
 }
 
 // What it answered before counts.
-TEST_F(Failing, when_it_is_timed) {
+TEST_F(Failing, WhenItIsTimed) {
     const Standing s = asked(answering(1));
     EXPECT_EQ(s.total.points, 80U);
     EXPECT_TRUE(s.failures.empty());

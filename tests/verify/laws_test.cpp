@@ -92,7 +92,7 @@ void expect_verdicts(const Verdicts& found, const std::vector<RowVerdict>& right
     EXPECT_EQ(found.rows, found.right + found.wrong()) << what;
 }
 
-TEST(VerifyLaws, R1_R2_R3_R4_AnyCellThatContainsThePointIsRight) {
+TEST(VerifyLaws, R1R2R3R4AnyCellThatContainsThePointIsRight) {
     for (const int d : {2, 3}) {
         for (std::uint64_t n = 0; n < 150 && !::testing::Test::HasFailure(); ++n) {
             base::Random random = base::Random::stream(91, n, static_cast<std::uint64_t>(d));
@@ -124,7 +124,7 @@ TEST(VerifyLaws, R1_R2_R3_R4_AnyCellThatContainsThePointIsRight) {
     }
 }
 
-TEST(VerifyLaws, D1_BlocksAndThreads) {
+TEST(VerifyLaws, D1BlocksAndThreads) {
     base::Random random = base::Random::stream(92, 1, 3);
     Mesh mesh = damaged_box(3, random);
     while (mesh.cell_count() == 0) mesh = damaged_box(3, random);
@@ -167,7 +167,7 @@ TEST(VerifyLaws, D1_BlocksAndThreads) {
     }
 }
 
-TEST(VerifyLaws, D1_TheSameRowsAreMeasuredWhateverTheParts) {
+TEST(VerifyLaws, D1TheSameRowsAreMeasuredWhateverTheParts) {
     base::Random random = base::Random::stream(93, 1, 3);
     Mesh mesh = read_mesh(BARYCERT_DATA_DIR "/meshes/cube-hole").value();
     mesh.point_fields.clear();

@@ -23,7 +23,7 @@ void expect_whole(const Mesh& mesh) {
     }
 }
 
-TEST(GmshDamage, cut_anywhere) {
+TEST(GmshDamage, CutAnywhere) {
     for (const MshKind& kind : msh_kinds) {
         SCOPED_TRACE(name_of(kind));
         const std::string bytes = MshBytes(small(), kind.version, kind.form).bytes();
@@ -47,7 +47,7 @@ TEST(GmshDamage, cut_anywhere) {
     }
 }
 
-TEST(GmshDamage, changed_anywhere) {
+TEST(GmshDamage, ChangedAnywhere) {
     constexpr std::string_view alphabet = "0123456789 \n\r-.$eEn\xFF";
     for (const MshKind& kind : msh_kinds) {
         SCOPED_TRACE(name_of(kind));
@@ -82,7 +82,7 @@ TEST(GmshDamage, changed_anywhere) {
     }
 }
 
-TEST(GmshDamage, counts_that_no_file_bears_out) {
+TEST(GmshDamage, CountsThatNoFileBearsOut) {
     // Each number of a header replaced by one that is far too large: an error at once, without the memory.
     for (const MshKind& kind : {MshKind{41, Form::little}, MshKind{41, Form::big}, MshKind{22, Form::little}}) {
         const std::string bytes = MshBytes(small(), kind.version, kind.form).bytes();

@@ -24,7 +24,7 @@ struct Case {
     const char* found;
 };
 
-TEST(GmshErrors, with_line_and_remedy) {
+TEST(GmshErrors, WithLineAndRemedy) {
     const std::string good = head + nodes + elements;
     ASSERT_TRUE(read_bytes(good));
     const std::string old = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n";
@@ -96,7 +96,7 @@ TEST(GmshErrors, with_line_and_remedy) {
     }
 }
 
-TEST(GmshErrors, binary) {
+TEST(GmshErrors, Binary) {
     for (const Form form : {Form::little, Form::big}) {
         for (const int version : {22, 41}) {
             Msh msh = two_tetrahedra();
@@ -116,7 +116,7 @@ TEST(GmshErrors, binary) {
     }
 }
 
-TEST(GmshErrors, files_that_are_not_there_or_are_no_files) {
+TEST(GmshErrors, FilesThatAreNotThereOrAreNoFiles) {
     const TemporaryFolder folder;
     EXPECT_EQ(read_gmsh(folder / "no.msh").error().what, read_tetgen(folder / "no").error().what);
     EXPECT_FALSE(read_gmsh(folder / "."));

@@ -84,7 +84,7 @@ void expect_midpoints(const Mesh& mesh) {
     }
 }
 
-TEST(GmshPrograms, gmsh_writes_boxes) {
+TEST(GmshPrograms, GmshWritesBoxes) {
     SKIP_WITHOUT_GMSH();
     for (const char* order : {"1", "2"}) {
         Mesh first;
@@ -122,7 +122,7 @@ TEST(GmshPrograms, gmsh_writes_boxes) {
     }
 }
 
-TEST(GmshPrograms, gmsh_writes_squares) {
+TEST(GmshPrograms, GmshWritesSquares) {
     SKIP_WITHOUT_GMSH();
     for (const char* order : {"1", "2"}) {
         for (const Option& option : options) {
@@ -137,7 +137,7 @@ TEST(GmshPrograms, gmsh_writes_squares) {
     }
 }
 
-TEST(GmshPrograms, what_else_gmsh_writes) {
+TEST(GmshPrograms, WhatElseGmshWrites) {
     SKIP_WITHOUT_GMSH();
     const Mesh plain = made_by_gmsh(two_halves, "-3 -format msh41");
     for (const char* more : {"-3 -format msh41 -save_parametric", "-3 -format msh41 -bin -save_parametric",
@@ -190,7 +190,7 @@ std::vector<std::string> commands_in(const std::string& text) {
     return commands;
 }
 
-TEST(GmshPrograms, the_commands_that_errors_name_work) {
+TEST(GmshPrograms, TheCommandsThatErrorsNameWork) {
     SKIP_WITHOUT_GMSH();
     for (const char* arguments : {"-3 -format msh1", "-3 -format msh3", "-3 -format msh41 -order 3",
                                   "-3 -format msh22 -bin -save_parametric"}) {
@@ -211,7 +211,7 @@ TEST(GmshPrograms, the_commands_that_errors_name_work) {
     }
 }
 
-TEST(GmshPrograms, gmsh_reads_what_is_written) {
+TEST(GmshPrograms, GmshReadsWhatIsWritten) {
     SKIP_WITHOUT_GMSH();
     Mesh mesh = made_by_gmsh(two_halves, "-3 -order 2 -format msh41 -bin");
     mesh.point_fields = {{"T", 1, {}}, {"v", 3, {}}};
@@ -249,7 +249,7 @@ TEST(GmshPrograms, gmsh_reads_what_is_written) {
     }
 }
 
-TEST(GmshPrograms, meshio_reads_and_writes_the_same) {
+TEST(GmshPrograms, MeshioReadsAndWritesTheSame) {
     const std::string python = meshio_python();
     if (python.empty()) GTEST_SKIP() << "no meshio";
     Msh two = two_tetrahedra();

@@ -6,7 +6,7 @@
 namespace barycert::testing {
 namespace {
 
-TEST(GmshRead, tetrahedra_of_sparse_tags) {
+TEST(GmshRead, TetrahedraOfSparseTags) {
     for (const MshKind& kind : msh_kinds) {
         SCOPED_TRACE(name_of(kind));
         const Result<Mesh> mesh = read_msh(two_tetrahedra(), kind);
@@ -34,7 +34,7 @@ TEST(GmshRead, tetrahedra_of_sparse_tags) {
     }
 }
 
-TEST(GmshRead, elements_apart_from_the_cells_are_important) {
+TEST(GmshRead, ElementsApartFromTheCellsAreImportant) {
     Msh msh = two_tetrahedra();
     msh.blocks[0].elements[0].nodes = {3};
     for (const MshKind& kind : msh_kinds) {
@@ -45,7 +45,7 @@ TEST(GmshRead, elements_apart_from_the_cells_are_important) {
     }
 }
 
-TEST(GmshRead, triangles_in_the_plane) {
+TEST(GmshRead, TrianglesInThePlane) {
     Msh msh;
     msh.nodes = {{1, {0, 0, 0}}, {2, {1, 0, -0.0}}, {3, {0, 1, 0}}, {4, {1, 1, 0}}};
     msh.blocks = {{1, 1, 1, 0, {{1, {1, 2}}}}, {2, 1, 2, 0, {{2, {1, 2, 3}}, {3, {2, 4, 3}}}}};
@@ -67,7 +67,7 @@ TEST(GmshRead, triangles_in_the_plane) {
     }
 }
 
-TEST(GmshRead, second_order) {
+TEST(GmshRead, SecondOrder) {
     for (const int dimension : {2, 3}) {
         Msh msh;
         const std::size_t nodes = dimension == 3 ? 10 : 6;
@@ -93,7 +93,7 @@ TEST(GmshRead, second_order) {
     }
 }
 
-TEST(GmshRead, text_as_it_comes) {
+TEST(GmshRead, TextAsItComes) {
     // Gmsh takes any white space: all of a section on one line, a number a line, CR LF.
     for (const int version : {22, 40, 41}) {
         SCOPED_TRACE(version);
@@ -126,7 +126,7 @@ TEST(GmshRead, text_as_it_comes) {
     }
 }
 
-TEST(GmshRead, parametric_nodes_of_version_2) {
+TEST(GmshRead, ParametricNodesOfVersion2) {
     const std::string text =
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n4\n1 0 0 0 0 1\n2 1 0 0 1 4 0.5\n3 0 1 0 2 9 .5 .25\n"
         "4 0 0 1 3 1\n$EndParametricNodes\n$Elements\n1\n1 4 3 99 2 1 1 2 3 4\n$EndElements\n";
@@ -137,7 +137,7 @@ TEST(GmshRead, parametric_nodes_of_version_2) {
     EXPECT_NE(find_note(*mesh, "partitions"), nullptr);
 }
 
-TEST(GmshRead, elements_that_repeat_for_a_further_group) {
+TEST(GmshRead, ElementsThatRepeatForAFurtherGroup) {
     // As Gmsh writes 2.2 where a volume is in several groups.
     Msh msh = two_tetrahedra();
     msh.blocks = {{3, 5, 4, 7, {{1, {7, 9, 8, 1000}}}},
@@ -158,7 +158,7 @@ TEST(GmshRead, elements_that_repeat_for_a_further_group) {
     EXPECT_EQ(read_msh(msh, {22, Form::text}).value().cell_count(), 4U);
 }
 
-TEST(GmshRead, threads_do_not_matter) {
+TEST(GmshRead, ThreadsDoNotMatter) {
     base::Random random(5);
     Msh msh;
     for (std::int64_t i = 0; i < 30000; ++i)

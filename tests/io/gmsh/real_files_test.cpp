@@ -14,7 +14,7 @@ Mesh read(const std::string& name) {
     return mesh ? std::move(*mesh) : Mesh{};
 }
 
-TEST(GmshRealFiles, armadillo) {
+TEST(GmshRealFiles, Armadillo) {
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no " << shared;
     const Mesh mesh = read("ipc_Armadillo13K.msh");
     EXPECT_EQ(mesh.point_count(), 13230U);
@@ -25,7 +25,7 @@ TEST(GmshRealFiles, armadillo) {
     EXPECT_EQ(mesh.notes[0].text, "section $Surface");
 }
 
-TEST(GmshRealFiles, cubes_in_both_versions) {
+TEST(GmshRealFiles, CubesInBothVersions) {
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no " << shared;
     const Mesh old = read("polyfem_cubes_v22.msh"), current = read("polyfem_cubes_v41.msh");
     for (const Mesh& mesh : {old, current}) {

@@ -12,7 +12,7 @@ Msh with_views(std::vector<Msh::View> views) {
     return msh;
 }
 
-TEST(GmshViews, fields_of_nodes_and_cells) {
+TEST(GmshViews, FieldsOfNodesAndCells) {
     const Msh msh = with_views(
         {{"NodeData", "T", 0, 0, 1, {{50, {1}}, {7, {2}}, {9, {0.1}}, {8, {5e-324}}, {1000, {INFINITY}}, {3, {-6}}}},
          {"ElementData", "flux", 0, 0, 3, {{10, {1, 2, 3}}, {20, {4, 5, 6}}}},
@@ -31,7 +31,7 @@ TEST(GmshViews, fields_of_nodes_and_cells) {
     }
 }
 
-TEST(GmshViews, gaps_are_nan_and_told) {
+TEST(GmshViews, GapsAreNanAndTold) {
     const Msh msh = with_views({{"NodeData", "T", 0, 0, 1, {{9, {3}}, {8, {4}}}},
                                 {"NodeData", "parts", 0, 0, 1, {{9, {1}}, {8, {2}}, {3, {3}}}},
                                 {"NodeData", "parts", 0, 0, 1, {{7, {4}}, {50, {5}}, {1000, {6}}}},
@@ -58,7 +58,7 @@ TEST(GmshViews, gaps_are_nan_and_told) {
     }
 }
 
-TEST(GmshViews, steps) {
+TEST(GmshViews, Steps) {
     const auto rows = [](double x) {
         return std::vector<std::pair<std::int64_t, std::vector<double>>>{{50, {x}}, {7, {x}},    {9, {x}},
                                                                          {8, {x}},  {1000, {x}}, {3, {x}}};
@@ -93,7 +93,7 @@ TEST(GmshViews, steps) {
     }
 }
 
-TEST(GmshViews, contradictions) {
+TEST(GmshViews, Contradictions) {
     const Msh twice = with_views({{"NodeData", "T", 0, 0, 1, {{9, {3}}, {9, {4}}}}});
     EXPECT_EQ(read_msh(twice, {41, Form::text}).error().what, "two values of \"T\" for one node");
     const Msh again =
@@ -109,7 +109,7 @@ TEST(GmshViews, contradictions) {
     EXPECT_TRUE(read_msh(same_tags, {41, Form::text})) << "where nothing refers to tags, they are mere labels";
 }
 
-TEST(GmshViews, what_has_no_place_is_told) {
+TEST(GmshViews, WhatHasNoPlaceIsTold) {
     const std::string text = MshBytes(two_tetrahedra(), 41, Form::text).bytes() +
                              "$ElementNodeData\n1\n\"stress\"\n1\n0\n3\n0\n1\n1\n10 4 1 2 3 4\n$EndElementNodeData\n"
                              "$Periodic\n0\n$EndPeriodic\n$Comments\n$Nodes is not here\n$EndComments\n"

@@ -28,7 +28,7 @@ Mesh round_trip(const Mesh& mesh, const GmshWriteOptions& options) {
     return *read;
 }
 
-TEST(GmshWrite, random_meshes_come_back) {
+TEST(GmshWrite, RandomMeshesComeBack) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         SCOPED_TRACE(seed);
         base::Random random(seed);
@@ -94,7 +94,7 @@ TEST(GmshWrite, random_meshes_come_back) {
     }
 }
 
-TEST(GmshWrite, groups_with_names) {
+TEST(GmshWrite, GroupsWithNames) {
     const Mesh mesh = read_msh(two_tetrahedra(), {41, Form::text}).value();
     for (const GmshWriteOptions& options : all_options) {
         SCOPED_TRACE(name_of(options));
@@ -110,7 +110,7 @@ TEST(GmshWrite, groups_with_names) {
     EXPECT_EQ(round_trip(numbered, {}).cell_labels.at(0).values, Column::Values(std::vector<std::int64_t>{3, 4}));
 }
 
-TEST(GmshWrite, markers_are_a_field) {
+TEST(GmshWrite, MarkersAreAField) {
     Mesh mesh = read_msh(two_tetrahedra(), {41, Form::text}).value();
     mesh.point_markers = {1, 2, 3, 4, 5, -6};
     const Mesh read = round_trip(mesh, {});
@@ -118,7 +118,7 @@ TEST(GmshWrite, markers_are_a_field) {
     EXPECT_EQ(read.point_fields.at(0).data, (std::vector<double>{1, 2, 3, 4, 5, -6}));
 }
 
-TEST(GmshWrite, what_cannot_be_written) {
+TEST(GmshWrite, WhatCannotBeWritten) {
     const TemporaryFolder folder;
     const Mesh good = read_msh(two_tetrahedra(), {41, Form::text}).value();
     const auto what = [&](const Mesh& mesh) {

@@ -11,7 +11,7 @@ Medit all_of_it() {
     return file;
 }
 
-TEST(MeditDamage, cut_anywhere) {
+TEST(MeditDamage, CutAnywhere) {
     for (const MeditForm& form : medit_forms) {
         SCOPED_TRACE(name_of(form));
         const std::string bytes = medit_bytes(all_of_it(), form.version, form.form);
@@ -31,7 +31,7 @@ TEST(MeditDamage, cut_anywhere) {
     }
 }
 
-TEST(MeditDamage, changed_anywhere) {
+TEST(MeditDamage, ChangedAnywhere) {
     constexpr std::string_view alphabet = "0123456789 \n\r-.#\"eEnT\xFF";
     int accepted = 0, refused = 0;
     for (const MeditForm& form : medit_forms) {

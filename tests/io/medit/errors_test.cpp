@@ -15,7 +15,7 @@ struct Refused {
     const char *what, *expected, *found;
 };
 
-TEST(MeditErrors, a_surface_in_space_is_told_how_to_be_filled) {
+TEST(MeditErrors, ASurfaceInSpaceIsToldHowToBeFilled) {
     const TemporaryFolder folder;
     put(folder / "m.mesh", head + nodes + "Triangles 1 1 2 4 0\nEnd\n");
     const Result<Mesh> read = read_mesh(folder / "m.mesh");
@@ -26,7 +26,7 @@ TEST(MeditErrors, a_surface_in_space_is_told_how_to_be_filled) {
         << read.error().remedy;
 }
 
-TEST(MeditErrors, text) {
+TEST(MeditErrors, Text) {
     const std::vector<Refused> all{
         {"MFEM mesh v1.0\n", 1, "not a file of Medit", nullptr, "\"MFEM\""},
         {"", 1, "not a file of Medit", nullptr, "an empty file"},
@@ -89,7 +89,7 @@ TEST(MeditErrors, text) {
                  "SolAtVertices", "--field NAME=FILE");
 }
 
-TEST(MeditErrors, binary) {
+TEST(MeditErrors, Binary) {
     const std::string bytes = medit_bytes(two_of_medit(), 2, Form::little);
     const auto changed = [&](std::size_t at, char to) {
         std::string text = bytes;
@@ -115,7 +115,7 @@ TEST(MeditErrors, binary) {
                  nullptr, "0 bytes", nullptr);
 }
 
-TEST(MeditErrors, coordinates_that_are_not_finite) {
+TEST(MeditErrors, CoordinatesThatAreNotFinite) {
     Medit file = two_of_medit();
     file.parts[0].rows[1][2] = std::numeric_limits<double>::infinity();
     for (const MeditForm& form : medit_forms) {

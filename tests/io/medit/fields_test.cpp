@@ -19,7 +19,7 @@ Medit solution() {
     return file;
 }
 
-TEST(MeditFields, all_versions_and_forms) {
+TEST(MeditFields, AllVersionsAndForms) {
     const TemporaryFolder folder;
     for (const MeditForm& form : medit_forms) {
         SCOPED_TRACE(name_of(form));
@@ -42,7 +42,7 @@ TEST(MeditFields, all_versions_and_forms) {
     }
 }
 
-TEST(MeditFields, in_the_plane) {
+TEST(MeditFields, InThePlane) {
     const Medit file{2, {{"SolAtVertices", 62, 9, {{1, 2, 3, 4, 5, 6, 7, 8, 9}}, {2, 3, 4}}}};
     const TemporaryFolder folder;
     for (const MeditForm& form : medit_forms) {
@@ -54,7 +54,7 @@ TEST(MeditFields, in_the_plane) {
     }
 }
 
-TEST(MeditFields, in_the_file_of_the_mesh) {
+TEST(MeditFields, InTheFileOfTheMesh) {
     Medit file = two_of_medit();
     for (const MeditPart& part : solution().parts) file.parts.push_back(part);
     for (const MeditForm& form : medit_forms) {
@@ -69,7 +69,7 @@ TEST(MeditFields, in_the_file_of_the_mesh) {
     EXPECT_EQ(fewer.error().what, "the rows of solution0");
 }
 
-TEST(MeditFields, named_as_field_files) {
+TEST(MeditFields, NamedAsFieldFiles) {
     const TemporaryFolder folder;
     Mesh mesh = read_medit_bytes(medit_bytes(two_of_medit(), 2, Form::text)).value();
     const auto add = [&](const std::string& name, const std::string& file, const std::string& column,
@@ -108,7 +108,7 @@ TEST(MeditFields, named_as_field_files) {
     EXPECT_FALSE(add("d", "few.sol", ""));
 }
 
-TEST(MeditFields, errors) {
+TEST(MeditFields, Errors) {
     const TemporaryFolder folder;
     const std::string head = "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n";
     struct Refused {

@@ -61,7 +61,7 @@ Curve Loop(1) = {1,2,3,4}; Plane Surface(5) = {1};
 v[] = Extrude {0,0,1} { Surface{5}; };
 )";
 
-TEST(MeditPrograms, gmsh_writes) {
+TEST(MeditPrograms, GmshWrites) {
     if (!runs("gmsh --version")) GTEST_SKIP() << "no gmsh";
     for (const int dimension : {2, 3}) {
         for (const int order : {1, 2}) {
@@ -86,7 +86,7 @@ TEST(MeditPrograms, gmsh_writes) {
     }
 }
 
-TEST(MeditPrograms, meshio_writes) {
+TEST(MeditPrograms, MeshioWrites) {
     const std::string python = meshio_python();
     if (python.empty()) GTEST_SKIP() << "no meshio";
     const TemporaryFolder folder;

@@ -4,7 +4,7 @@
 namespace barycert::testing {
 namespace {
 
-TEST(MeditRead, all_versions_and_forms) {
+TEST(MeditRead, AllVersionsAndForms) {
     for (const MeditForm& form : medit_forms) {
         SCOPED_TRACE(name_of(form));
         const Result<Mesh> mesh = read_medit_bytes(medit_bytes(two_of_medit(), form.version, form.form));
@@ -30,7 +30,7 @@ TEST(MeditRead, all_versions_and_forms) {
     }
 }
 
-TEST(MeditRead, doubles_keep_their_bits) {
+TEST(MeditRead, DoublesKeepTheirBits) {
     Medit file = two_of_medit();
     file.parts[0].rows[0] = {0.1, 0x1p-1074, 1.7976931348623157e308, 0};
     for (const MeditForm& form : medit_forms) {
@@ -42,7 +42,7 @@ TEST(MeditRead, doubles_keep_their_bits) {
     }
 }
 
-TEST(MeditRead, text_in_any_layout) {
+TEST(MeditRead, TextInAnyLayout) {
     const Mesh plain = read_medit_bytes(medit_bytes(two_of_medit(), 2, Form::text)).value();
     const std::string body = "6 0 0 0 7 1 0 0 0 0 .125 0 -3 0\n0\n1.25 0\n1 1 1 9 9 9 9 0\n";
     const std::string cells = "Tetrahedra 2 1 2 3 4 1\t2 3 4 5 2\nTriangles\n2\n1 2 3 10\n2 3 5 20\n";
@@ -63,7 +63,7 @@ TEST(MeditRead, text_in_any_layout) {
     }
 }
 
-TEST(MeditRead, found_by_its_first_bytes) {
+TEST(MeditRead, FoundByItsFirstBytes) {
     const TemporaryFolder folder;
     for (const MeditForm& form : medit_forms) {
         put(folder / "m.dat", medit_bytes(two_of_medit(), form.version, form.form));
@@ -77,7 +77,7 @@ TEST(MeditRead, found_by_its_first_bytes) {
     EXPECT_NE(stem.error().remedy.find("m.meshb: name it with its suffix"), std::string::npos);
 }
 
-TEST(MeditRead, in_the_plane) {
+TEST(MeditRead, InThePlane) {
     const std::vector<std::vector<double>> triangles{{1, 2, 3, 5}, {2, 4, 3, 6}};
     const Medit flat{
         2, {{"Vertices", 4, 2, {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}, {"Triangles", 6, 0, triangles}}};
@@ -122,7 +122,7 @@ Medit second_order(const std::vector<std::array<int, 2>>& edges) {
     return file;
 }
 
-TEST(MeditRead, second_order) {
+TEST(MeditRead, SecondOrder) {
     const std::vector<std::pair<MidEdgeOrder, std::vector<std::array<int, 2>>>> orders{
         {MidEdgeOrder::vtk, {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}},
         {MidEdgeOrder::gmsh, {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}},
@@ -161,7 +161,7 @@ TEST(MeditRead, second_order) {
     EXPECT_EQ(other.error().what, "the order of the mid-edge nodes is unknown");
 }
 
-TEST(MeditRead, second_order_in_the_plane) {
+TEST(MeditRead, SecondOrderInThePlane) {
     const Medit file{2,
                      {{"Vertices", 4, 2, {{0, 0, 0}, {2, 0, 0}, {0, 4, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}}},
                       {"EdgesP2", 25, 0, {{1, 2, 4, 1}}},
@@ -176,7 +176,7 @@ TEST(MeditRead, second_order_in_the_plane) {
     }
 }
 
-TEST(MeditRead, what_has_nodes_of_its_own_is_told) {
+TEST(MeditRead, WhatHasNodesOfItsOwnIsTold) {
     Medit file = two_of_medit();
     file.parts[3].rows.push_back({1, 2, 6, 0});
     const Mesh mesh = read_medit_bytes(medit_bytes(file, 2, Form::text)).value();
@@ -186,7 +186,7 @@ TEST(MeditRead, what_has_nodes_of_its_own_is_told) {
     EXPECT_TRUE(note->important);
 }
 
-TEST(MeditRead, references_that_no_double_represents_are_labels) {
+TEST(MeditRead, ReferencesThatNoDoubleRepresentsAreLabels) {
     Medit file = two_of_medit();
     file.parts[4].rows[1][4] = 0x1p60;
     for (const Form form : {Form::text, Form::little, Form::big}) {
@@ -197,7 +197,7 @@ TEST(MeditRead, references_that_no_double_represents_are_labels) {
     }
 }
 
-TEST(MeditRead, as_points) {
+TEST(MeditRead, AsPoints) {
     const TemporaryFolder folder;
     put(folder / "m.mesh", medit_bytes(two_of_medit(), 2, Form::text));
     const auto source = open_points(folder / "m.mesh", 3, {.keep = {"all"}});

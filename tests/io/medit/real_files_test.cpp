@@ -9,7 +9,7 @@ namespace {
 
 const std::string shared = BARYCERT_SHARED_DATA_DIR "/medit/";
 
-TEST(MeditRealFiles, text_of_sfepy) {
+TEST(MeditRealFiles, TextOfSfepy) {
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no " << shared;
     const Result<Mesh> mesh = read_mesh(shared + "sfepy_cubecyl.mesh");
     ASSERT_TRUE(mesh) << mesh.error().message();
@@ -18,7 +18,7 @@ TEST(MeditRealFiles, text_of_sfepy) {
     EXPECT_TRUE(check_mesh(*mesh).certified());
 }
 
-TEST(MeditRealFiles, binary_of_refine) {
+TEST(MeditRealFiles, BinaryOfRefine) {
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no " << shared;
     const Result<Mesh> mesh = read_mesh(shared + "refine_cubesphere.meshb");
     ASSERT_TRUE(mesh) << mesh.error().message();

@@ -85,7 +85,7 @@ std::vector<std::string> names_of(const PlyElement& e) {
 
 using Names = std::vector<std::string>;
 
-TEST(SurfaceFile, ply_has_every_number) {
+TEST(SurfaceFile, PlyHasEveryNumber) {
     const TemporaryFolder folder;
     const Surface s = two_triangles();
     const SurfaceFile file = write_surface(s, folder / "s.PLY").value();
@@ -111,7 +111,7 @@ TEST(SurfaceFile, ply_has_every_number) {
     EXPECT_EQ(ply[1].rows, (std::vector<std::vector<double>>{{1, 2}, {3, 1.0 / 7}}));
 }
 
-TEST(SurfaceFile, ply_of_segments_has_edges) {
+TEST(SurfaceFile, PlyOfSegmentsHasEdges) {
     const TemporaryFolder folder;
     write_surface(two_segments(), folder / "s.ply").value();
     const std::vector<PlyElement> ply = read_ply(get(folder / "s.ply"));
@@ -122,7 +122,7 @@ TEST(SurfaceFile, ply_of_segments_has_edges) {
     EXPECT_EQ(ply[1].rows, (std::vector<std::vector<double>>{{0, 1, 5}, {1, 2, 6}}));
 }
 
-TEST(SurfaceFile, off_is_read_as_a_plc) {
+TEST(SurfaceFile, OffIsReadAsAPlc) {
     const TemporaryFolder folder;
     const Surface s = two_triangles();
     const SurfaceFile file = write_surface(s, folder / "s.off").value();
@@ -137,7 +137,7 @@ TEST(SurfaceFile, off_is_read_as_a_plc) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
-TEST(SurfaceFile, what_cannot_be_written_leaves_nothing) {
+TEST(SurfaceFile, WhatCannotBeWrittenLeavesNothing) {
     const TemporaryFolder folder;
     const auto says = [&](const Surface& s, const std::string& name, const std::string& part) {
         const auto written = write_surface(s, folder / name);

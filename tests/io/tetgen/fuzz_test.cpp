@@ -22,7 +22,7 @@ Mesh small_mesh() {
     return mesh;
 }
 
-TEST(Damage, a_file_cut_anywhere) {
+TEST(Damage, AFileCutAnywhere) {
     const Mesh mesh = small_mesh();
     for (const char* comment : {"", "the end"}) {
         const TemporaryFolder folder;
@@ -45,7 +45,7 @@ TEST(Damage, a_file_cut_anywhere) {
     }
 }
 
-TEST(Damage, random_bytes) {
+TEST(Damage, RandomBytes) {
     constexpr std::string_view alphabet = "0123456789999  \n\n\r\t,+-.#;eEdDnx\xFF\xEF";
     const TemporaryFolder folder;
     ASSERT_TRUE(write_tetgen(small_mesh(), folder / "m", {.comment = "the end"}));

@@ -33,7 +33,7 @@ int agree(const std::string& row) {
     return 1;
 }
 
-TEST(IntegerRow, plain_rows) {
+TEST(IntegerRow, PlainRows) {
 #ifdef __SSE2__
     EXPECT_EQ(agree("0 1 2 3 4\n"), 1);
     EXPECT_EQ(agree("   12345678  1 23 456 7890   \n5 6"), 1);
@@ -44,7 +44,7 @@ TEST(IntegerRow, plain_rows) {
 #endif
 }
 
-TEST(IntegerRow, rows_it_leaves_alone) {
+TEST(IntegerRow, RowsItLeavesAlone) {
     for (const char* row :
          {"", "\n", "1 2 3 4\n", "1 2 3 4 5 6\n", "1 2 3 4 05\n", "1 2 3 4 00\n", "1 2 3 4 5", "1 2 3 4 -5\n",
           "1 2 3 4 +5\n", "1,2,3,4,5\n", "1 2 3 4 5\r\n", "1 2 3 4 5#\n", "1 2 3 4 123456789\n", "1 2 3 4 5.0\n",
@@ -53,7 +53,7 @@ TEST(IntegerRow, rows_it_leaves_alone) {
     }
 }
 
-TEST(IntegerRow, never_differs_from_the_scanner) {
+TEST(IntegerRow, NeverDiffersFromTheScanner) {
     constexpr std::string_view alphabet = "0000123456789999      \n\t,+-.#;:/a\r";
     int read = 0;
     for (std::uint64_t seed = 0; seed < 200000; ++seed) {
@@ -74,7 +74,7 @@ TEST(IntegerRow, never_differs_from_the_scanner) {
 #endif
 }
 
-TEST(Scanner, integers_of_every_length) {
+TEST(Scanner, IntegersOfEveryLength) {
     std::string digits;
     for (int length = 1; length <= 19; ++length) {
         digits += static_cast<char>('0' + length % 10);
@@ -88,7 +88,7 @@ TEST(Scanner, integers_of_every_length) {
     }
 }
 
-TEST(Scanner, limits_of_64_bits) {
+TEST(Scanner, LimitsOf64Bits) {
     const auto read = [](std::string text) {
         text.append(16, '\0');
         std::int64_t value = 1;

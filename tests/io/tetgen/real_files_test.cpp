@@ -64,7 +64,7 @@ void expect_bad(const std::string& folder, const Bad& bad) {
                  bad.found, nullptr);
 }
 
-TEST(RealFiles, meshes) {
+TEST(RealFiles, Meshes) {
     SKIP_WITHOUT_SHARED_DATA();
     const std::string folder = shared + "/tetgen/";
     std::set<std::string> left = stems_in(folder);
@@ -87,7 +87,7 @@ TEST(RealFiles, meshes) {
     EXPECT_TRUE(left.empty()) << "no expectation for " << *left.begin();
 }
 
-TEST(RealFiles, chaste_bad_data) {
+TEST(RealFiles, ChasteBadData) {
     SKIP_WITHOUT_SHARED_DATA();
     const std::string folder = shared + "/nasty/";
     std::set<std::string> left = stems_in(folder);
@@ -114,7 +114,7 @@ TEST(RealFiles, chaste_bad_data) {
     EXPECT_TRUE(left.empty()) << "no expectation for " << *left.begin();
 }
 
-TEST(RealFiles, tetgen_traps) {
+TEST(RealFiles, TetgenTraps) {
     SKIP_WITHOUT_SHARED_DATA();
     const std::string folder = shared + "/nasty/tetgen_traps/";
     std::set<std::string> left = stems_in(folder);

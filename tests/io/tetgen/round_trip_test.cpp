@@ -18,13 +18,13 @@ void expect_round_trip(const Mesh& mesh, const WriteOptions& options = {}) {
     expect_same(*read, mesh);
 }
 
-RC_GTEST_PROP(RoundTrip, any_mesh, (std::uint64_t seed)) {
+RC_GTEST_PROP(RoundTrip, AnyMesh, (std::uint64_t seed)) {
     base::Random random(seed);
     expect_round_trip(any_mesh(random), {.comment = random.coin() ? "a comment\n1 2 3\r4" : ""});
     RC_ASSERT(!::testing::Test::HasFailure());
 }
 
-TEST(RoundTrip, many_doubles) {
+TEST(RoundTrip, ManyDoubles) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         base::Random random(seed);
         Mesh mesh;
@@ -33,14 +33,14 @@ TEST(RoundTrip, many_doubles) {
     }
 }
 
-TEST(RoundTrip, second_order_cells_in_every_order) {
+TEST(RoundTrip, SecondOrderCellsInEveryOrder) {
     for (const int dimension : {2, 3}) {
         for (const MidEdgeOrder order : orders_in(dimension))
             expect_round_trip(second_order_mesh(dimension, order, 20, 5));
     }
 }
 
-TEST(RoundTrip, the_number_of_threads_changes_nothing) {
+TEST(RoundTrip, TheNumberOfThreadsChangesNothing) {
     base::Random random(7);
     Mesh mesh;
     const std::size_t nodes = 60000, cells = 100000;  // several blocks in each file

@@ -13,7 +13,7 @@ Mesh tetrahedron() {
     return mesh;
 }
 
-TEST(Writer, the_text) {
+TEST(Writer, TheText) {
     Mesh mesh = tetrahedron();
     mesh.index_base = 1;
     mesh.point_fields = {{"t", 1, {1.5, 2, -0.0, 4}}, {"v", 2, {1, 2, 3, 4, 5, 6, 7, 8}}};
@@ -32,7 +32,7 @@ TEST(Writer, the_text) {
     EXPECT_EQ(folder.file_count(), 4U);
 }
 
-TEST(Writer, an_inconsistent_mesh_is_an_error_and_leaves_nothing) {
+TEST(Writer, AnInconsistentMeshIsAnErrorAndLeavesNothing) {
     const TemporaryFolder folder;
     const auto refused = [&](auto change, const char* what) {
         Mesh mesh = tetrahedron();
@@ -72,7 +72,7 @@ TEST(Writer, an_inconsistent_mesh_is_an_error_and_leaves_nothing) {
     EXPECT_EQ(folder.file_count(), 0U);
 }
 
-TEST(Writer, a_file_of_an_older_mesh_is_not_left_beside_the_new_one) {
+TEST(Writer, AFileOfAnOlderMeshIsNotLeftBesideTheNewOne) {
     const TemporaryFolder folder;
     put(folder / "m.face", "old");
     const Status status = write_tetgen(tetrahedron(), folder / "m");
@@ -82,7 +82,7 @@ TEST(Writer, a_file_of_an_older_mesh_is_not_left_beside_the_new_one) {
     EXPECT_EQ(get(folder / "m.face"), "old");
 }
 
-TEST(Writer, a_failure_changes_no_file) {
+TEST(Writer, AFailureChangesNoFile) {
     const TemporaryFolder folder;
     put(folder / "m.node", "old");
     std::filesystem::create_directory(folder / "m.ele");  // cannot be written

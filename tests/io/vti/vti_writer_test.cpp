@@ -34,7 +34,7 @@ std::vector<Bytes> data_of(base::Random& random, const std::vector<io::ArrayForm
     return data;
 }
 
-TEST(VtiWriter, the_file_holds_what_was_written_whatever_the_blocks) {
+TEST(VtiWriter, TheFileHoldsWhatWasWrittenWhateverTheBlocks) {
     base::Random random(1);
     const io::VtiGrid grid{{7, 11, 5}, {0.1, -1e300, 5e-324}, {0.1, 2, 1e-10}};
     const std::vector<Bytes> data = data_of(random, four, 7 * 11 * 5);
@@ -66,7 +66,7 @@ TEST(VtiWriter, the_file_holds_what_was_written_whatever_the_blocks) {
     EXPECT_EQ(folder.file_count(), 2U);
 }
 
-TEST(VtiWriter, nothing_appears_before_the_commit) {
+TEST(VtiWriter, NothingAppearsBeforeTheCommit) {
     const TemporaryFolder folder;
     put(folder / "a.vti", "old");
     {
@@ -86,7 +86,7 @@ TEST(VtiWriter, nothing_appears_before_the_commit) {
     EXPECT_EQ(get(folder / "a.vti"), "old");
 }
 
-TEST(VtiWriter, no_arrays) {
+TEST(VtiWriter, NoArrays) {
     const TemporaryFolder folder;
     auto writer = io::VtiWriter::open(folder / "a.vti", {}, {});
     ASSERT_TRUE(writer);
@@ -95,7 +95,7 @@ TEST(VtiWriter, no_arrays) {
     EXPECT_NE(get(folder / "a.vti").find("WholeExtent=\"0 0 0 0 0 0\""), std::string::npos);
 }
 
-TEST(VtiWriter, what_is_refused) {
+TEST(VtiWriter, WhatIsRefused) {
     const TemporaryFolder folder;
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const auto refused = [&](const io::VtiGrid& grid, const std::vector<io::ArrayFormat>& arrays,
@@ -137,7 +137,7 @@ TEST(VtiWriter, what_is_refused) {
 }
 
 /// On a pipe arrays come one after the other.
-TEST(VtiWriter, pipes) {
+TEST(VtiWriter, Pipes) {
     const TemporaryFolder folder;
     base::Random random(2);
     const io::VtiGrid grid{{20, 20, 1}, {0, 0, 0}, {1, 1, 0}};
@@ -160,7 +160,7 @@ TEST(VtiWriter, pipes) {
 }
 
 /// More than 2^32 bytes, of which the file system keeps those that are not zero.
-TEST(VtiWriter, sizes_beyond_32_bits) {
+TEST(VtiWriter, SizesBeyond32Bits) {
     const TemporaryFolder folder;
     const std::vector<io::ArrayFormat> arrays{{"a", 1, io::NumberType::int8}, {"b", 1, io::NumberType::float64}};
     auto writer = io::VtiWriter::open(folder / "a.vti", {{65536, 65537, 1}, {}, {1, 1, 1}}, arrays);

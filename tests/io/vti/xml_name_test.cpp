@@ -5,7 +5,7 @@
 namespace barycert::detail {
 namespace {
 
-TEST(XmlName, what_needs_an_escape_gets_one) {
+TEST(XmlName, WhatNeedsAnEscapeGetsOne) {
     EXPECT_EQ(io::xml_attribute(""), "");
     EXPECT_EQ(io::xml_attribute(" von Mises stress [MPa] "), " von Mises stress [MPa] ");
     EXPECT_EQ(io::xml_attribute("a<b>&\"'"), "a&#60;b&#62;&#38;&#34;&#39;");
@@ -14,7 +14,7 @@ TEST(XmlName, what_needs_an_escape_gets_one) {
     EXPECT_EQ(io::xml_attribute("\x7f"), "\x7f");
 }
 
-TEST(XmlName, characters_at_the_ends_of_their_ranges) {
+TEST(XmlName, CharactersAtTheEndsOfTheirRanges) {
     for (const char* text : {"\xC2\x80", "\xDF\xBF", "\xE0\xA0\x80", "\xED\x9F\xBF", "\xEE\x80\x80", "\xEF\xBF\xBD",
                              "\xF0\x90\x80\x80", "\xF4\x8F\xBF\xBF"}) {
         EXPECT_EQ(io::xml_attribute(text), text);
@@ -22,7 +22,7 @@ TEST(XmlName, characters_at_the_ends_of_their_ranges) {
     }
 }
 
-TEST(XmlName, what_is_no_text_is_refused) {
+TEST(XmlName, WhatIsNoTextIsRefused) {
     using namespace std::string_literals;
     for (const std::string& text : {
              "\0"s,

@@ -37,7 +37,7 @@ void expect_refusal(const std::string& text, const Change& change) {
     EXPECT_EQ(read.error().line, change.line);
 }
 
-TEST(BadVtkFiles, the_files_that_are_changed_are_good) {
+TEST(BadVtkFiles, TheFilesThatAreChangedAreGood) {
     const TemporaryFolder folder;
     for (const std::string& text : {xml, legacy}) {
         put(folder / "m", text);
@@ -59,7 +59,7 @@ TEST(BadVtkFiles, the_files_that_are_changed_are_good) {
     EXPECT_TRUE(read_quietly(folder / "m"));
 }
 
-TEST(BadVtkFiles, xml) {
+TEST(BadVtkFiles, Xml) {
     const char* const array_type = "Int8 to UInt64, Float32, Float64 or Bit";
     for (const Change& change : std::vector<Change>{
              {"'4' N", "'5' N", "the coordinates", "15 numbers", "12", 8},
@@ -119,7 +119,7 @@ TEST(BadVtkFiles, xml) {
     }
 }
 
-TEST(BadVtkFiles, legacy) {
+TEST(BadVtkFiles, Legacy) {
     const char* const data_types = "double, float, int and the like";
     for (const Change& change : std::vector<Change>{
              {"POINTS 4", "POINTS 5", "number 12 (from 0) of the coordinates", "a number of the type of the array",
@@ -164,7 +164,7 @@ TEST(BadVtkFiles, legacy) {
     }
 }
 
-TEST(BadVtkFiles, a_number_names_its_own_line) {
+TEST(BadVtkFiles, ANumberNamesItsOwnLine) {
     const char* const not_of_type = "a number of the type of the array";
     const char* const does_not_fit = "a number that fits what it stands for";
     const char* const coordinate = "number 10 (from 0) of the coordinates";
@@ -186,7 +186,7 @@ TEST(BadVtkFiles, a_number_names_its_own_line) {
         {"0 0 0\n", "0 0 z\n", "number 300002 (from 0) of the coordinates", not_of_type, "\"z\"", 100002});
 }
 
-TEST(BadVtkFiles, offsets_of_version_5) {
+TEST(BadVtkFiles, OffsetsOfVersion5) {
     const std::string text =
         "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 "
         "0.5\n"
@@ -202,7 +202,7 @@ TEST(BadVtkFiles, offsets_of_version_5) {
     expect_refusal(text, {"CELLS 2 4", "CELLS 1 4", "a keyword of the format", "CONNECTIVITY", "\"4\"", 9});
 }
 
-TEST(BadVtkFiles, triangles_off_the_plane) {
+TEST(BadVtkFiles, TrianglesOffThePlane) {
     const TemporaryFolder folder;
     std::string text = changed(xml, {"0 1 2 3<", "0 1 2<", "", "", "", 0});
     text = changed(changed(text, {">4<", ">3<", "", "", "", 0}), {">10<", ">5<", "", "", "", 0});
@@ -216,7 +216,7 @@ TEST(BadVtkFiles, triangles_off_the_plane) {
     EXPECT_TRUE(read_quietly(folder / "m"));
 }
 
-TEST(BadVtkFiles, no_files) {
+TEST(BadVtkFiles, NoFiles) {
     const TemporaryFolder folder;
     for (const auto& [text, what] : {std::pair{"", "the file is empty"},
                                      {"4 3 0 0\n", "not a file of VTK"},
@@ -245,7 +245,7 @@ TEST(BadVtkFiles, no_files) {
 }
 
 /// A compressed array whose header is hostile. VTK's own reader divides by the size of a block.
-TEST(BadVtkFiles, headers_of_compressed_data) {
+TEST(BadVtkFiles, HeadersOfCompressedData) {
     const TemporaryFolder folder;
     const auto read = [&](const std::vector<std::uint32_t>& words) {
         std::string raw(reinterpret_cast<const char*>(words.data()), words.size() * 4);

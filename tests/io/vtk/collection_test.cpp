@@ -30,7 +30,7 @@ std::string ids(const std::string& numbers) {
     return "<DataArray type='Int64' Name='GlobalNodeId'>" + numbers + "</DataArray>";
 }
 
-TEST(VtkCollections, pieces_make_one_mesh) {
+TEST(VtkCollections, PiecesMakeOneMesh) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "m");
     put(folder / "m/0.vtu", piece(0));
@@ -51,7 +51,7 @@ TEST(VtkCollections, pieces_make_one_mesh) {
     EXPECT_EQ(read_vtk_points(folder / "m.pvtu", 3).value(), mesh->points);
 }
 
-TEST(VtkCollections, nodes_of_one_global_id_are_one) {
+TEST(VtkCollections, NodesOfOneGlobalIdAreOne) {
     const TemporaryFolder folder;
     // The top of the first is the first node of the second. Its T differs there.
     put(folder / "0.vtu", piece(0, ids("10 11 12 13")));
@@ -81,7 +81,7 @@ TEST(VtkCollections, nodes_of_one_global_id_are_one) {
     EXPECT_EQ(notes_of(*apart, Note::Kind::guessed)[0].substr(0, 24), "1 nodes are kept apart t");
 }
 
-TEST(VtkCollections, blocks_and_series) {
+TEST(VtkCollections, BlocksAndSeries) {
     const TemporaryFolder folder;
     put(folder / "0.vtu", piece(0));
     put(folder / "1.vtu", piece(5));
@@ -133,7 +133,7 @@ TEST(VtkCollections, blocks_and_series) {
     EXPECT_FALSE(read_series(folder / "none.pvd"));
 }
 
-TEST(VtkCollections, a_step_is_chosen) {
+TEST(VtkCollections, AStepIsChosen) {
     const TemporaryFolder folder;
     for (const int k : {0, 1, 2}) put(folder / (std::to_string(k) + ".vtu"), piece(k));
     put(folder / "m.pvd",
@@ -167,7 +167,7 @@ TEST(VtkCollections, a_step_is_chosen) {
     EXPECT_FALSE(read_mesh(folder / "0.vtu", {.step = {.last = true}}));
 }
 
-TEST(VtkCollections, polygon_data_are_the_mesh_where_there_is_no_other) {
+TEST(VtkCollections, PolygonDataAreTheMeshWhereThereIsNoOther) {
     const TemporaryFolder folder;
     put(folder / "s.vtp",
         "<VTKFile type='PolyData'><PolyData><Piece NumberOfPoints='3' NumberOfPolys='1'><Points><DataArray "
@@ -200,7 +200,7 @@ TEST(VtkCollections, polygon_data_are_the_mesh_where_there_is_no_other) {
     EXPECT_EQ(both->point_count(), 4U);
 }
 
-TEST(VtkCollections, a_series_file_that_is_wrong) {
+TEST(VtkCollections, ASeriesFileThatIsWrong) {
     const TemporaryFolder folder;
     const std::string whole = "{\"files\": [{\"name\": \"0.vtu\", \"time\": 0.5}]}";
     put(folder / "s.vtu.series", whole);
@@ -231,7 +231,7 @@ TEST(VtkCollections, a_series_file_that_is_wrong) {
     EXPECT_FALSE(read_vtk(folder / "s.vtu.series"));
 }
 
-TEST(VtkCollections, what_is_refused) {
+TEST(VtkCollections, WhatIsRefused) {
     const TemporaryFolder folder;
     put(folder / "0.vtu", piece(0));
     const auto refused = [&](const std::string& text, const std::string& what) {
@@ -255,7 +255,7 @@ TEST(VtkCollections, what_is_refused) {
     refused(deep, "files that name files too deeply");
 }
 
-TEST(VtkCollections, points_of_grids) {
+TEST(VtkCollections, PointsOfGrids) {
     const TemporaryFolder folder;
     const std::string arrays =
         "<PointData><DataArray type='Float64' Name='T'>1 2 3 4</DataArray>"

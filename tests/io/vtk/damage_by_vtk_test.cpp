@@ -11,7 +11,7 @@ namespace barycert::testing {
 namespace {
 
 /// Files of every kind, cut off or with bytes changed: a mesh or an error.
-TEST(BadVtkFiles, no_damage_crashes) {
+TEST(BadVtkFiles, NoDamageCrashes) {
     const TemporaryFolder folder;
     std::vector<std::string> files{xml, legacy};
     for (const int mode : {vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended}) {

@@ -37,7 +37,7 @@ struct Damage {
     VtkData data;
 };
 
-TEST(VtkDamage, at_every_byte) {
+TEST(VtkDamage, AtEveryByte) {
     const Mesh mesh = small_mesh();
     const TemporaryFolder folder;
     const auto start = std::chrono::steady_clock::now();
@@ -84,7 +84,7 @@ TEST(VtkDamage, at_every_byte) {
 }
 
 /// Compressed data whose checksum catches a change, or that give another size, are errors: never other numbers.
-TEST(VtkDamage, a_changed_byte_of_zlib_data_is_found) {
+TEST(VtkDamage, AChangedByteOfZlibDataIsFound) {
     Mesh mesh = mesh_of_data("plate");
     const TemporaryFolder folder;
     ASSERT_TRUE(write_vtu(mesh, folder / "m.vtu", VtkData::zlib));
@@ -102,7 +102,7 @@ TEST(VtkDamage, a_changed_byte_of_zlib_data_is_found) {
 }
 
 /// Few bytes that claim many numbers.
-TEST(VtkDamage, headers_that_lie) {
+TEST(VtkDamage, HeadersThatLie) {
     const TemporaryFolder folder;
     const long before = peak_kilobytes();
     const auto head = [](const char* compressor) {
@@ -131,7 +131,7 @@ TEST(VtkDamage, headers_that_lie) {
 
 /// A bound that is too low would refuse files: the most that each compressor makes of a byte is near its bound, and
 /// below.
-TEST(VtkDamage, what_compressed_bytes_can_hold) {
+TEST(VtkDamage, WhatCompressedBytesCanHold) {
     const std::string zeros(std::size_t{1} << 25, '\0');
     const auto ratio = [&](io::Compressor compressor) {
         const std::string packed = io::pack(compressor, zeros);

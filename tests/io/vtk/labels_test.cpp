@@ -31,7 +31,7 @@ Mesh read_text_of(const std::string& text) {
     return mesh ? *mesh : Mesh();
 }
 
-TEST(VtkLabels, of_cells_that_stay) {
+TEST(VtkLabels, OfCellsThatStay) {
     const Mesh mesh = read_text_of(three_cells(
         "<DataArray type='Int64' Name='id'>9007199254740993 2 -9007199254740993</DataArray>"
         "<Array type='String' Name='material'>97 0 98 99 0 195 164 0</Array>"
@@ -57,7 +57,7 @@ TEST(VtkLabels, of_cells_that_stay) {
     EXPECT_FALSE(mesh.notes.back().important);
 }
 
-TEST(VtkLabels, texts_that_do_not_fit) {
+TEST(VtkLabels, TextsThatDoNotFit) {
     const TemporaryFolder folder;
     for (const char* bytes : {"97 0 98 0", "97 0 98 0 99", "97 0 98 0 99 0 0", "", "97 0 98 0 256 0", "a"}) {
         put(folder / "m.vtu", three_cells(std::string("<Array type='String' Name='s'>") + bytes + "</Array>"));
@@ -67,7 +67,7 @@ TEST(VtkLabels, texts_that_do_not_fit) {
     }
 }
 
-TEST(VtkLabels, ghost_cells_are_left_out) {
+TEST(VtkLabels, GhostCellsAreLeftOut) {
     const Mesh mesh = read_text_of(three_cells("<DataArray type='UInt8' Name='vtkGhostType'>1 0 0</DataArray>"));
     EXPECT_EQ(mesh.cells, (std::vector<Mesh::Index>{1, 2, 3, 4}));
     EXPECT_EQ(mesh.cell_numbers, (std::vector<Mesh::Index>{2}));
@@ -80,7 +80,7 @@ TEST(VtkLabels, ghost_cells_are_left_out) {
 }
 
 /// Only the integer of a cell that is left out is no double.
-TEST(VtkLabels, what_is_left_may_be_a_field) {
+TEST(VtkLabels, WhatIsLeftMayBeAField) {
     const TemporaryFolder folder;
     const auto read = [&](const std::string& first, const std::string& second) {
         put(folder / "m.vtk",
@@ -102,7 +102,7 @@ TEST(VtkLabels, what_is_left_may_be_a_field) {
     EXPECT_EQ(greatest.cell_labels.size(), 1U);
 }
 
-TEST(VtkLabels, round_trips) {
+TEST(VtkLabels, RoundTrips) {
     Mesh mesh = mesh_of_data("plate");
     Column ids{"id", Numbers(mesh.cell_count(), wide)}, names{"material", Texts(mesh.cell_count(), "")};
     std::get<Texts>(names.values)[1] = "steel 12% \"x\"";

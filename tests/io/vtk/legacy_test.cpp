@@ -63,14 +63,14 @@ void expect_legacy_round_trip(const Mesh& mesh) {
     expect_legacy_grid(read_legacy_by_vtk(folder / "m.vtk"), mesh);
 }
 
-TEST(Legacy, meshes_of_the_data_folder) {
+TEST(Legacy, MeshesOfTheDataFolder) {
     for (const char* name : {"cube-hole", "cube-hole-o2", "plate", "bracket", "torus"}) {
         SCOPED_TRACE(name);
         expect_legacy_round_trip(mesh_of_data(name));
     }
 }
 
-TEST(Legacy, random_meshes) {
+TEST(Legacy, RandomMeshes) {
     base::Random random(3);
     int tried = 0;
     for (int i = 0; i < 200; ++i) {
@@ -84,7 +84,7 @@ TEST(Legacy, random_meshes) {
     for (const int dimension : {2, 3}) expect_legacy_round_trip(second_order_mesh(dimension, MidEdgeOrder::vtk, 20, 5));
 }
 
-TEST(Legacy, values_and_names_of_fields) {
+TEST(Legacy, ValuesAndNamesOfFields) {
     Mesh mesh = mesh_of_data("plate");
     mesh.point_fields.clear();
     mesh.cell_fields.clear();
@@ -109,7 +109,7 @@ TEST(Legacy, values_and_names_of_fields) {
     }
 }
 
-TEST(Legacy, every_type_that_vtk_writes_in_every_version) {
+TEST(Legacy, EveryTypeThatVtkWritesInEveryVersion) {
     for (const int type : {VTK_ASCII, VTK_BINARY}) {
         for (const int version :
              {vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2, vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1}) {
@@ -129,7 +129,7 @@ TEST(Legacy, every_type_that_vtk_writes_in_every_version) {
     }
 }
 
-TEST(Legacy, bits_that_vtk_does_not_write) {
+TEST(Legacy, BitsThatVtkDoesNotWrite) {
     const auto grid = mixed_grid();
     grid->GetPointData()->Initialize();
     grid->GetPointData()->AddArray(array_of<vtkBitArray>("bits", 2, std::vector<double>(10, 1)));
@@ -150,7 +150,7 @@ TEST(Legacy, bits_that_vtk_does_not_write) {
 }
 
 /// Arrays that have a role of their own are written each in its way.
-TEST(Legacy, attributes) {
+TEST(Legacy, Attributes) {
     for (const int type : {VTK_ASCII, VTK_BINARY}) {
         SCOPED_TRACE(type);
         const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -198,7 +198,7 @@ TEST(Legacy, attributes) {
     }
 }
 
-TEST(Legacy, polygon_data_of_triangles) {
+TEST(Legacy, PolygonDataOfTriangles) {
     for (const int version :
          {vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2, vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1}) {
         vtkNew<vtkPolyData> data;
@@ -233,7 +233,7 @@ TEST(Legacy, polygon_data_of_triangles) {
     }
 }
 
-TEST(Legacy, files_of_others) {
+TEST(Legacy, FilesOfOthers) {
     const TemporaryFolder folder;
     // An old version, small letters, line ends of Windows, a lookup table left out, numbers across lines.
     put(folder / "m.vtk",

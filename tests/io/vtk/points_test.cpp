@@ -15,7 +15,7 @@
 namespace barycert::testing {
 namespace {
 
-TEST(VtkPoints, of_every_kind_of_file) {
+TEST(VtkPoints, OfEveryKindOfFile) {
     const TemporaryFolder folder;
     const Mesh solid = mesh_of_data("cube-hole"), plate = mesh_of_data("plate");
     for (const char* name : {"m.vtu", "m.vtk"}) {
@@ -49,7 +49,7 @@ TEST(VtkPoints, of_every_kind_of_file) {
     EXPECT_FALSE(read_vtk_points(folder / "m.vtk", 2));
 }
 
-TEST(VtkPoints, of_either_byte_order) {
+TEST(VtkPoints, OfEitherByteOrder) {
     const TemporaryFolder folder;
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
@@ -85,7 +85,7 @@ TEST(VtkPoints, of_either_byte_order) {
     expect_read(vtkNew<vtkXMLRectilinearGridWriter>(), rectilinear, "m.vtr");
 }
 
-TEST(VtkPoints, rows_are_read_by_vtk) {
+TEST(VtkPoints, RowsAreReadByVtk) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<double> points{0, 1, 2, 3, 4, 0.1}, distances{0, 0, 0.5}, values{1, 2, 3, 4, nan, nan};
     const std::vector<Mesh::Index> cells{7, 0, -1};
@@ -149,7 +149,7 @@ TEST(VtkPoints, rows_are_read_by_vtk) {
     EXPECT_TRUE(read_vtk_points(folder / "none.vtu", 3).value().empty());
 }
 
-TEST(VtkPoints, codes_of_features) {
+TEST(VtkPoints, CodesOfFeatures) {
     EXPECT_EQ(static_cast<int>(Feature::interior), 0);
     EXPECT_EQ(static_cast<int>(Feature::face), 1);
     EXPECT_EQ(static_cast<int>(Feature::edge), 2);
@@ -158,7 +158,7 @@ TEST(VtkPoints, codes_of_features) {
     EXPECT_EQ(static_cast<int>(Feature::degenerate), 5);
 }
 
-TEST(VtkPoints, endings) {
+TEST(VtkPoints, Endings) {
     const TemporaryFolder folder;
     const Status status = write_vtk(mesh_of_data("plate"), folder / "m.ele");
     ASSERT_FALSE(status);

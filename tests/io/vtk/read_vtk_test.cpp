@@ -25,7 +25,7 @@ vtkSmartPointer<vtkUnstructuredGrid> with_float32_points(vtkSmartPointer<vtkUnst
     return grid;
 }
 
-TEST(ReadVtk, every_type_and_encoding_that_vtk_writes) {
+TEST(ReadVtk, EveryTypeAndEncodingThatVtkWrites) {
     const TemporaryFolder folder;
     for (const int mode : {vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended}) {
         for (const int encode : {0, 1}) {
@@ -58,7 +58,7 @@ TEST(ReadVtk, every_type_and_encoding_that_vtk_writes) {
     }
 }
 
-TEST(ReadVtk, points_of_float32_are_widened_exactly) {
+TEST(ReadVtk, PointsOfFloat32AreWidenedExactly) {
     auto grid = mixed_grid();
     grid = with_float32_points(grid);
     const TemporaryFolder folder;
@@ -71,7 +71,7 @@ TEST(ReadVtk, points_of_float32_are_widened_exactly) {
     EXPECT_EQ(read->points[3], static_cast<double>(0.1F));
 }
 
-TEST(ReadVtk, bits_of_several_components) {
+TEST(ReadVtk, BitsOfSeveralComponents) {
     const auto grid = mixed_grid();
     const std::vector<double> bits{1, 0, 0, 1, 1, 0, 0, 1, 1, 1};
     grid->GetPointData()->Initialize();
@@ -89,7 +89,7 @@ TEST(ReadVtk, bits_of_several_components) {
     }
 }
 
-TEST(ReadVtk, files_of_others) {
+TEST(ReadVtk, FilesOfOthers) {
     const std::string shared = std::string(BARYCERT_SHARED_DATA_DIR) + "/vtk";
     if (!fs::exists(shared)) GTEST_SKIP() << "no " << shared;
     for (const auto& [name, nodes] : {std::pair{"vtkdata_Tetrahedron.vtu", 4U}, {"vtkdata_QuadraticTetra.vtu", 10U}}) {

@@ -18,7 +18,7 @@ void expect_same_back(const Mesh& mesh) {
     EXPECT_TRUE(read->cell_numbers.empty());
 }
 
-TEST(VtkRoundTrip, meshes_of_the_data_folder) {
+TEST(VtkRoundTrip, MeshesOfTheDataFolder) {
     for (const char* name : {"cube-hole", "cube-hole-o2", "plate", "bracket", "torus"}) {
         SCOPED_TRACE(name);
         const Mesh mesh = mesh_of_data(name);
@@ -27,7 +27,7 @@ TEST(VtkRoundTrip, meshes_of_the_data_folder) {
     }
 }
 
-TEST(VtkRoundTrip, random_meshes) {
+TEST(VtkRoundTrip, RandomMeshes) {
     base::Random random(2);
     int tried = 0;
     for (int i = 0; i < 200; ++i) {
@@ -41,7 +41,7 @@ TEST(VtkRoundTrip, random_meshes) {
     for (const int dimension : {2, 3}) expect_same_back(second_order_mesh(dimension, MidEdgeOrder::vtk, 20, 5));
 }
 
-TEST(VtkRoundTrip, values_and_names_of_fields) {
+TEST(VtkRoundTrip, ValuesAndNamesOfFields) {
     Mesh mesh = mesh_of_data("plate");
     mesh.point_fields.clear();
     mesh.cell_fields.clear();
@@ -58,7 +58,7 @@ TEST(VtkRoundTrip, values_and_names_of_fields) {
     expect_same_back(mesh);
 }
 
-TEST(VtkRoundTrip, pieces_are_put_together) {
+TEST(VtkRoundTrip, PiecesArePutTogether) {
     const TemporaryFolder folder;
     const std::string piece =
         "<Piece NumberOfPoints='3' NumberOfCells='1'><PointData><DataArray Name='f' type='Int8'>1 2 3</DataArray>"
@@ -80,7 +80,7 @@ TEST(VtkRoundTrip, pieces_are_put_together) {
                                                          "point array \"b\": it is missing in a piece of the file"}));
 }
 
-TEST(VtkRoundTrip, integers_that_are_no_doubles) {
+TEST(VtkRoundTrip, IntegersThatAreNoDoubles) {
     const TemporaryFolder folder;
     const std::string text =
         "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='3' NumberOfCells='1'><PointData>"

@@ -9,7 +9,7 @@
 namespace barycert::testing {
 namespace {
 
-TEST(VtkRows, spools_keep_all_bytes) {
+TEST(VtkRows, SpoolsKeepAllBytes) {
     const TemporaryFolder folder;
     for (const std::size_t count : {std::size_t{0}, std::size_t{3}, std::size_t{1000000}}) {
         base::Spool spool(folder / "x.vtu");
@@ -26,7 +26,7 @@ TEST(VtkRows, spools_keep_all_bytes) {
     }
 }
 
-TEST(VtkRows, of_every_kind_come_back) {
+TEST(VtkRows, OfEveryKindComeBack) {
     const TemporaryFolder folder;
     TableFormat format{
         .dimension = 3, .fields = {{"T", 1}, {"u", 2}}, .distances = true, .carried = {}, .vtk_data = {}};
@@ -89,7 +89,7 @@ TEST(VtkRows, of_every_kind_come_back) {
     }
 }
 
-TEST(VtkRows, that_do_not_fit) {
+TEST(VtkRows, ThatDoNotFit) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const TemporaryFolder folder;
     const std::vector<double> points{0, 0, 0, 1, 1, 1}, bad{0, 0, infinity, 1, 1, 1}, two{1, 2};

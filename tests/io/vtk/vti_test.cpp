@@ -66,7 +66,7 @@ void expect_image(const io::VtiGrid& grid) {
     expect_array(image, "T", VTK_DOUBLE, 1, data[6]);
 }
 
-TEST(Vti, vtk_reads_grids_to_the_bits) {
+TEST(Vti, VtkReadsGridsToTheBits) {
     expect_image({{7, 11, 5}, {0.1, -1e300, 1.0 / 3}, {0.1, 2, 1e-10}});
     expect_image({{40, 30, 1}, {-1, -2, 0}, {0.3, 0.7, 0}});
     expect_image({{1, 1, 1}, {5e-324, 1e308, 0.1}, {0, 0, 0}});

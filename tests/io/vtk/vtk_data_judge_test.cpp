@@ -80,7 +80,7 @@ void expect_judged(vtkUnstructuredGrid* grid, const Mesh& mesh) {
     EXPECT_EQ(ids->GetVariantValue(0).ToTypeInt64(), -9007199254740993);
 }
 
-TEST(VtkDataJudge, meshes) {
+TEST(VtkDataJudge, Meshes) {
     const TemporaryFolder folder;
     for (const char* name : {"cube-hole", "cube-hole-o2", "plate"}) {
         const Mesh mesh = judged_mesh(name);
@@ -95,7 +95,7 @@ TEST(VtkDataJudge, meshes) {
     }
 }
 
-TEST(VtkDataJudge, surfaces) {
+TEST(VtkDataJudge, Surfaces) {
     const Mesh mesh = mesh_of_data("cube-hole");
     const TemporaryFolder folder;
     Surface surface;
@@ -120,7 +120,7 @@ TEST(VtkDataJudge, surfaces) {
     }
 }
 
-TEST(VtkDataJudge, images) {
+TEST(VtkDataJudge, Images) {
     const TemporaryFolder folder;
     const io::VtiGrid grid{{40, 30, 20}, {0.1, 0.2, 0.3}, {0.5, 1, 2}};
     const std::size_t points = 40 * 30 * 20;

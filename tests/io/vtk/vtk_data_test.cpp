@@ -29,12 +29,12 @@ void expect_round_trip(const Mesh& mesh, const char* name, VtkData data) {
     expect_same(*read, as_in_vtk(mesh));
 }
 
-TEST(VtkDataModes, names) {
+TEST(VtkDataModes, Names) {
     for (const VtkData data : all_data) EXPECT_EQ(vtk_data_named(name(data)), data);
     EXPECT_EQ(vtk_data_named("zip"), std::nullopt);
 }
 
-TEST(VtkDataModes, meshes_of_the_data_folder) {
+TEST(VtkDataModes, MeshesOfTheDataFolder) {
     for (const char* name : {"cube-hole", "cube-hole-o2", "plate", "bracket"}) {
         const Mesh mesh = mesh_of_data(name);
         for (const VtkData data : all_data) {
@@ -44,7 +44,7 @@ TEST(VtkDataModes, meshes_of_the_data_folder) {
     }
 }
 
-TEST(VtkDataModes, random_meshes) {
+TEST(VtkDataModes, RandomMeshes) {
     base::Random random(7);
     for (int i = 0; i < 60; ++i) {
         const Mesh mesh = any_mesh(random);
@@ -54,7 +54,7 @@ TEST(VtkDataModes, random_meshes) {
 }
 
 /// More than one block of compressed data, one part of text, and numbers that are none.
-TEST(VtkDataModes, long_arrays_are_the_same_bytes_on_any_number_of_threads) {
+TEST(VtkDataModes, LongArraysAreTheSameBytesOnAnyNumberOfThreads) {
     Mesh mesh;
     base::Random random(8);
     for (int i = 0; i < 60001; ++i) {
@@ -88,7 +88,7 @@ TEST(VtkDataModes, long_arrays_are_the_same_bytes_on_any_number_of_threads) {
     expect_round_trip(mesh, "m.vtk", VtkData::ascii);
 }
 
-TEST(VtkDataModes, payloads_of_nans) {
+TEST(VtkDataModes, PayloadsOfNans) {
     Mesh mesh = mesh_of_data("plate");
     const double payload = std::bit_cast<double>(0xfff8000000abcdefU);
     mesh.point_fields = {{"T", 1, std::vector<double>(mesh.point_count(), payload)}};
@@ -100,7 +100,7 @@ TEST(VtkDataModes, payloads_of_nans) {
     EXPECT_TRUE(std::isnan(read_vtk(folder / "m.vtu").value().point_fields[0].data[0]));
 }
 
-TEST(VtkDataModes, what_a_legacy_file_does_not_know) {
+TEST(VtkDataModes, WhatALegacyFileDoesNotKnow) {
     const TemporaryFolder folder;
     const Status status = write_vtk(mesh_of_data("plate"), folder / "m.vtk", VtkData::zlib);
     ASSERT_FALSE(status);
@@ -108,7 +108,7 @@ TEST(VtkDataModes, what_a_legacy_file_does_not_know) {
     EXPECT_EQ(folder.file_count(), 0U);
 }
 
-TEST(VtkDataModes, a_pipe_takes_compressed_data) {
+TEST(VtkDataModes, APipeTakesCompressedData) {
     const Mesh mesh = mesh_of_data("plate");
     const TemporaryFolder folder;
     ASSERT_TRUE(write_vtu(mesh, folder / "m.vtu", VtkData::zlib));
@@ -134,7 +134,7 @@ bool run_script(const TemporaryFolder& folder, const std::string& script) {
 }
 
 /// meshio reads what is written here, and what it writes is read here.
-TEST(VtkDataModes, meshio) {
+TEST(VtkDataModes, Meshio) {
     if (!meshio_is_there()) GTEST_SKIP() << "python3 has no meshio";
     Mesh mesh = mesh_of_data("cube-hole");
     mesh.point_markers.clear();

@@ -49,7 +49,7 @@ void expect_fields(vtkDataSetAttributes* data, const std::vector<Field>& fields)
     }
 }
 
-TEST(Vtp, vtk_reads_triangles_to_the_bits) {
+TEST(Vtp, VtkReadsTrianglesToTheBits) {
     const TemporaryFolder folder;
     const Surface s = two_triangles();
     write_surface(s, folder / "s.vtp").value();
@@ -65,7 +65,7 @@ TEST(Vtp, vtk_reads_triangles_to_the_bits) {
     EXPECT_EQ(cell->GetTuple1(1), 4);
 }
 
-TEST(Vtp, vtk_reads_segments) {
+TEST(Vtp, VtkReadsSegments) {
     const TemporaryFolder folder;
     const Surface s = two_segments();
     write_surface(s, folder / "s.vtp").value();
@@ -79,7 +79,7 @@ TEST(Vtp, vtk_reads_segments) {
 }
 
 // VTK reads coordinates of PLY files as floats, and fields not at all.
-TEST(Ply, vtk_reads_triangles) {
+TEST(Ply, VtkReadsTriangles) {
     const TemporaryFolder folder;
     Surface s = two_triangles();
     s.points[1] = -1e30;
@@ -100,7 +100,7 @@ TEST(Ply, vtk_reads_triangles) {
     expect_cells(read->GetPolys(), s);
 }
 
-TEST(Vtp, vtk_reads_nothing) {
+TEST(Vtp, VtkReadsNothing) {
     const TemporaryFolder folder;
     for (const int d : {2, 3}) {
         Surface s;

@@ -112,7 +112,7 @@ void expect_vtu_round_trip(const Mesh& mesh) {
     expect_vtu_grid(read_vtu_by_vtk(folder / "m.vtu"), mesh);
 }
 
-TEST(Vtu, meshes_of_the_data_folder) {
+TEST(Vtu, MeshesOfTheDataFolder) {
     for (const char* name : {"cube-hole", "cube-hole-o2", "plate", "bracket", "torus"}) {
         SCOPED_TRACE(name);
         Mesh mesh = mesh_of_data(name);
@@ -123,7 +123,7 @@ TEST(Vtu, meshes_of_the_data_folder) {
     }
 }
 
-TEST(Vtu, random_meshes) {
+TEST(Vtu, RandomMeshes) {
     base::Random random(1);
     for (int i = 0; i < 200; ++i) {
         SCOPED_TRACE(i);
@@ -158,7 +158,7 @@ void expect_mid_nodes(const Mesh& mesh, double bend) {
     }
 }
 
-TEST(Vtu, mid_edge_nodes_stand_on_the_edges_vtk_has_them_on) {
+TEST(Vtu, MidEdgeNodesStandOnTheEdgesVtkHasThemOn) {
     ASSERT_FALSE(mesh_of_data("cube-hole-o2").mid_nodes.empty());
     expect_mid_nodes(mesh_of_data("cube-hole-o2"), 1e-12);  // TetGen rounds a midpoint to the digits it prints
     for (const int dimension : {2, 3}) {
@@ -170,7 +170,7 @@ TEST(Vtu, mid_edge_nodes_stand_on_the_edges_vtk_has_them_on) {
     }
 }
 
-TEST(Vtu, values_that_are_no_numbers_keep_their_bits) {
+TEST(Vtu, ValuesThatAreNoNumbersKeepTheirBits) {
     Mesh mesh = tetrahedron();
     const double payload = std::bit_cast<double>(0x7ff8000000abcdefU);
     const double signalling = std::bit_cast<double>(0xfff0000000000001U);
@@ -183,7 +183,7 @@ TEST(Vtu, values_that_are_no_numbers_keep_their_bits) {
     expect_vtu_round_trip(mesh);
 }
 
-TEST(Vtu, names_of_fields) {
+TEST(Vtu, NamesOfFields) {
     Mesh mesh = tetrahedron();
     for (const char* name : {"von Mises stress [MPa]", " blank before", "blank after ", "<a&b>", "\"'", "&lt;", "]]>",
                              "tab\tand\nlines\r\n", "Größe ∇φ 🜁", "Points", "connectivity", "offsets", "types",
@@ -195,7 +195,7 @@ TEST(Vtu, names_of_fields) {
     expect_vtu_round_trip(mesh);
 }
 
-TEST(Vtu, empty_meshes) {
+TEST(Vtu, EmptyMeshes) {
     Mesh mesh;
     expect_vtu_round_trip(mesh);
     mesh.dimension = 2;
@@ -206,7 +206,7 @@ TEST(Vtu, empty_meshes) {
     expect_vtu_round_trip(mesh);
 }
 
-TEST(Vtu, the_same_mesh_gives_the_same_bytes) {
+TEST(Vtu, TheSameMeshGivesTheSameBytes) {
     const Mesh mesh = mesh_of_data("cube-hole-o2");
     const TemporaryFolder folder;
     ASSERT_TRUE(write_vtu(mesh, folder / "a"));
@@ -214,7 +214,7 @@ TEST(Vtu, the_same_mesh_gives_the_same_bytes) {
     EXPECT_EQ(get(folder / "a"), get(folder / "b"));
 }
 
-TEST(Vtu, the_file_is_as_large_as_its_numbers) {
+TEST(Vtu, TheFileIsAsLargeAsItsNumbers) {
     Mesh mesh = mesh_of_data("cube-hole");
     mesh.point_fields.clear();
     mesh.cell_fields.clear();
@@ -242,7 +242,7 @@ void expect_refusal(const Mesh& mesh, const std::string& what) {
     EXPECT_EQ(status.error().file, folder / "m.vtu");
 }
 
-TEST(Vtu, an_inconsistent_mesh_is_an_error_and_leaves_nothing) {
+TEST(Vtu, AnInconsistentMeshIsAnErrorAndLeavesNothing) {
     const auto refused = [&](auto change, const char* what) {
         Mesh mesh = tetrahedron();
         change(mesh);
@@ -258,7 +258,7 @@ TEST(Vtu, an_inconsistent_mesh_is_an_error_and_leaves_nothing) {
     refused([](Mesh& m) { m.cell_fields = {{"f", 0, {}}}; }, "a field has no components");
 }
 
-TEST(Vtu, names_that_the_format_cannot_hold) {
+TEST(Vtu, NamesThatTheFormatCannotHold) {
     const auto refused = [&](auto change, const std::string& what) {
         Mesh mesh = tetrahedron();
         change(mesh);
@@ -288,7 +288,7 @@ TEST(Vtu, names_that_the_format_cannot_hold) {
     expect_vtu_round_trip(both);
 }
 
-TEST(Vtu, a_file_that_cannot_be_written) {
+TEST(Vtu, AFileThatCannotBeWritten) {
     const TemporaryFolder folder;
     const Status missing = write_vtu(tetrahedron(), folder / "none/m.vtu");
     ASSERT_FALSE(missing);
@@ -304,7 +304,7 @@ TEST(Vtu, a_file_that_cannot_be_written) {
     EXPECT_EQ(full.error().found, "No space left on device");
 }
 
-TEST(Vtu, a_file_that_may_not_grow_leaves_the_old_one) {
+TEST(Vtu, AFileThatMayNotGrowLeavesTheOldOne) {
     const Mesh mesh = mesh_of_data("cube-hole");
     const TemporaryFolder folder;
     put(folder / "m.vtu", "old");

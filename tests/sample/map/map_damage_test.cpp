@@ -44,7 +44,7 @@ bool accepted(const std::string& path, const Mesh& mesh, const Table& rows, std:
     }
 }
 
-TEST(MapDamage, every_bit_counts) {
+TEST(MapDamage, EveryBitCounts) {
     const TemporaryFolder folder;
     base::Random random(7);
     for (const int dimension : {2, 3}) {
@@ -64,7 +64,7 @@ TEST(MapDamage, every_bit_counts) {
     }
 }
 
-TEST(MapDamage, every_bit_near_the_ends_of_blocks) {
+TEST(MapDamage, EveryBitNearTheEndsOfBlocks) {
     const TemporaryFolder folder;
     base::Random random(8);
     const Mesh mesh = small_mesh(3);
@@ -83,7 +83,7 @@ TEST(MapDamage, every_bit_near_the_ends_of_blocks) {
     }
 }
 
-TEST(MapDamage, a_map_cut_off_or_with_more) {
+TEST(MapDamage, AMapCutOffOrWithMore) {
     const TemporaryFolder folder;
     base::Random random(9);
     for (const std::size_t count : {std::size_t{0}, std::size_t{6}, block_rows + 2}) {
@@ -107,7 +107,7 @@ TEST(MapDamage, a_map_cut_off_or_with_more) {
     }
 }
 
-TEST(MapDamage, cut_off_or_changed_while_it_is_read) {
+TEST(MapDamage, CutOffOrChangedWhileItIsRead) {
     const TemporaryFolder folder;
     base::Random random(10);
     const Mesh mesh = small_mesh(3);
@@ -124,7 +124,7 @@ TEST(MapDamage, cut_off_or_changed_while_it_is_read) {
 }
 
 /// Blocks carry their place: with each other's content, or with that of another map of the same mesh, they are refused.
-TEST(MapDamage, blocks_out_of_place) {
+TEST(MapDamage, BlocksOutOfPlace) {
     const TemporaryFolder folder;
     base::Random random(11);
     const Mesh mesh = small_mesh(2);
@@ -147,7 +147,7 @@ TEST(MapDamage, blocks_out_of_place) {
     }
 }
 
-TEST(MapDamage, headers_that_lie) {
+TEST(MapDamage, HeadersThatLie) {
     const TemporaryFolder folder;
     base::Random random(12);
     const Mesh mesh = small_mesh(3);
@@ -204,7 +204,7 @@ TEST(MapDamage, headers_that_lie) {
     }
 }
 
-TEST(MapDamage, random_changes) {
+TEST(MapDamage, RandomChanges) {
     const TemporaryFolder folder;
     int changed = 0;
     for (std::uint64_t seed = 0; seed < 4000; ++seed) {
@@ -243,7 +243,7 @@ TEST(MapDamage, random_changes) {
 }
 
 /// Random content behind checksums that fit: rows that no map can hold are refused, others are given as they stand.
-TEST(MapDamage, random_content_with_checksums_that_fit) {
+TEST(MapDamage, RandomContentWithChecksumsThatFit) {
     const TemporaryFolder folder;
     const Mesh mesh = small_mesh(3);
     int good = 0, bad = 0;

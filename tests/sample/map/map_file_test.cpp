@@ -25,7 +25,7 @@ Mesh two_triangles() {
     return mesh;
 }
 
-TEST(MapFile, round_trip_in_any_pieces) {
+TEST(MapFile, RoundTripInAnyPieces) {
     const TemporaryFolder folder;
     base::Random random(1);
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, block_rows - 1, block_rows,
@@ -61,7 +61,7 @@ TEST(MapFile, round_trip_in_any_pieces) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
-TEST(MapFile, blocks_are_full_until_the_end) {
+TEST(MapFile, BlocksAreFullUntilTheEnd) {
     const TemporaryFolder folder;
     base::Random random(2);
     const std::size_t count = 2 * block_rows + 5;
@@ -84,7 +84,7 @@ TEST(MapFile, blocks_are_full_until_the_end) {
 }
 
 /// The bytes are those that the description in map.hpp asks for: files of today can be read tomorrow.
-TEST(MapFile, bytes_are_as_described) {
+TEST(MapFile, BytesAreAsDescribed) {
     const TemporaryFolder folder;
     base::Random random(3);
     for (const std::size_t count : {std::size_t{0}, std::size_t{5}, block_rows, 2 * block_rows + 3}) {
@@ -107,7 +107,7 @@ TEST(MapFile, bytes_are_as_described) {
     EXPECT_EQ(mesh_fingerprint(odd), 0x141cf677bcdfd100ULL);
 }
 
-TEST(MapFile, fields_of_the_mesh_may_change) {
+TEST(MapFile, FieldsOfTheMeshMayChange) {
     const TemporaryFolder folder;
     base::Random random(4);
     const Mesh mesh = two_cells();
@@ -126,7 +126,7 @@ TEST(MapFile, fields_of_the_mesh_may_change) {
     EXPECT_TRUE(same(*read, rows));
 }
 
-TEST(MapFile, another_mesh_is_refused) {
+TEST(MapFile, AnotherMeshIsRefused) {
     const TemporaryFolder folder;
     base::Random random(5);
     const Mesh mesh = two_cells();
@@ -163,7 +163,7 @@ TEST(MapFile, another_mesh_is_refused) {
     EXPECT_EQ(refused({}), "one of 0 nodes and 0 tetrahedra");
 }
 
-TEST(MapFile, rows_that_no_map_can_hold) {
+TEST(MapFile, RowsThatNoMapCanHold) {
     const TemporaryFolder folder;
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     struct Row {
@@ -215,7 +215,7 @@ TEST(MapFile, rows_that_no_map_can_hold) {
     }
 }
 
-TEST(MapFile, a_writer_that_failed_stays_so) {
+TEST(MapFile, AWriterThatFailedStaysSo) {
     const TemporaryFolder folder;
     const std::vector<double> point{0, 0, 0};
     const std::vector<Mesh::Index> cell{0};
@@ -246,7 +246,7 @@ TEST(MapFile, a_writer_that_failed_stays_so) {
     EXPECT_EQ(folder.file_count(), 1U);
 }
 
-TEST(MapFile, paths_that_cannot_be) {
+TEST(MapFile, PathsThatCannotBe) {
     const TemporaryFolder folder;
     const auto opens = [&](const std::string& path) { return MapWriter::open(path, two_cells(), false); };
     EXPECT_EQ(opens(folder / "none/map").error().remedy, "make the folder first, or name another one");
@@ -259,7 +259,7 @@ TEST(MapFile, paths_that_cannot_be) {
     EXPECT_EQ(reads(folder / "pipe").error().found, "a pipe or device");
 }
 
-TEST(MapFile, a_full_disk_leaves_the_target) {
+TEST(MapFile, AFullDiskLeavesTheTarget) {
     const TemporaryFolder folder;
     put(folder / "map", "old");
     base::Random random(6);

@@ -20,7 +20,7 @@ struct Peak {
     }
 };
 
-TEST(MapScale, memory_does_not_grow_with_rows) {
+TEST(MapScale, MemoryDoesNotGrowWithRows) {
     constexpr std::size_t pieces = 500, piece_rows = 10000;
     constexpr double row_count = 1.0 * pieces * piece_rows;
     const TemporaryFolder folder;

@@ -33,7 +33,7 @@ Table with_points(Table rows, const std::vector<double>& points) {
     return rows;
 }
 
-TEST(MapUse, rows_from_a_saved_map_have_the_same_bits) {
+TEST(MapUse, RowsFromASavedMapHaveTheSameBits) {
     for (const char* name : {"cube-hole", "plate"}) {
         SCOPED_TRACE(name);
         const TemporaryFolder folder;
@@ -66,7 +66,7 @@ TEST(MapUse, rows_from_a_saved_map_have_the_same_bits) {
     }
 }
 
-TEST(MapUse, every_cell_that_holds_a_point) {
+TEST(MapUse, EveryCellThatHoldsAPoint) {
     const TemporaryFolder folder;
     const Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/cube-hole").value();
     const Locator locator = Locator::build(mesh, {.prove = false}).value();

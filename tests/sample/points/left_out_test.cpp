@@ -35,7 +35,7 @@ std::vector<double> points_in_box(const Mesh& mesh, std::size_t count, base::Ran
     return points;
 }
 
-TEST(SampleLeftOut, E1_D1_SameRowsAsByFewPoints) {
+TEST(SampleLeftOut, E1D1SameRowsAsByFewPoints) {
     for (const char* stem : {"bracket", "plate"}) {
         base::Random random(31);
         Mesh mesh = own_mesh(stem);

@@ -87,7 +87,7 @@ void expect_in_range(Mesh mesh, double size, const std::string& what) {
     }
 }
 
-TEST(SampleNearest, N3_ValuesOfTheCellFromAnywhere) {
+TEST(SampleNearest, N3ValuesOfTheCellFromAnywhere) {
     for (const int d : {2, 3}) {
         for (const double size : {1.0, 1e-300, 0x1p-1060, 1e300}) {
             Mesh mesh = mapped(box(d, {3, 3, 2}), {size, size, size}, {});
@@ -99,12 +99,12 @@ TEST(SampleNearest, N3_ValuesOfTheCellFromAnywhere) {
     }
 }
 
-TEST(SampleNearest, N3_OnOwnMeshes) {
+TEST(SampleNearest, N3OnOwnMeshes) {
     for (const char* stem : {"cube-hole", "bracket", "needle-slit", "plate", "torus"})
         expect_in_range(read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value(), 1, stem);
 }
 
-TEST(SampleNearest, N3_OnSecondOrderCells) {
+TEST(SampleNearest, N3OnSecondOrderCells) {
     Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/cube-hole-o2")).value();
     expect_in_range(mesh, 1, "cube-hole-o2");
     for (double& x : mesh.points) x *= 1e-300;

@@ -165,7 +165,7 @@ protected:
     static constexpr std::array<Rounding, 2> roundings{Rounding::correct, Rounding::plain};
 };
 
-TEST_P(NotFinite, V1_V2_AtPointsFromEveryCell) {
+TEST_P(NotFinite, V1V2AtPointsFromEveryCell) {
     for (std::uint64_t number = 0; number < 3; ++number) {
         base::Random random(number);
         const Mesh mesh = this->mesh(number);
@@ -212,7 +212,7 @@ TEST_P(NotFinite, V1_V2_AtPointsFromEveryCell) {
     }
 }
 
-TEST_P(NotFinite, V1_OnGridsAndFromMaps) {
+TEST_P(NotFinite, V1OnGridsAndFromMaps) {
     const test::Scratch scratch;
     const Mesh mesh = this->mesh(7);
     const auto locator = Locator::build(mesh);
@@ -259,7 +259,7 @@ TEST_P(NotFinite, V1_OnGridsAndFromMaps) {
 }
 
 // Beyond a side of the box by a power of two: the nearest point is exact.
-TEST_P(NotFinite, N3_AtTheNearestPoint) {
+TEST_P(NotFinite, N3AtTheNearestPoint) {
     const Mesh mesh = this->mesh(11);
     const auto d = static_cast<std::size_t>(mesh.dimension);
     const auto locator = Locator::build(mesh);
@@ -318,7 +318,7 @@ INSTANTIATE_TEST_SUITE_P(Sample, NotFinite,
                          });
 
 // The case that was reported: a node with NaN beside a node with 0.
-TEST(SampleNotFinite, V2_ANodeBesideNaN) {
+TEST(SampleNotFinite, V2ANodeBesideNaN) {
     Mesh mesh = box(2, {1, 1, 1});
     mesh.point_fields = {{"T", 1, {0, nan, 2, 3}}};
     const auto locator = Locator::build(mesh);

@@ -58,7 +58,7 @@ std::vector<SampleOptions> all_options() {
     return all;
 }
 
-TEST(SampleOrder, D1_ThreadsTargetsMethodsAndEvaluate) {
+TEST(SampleOrder, D1ThreadsTargetsMethodsAndEvaluate) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate", "bracket"}) {
         base::Random random(base::hash64(stem));
@@ -92,7 +92,7 @@ TEST(SampleOrder, D1_ThreadsTargetsMethodsAndEvaluate) {
 }
 
 // More points than fit in a block.
-TEST(SampleOrder, D1_AHundredThousandPointsInAnyOrder) {
+TEST(SampleOrder, D1AHundredThousandPointsInAnyOrder) {
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));

@@ -110,7 +110,7 @@ void expect_outside(const Mesh& mesh, const std::vector<double>& points, const O
     EXPECT_GT(with, 0U) << what;
 }
 
-TEST(SampleOutside, E1_Nearest) {
+TEST(SampleOutside, E1Nearest) {
     for (const char* stem : {"cube-hole", "bracket", "plate"}) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = own_with_field(stem);
@@ -118,7 +118,7 @@ TEST(SampleOutside, E1_Nearest) {
     }
 }
 
-TEST(SampleOutside, E1_NearestWithinALimit) {
+TEST(SampleOutside, E1NearestWithinALimit) {
     for (const char* stem : {"cube-hole", "plate"}) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = own_with_field(stem);
@@ -126,7 +126,7 @@ TEST(SampleOutside, E1_NearestWithinALimit) {
     }
 }
 
-TEST(SampleOutside, E1_Extrapolate) {
+TEST(SampleOutside, E1Extrapolate) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "bracket", "plate"}) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = own_with_field(stem);
@@ -135,7 +135,7 @@ TEST(SampleOutside, E1_Extrapolate) {
 }
 
 // The limit is one of `nearest`.
-TEST(SampleOutside, E1_ExtrapolationKnowsNoLimit) {
+TEST(SampleOutside, E1ExtrapolationKnowsNoLimit) {
     const Mesh mesh = own_with_field("plate");
     const auto locator = Locator::build(mesh, {.prove = false});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
@@ -148,7 +148,7 @@ TEST(SampleOutside, E1_ExtrapolationKnowsNoLimit) {
 }
 
 // A nodal value that is not finite makes its component NaN and is counted, at the nearest node, too.
-TEST(SampleOutside, E1_NearestValuesThatAreNotFinite) {
+TEST(SampleOutside, E1NearestValuesThatAreNotFinite) {
     Mesh mesh = box(3, {1, 1, 1});
     mesh.point_fields = {{"f", 2, std::vector<double>(16, 1.0)}};
     mesh.point_fields[0].data[0] = infinity;
@@ -166,7 +166,7 @@ TEST(SampleOutside, E1_NearestValuesThatAreNotFinite) {
 }
 
 // The nearest vertex gives the value that a point on it has.
-TEST(SampleOutside, E1_NearestVertexIsAsThePointOnIt) {
+TEST(SampleOutside, E1NearestVertexIsAsThePointOnIt) {
     base::Random random(3);
     Mesh mesh = box(2, {1, 1, 1});
     mesh.point_fields = {{"f", 5, {}}};
@@ -182,7 +182,7 @@ TEST(SampleOutside, E1_NearestVertexIsAsThePointOnIt) {
 }
 
 // Second order: the projection is rounded, so the value is near that of the quadratic there.
-TEST(SampleOutside, E1_NearestOnSecondOrderCells) {
+TEST(SampleOutside, E1NearestOnSecondOrderCells) {
     base::Random random(2);
     const Mesh mesh = own_with_field("cube-hole-o2");
     const auto locator = Locator::build(mesh, {.prove = false});
@@ -204,7 +204,7 @@ TEST(SampleOutside, E1_NearestOnSecondOrderCells) {
     EXPECT_EQ(counts.snapped, checked);
 }
 
-TEST(SampleOutside, E1_NanAndFill) {
+TEST(SampleOutside, E1NanAndFill) {
     base::Random random(4);
     const Mesh mesh = own_with_field("bracket");
     const std::vector<double> points = points_around(mesh, random);
@@ -231,7 +231,7 @@ TEST(SampleOutside, E1_NanAndFill) {
 }
 
 // A point a hair outside has the value of the point it is snapped to, NaN too where a node with NaN takes part.
-TEST(SampleOutside, N3_NotFiniteAsInside) {
+TEST(SampleOutside, N3NotFiniteAsInside) {
     Mesh mesh;
     mesh.dimension = 2;
     mesh.points = {0, 0, 1, 0, 0, 1};
@@ -252,7 +252,7 @@ TEST(SampleOutside, N3_NotFiniteAsInside) {
 }
 
 // The first one in the caller's order, counted from where the caller says, whatever the order they were found in.
-TEST(SampleOutside, E1_ErrorNamesTheFirst) {
+TEST(SampleOutside, E1ErrorNamesTheFirst) {
     base::Random random(5);
     const Mesh mesh = own_with_field("cube-hole");
     const auto locator = Locator::build(mesh);

@@ -17,7 +17,7 @@ std::vector<std::size_t> point_of_rows(const Table& rows) {
     return points;
 }
 
-TEST(SampleShared, V2_SameBitsFromEverySide) {
+TEST(SampleShared, V2SameBitsFromEverySide) {
     for (const char* stem : {"lattice-eighths", "lattice-box", "cube-hole-o2", "plate", "torus"}) {
         base::Random random(base::hash64(stem));
         Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();
@@ -51,7 +51,7 @@ TEST(SampleShared, V2_SameBitsFromEverySide) {
 }
 
 // At a node the value is the node's.
-TEST(SampleShared, V1_AtNodes) {
+TEST(SampleShared, V1AtNodes) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
         Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR "/meshes/") + stem).value();

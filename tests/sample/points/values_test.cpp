@@ -38,7 +38,7 @@ void expect_right(const Mesh& mesh, const std::vector<double>& points, const std
     }
 }
 
-TEST(SampleValues, V1_OwnMeshesAndTheirFields) {
+TEST(SampleValues, V1OwnMeshesAndTheirFields) {
     for (const char* stem :
          {"bracket", "cube-hole", "cube-hole-o2", "lattice-box", "lattice-eighths", "needle-slit", "plate", "torus"}) {
         base::Random random(base::hash64(stem));
@@ -49,7 +49,7 @@ TEST(SampleValues, V1_OwnMeshesAndTheirFields) {
 }
 
 // Records of values hold one and then four: every number of components around that, in one field and in several.
-TEST(SampleValues, V1_AnyNumberOfComponents) {
+TEST(SampleValues, V1AnyNumberOfComponents) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
@@ -66,7 +66,7 @@ TEST(SampleValues, V1_AnyNumberOfComponents) {
     }
 }
 
-TEST(SampleValues, V1_AwkwardValues) {
+TEST(SampleValues, V1AwkwardValues) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
@@ -76,7 +76,7 @@ TEST(SampleValues, V1_AwkwardValues) {
 }
 
 // Component by component: one that is not finite leaves the others alone.
-TEST(SampleValues, V1_ValuesThatAreNotFinite) {
+TEST(SampleValues, V1ValuesThatAreNotFinite) {
     for (const char* stem : {"lattice-eighths", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
@@ -110,7 +110,7 @@ TEST(SampleValues, V1_ValuesThatAreNotFinite) {
     }
 }
 
-TEST(SampleValues, V1_AnyMagnitude) {
+TEST(SampleValues, V1AnyMagnitude) {
     for (const int d : {2, 3}) {
         for (const double factor : {1e-300, 1e300, 5e-324, 0x1p-1040, 1e6}) {
             base::Random random(3);
@@ -129,7 +129,7 @@ TEST(SampleValues, V1_AnyMagnitude) {
 }
 
 // Cells that overlap, flat ones, nodes that no cell uses with values that are not to be seen.
-TEST(SampleValues, V1_Soups) {
+TEST(SampleValues, V1Soups) {
     for (const int d : {2, 3}) {
         base::Random random(5);
         Mesh mesh;

@@ -29,7 +29,7 @@ protected:
     Mesh mesh = box(3, {1, 1, 1});
 };
 
-TEST_F(QuantityNames, have_their_columns) {
+TEST_F(QuantityNames, HaveTheirColumns) {
     EXPECT_EQ(columns({"v.x", "v.2"}), "v.x v.2");
     EXPECT_EQ(columns({"v.x,v.2"}), "v.x v.2");
     EXPECT_EQ(columns({"|v|,|w|"}), "|w| |v|") << "what is computed at points comes last";
@@ -40,7 +40,7 @@ TEST_F(QuantityNames, have_their_columns) {
 }
 
 // Bindings keep fields apart from the geometry: names need no more of a mesh than choose_fields says.
-TEST_F(QuantityNames, are_chosen_from_fields_alone) {
+TEST_F(QuantityNames, AreChosenFromFieldsAlone) {
     const Locator locator = Locator::build(mesh).value();
     Mesh fields;
     fields.dimension = mesh.dimension;
@@ -58,7 +58,7 @@ TEST_F(QuantityNames, are_chosen_from_fields_alone) {
     EXPECT_FALSE(choose_fields(fields, {"T", "T"}));
 }
 
-TEST_F(QuantityNames, of_fields_go_before) {
+TEST_F(QuantityNames, OfFieldsGoBefore) {
     for (const std::string name : {"|v|", "grad(T)", "v.x", "mean(E)"}) {
         mesh.point_fields.push_back({name, 1, std::vector<double>(mesh.point_count(), 42)});
         EXPECT_EQ(columns({name}), name);
@@ -70,7 +70,7 @@ TEST_F(QuantityNames, of_fields_go_before) {
     EXPECT_EQ(columns({"a,b.y"}), "a,b.y");
 }
 
-TEST_F(QuantityNames, that_mean_nothing_are_refused) {
+TEST_F(QuantityNames, ThatMeanNothingAreRefused) {
     const auto refused = [&](const std::string& name, const std::string& says) {
         const std::string message = columns({name});
         EXPECT_NE(message.find(says), std::string::npos) << name << " says " << message;
@@ -97,7 +97,7 @@ TEST_F(QuantityNames, that_mean_nothing_are_refused) {
     refused(std::string(100000, '|'), "no field of that name");
 }
 
-TEST_F(QuantityNames, can_be_renamed_within) {
+TEST_F(QuantityNames, CanBeRenamedWithin) {
     using sample::with_other_name;
     EXPECT_EQ(with_other_name("T", "T", "T@2"), "T@2");
     EXPECT_EQ(with_other_name("|grad(T)|.x", "T", "T@2"), "|grad(T@2)|.x");

@@ -119,7 +119,7 @@ std::size_t expect_true_quantities(const Mesh& mesh, const std::vector<double>& 
     return inside;
 }
 
-TEST(Quantities, of_own_meshes) {
+TEST(Quantities, OfOwnMeshes) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "lattice-eighths", "plate", "needle-slit"}) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = with_fields(own_mesh(stem), false, random);
@@ -127,7 +127,7 @@ TEST(Quantities, of_own_meshes) {
     }
 }
 
-TEST(Quantities, of_bad_meshes_and_awkward_values) {
+TEST(Quantities, OfBadMeshesAndAwkwardValues) {
     for (const int d : {2, 3}) {
         std::size_t inside = 0;
         for (std::uint64_t k = 0; k < 60 && !HasFailure(); ++k) {
@@ -149,7 +149,7 @@ TEST(Quantities, of_bad_meshes_and_awkward_values) {
 }
 
 // Hidden columns, filled grids, known owners and threads: the same bits.
-TEST(Quantities, D1_whatever_finds_the_owner) {
+TEST(Quantities, D1WhateverFindsTheOwner) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "plate"}) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = with_fields(own_mesh(stem), true, random);
@@ -182,7 +182,7 @@ TEST(Quantities, D1_whatever_finds_the_owner) {
 }
 
 // A point on a facet has the gradient of the lowest cell, and one outside that of the nearest cell.
-TEST(Quantities, gradients_jump) {
+TEST(Quantities, GradientsJump) {
     Mesh mesh;
     mesh.dimension = 2;
     mesh.points = {0, 0, 1, 0, 0, 1, 1, 1};
@@ -209,7 +209,7 @@ TEST(Quantities, gradients_jump) {
 }
 
 // On cells of second order at the nearest point, or where the point is.
-TEST(Quantities, gradients_of_second_order_outside) {
+TEST(Quantities, GradientsOfSecondOrderOutside) {
     Mesh mesh;
     mesh.dimension = 2;
     mesh.points = {0, 0, 1, 0, 0, 1, 0.5, 0, 0.5, 0.5, 0, 0.5};
@@ -245,7 +245,7 @@ TEST(Quantities, gradients_of_second_order_outside) {
     }
 }
 
-TEST(Quantities, lengths_at_the_ends_of_the_range) {
+TEST(Quantities, LengthsAtTheEndsOfTheRange) {
     Mesh mesh = box(2, {1, 1, 1});
     const double max = std::numeric_limits<double>::max(), tiny = 0x1p-1074;
     const auto length = [&](std::vector<double> v) {

@@ -105,7 +105,7 @@ void expect_true_weights(const Mesh& mesh, const std::vector<double>& points, co
     }
 }
 
-TEST(NodeWeights, of_own_meshes) {
+TEST(NodeWeights, OfOwnMeshes) {
     for (const char* stem : {"cube-hole", "cube-hole-o2", "lattice-eighths", "plate"}) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = own_mesh(stem);
@@ -113,7 +113,7 @@ TEST(NodeWeights, of_own_meshes) {
     }
 }
 
-TEST(NodeWeights, of_bad_meshes) {
+TEST(NodeWeights, OfBadMeshes) {
     for (const int d : {2, 3}) {
         for (std::uint64_t k = 0; k < 60 && !HasFailure(); ++k) {
             base::Random random = base::Random::stream(8, static_cast<std::uint64_t>(d), k);
@@ -128,7 +128,7 @@ TEST(NodeWeights, of_bad_meshes) {
 
 // On cells of second order the nearest point's weights are rounded, so the row is that of a point of the cell: it gives
 // what the sampler gives.
-TEST(NodeWeights, of_second_order_at_the_nearest_point) {
+TEST(NodeWeights, OfSecondOrderAtTheNearestPoint) {
     base::Random random(9);
     const Mesh mesh = own_mesh("cube-hole-o2");
     const auto locator = Locator::build(mesh);
@@ -154,7 +154,7 @@ TEST(NodeWeights, of_second_order_at_the_nearest_point) {
     EXPECT_GT(outside, 10U);
 }
 
-TEST(NodeWeights, of_what_cannot_be_are_refused) {
+TEST(NodeWeights, OfWhatCannotBeAreRefused) {
     const Mesh mesh = box(2, {2, 1, 1});
     const auto locator = Locator::build(mesh);
     const std::vector<double> points{0.5, 0.25, 9, 9};

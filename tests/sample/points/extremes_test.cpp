@@ -19,7 +19,7 @@ Mesh tetrahedron(double size) {
     return mesh;
 }
 
-TEST(SampleReview, ACellWithoutVolumeHasNoValue) {
+TEST(SampleExtremes, ACellWithoutVolumeHasNoValue) {
     Mesh mesh;
     mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
     for (const std::vector<Mesh::Index>& cell : {std::vector<Mesh::Index>{0, 1, 2, 3}, {3, 1, 0, 2}}) {
@@ -39,7 +39,7 @@ TEST(SampleReview, ACellWithoutVolumeHasNoValue) {
     }
 }
 
-TEST(SampleReview, TheNearestPointIsOnTheFaceWhateverTheSize) {
+TEST(SampleExtremes, TheNearestPointIsOnTheFaceWhateverTheSize) {
     for (int exponent = -300; exponent <= 300; exponent += 10) {
         const double size = std::ldexp(1, exponent);
         const Mesh mesh = tetrahedron(size);
@@ -51,7 +51,7 @@ TEST(SampleReview, TheNearestPointIsOnTheFaceWhateverTheSize) {
     }
 }
 
-TEST(SampleReview, CellsFarSmallerThanTheDomainHaveFaces) {
+TEST(SampleExtremes, CellsFarSmallerThanTheDomainHaveFaces) {
     Mesh mesh = tetrahedron(0x1p-270);
     mesh.points.insert(mesh.points.end(), {1, 1, 1, 2, 1, 1, 1, 2, 1, 1, 1, 2});
     mesh.cells.insert(mesh.cells.end(), {4, 5, 6, 7});
@@ -60,7 +60,7 @@ TEST(SampleReview, CellsFarSmallerThanTheDomainHaveFaces) {
     EXPECT_EQ(locator->nearest(point, 1)->distance, 0x1p-270);
 }
 
-TEST(SampleReview, VerticesAreFoundInEveryRoundingMode) {
+TEST(SampleExtremes, VerticesAreFoundInEveryRoundingMode) {
     Mesh mesh;
     for (int i = 0; i < 500; ++i) {
         const double x = std::sin(i * 1.7), y = std::cos(i * 2.3), z = std::sin(i * 0.9), h = 0.01 + 0.001 * (i % 7);
@@ -80,7 +80,7 @@ TEST(SampleReview, VerticesAreFoundInEveryRoundingMode) {
     }
 }
 
-TEST(SampleReview, GridsThatAreNone) {
+TEST(SampleExtremes, GridsThatAreNone) {
     EXPECT_FALSE(grid_spaced(3, {0x1p-100, 1, 1}, {-1, 0, 0}, {0.75 * 0x1p-52, 1, 1}));
     for (const int dimension : {-1, 0, 1, 4}) {
         EXPECT_FALSE(grid_over(dimension, {2, 2, 2}, {0, 0, 0}, {1, 1, 1})) << dimension;

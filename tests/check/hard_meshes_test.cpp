@@ -21,7 +21,7 @@ Mesh flat(std::vector<double> points, std::vector<Mesh::Index> cells) {
 }
 
 // The scaled volume is subnormal, is rounded there, and scaled back: rounded twice.
-TEST(Regressions, volume_of_an_anisotropic_cell) {
+TEST(HardMeshes, VolumeOfAnAnisotropicCell) {
     const Mesh mesh = flat({0, 0, 1.1e200, 0, 0, 1.3e-110}, {0, 1, 2});
     const CheckReport r = quick(mesh);
     EXPECT_EQ(r.measures.volume[0], exact_volume(mesh, 0));
@@ -29,7 +29,7 @@ TEST(Regressions, volume_of_an_anisotropic_cell) {
 }
 
 // Three triangles around a triangular hole: the number of cavities depends on where the origin is.
-TEST(Regressions, cavities_of_a_pinched_boundary) {
+TEST(HardMeshes, CavitiesOfAPinchedBoundary) {
     const Mesh mesh = flat({0, 0, 4, 0, 0, 4, 2, 0, 2, 2, 0, 2}, {0, 3, 5, 1, 4, 3, 2, 5, 4});
     for (const double x : {0.0, 10.0, -10.0}) {
         for (const double y : {0.0, 10.0}) {
@@ -40,7 +40,7 @@ TEST(Regressions, cavities_of_a_pinched_boundary) {
 }
 
 // Parts that touch in a node do not hide what can be counted; along an edge they do.
-TEST(Regressions, tunnels_and_cavities_where_pinched) {
+TEST(HardMeshes, TunnelsAndCavitiesWherePinched) {
     Mesh mesh;
     mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0, 0, -1, 0, 0, 0, -1};
     mesh.cells = {0, 1, 2, 3, 0, 4, 6, 5};
@@ -56,14 +56,14 @@ TEST(Regressions, tunnels_and_cavities_where_pinched) {
 }
 
 // "It is the mesh that was checked, and P1 to P5 of check.hpp hold."
-TEST(Regressions, covers_after_neighbours_were_spoilt) {
+TEST(HardMeshes, CoversAfterNeighboursWereSpoilt) {
     Mesh mesh = box(3, {1, 1, 1});
     const Certificate c = quick(mesh).certificate;
     mesh.neighbours.assign(mesh.cells.size(), 0);
     EXPECT_FALSE(c.covers(mesh));
 }
 
-TEST(Regressions, shape_of_needles) {
+TEST(HardMeshes, ShapeOfNeedles) {
     for (const double t : {1e-90, 1e-120, 1e-160, 1e-200}) {
         Mesh mesh;
         mesh.points = {0, 0, 0, t, 0, 0, 0, t, 0, 0, 0, 1};
@@ -85,7 +85,7 @@ TEST(Regressions, shape_of_needles) {
 }
 
 // Time and memory of find_nested_parts grow with pieces times cells.
-TEST(Regressions, time_of_cells_one_in_another) {
+TEST(HardMeshes, TimeOfCellsOneInAnother) {
     const auto nest = [](int n) {
         Mesh mesh;
         for (int i = 0; i < n; ++i) {
@@ -105,7 +105,7 @@ TEST(Regressions, time_of_cells_one_in_another) {
 }
 
 // An odd number of indices: the last one stands alone in the fingerprint.
-TEST(Regressions, covers_sees_the_last_index_of_a_single_triangle) {
+TEST(HardMeshes, CoversSeesTheLastIndexOfASingleTriangle) {
     Mesh mesh = flat({0, 0, 1, 0, 0, 1, 1, 1}, {0, 1, 2});
     const Certificate c = quick(mesh).certificate;
     EXPECT_TRUE(c.covers(mesh));
