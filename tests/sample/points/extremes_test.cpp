@@ -1,4 +1,4 @@
-// What a review found, each with the smallest case that shows it.
+// Cells without volume or far smaller than the domain, and what else is extreme: the smallest case of each.
 
 #include <gtest/gtest.h>
 
