@@ -19,7 +19,7 @@
 namespace barycert::jobs {
 namespace {
 
-constexpr std::string_view of_cells = "cell:", of_points = "point:";
+constexpr std::string_view cell_prefix = "cell:", point_prefix = "point:";
 constexpr const char* say_which =
     "say which: FieldFile::Of::points or FieldFile::Of::cells instead of FieldFile::Of::either";
 
@@ -117,7 +117,7 @@ Field read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
 
 /// A field of that name, with or without cell:, goes before.
 const Column* label_named(const Mesh& mesh, std::string_view name) {
-    const auto full = [](std::string_view of) { return std::string(of_cells) + std::string(of); };
+    const auto full = [](std::string_view of) { return std::string(cell_prefix) + std::string(of); };
     for (const std::string& field : {std::string(name), full(name)}) {
         if (sample::field_named(mesh.point_fields, field) != nullptr ||
             sample::field_named(mesh.cell_fields, field) != nullptr)
@@ -127,8 +127,8 @@ const Column* label_named(const Mesh& mesh, std::string_view name) {
         for (const Column& label : mesh.cell_labels) {
             if (label.name == name || label.name == full(name)) return &label;
         }
-        if (!name.starts_with(of_cells)) break;
-        name.remove_prefix(of_cells.size());
+        if (!name.starts_with(cell_prefix)) break;
+        name.remove_prefix(cell_prefix.size());
     }
     return nullptr;
 }
@@ -168,7 +168,7 @@ FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace) {
     Field field = read_field(mesh, of, mesh.notes);
     const bool cells = is_of_cells(of, field.data.size() / static_cast<std::size_t>(field.components), mesh);
     std::vector<Field>& fields = cells ? mesh.cell_fields : mesh.point_fields;
-    const std::string full = std::string(cells ? of_cells : of_points) + file.name;
+    const std::string full = std::string(cells ? cell_prefix : point_prefix) + file.name;
     for (std::size_t i = 0; replace && i < fields.size(); ++i) {
         if (fields[i].name != file.name && fields[i].name != full) continue;
         field.name = fields[i].name;
@@ -189,10 +189,10 @@ void give_each_a_name(Mesh& mesh) {
     const auto there = [](const std::vector<Field>& fields, const std::string& name) {
         return sample::field_named(fields, name) != nullptr;
     };
-    for (Field& field : mesh.point_fields) rename(field.name, of_points, false);
-    for (Field& field : mesh.cell_fields) rename(field.name, of_cells, there(mesh.point_fields, field.name));
+    for (Field& field : mesh.point_fields) rename(field.name, point_prefix, false);
+    for (Field& field : mesh.cell_fields) rename(field.name, cell_prefix, there(mesh.point_fields, field.name));
     for (Column& label : mesh.cell_labels)
-        rename(label.name, of_cells, there(mesh.point_fields, label.name) || there(mesh.cell_fields, label.name));
+        rename(label.name, cell_prefix, there(mesh.point_fields, label.name) || there(mesh.cell_fields, label.name));
 }
 
 void add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
