@@ -112,7 +112,7 @@ private:
             if (x == y || (merged[at(a)] == 0 && merged[at(b)] == 0) || role[at(old_.mid_nodes[i])] == 2) continue;
             all.push_back({{std::min(x, y), std::max(x, y)}, {std::min(a, b), std::max(a, b)}, old_.mid_nodes[i]});
         }
-        std::ranges::sort(all);
+        std::sort(all.begin(), all.end());
         for (std::size_t i = 0, next = 0; i < all.size(); i = next) {
             while (next < all.size() && all[next].ends == all[i].ends) ++next;
             if (all[next - 1].given == all[i].given) continue;  // they were one before
