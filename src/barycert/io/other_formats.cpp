@@ -244,8 +244,7 @@ std::string plane_remedy(std::span<const double> points, const std::string& path
 }
 
 std::string freefem_command(const std::string& path) {
-    const std::string script =
-        "mesh Th = readmesh(\"" + path + "\"); savemesh(Th, \"" + stem_of(path) + ".mesh\");";
+    const std::string script = "mesh Th = readmesh(\"" + path + "\"); savemesh(Th, \"" + stem_of(path) + ".mesh\");";
     return "`echo " + shell_word(script) + " | FreeFem++ -nw -f /dev/stdin`";
 }
 
