@@ -1,8 +1,6 @@
 /// Sizes of errors by powers of ten: the bins of histograms.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -25,7 +23,10 @@ inline std::size_t decade_bin(double x) {
 
 /// "< 1e-16", of the last ">= 100". Precondition: 1 <= bin < decade_bins.
 inline std::string decade_label(std::size_t bin) {
-    return bin > decade_edges.size() ? ">= 100" : fmt::format("< {:.0e}", decade_edges[bin - 1]);
+    if (bin > decade_edges.size()) return ">= 100";
+    const int exponent = static_cast<int>(bin) - 18, size = exponent < 0 ? -exponent : exponent;
+    return std::string("< 1e") + (exponent < 0 ? '-' : '+') + static_cast<char>('0' + size / 10) +
+           static_cast<char>('0' + size % 10);
 }
 
 }  // namespace barycert::base
