@@ -106,7 +106,7 @@ void add_render(const Options& program) {
     const auto& [o, a] = program.command(
         "render", "Pictures of meshes and scenes, surfaces in meshes, and what the shortcuts of rasterisers cost", "",
         run_scene_file);
-    // Told before what stands behind a name that is none.
+    // The parser would take another word for a scene, too, and complain of the words behind it.
     const auto scene = [&job = a.job, app = &o.app()](const std::string& word) {
         const std::vector<std::string> pictures = command_names(*app);
         if (!word.ends_with(".json") && std::find(pictures.begin(), pictures.end(), word) == pictures.end())

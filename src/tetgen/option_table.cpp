@@ -63,6 +63,7 @@ void add_options(CLI::App& app, Options& options) {
     // A regular tetrahedron has the smallest ratio there is, 0.61, and the largest dihedral angle, 70.5 degrees.
     auto* quality =
         add("--quality", "[RATIO]", "Max radius-edge ratio, default 2 (TetGen -q)", [&options](Text text) {
+            // INPUT, declared above, has been taken by now: else --quality took it, perhaps.
             if (options.input.empty() && !text.empty() && base::parse_double(text).value_or(0) == 0)
                 throw std::invalid_argument("--quality: expected a number, found " + text + "; put INPUT first");
             options.ratio = text.empty() ? 2 : number_in("--quality", text, 1, 1e6, "a ratio of at least 1");

@@ -95,6 +95,16 @@ TEST(Formats, PolyWithNodesApart) {
     EXPECT_EQ(mesh.point_fields[0].data[7], 0.7);
     EXPECT_EQ(mesh.point_markers[7], 5);
 
+    // What the .poly's own header says of attributes is not said of the other file, which ends before that word.
+    std::string rows;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const auto& [x, y, z] = cube_nodes[i];
+        rows += std::to_string(i) + " " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    }
+    folder.put("plain.node", "8 3\n" + rows);
+    EXPECT_TRUE(
+        expect_cube(folder.put("plain.poly", "0 3 2 0\n6 0\n" + side_rows(0, "1\n", "") + "0\n")).point_fields.empty());
+
     // Writing over the PLC's own nodes would destroy it.
     const std::string before = contents(folder.path("cube.node"));
     EXPECT_EQ(run_tetgen({folder.path("cube.poly"), "--output", folder.path("cube")}).code, 2);

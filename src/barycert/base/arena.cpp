@@ -1,4 +1,4 @@
-// The one source between this project's loops and oneTBB's, whose headers take longer to compile than most sources.
+// Loops and arenas of oneTBB, whose headers take longer to compile than most sources.
 #include "barycert/base/arena.hpp"
 
 #include <tbb/blocked_range.h>

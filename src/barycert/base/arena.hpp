@@ -40,7 +40,8 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& work);
 
 /// What join(all, part) makes of the parts of such ranges, each made by work(begin, end, part) from a copy of `empty`.
-/// Parts come in any order.
+/// Parts come in any order: what threads decide must not show in what join() makes, and joining `empty` changes
+/// nothing.
 template <class Part, class Work, class Join>
 Part parallel_reduce(std::size_t count, std::size_t grain, const Part& empty, Work work, Join join) {
     std::mutex mutex;

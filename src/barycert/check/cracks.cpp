@@ -162,7 +162,7 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
         auto found = nearly_hanging(c, cracks.reach_of_faces(), 10 * pair_limit);
         nearly = std::move(found.list);
         std::erase_if(nearly, [&](const HangingNode& h) {
-            return cracks.nearly_coincides(h) || std::ranges::count(hanging, h.node, &HangingNode::node) != 0;
+            return cracks.nearly_coincides(h) || std::ranges::binary_search(hanging, h.node, {}, &HangingNode::node);
         });
         for (const HangingNode& h : nearly) tell(h, DefectKind::near_hanging);
         if (!found.complete) defects[DefectKind::near_hanging].at_least = true;

@@ -34,6 +34,7 @@ LastPlace last_place(const std::vector<double>& coordinates) {
             std::array<char, 32> text{};  // d.ddde-xx, and zero bytes
             std::to_chars(text.data(), text.data() + text.size(), std::fabs(x), std::chars_format::scientific);
             const auto e = std::ranges::find(text, 'e');
+            // Less the point, if there is one.
             const int count = std::max(1, static_cast<int>(e - text.begin()) - 1);
             digits = std::max(digits, count);
             lowest = std::min(lowest, std::atoi(&*e + 1) - count + 1);

@@ -182,8 +182,8 @@ void check_faces(Checked& c) {
 }  // namespace
 
 bool check_facets(Checked& c) {
-    const bool good =
-        c.report.degenerate == 0 && std::ranges::count(c.finite, 0) == 0 && std::ranges::count(c.usable, 0) == 0;
+    const bool good = c.report.degenerate == 0 && std::ranges::find(c.finite, 0) == c.finite.end() &&
+                      std::ranges::find(c.usable, 0) == c.usable.end();
     const bool proved = good && find_facets_of_partition(c);
     // Where the proof fails, what is wrong is found by the slower search.
     if (!proved) search_facets(c);

@@ -85,6 +85,7 @@ public:
                     turn(pc, pd, pa) * turn(pc, pd, pb) != Sign::negative)
                     continue;
                 const PlcPosition u = place(a), v = place(b), &w = ring.at[i], &z = ring.at[j];
+                deepest = std::max(deepest, 0.0);  // whatever the distances below, which are rounded
                 deepest = std::max(deepest, std::min({distance_from(u, w, z), distance_from(v, w, z),
                                                       distance_from(w, u, v), distance_from(z, u, v)}));
             }

@@ -236,8 +236,8 @@ std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint3
 std::vector<CellPair> find_overlapping_cells(Checked& c);
 
 /// The intersection of two closed cells: its dimension (-1: empty) and a point in its relative interior, computed in
-/// integers. If the interiors meet, that point lies in both. Precondition: neither is degenerate. Slow: tens of
-/// microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
+/// integers. If the interiors meet, that point lies in both. Precondition: finite, and neither degenerate. Slow: tens
+/// of microseconds, or up to some milliseconds (coordinates over the whole range of doubles, numbers of 30,000 bits).
 CellContact common_part(const Mesh& mesh, const CellPair& cells);
 
 // Nodes near each other, or near what is between others (nodes.cpp, hanging_nodes.cpp, cracks.cpp).

@@ -88,7 +88,9 @@ class Prover {
 public:
     Prover(const CellIndex& index, const FacetLinks& links, const std::function<const CellTree&()>& tree)
         : index_(index), links_(links), tree_(tree), facets_(links.open.size()) {
-        base::parallel_for(facets_.size(), [&](std::size_t f) { facets_[f] = placed(index_, links_.open[f]); });
+        base::parallel_for(facets_.size(), 1024, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t f = begin; f != end; ++f) facets_[f] = placed(index_, links_.open[f]);
+        });
     }
 
     bool is_partition() const { return links_.degenerate.empty() && bad_facets().empty(); }

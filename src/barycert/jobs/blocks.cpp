@@ -20,8 +20,9 @@ namespace {
 
 /// `cells`: of the mesh, 0 where none are looked for.
 std::size_t size_of_blocks(std::optional<std::uint64_t> points, int threads, std::size_t cells) {
-    // At most so many points on meshes of up to two million cells: see NOTES.md.
+    // The most points of a block on meshes of up to two million cells, and on larger ones: see NOTES.md.
     constexpr std::uint64_t usual = std::uint64_t{1} << 17, cells_a_point = 16;
+    // Threads have several blocks each, so that none waits long for the others; but not of very few points.
     constexpr std::uint64_t min = std::uint64_t{1} << 12, blocks_a_thread = 4;
     const std::uint64_t max = std::max<std::uint64_t>(usual, cells / cells_a_point);
     if (!points) return static_cast<std::size_t>(max);

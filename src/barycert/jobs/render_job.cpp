@@ -200,7 +200,7 @@ Image image_of(const RenderJob& job, const Mesh& mesh, RenderReport& report) {
     return image;
 }
 
-Image draw_mesh(const RenderJob& job, RenderReport& report) try {
+Image draw_mesh(const RenderJob& job, RenderReport& report) {
     const jobs::ThreadLimit limit(job.threads);
     const Mesh mesh = jobs::open_mesh_with_fields(job, job.threads, report);
     if (mesh.cells.empty()) refuse(job.mesh, "the mesh has no cells", "", "", "there is nothing to draw");
@@ -208,11 +208,13 @@ Image draw_mesh(const RenderJob& job, RenderReport& report) try {
     report.size = job.view.size;
     report.method = job.view.method;
     report.rounding = job.view.rounding;
-    return image_of(job, mesh, report);
-} catch (const Exception& e) {
-    Error error = e.error();
-    if (error.file.empty()) error.file = job.mesh;
-    throw Exception(error);
+    try {
+        return image_of(job, mesh, report);
+    } catch (const Exception& e) {
+        Error error = e.error();
+        if (error.file.empty()) error.file = job.mesh;
+        throw Exception(error);
+    }
 }
 
 /// The largest difference of u or v at a pixel from the correctly rounded one.

@@ -43,7 +43,7 @@ struct RowSource {
 /// Points that are to be located, to be read once. They must stay.
 RowSource rows_of_points(std::unique_ptr<PointSource>& points);
 
-/// Whether the file is standard input or a pipe.
+/// Whether the file is standard input, a pipe, or else no regular file.
 bool is_read_once(const std::string& path);
 
 /// The rows of a source, which must stay, in blocks: few enough that all of `threads` threads (0: as many as the

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "barycert/base/arena.hpp"
+
 namespace barycert::locate {
 
 /// Made on first need, by one thread while others wait.

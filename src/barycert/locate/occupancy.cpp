@@ -1,7 +1,5 @@
 #include "barycert/locate/occupancy.hpp"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>

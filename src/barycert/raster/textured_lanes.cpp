@@ -319,6 +319,7 @@ HWY_EXPORT(draw);
 
 namespace {
 
+/// Preconditions: as check_textured() makes sure: three vertices a triangle, all finite, w > 0 with perspective.
 std::size_t draw_lanes(Image& out, const Texture& texture, std::span<const TexturedVertex> vertices, bool perspective) {
     return HWY_DYNAMIC_DISPATCH(draw)(out, texture, vertices, perspective);
 }

@@ -18,7 +18,7 @@ struct Evaluation {
     std::string detail;          ///< what the kernel did besides answering, in words; empty if nothing
 };
 
-constexpr bool is(std::size_t reason, Finding f) {
+constexpr bool is_finding(std::size_t reason, Finding f) {
     return reason == static_cast<std::size_t>(f);
 }
 
@@ -86,7 +86,8 @@ inline double badness(std::size_t reason, const Evaluation& e) {
     if (reason >= finding_count) return std::isfinite(magnitude(reason, e)) ? magnitude(reason, e) : -1;
     if (e.comparison.counts[reason] == 0) return -1;
     if (e.exact.region == Region::degenerate) return 0;  // as where the kernel misses that
-    if (is_accident(reason) || is(reason, Finding::not_finite) || is(reason, Finding::false_declaration))
+    if (is_accident(reason) || is_finding(reason, Finding::not_finite) ||
+        is_finding(reason, Finding::false_declaration))
         return 1 / largest_weight(e.exact);
     return std::isfinite(e.relative_error) ? e.relative_error : 0;
 }
@@ -105,9 +106,10 @@ struct Height {
 inline Height height(std::size_t reason, const Evaluation& e) {
     const double shown = badness(reason, e);
     if (shown >= 0) return {shown, 0};
-    if (e.exact.region == Region::degenerate) return {-1, is(reason, Finding::missed_degenerate) ? HUGE_VAL : -1.0};
-    if (is(reason, Finding::missed_degenerate) || is(reason, Finding::false_declaration) ||
-        is(reason, Finding::not_finite))
+    if (e.exact.region == Region::degenerate)
+        return {-1, is_finding(reason, Finding::missed_degenerate) ? HUGE_VAL : -1.0};
+    if (is_finding(reason, Finding::missed_degenerate) || is_finding(reason, Finding::false_declaration) ||
+        is_finding(reason, Finding::not_finite))
         return {-1, largest_weight(e.exact)};
     return {-1, e.comparison.worst_weight_ulp()};
 }

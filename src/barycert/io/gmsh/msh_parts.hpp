@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -50,14 +49,22 @@ public:
         std::size_t same = 0;
         while (same != tags.size() && offset_of(tags[same]) == same) ++same;
         if (same == tags.size()) return;
-        const bool dense = span_ <= 8 * tags.size() + 1024;
-        if (dense) table_.assign(span_, -1);
-        if (!dense) sparse_.reserve(tags.size());
-        for (std::size_t i = 0; i < tags.size() && !first_twice; ++i) {
-            const std::uint64_t offset = offset_of(tags[i]);
-            Mesh::Index& entry = dense ? table_[offset] : sparse_.try_emplace(offset, -1).first->second;
-            if (entry != -1) first_twice = i;
-            entry = static_cast<Mesh::Index>(i);
+        if (span_ <= 8 * tags.size() + 1024) {
+            table_.assign(span_, -1);
+            for (std::size_t i = 0; i < tags.size() && !first_twice; ++i) {
+                Mesh::Index& entry = table_[offset_of(tags[i])];
+                if (entry != -1) first_twice = i;
+                entry = static_cast<Mesh::Index>(i);
+            }
+            return;
+        }
+        in_order_.reserve(tags.size());
+        for (std::size_t i = 0; i < tags.size(); ++i) in_order_.emplace_back(tags[i], static_cast<Mesh::Index>(i));
+        std::sort(in_order_.begin(), in_order_.end());
+        for (std::size_t i = 1; i < in_order_.size(); ++i) {
+            const auto position = static_cast<std::size_t>(in_order_[i].second);
+            if (in_order_[i].first == in_order_[i - 1].first)
+                first_twice = std::min(first_twice.value_or(position), position);
         }
     }
 
@@ -69,21 +76,22 @@ public:
         const std::uint64_t offset = offset_of(tag);
         if (offset >= span_) return -1;
         if (!table_.empty()) return table_[offset];
-        if (sparse_.empty()) return static_cast<Mesh::Index>(offset);
-        const auto found = sparse_.find(offset);
-        return found == sparse_.end() ? -1 : found->second;
+        return in_order_.empty() ? static_cast<Mesh::Index>(offset) : search(tag);
     }
 
 private:
     std::uint64_t offset_of(std::int64_t tag) const {
         return static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(low_);
     }
+    Mesh::Index search(std::int64_t tag) const {
+        const auto found = std::lower_bound(in_order_.begin(), in_order_.end(), std::pair(tag, Mesh::Index{0}));
+        return found != in_order_.end() && found->first == tag ? found->second : -1;
+    }
 
     std::int64_t low_ = 0;
-    std::uint64_t span_ = 0;          ///< highest - lowest + 1
-    std::vector<Mesh::Index> table_;  ///< by offset, where it is not much larger than the tags
-    /// By offset, where it would be. Neither: the tags are in sequence.
-    std::unordered_map<std::uint64_t, Mesh::Index> sparse_;
+    std::uint64_t span_ = 0;                                      ///< highest - lowest + 1
+    std::vector<Mesh::Index> table_;                              ///< where it is not much larger than the tags
+    std::vector<std::pair<std::int64_t, Mesh::Index>> in_order_;  ///< by tag, where it would be; neither: in sequence
 };
 
 struct MshNodes {

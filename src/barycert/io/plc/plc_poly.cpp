@@ -13,7 +13,7 @@ bool read_nodes(PlcText& in, Plc& plc) {
         if (dimension != 3)
             in.fail("cannot mesh", "dimension 3", std::to_string(dimension), "mesh a PLC in the plane with Triangle");
     }
-    if (in.words_left() > 0) plc.attribute_count = static_cast<int>(in.take_count("the number of attributes"));
+    plc.attribute_count = in.words_left() > 0 ? static_cast<int>(in.take_count("the number of attributes")) : 0;
     const int markers = in.words_left() > 0 ? in.take_integer("the number of markers") : 0;
     if (markers != 0 && markers != 1) in.fail("cannot read", "0 or 1 markers", std::to_string(markers));
     for (std::size_t i = 0; i < nodes; ++i) {

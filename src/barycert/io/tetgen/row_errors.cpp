@@ -54,7 +54,7 @@ Complaint about_integer(std::string_view field) {
             return {"an integer without leading zeros", "write it without them: TetGen would read it as octal"};
         return {"an integer of at most 64 bits", "check the number"};
     }
-    if (looks_like_number(body, ".eE+-")) return {"an integer", "write it without point and exponent"};
+    if (looks_like_number(body, ".eEdD+-")) return {"an integer", "write it without point and exponent"};
     return {"an integer", about_real(field, {}, about_separators(field)).remedy};
 }
 

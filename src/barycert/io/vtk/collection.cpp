@@ -83,7 +83,7 @@ Collection read_series_file(std::string_view bytes, const std::string& path) {
     } catch (const Json::parse_error& error) {
         refuse("the series is no JSON", "a file as ParaView writes it (NAME.vtu.series)", "",
                line_of(bytes, bytes.data() + std::min(error.byte, bytes.size())));
-    } catch (const Json::exception&) {
+    } catch (const Json::exception&) {  // a number that no double holds
         refuse("the series", "numbers in the range of double", "a larger one");
     }
     const Json& files = member_of(series, "files");

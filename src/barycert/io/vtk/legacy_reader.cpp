@@ -22,11 +22,9 @@ public:
             if (keyword.empty()) break;
             read_section(keyword);
         }
-        if (part_ == Part::all) {
-            gather_cells();
-        } else if (!has_points_) {
+        if (!has_points_ && (part_ != Part::all || cell_count() != 0))
             text_.fail("the file has no points", "POINTS", "none");
-        }
+        if (part_ == Part::all) gather_cells();
         return std::move(grid_);
     }
 

@@ -172,7 +172,7 @@ std::optional<NumberType> XmlArrays::type_of(const XmlElement& array) {
 NumberFault XmlArrays::read_any(const XmlElement& array, const std::string& what, NumberType type,
                                 std::optional<std::uint64_t> count, NumbersTo values) const {
     constexpr std::uint64_t all = std::numeric_limits<std::size_t>::max();
-    constexpr const char* other_count = "they do not match the counts of points, cells and components";
+    constexpr const char* other_count = "its numbers do not match the counts of points, cells and components";
     const std::string_view format = array.attribute_or("format", "ascii");
     if (format != "ascii" && format != "binary" && format != "appended")
         tree_.refuse_at(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
