@@ -47,7 +47,7 @@ protected:
     Scratch scratch_;
 };
 
-TEST(Converted, TextWithoutAKeywordDoesNotReachMeshio) {
+TEST(NotConverted, TextWithoutAKeywordDoesNotReachMeshio) {
     const Scratch scratch;
     std::string text;
     while (text.size() < 70000) text += "aaa bbb ccc ddd eee\n";

@@ -130,7 +130,9 @@ void parse_in_order(const TextTable& table) {
     if (parse_rows(table, scanner, table.end(), row, table.rows)) return;
     if (row == table.rows) refuse_surplus(table, scanner.at);
     // A row parser stops inside the row; only the search for the next row reaches the end with no row begun.
-    if (scanner.at == table.end() && fields_of_line(table, scanner.at).empty()) refuse_end(table, row);
+    // A body of nothing begins on the header's line, which has no end.
+    const bool ended = table.body == table.end() || fields_of_line(table, scanner.at).empty();
+    if (scanner.at == table.end() && ended) refuse_end(table, row);
     refuse_row(table, scanner.at, row);
 }
 
