@@ -458,6 +458,26 @@ Result<Baseline> read_baseline(const std::string& path);
 /// An Error if an audit with these options would not meet the cases of the baseline.
 Status check_comparable(const Baseline& baseline, const AuditOptions& options, const MeshSource& meshes);
 
+struct BaselineChange {
+    std::string kernel, family, figure;
+    double before = 0, after = 0;
+};
+
+struct BaselineComparison {
+    std::uint64_t compared = 0;  ///< pairs of kernel and family
+    /// Of those: given up on one side at least. There not_run alone is compared; given up on both, nothing.
+    std::uint64_t given_up = 0;
+    std::uint64_t not_now = 0;           ///< pairs of the baseline that this audit does not have
+    std::uint64_t not_before = 0;        ///< pairs of this audit that the baseline does not have
+    std::vector<BaselineChange> worse;   ///< in the order of the report
+    std::vector<BaselineChange> better;  ///< likewise
+
+    void add(BaselineChange change);  ///< to the one or the other, if it is one
+};
+
+/// Errors: other cases, told by their exact regions (a mesh has changed, or barycert's families); nothing in common.
+Result<BaselineComparison> compare_with_baseline(const AuditReport& report, const Baseline& baseline);
+
 // An audit by names: of kernels and families, files of meshes, an earlier audit.
 
 /// Kernels by their names, and those of users' libraries.
@@ -514,25 +534,5 @@ struct CaseJob {
     std::vector<NamedMesh> meshes;        ///< for families that draw from meshes
 };
 Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels);
-
-struct BaselineChange {
-    std::string kernel, family, figure;
-    double before = 0, after = 0;
-};
-
-struct BaselineComparison {
-    std::uint64_t compared = 0;  ///< pairs of kernel and family
-    /// Of those: given up on one side at least. There not_run alone is compared; given up on both, nothing.
-    std::uint64_t given_up = 0;
-    std::uint64_t not_now = 0;           ///< pairs of the baseline that this audit does not have
-    std::uint64_t not_before = 0;        ///< pairs of this audit that the baseline does not have
-    std::vector<BaselineChange> worse;   ///< in the order of the report
-    std::vector<BaselineChange> better;  ///< likewise
-
-    void add(BaselineChange change);  ///< to the one or the other, if it is one
-};
-
-/// Errors: other cases, told by their exact regions (a mesh has changed, or barycert's families); nothing in common.
-Result<BaselineComparison> compare_with_baseline(const AuditReport& report, const Baseline& baseline);
 
 }  // namespace barycert

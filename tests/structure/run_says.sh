@@ -19,3 +19,7 @@ echo 'ninja: no work to do.' >"$work/plan"
 [ -z "$(says)" ] || { echo "something is said where nothing is built: $(says)"; exit 1; }
 echo '[1/2] Building CXX object a.o' >"$work/plan"
 [ "$(says)" = "run: building (preset release)" ] || { echo "nothing is said of a build: $(says)"; exit 1; }
+
+# The real one prints that line only where no folder is listed anew at each build.
+cmake --preset release -S "$1" -B "$work/real" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+[ ! -f "$work/real/CMakeFiles/VerifyGlobs.cmake" ] || { echo "the preset release has a GLOB with CONFIGURE_DEPENDS"; exit 1; }

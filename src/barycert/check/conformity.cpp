@@ -103,9 +103,10 @@ public:
         const std::vector<Candidate> candidates = find_candidates();
         ConformityReport out;
         for (std::size_t i = 0; i < regions_.size(); ++i) {
-            const auto faces = [&](bool beside) {
-                return std::ranges::equal_range(candidates, std::pair(static_cast<std::uint32_t>(i), beside), {},
-                                                order);
+            const auto faces = [&](bool beside) -> std::span<const Candidate> {
+                const std::pair key(static_cast<std::uint32_t>(i), beside);
+                return {std::ranges::lower_bound(candidates, key, {}, order),
+                        std::ranges::upper_bound(candidates, key, {}, order)};
             };
             if (regions_[i].proper()) judge(i, faces(false), faces(true), out);
         }

@@ -47,12 +47,13 @@ void add_hanging(int d, const PlacedFacet& f, const PlacedFacet& g, Mesh::Index 
 }  // namespace
 
 void sort_hanging(std::vector<HangingNode>& all) {
-    const auto place = [](const HangingNode& h) { return std::tie(h.node, h.face); };
     std::ranges::sort(all, [](const HangingNode& a, const HangingNode& b) {
         return std::tie(a.node, a.face, a.cell) < std::tie(b.node, b.face, b.cell);
     });
-    const auto copies = std::ranges::unique(all, {}, place);
-    all.erase(copies.begin(), copies.end());
+    const auto same_place = [](const HangingNode& a, const HangingNode& b) {
+        return std::tie(a.node, a.face) == std::tie(b.node, b.face);
+    };
+    all.erase(std::unique(all.begin(), all.end(), same_place), all.end());
 }
 
 BoundaryContacts find_boundary_contacts(Checked& c, std::size_t limit) {
