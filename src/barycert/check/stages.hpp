@@ -75,7 +75,7 @@ public:
     /// Those that occur; first those that break the certificate.
     std::vector<Defect> list() && {
         std::erase_if(all_, [](const Defect& f) { return f.count == 0; });
-        std::ranges::stable_partition(all_, &Defect::breaks);
+        std::stable_partition(all_.begin(), all_.end(), std::mem_fn(&Defect::breaks));
         return std::move(all_);
     }
 
