@@ -29,14 +29,19 @@ function(barycert_join target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# barycert_objects(NAME TARGET REGEX): the sources of the target that match become an object library NAME, compiled as the
-# target is and part of it. An executable that links NAME needs no library of this project as a whole. Call it from the
-# folder of the target.
+# barycert_objects(NAME TARGET REGEX [BUT REGEX]): the sources of the target that match become an object library NAME,
+# compiled as the target is and part of it. An executable that links NAME needs no library of this project as a whole. Call
+# it from the folder of the target.
 function(barycert_objects name target regex)
-  get_target_property(sources ${target} SOURCES)
-  set(others ${sources})
+  cmake_parse_arguments(ARG "" "BUT" "" ${ARGN})
+  get_target_property(all ${target} SOURCES)
+  set(sources ${all})
   list(FILTER sources INCLUDE REGEX "${regex}")
-  list(FILTER others EXCLUDE REGEX "${regex}")
+  if(ARG_BUT)
+    list(FILTER sources EXCLUDE REGEX "${ARG_BUT}")
+  endif()
+  set(others ${all})
+  list(REMOVE_ITEM others ${sources})
   add_library(${name} OBJECT ${sources})
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${name} PRIVATE cxx_std_20)

@@ -16,8 +16,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#ifdef __x86_64__
+#if defined(__x86_64__) && defined(__clang__)
 #include <immintrin.h>
+#elif defined(__x86_64__)
+#include <x86gprintrin.h>  // of immintrin.h what is used here: a tenth of its text
 #endif
 
 namespace barycert::core {

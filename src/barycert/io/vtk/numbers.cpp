@@ -12,47 +12,79 @@
 namespace barycert::io {
 namespace {
 
-template <class T>
-std::string number_text(T value) {
-    if constexpr (std::is_floating_point_v<T>) {
-        return base::shortest(static_cast<double>(value));
-    } else {
-        return std::to_string(value);
-    }
-}
+// What depends on the type in the file and on the one in memory is compiled for each pair: a loop, and no more.
 
 /// One run of numbers, on this thread; the first that is not exact, or `count`.
-template <class From, bool swap, class To>
+template <class From, class To>
 std::size_t convert_run(const char* bytes, std::size_t count, To* to) {
-    if constexpr (std::is_same_v<From, To> && !swap) {
+    if constexpr (std::is_same_v<From, To>) {
         if (count != 0) std::memcpy(to, bytes, count * sizeof(To));
         return count;
     } else {
         bool exact = true;
         for (std::size_t i = 0; i < count; ++i)
-            exact &= convert_number(number_at<From, swap>(bytes + i * sizeof(From)), to[i]);
+            exact &= convert_number(number_at<From, false>(bytes + i * sizeof(From)), to[i]);
         std::size_t i = exact ? count : 0;
-        while (i < count && convert_number(number_at<From, swap>(bytes + i * sizeof(From)), to[i])) ++i;
+        while (i < count && convert_number(number_at<From, false>(bytes + i * sizeof(From)), to[i])) ++i;
         return i;
     }
 }
 
-template <class From, class To>
-NumberFault append_numbers(std::string_view bytes, bool swap_bytes, std::size_t count, std::vector<To>& values) {
-    const std::size_t there = std::min(count, bytes.size() / sizeof(From)), before = values.size();
+/// `count` numbers of `size` bytes, each in the other order of bytes.
+void swap_bytes(const char* from, std::size_t size, std::size_t count, char* to) {
+    const auto swap = [&]<class Word>(Word) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Word word = number_at<Word, true>(from + i * sizeof(Word));
+            std::memcpy(to + i * sizeof(Word), &word, sizeof(Word));
+        }
+    };
+    if (size == 8) return swap(std::uint64_t{});
+    if (size == 4) return swap(std::uint32_t{});
+    if (size == 2) return swap(std::uint16_t{});
+    std::memcpy(to, from, count);
+}
+
+template <class To>
+std::size_t convert_swapped_run(const char* bytes, std::size_t size, std::size_t count, To* to,
+                                std::size_t convert(const char*, std::size_t, To*)) {
+    alignas(8) std::array<char, std::size_t{1} << 13> swapped;
+    const std::size_t block = swapped.size() / size;
+    for (std::size_t i = 0; i < count; i += block) {
+        const std::size_t here = std::min(block, count - i);
+        swap_bytes(bytes + i * size, size, here, swapped.data());
+        const std::size_t exact = convert(swapped.data(), here, to + i);
+        if (exact != here) return i + exact;
+    }
+    return count;
+}
+
+std::string number_text(const char* bytes, NumberType type, bool swapped) {
+    return with_number_type(type, [&]<class T>() {
+        const T value = swapped ? number_at<T, true>(bytes) : number_at<T, false>(bytes);
+        if constexpr (std::is_floating_point_v<T>) {
+            return base::shortest(static_cast<double>(value));
+        } else {
+            return std::to_string(value);
+        }
+    });
+}
+
+template <class To>
+NumberFault append_numbers(std::string_view bytes, NumberType type, bool swapped, std::size_t count,
+                           std::vector<To>& values) {
+    const auto convert = with_number_type(type, []<class From>() { return &convert_run<From, To>; });
+    const std::size_t size = number_bytes(type), there = std::min(count, bytes.size() / size), before = values.size();
     make_room(values, there);
     values.resize(before + there);
     const std::size_t exact = first_bad(there, std::size_t{1} << 17, [&](std::size_t first, std::size_t last) {
-        const char* const from = bytes.data() + first * sizeof(From);
+        const char* const from = bytes.data() + first * size;
         To* const to = values.data() + before + first;
-        return first + (swap_bytes ? convert_run<From, true>(from, last - first, to)
-                                   : convert_run<From, false>(from, last - first, to));
+        return first + (swapped && size > 1 ? convert_swapped_run(from, size, last - first, to, *convert)
+                                            : convert(from, last - first, to));
     });
     if (there < count) return {NumberFault::Kind::too_few, there};
     if (exact == there) return {};
-    const char* const at = bytes.data() + exact * sizeof(From);
-    return {NumberFault::Kind::not_exact, exact,
-            number_text(swap_bytes ? number_at<From, true>(at) : number_at<From, false>(at))};
+    return {NumberFault::Kind::not_exact, exact, number_text(bytes.data() + exact * size, type, swapped)};
 }
 
 template <class To>
@@ -85,53 +117,60 @@ constexpr std::array<TypeNames, 12> type_names{{{"Bit", "BIT"},
 // Numbers as text, on all threads: parts that begin and end between words are read into values of their own, which are
 // put together in the order of the file.
 
-/// The number that a word writes, in the type it has in the file.
-template <class T>
-bool parse_word(std::string_view word, T& value) {
-    if constexpr (std::is_same_v<T, double>) {
-        const std::optional<double> number = base::parse_double(word);
-        value = number.value_or(0);
-        return number.has_value();
-    } else {
-        if (word.starts_with('+')) word.remove_prefix(1);
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if constexpr (std::is_same_v<T, float>) {
-            // Too small for a float: zero or the least of them, which the double rounds to.
-            if (error == std::errc::result_out_of_range) {
-                const std::optional<double> wide = base::parse_double(word);
-                if (!wide || std::abs(*wide) > 1) return false;
-                value = static_cast<float>(*wide);
-                return true;
-            }
-        }
-        return error == std::errc{} && end == word.data() + word.size();
-    }
-}
+/// Reads words as numbers of the type that the file has, into one that holds them all: integers by their limits.
+template <class Wide>
+struct WordReader {
+    Wide min, max;
 
-/// The number at `at`, behind which there is white space or the end; nullptr where a closer look is needed.
-template <class T>
-const char* quick_number(const char* at, const char* end, T& value) {
-    const char* behind = nullptr;
-    if constexpr (std::is_floating_point_v<T>) {
-        const auto [next, error] = fast_float::from_chars(at, end, value);
-        if (error != std::errc{} || !std::isfinite(value)) return nullptr;
-        behind = next;
-    } else {
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc{}) return nullptr;
-        behind = next;
+    /// The number that a word writes.
+    bool read(std::string_view word, Wide& value) const {
+        if constexpr (std::is_same_v<Wide, double>) {
+            const std::optional<double> number = base::parse_double(word);
+            value = number.value_or(0);
+            return number.has_value();
+        } else {
+            if (word.starts_with('+')) word.remove_prefix(1);
+            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+            if constexpr (std::is_same_v<Wide, float>) {
+                // Too small for a float: zero or the least of them, which the double rounds to.
+                if (error == std::errc::result_out_of_range) {
+                    const std::optional<double> wide = base::parse_double(word);
+                    if (!wide || std::abs(*wide) > 1) return false;
+                    value = static_cast<float>(*wide);
+                    return true;
+                }
+            } else if (value < min || value > max) {
+                return false;
+            }
+            return error == std::errc{} && end == word.data() + word.size();
+        }
     }
-    return behind == end || is_white(*behind) ? behind : nullptr;
-}
+
+    /// The number at `at`, behind which there is white space or the end; nullptr where a closer look is needed.
+    const char* quick(const char* at, const char* end, Wide& value) const {
+        const char* behind = nullptr;
+        if constexpr (std::is_floating_point_v<Wide>) {
+            const auto [next, error] = fast_float::from_chars(at, end, value);
+            if (error != std::errc{} || !std::isfinite(value)) return nullptr;
+            behind = next;
+        } else {
+            const auto [next, error] = std::from_chars(at, end, value);
+            if (error != std::errc{} || value < min || value > max) return nullptr;
+            behind = next;
+        }
+        return behind == end || is_white(*behind) ? behind : nullptr;
+    }
+};
 
 /// Up to `count` numbers of one part of the text.
-template <class From, class To>
+template <class To>
 struct TextPart {
     std::vector<To> values;
     NumberFault fault;  // its index counts from the first number of the part
     const char* end = nullptr;
 
-    void read(std::string_view text, std::size_t count) {
+    template <class Wide>
+    void read(std::string_view text, std::size_t count, const WordReader<Wide>& words) {
         values.clear();
         fault = {};
         const char* at = text.data();
@@ -139,12 +178,12 @@ struct TextPart {
         while (values.size() < count) {
             while (at != last && is_white(*at)) ++at;
             if (at == last) break;
-            From from{};
-            const char* behind = quick_number(at, last, from);
+            Wide from{};
+            const char* behind = words.quick(at, last, from);
             if (behind == nullptr) {
                 std::string_view rest(at, static_cast<std::size_t>(last - at));
                 const std::string_view word = next_word(rest);
-                if (!parse_word(word, from)) {
+                if (!words.read(word, from)) {
                     fault = {NumberFault::Kind::no_number, values.size(), std::string(word.substr(0, 40)), word.data()};
                     break;
                 }
@@ -176,27 +215,35 @@ std::vector<std::string_view> parts_of(std::string_view text, std::size_t most) 
     return parts;
 }
 
-template <class From, class To>
-NumberFault read_words(std::string_view& text, std::size_t count, std::vector<To>& values) {
+template <class To>
+NumberFault read_words(std::string_view& text, NumberType type, std::size_t count, std::vector<To>& values) {
+    const std::function<void(TextPart<To>&, std::string_view, std::size_t)> read_part =
+        with_number_type(type, [&]<class From>() {
+            using Wide = std::conditional_t<std::is_floating_point_v<From>, From,
+                                            std::conditional_t<std::is_signed_v<From>, std::int64_t, std::uint64_t>>;
+            const WordReader<Wide> words{std::numeric_limits<From>::lowest(), std::numeric_limits<From>::max()};
+            return std::function(
+                [words](TextPart<To>& part, std::string_view from, std::size_t most) { part.read(from, most, words); });
+        });
     NumberFault fault;
     constexpr std::size_t most = 64;
-    std::vector<TextPart<From, To>> read(1);
+    std::vector<TextPart<To>> read(1);
     for (std::size_t done = 0; done < count;) {
         // Few numbers take more than 32 bytes: text far behind the last one is not looked at.
         const std::size_t left = count - done;
         const std::vector<std::string_view> parts = parts_of(text, std::min(most, left / (part_bytes / 32) + 1));
         if (parts.empty()) return {NumberFault::Kind::too_few, done};
         if (read.size() < parts.size()) read.resize(parts.size());
-        in_parallel(parts.size(), [&](std::size_t i) { read[i].read(parts[i], left); });
+        in_parallel(parts.size(), [&](std::size_t i) { read_part(read[i], parts[i], left); });
         std::vector<std::size_t> places;
         std::size_t size = values.size();
         bool ended = false;
         for (std::size_t i = 0; i < parts.size() && !ended; ++i) {
-            TextPart<From, To>& part = read[i];
+            TextPart<To>& part = read[i];
             const std::size_t wanted = count - done;
             const bool no_number = part.fault.kind == NumberFault::Kind::no_number;
             if (part.values.size() > wanted || (part.values.size() == wanted && no_number)) {
-                part.read(parts[i], wanted);  // what follows are other words
+                read_part(part, parts[i], wanted);  // what follows are other words
             }
             if (part.fault && (!fault || part.fault.kind == NumberFault::Kind::no_number)) {
                 fault = part.fault;
@@ -268,22 +315,17 @@ std::optional<std::uint64_t> parse_count(std::string_view text) {
     return value;
 }
 
-NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, NumbersTo values) {
+NumberFault read_binary(std::string_view bytes, NumberType type, bool swapped, std::size_t count, NumbersTo values) {
     return std::visit(
-        [&]<class To>(std::reference_wrapper<std::vector<To>> to) {
-            if (type == NumberType::bit) return append_bits(bytes, count, to.get());
-            return with_number_type(
-                type, [&]<class From>() { return append_numbers<From>(bytes, swap_bytes, count, to.get()); });
+        [&](auto to) {
+            return type == NumberType::bit ? append_bits(bytes, count, to.get())
+                                           : append_numbers(bytes, type, swapped, count, to.get());
         },
         values);
 }
 
 NumberFault read_text(std::string_view& text, NumberType type, std::size_t count, NumbersTo values) {
-    return std::visit(
-        [&](auto to) {
-            return with_number_type(type, [&]<class From>() { return read_words<From>(text, count, to.get()); });
-        },
-        values);
+    return std::visit([&](auto to) { return read_words(text, type, count, to.get()); }, values);
 }
 
 }  // namespace barycert::io

@@ -73,7 +73,7 @@ using NumbersTo =
 
 /// Appends `count` numbers to `values`, of bytes that may be too few. From a number that is not exact on, others may
 /// stand there. float32 becomes double exactly.
-NumberFault read_binary(std::string_view bytes, NumberType type, bool swap_bytes, std::size_t count, NumbersTo values);
+NumberFault read_binary(std::string_view bytes, NumberType type, bool swapped, std::size_t count, NumbersTo values);
 
 /// The same from text, separated by white space; what has been read is taken off `text`. Decimal numbers are rounded to
 /// the nearest of their type, as VTK does. Memory grows with what has been read.
