@@ -96,8 +96,7 @@ private:
     }
     template <class Number>
     Number next() {
-        const char* const at = std::exchange(at_, at_ + sizeof(Number));
-        return swapped_ ? number_at<Number, true>(at) : number_at<Number, false>(at);
+        return number_at<Number>(std::exchange(at_, at_ + sizeof(Number)), swapped_);
     }
 
     const char* at_;

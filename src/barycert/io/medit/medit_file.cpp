@@ -115,20 +115,19 @@ std::string_view next_keyword(std::string_view& text) {
 std::int64_t take_integer(std::string_view& bytes, std::size_t size, bool swapped) {
     const char* const at = bytes.data();
     bytes.remove_prefix(size);
-    if (size == 8) return swapped ? number_at<std::int64_t, true>(at) : number_at<std::int64_t, false>(at);
-    return swapped ? number_at<std::int32_t, true>(at) : number_at<std::int32_t, false>(at);
+    return size == 8 ? number_at<std::int64_t>(at, swapped) : number_at<std::int32_t>(at, swapped);
 }
 
-template <class Real, class Integer, bool swap>
-void take_rows(const char* bytes, std::size_t count, MeditRows& rows) {
+template <class Real, class Integer>
+void take_rows(const char* bytes, bool swapped, std::size_t count, MeditRows& rows) {
     const std::size_t reals = rows.reals_a_row, integers = rows.integers_a_row;
     in_parts(count, std::size_t{1} << 15, [&](std::size_t first, std::size_t last) {
         const char* at = bytes + first * (reals * sizeof(Real) + integers * sizeof(Integer));
         for (std::size_t row = first; row < last; ++row) {
             for (std::size_t k = 0; k < reals; ++k, at += sizeof(Real))
-                rows.reals[row * reals + k] = number_at<Real, swap>(at);
+                rows.reals[row * reals + k] = number_at<Real>(at, swapped);
             for (std::size_t k = 0; k < integers; ++k, at += sizeof(Integer))
-                rows.integers[row * integers + k] = number_at<Integer, swap>(at);
+                rows.integers[row * integers + k] = number_at<Integer>(at, swapped);
         }
     });
 }
@@ -338,13 +337,9 @@ MeditRows MeditFile::rows(const MeditSection& section, std::size_t reals_a_row, 
                std::to_string(section.body.size()), cut_short);
     make_rows(section.count, rows);
     const char* const at = section.body.data();
-    const auto take = [&]<class Real, class Integer>() {
-        swapped_ ? take_rows<Real, Integer, true>(at, section.count, rows)
-                 : take_rows<Real, Integer, false>(at, section.count, rows);
-    };
-    version_ == 1   ? take.template operator()<float, std::int32_t>()
-    : version_ == 4 ? take.template operator()<double, std::int64_t>()
-                    : take.template operator()<double, std::int32_t>();
+    version_ == 1   ? take_rows<float, std::int32_t>(at, swapped_, section.count, rows)
+    : version_ == 4 ? take_rows<double, std::int64_t>(at, swapped_, section.count, rows)
+                    : take_rows<double, std::int32_t>(at, swapped_, section.count, rows);
     return rows;
 }
 

@@ -35,12 +35,9 @@ template <class To>
 std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, To* out,
                         std::size_t stride) {
     const auto all = [&]<class From>(const auto& change) {
-        const auto numbers = [&]<bool swap>() {
-            std::size_t i = 0;
-            while (i < count && convert_number(change(number_at<From, swap>(at + i * step)), out[i * stride])) ++i;
-            return i;
-        };
-        return type.swapped ? numbers.template operator()<true>() : numbers.template operator()<false>();
+        std::size_t i = 0;
+        while (i < count && convert_number(change(number_at<From>(at + i * step, type.swapped)), out[i * stride])) ++i;
+        return i;
     };
     if (type.kind == 'f' && type.size == 2) return all.template operator()<std::uint16_t>(half);
     if (type.kind == 'b')
@@ -92,9 +89,7 @@ std::optional<std::string> npy_text(const char* at, const NpyType& type) {
     }
     std::string text;
     std::size_t count = type.size / 4;
-    const auto code_at = [&](std::size_t i) {
-        return type.swapped ? number_at<std::uint32_t, true>(at + 4 * i) : number_at<std::uint32_t, false>(at + 4 * i);
-    };
+    const auto code_at = [&](std::size_t i) { return number_at<std::uint32_t>(at + 4 * i, type.swapped); };
     while (count != 0 && code_at(count - 1) == 0) --count;
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t code = code_at(i);

@@ -74,7 +74,7 @@ private:
 /// The number of 4 bytes at that place.
 template <class T>
 T little_endian(std::string_view bytes, std::size_t at) {
-    return number_at<T, std::endian::native == std::endian::big>(bytes.data() + at);
+    return number_at<T>(bytes.data() + at, std::endian::native == std::endian::big);
 }
 
 constexpr std::size_t stl_header = 84;  // 80 bytes of text and a count

@@ -16,51 +16,22 @@ namespace {
 
 /// One run of numbers, on this thread; the first that is not exact, or `count`.
 template <class From, class To>
-std::size_t convert_run(const char* bytes, std::size_t count, To* to) {
-    if constexpr (std::is_same_v<From, To>) {
+std::size_t convert_run(const char* bytes, bool swapped, std::size_t count, To* to) {
+    if (std::is_same_v<From, To> && !swapped) {
         if (count != 0) std::memcpy(to, bytes, count * sizeof(To));
         return count;
-    } else {
-        bool exact = true;
-        for (std::size_t i = 0; i < count; ++i)
-            exact &= convert_number(number_at<From, false>(bytes + i * sizeof(From)), to[i]);
-        std::size_t i = exact ? count : 0;
-        while (i < count && convert_number(number_at<From, false>(bytes + i * sizeof(From)), to[i])) ++i;
-        return i;
     }
-}
-
-/// `count` numbers of `size` bytes, each in the other order of bytes.
-void swap_bytes(const char* from, std::size_t size, std::size_t count, char* to) {
-    const auto swap = [&]<class Word>(Word) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const Word word = number_at<Word, true>(from + i * sizeof(Word));
-            std::memcpy(to + i * sizeof(Word), &word, sizeof(Word));
-        }
-    };
-    if (size == 8) return swap(std::uint64_t{});
-    if (size == 4) return swap(std::uint32_t{});
-    if (size == 2) return swap(std::uint16_t{});
-    std::memcpy(to, from, count);
-}
-
-template <class To>
-std::size_t convert_swapped_run(const char* bytes, std::size_t size, std::size_t count, To* to,
-                                std::size_t convert(const char*, std::size_t, To*)) {
-    alignas(8) std::array<char, std::size_t{1} << 13> swapped;
-    const std::size_t block = swapped.size() / size;
-    for (std::size_t i = 0; i < count; i += block) {
-        const std::size_t here = std::min(block, count - i);
-        swap_bytes(bytes + i * size, size, here, swapped.data());
-        const std::size_t exact = convert(swapped.data(), here, to + i);
-        if (exact != here) return i + exact;
-    }
-    return count;
+    bool exact = true;
+    for (std::size_t i = 0; i < count; ++i)
+        exact &= convert_number(number_at<From>(bytes + i * sizeof(From), swapped), to[i]);
+    std::size_t i = exact ? count : 0;
+    while (i < count && convert_number(number_at<From>(bytes + i * sizeof(From), swapped), to[i])) ++i;
+    return i;
 }
 
 std::string number_text(const char* bytes, NumberType type, bool swapped) {
     return with_number_type(type, [&]<class T>() {
-        const T value = swapped ? number_at<T, true>(bytes) : number_at<T, false>(bytes);
+        const auto value = number_at<T>(bytes, swapped);
         if constexpr (std::is_floating_point_v<T>) {
             return base::shortest(static_cast<double>(value));
         } else {
@@ -77,10 +48,7 @@ NumberFault append_numbers(std::string_view bytes, NumberType type, bool swapped
     make_room(values, there);
     values.resize(before + there);
     const std::size_t exact = first_bad(there, std::size_t{1} << 17, [&](std::size_t first, std::size_t last) {
-        const char* const from = bytes.data() + first * size;
-        To* const to = values.data() + before + first;
-        return first + (swapped && size > 1 ? convert_swapped_run(from, size, last - first, to, *convert)
-                                            : convert(from, last - first, to));
+        return first + convert(bytes.data() + first * size, swapped, last - first, values.data() + before + first);
     });
     if (there < count) return {NumberFault::Kind::too_few, there};
     if (exact == there) return {};

@@ -125,14 +125,14 @@ bool convert_number(From from, To& to) {
 }
 
 /// The number at those bytes, which stand in the order of this machine or in the other.
-template <class T, bool swap>
-T number_at(const char* bytes) {
+template <class T>
+T number_at(const char* bytes, bool swapped) {
     using Words = std::tuple<std::uint8_t, std::uint16_t, std::uint32_t, std::uint64_t>;
     std::tuple_element_t<std::bit_width(sizeof(T)) - 1, Words> word = 0;
     std::memcpy(&word, bytes, sizeof(T));
-    if constexpr (swap && sizeof(T) == 8) word = __builtin_bswap64(word);
-    if constexpr (swap && sizeof(T) == 4) word = __builtin_bswap32(word);
-    if constexpr (swap && sizeof(T) == 2) word = __builtin_bswap16(word);
+    if constexpr (sizeof(T) == 8) word = swapped ? __builtin_bswap64(word) : word;
+    if constexpr (sizeof(T) == 4) word = swapped ? __builtin_bswap32(word) : word;
+    if constexpr (sizeof(T) == 2) word = swapped ? __builtin_bswap16(word) : word;
     return std::bit_cast<T>(word);
 }
 
