@@ -140,13 +140,12 @@ Status check_beginning(std::string_view block, Text text, const std::string& pat
     std::string found;
     if (first == block.end()) {
         found = std::to_string(block.size()) + " bytes of blanks and line ends";
-    } else if (text == Text::words) {
-        return Done{};
     } else if (text == Text::json && *first != '{' && *first != '[') {
         found = "no JSON";
-    } else if (line.find('\0') != std::string_view::npos) {
+    } else if (text != Text::words && line.find('\0') != std::string_view::npos) {
         found = "NUL bytes";
-    } else if (line.size() == block.size() && std::find_if(word, line.end(), end) == line.end()) {
+    } else if (text != Text::words && line.size() == block.size() &&
+               std::find_if(word, line.end(), end) == line.end()) {
         found = std::to_string(block.size()) + " bytes without a word that ends";
     } else if (text == Text::head && word != line.end() &&
                std::string_view("<{#$(\xEF").find(*word) == std::string_view::npos) {

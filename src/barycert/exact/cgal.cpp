@@ -125,7 +125,7 @@ std::optional<Found> triangle(const Case& c) {
     return replaced(
         v, point2(c.point.data()), [](const auto&... w) { return CGAL::orientation(w...); },
         [](const auto&... w) { return CGAL::area(w...); });
-}
+}  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): CGAL counts references
 
 /// Of a point in the plane of three others: with an apex off the plane.
 std::optional<Found> in_plane(const std::array<Point3, 3>& v, const Point3& p) {

@@ -33,11 +33,11 @@ TableField columns_of(const Mesh& mesh, const FieldChoice& choice) {
 /// The column of component c of a field: what the job says, or one of the usual names; empty: none.
 std::string column_of(const VerifyJob& job, const TableField& field, int c, const std::vector<std::string>& there) {
     const std::string number = std::to_string(c);
-    const std::string own = field.components == 1 ? field.name : field.name + '.' + number;
+    std::string own = field.components == 1 ? field.name : field.name + '.' + number;
     if (const auto named = job.values.find(own); named != job.values.end()) return named->second;
     if (has(there, own)) return own;
     for (const char sign : {':', '_'}) {
-        if (const std::string name = field.name + sign + number; field.components != 1 && has(there, name)) return name;
+        if (std::string name = field.name + sign + number; field.components != 1 && has(there, name)) return name;
     }
     return "";
 }
@@ -45,6 +45,7 @@ std::string column_of(const VerifyJob& job, const TableField& field, int c, cons
 void check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                  const std::vector<std::string>& there) {
     std::vector<TableField> all;
+    all.reserve(fields.size());
     for (const FieldChoice& choice : fields) all.push_back(columns_of(mesh, choice));
     const std::vector<std::string> known = column_names(all);
     for (const auto& [value, column] : job.values) {
@@ -116,12 +117,14 @@ std::vector<std::string> ClaimedColumns::names() const {
 ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                                const std::vector<ColumnFormat>& formats, Notes& notes) {
     std::vector<std::string> there;
+    there.reserve(formats.size());
     for (const ColumnFormat& column : formats) there.push_back(column.name);
     check_named(job, mesh, fields, there);
     ClaimedColumns out;
     for (const FieldChoice& choice : fields) {
         const TableField own = columns_of(mesh, choice);
         std::vector<std::string> columns;
+        columns.reserve(static_cast<std::size_t>(own.components));
         for (int c = 0; c < own.components; ++c) columns.push_back(column_of(job, own, c, there));
         if (!has(columns, "")) {
             out.fields.push_back(choice);
@@ -145,10 +148,9 @@ ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std
                          "columns that are not compared: " + listed(unused, [](const auto& name) { return name; }),
                          job.results});
     if (!used.empty()) return out;
-    std::vector<std::string> names;
-    for (const FieldChoice& choice : fields) names.push_back(choice.field->name);
+    const auto name_of = [](const FieldChoice& choice) { return base::quoted(choice.field->name); };
     refuse(job.results, "the results have no column to compare",
-           "columns named as fields of the mesh (" + listed(names, base::quoted, "it has none") +
+           "columns named as fields of the mesh (" + listed(fields, name_of, "it has none") +
                "), `cell` or vtkValidPointMask",
            listed(there, base::quoted),
            "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not in the mesh "

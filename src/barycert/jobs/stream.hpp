@@ -128,7 +128,7 @@ Sink changed(std::shared_ptr<TableSink> sink, Change change) {
         change(rows);
         return sink->write(rows);
     };
-    return sink_of(write, [sink] { return sink->commit(); });
+    return sink_of(write, [sink = std::move(sink)] { return sink->commit(); });
 }
 
 /// An output of rows; a terminal shows names and texts without control characters.

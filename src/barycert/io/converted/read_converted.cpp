@@ -77,6 +77,7 @@ struct Process {
         // Threads of linear algebra would each reserve memory; lines of messages are not to be broken.
         std::vector<std::string> own{"OPENBLAS_NUM_THREADS=1", "OMP_NUM_THREADS=1", "COLUMNS=1000", "NO_COLOR=1"};
         std::vector<char*> variables;
+        variables.reserve(own.size() + 1);
         for (std::string& variable : own) variables.push_back(variable.data());
         for (char** variable = environ; *variable != nullptr; ++variable) variables.push_back(*variable);
         variables.push_back(nullptr);

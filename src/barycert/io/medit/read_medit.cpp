@@ -246,7 +246,10 @@ private:
             std::error_code ignored;
             if (std::filesystem::exists(path, ignored))
                 mesh_.notes.push_back({Note::Kind::left_out,
-                                       "the fields of " + path + ", unless it is named: --field NAME=" + path,
+                                       std::string("the fields of ")
+                                           .append(path)
+                                           .append(", unless it is named: --field NAME=")
+                                           .append(path),
                                        file_.path()});
         }
     }

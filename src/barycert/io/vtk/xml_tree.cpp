@@ -110,7 +110,7 @@ bool parse_tags(std::string_view bytes, ElementParser& parser) {
     constexpr std::size_t long_text = std::size_t{1} << 14;
     const auto find_tag = [&](std::size_t from) { return std::min(bytes.find('<', from), bytes.size()); };
     std::size_t first = 0;  // not yet handed over
-    for (std::size_t tag = find_tag(0), next = tag; tag < bytes.size(); tag = next) {
+    for (std::size_t tag = find_tag(0), next; tag < bytes.size(); tag = next) {
         if (bytes.substr(tag, appended_tag.size()) == appended_tag) {
             // What follows may be anything: the tag alone.
             const std::size_t behind = behind_tag(bytes, tag);

@@ -48,7 +48,8 @@ struct ParetoAxes {
         none = floor * 7 / 6;  // a sixth of the decades below
         y.low = floor * 4 / 3;
         y.high = 0;
-        for (double e = floor; e <= 0; ++e) y.ticks.push_back({e, brief(std::pow(10, e + 2)) + " %"});
+        for (int e = static_cast<int>(floor); e <= 0; ++e)
+            y.ticks.push_back({static_cast<double>(e), brief(std::pow(10, e + 2)) + " %"});
         y.ticks.push_back({none, "none"});
     }
 

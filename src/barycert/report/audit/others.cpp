@@ -28,7 +28,7 @@ void expect_at_most(std::uint64_t most, std::uint64_t n, const std::string& wher
 std::vector<std::string> texts_in(const OthersJson& object, const std::string& key, const std::string& where) {
     std::vector<std::string> texts;
     for (const OthersJson& j : list_in(object, key, where)) {
-        if (!j.is_string()) refuse(where + ", " + key, "strings", found_json(j));
+        if (!j.is_string()) refuse(fmt::format("{}, {}", where, key), "strings", found_json(j));
         texts.push_back(j.get<std::string>());
     }
     return texts;

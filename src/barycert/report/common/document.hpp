@@ -142,7 +142,7 @@ struct Pictures {
     std::function<std::string()> markup;
 };
 
-class Document {
+class Document {  // NOLINT(bugprone-exception-escape): to move Json does not throw
 public:
     std::string title = {}, heading = {};  ///< of a page; `heading` is what stands first on it
     std::string footer = {};               ///< of a page
