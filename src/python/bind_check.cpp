@@ -85,12 +85,11 @@ py::tuple fix_of(const MeshObject& mesh, double merge_within, bool nodes, bool c
 
 py::list contacts_of(const CheckReport& report, std::size_t dimension) {
     py::list contacts;
-    for (const CellContact& contact : report.contacts) {
+    for (const CellContact& contact : report.contacts)
         contacts.append(
             py::dict("cells"_a = tuple_of(contact.cells, 2), "overlap"_a = contact.overlap,
                      "dimension"_a = contact.dimension, "point"_a = tuple_of(contact.common.point, dimension),
                      "exact"_a = contact.common.exact, "fraction"_a = tuple_of(contact.common.fraction, dimension)));
-    }
     return contacts;
 }
 

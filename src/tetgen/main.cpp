@@ -77,9 +77,8 @@ std::string last_lines(const std::string& printed) {
     }
     if (lines.empty()) return {};
     std::string text = "TetGen's last words:\n";
-    for (std::size_t i = lines.size() - std::min(max, lines.size()); i < lines.size(); ++i) {
+    for (std::size_t i = lines.size() - std::min(max, lines.size()); i < lines.size(); ++i)
         text += "  " + base::printable(lines[i]) + "\n";
-    }
     return text;
 }
 

@@ -112,11 +112,10 @@ Result<Baseline> read_baseline(const std::string& path) {
 }
 
 Status check_comparable(const Baseline& b, const AuditOptions& options, const MeshSource& meshes) {
-    if (b.seed != options.seed || b.count != options.count) {
+    if (b.seed != options.seed || b.count != options.count)
         return not_comparable(b, in_words(options.seed, options.count), in_words(b.seed, b.count),
                               "give job.seed " + std::to_string(b.seed) + " job.count " + std::to_string(b.count) +
                                   ", or make a new baseline");
-    }
     const auto draws = [](const Family& f) { return f.needs_mesh; };
     if (std::any_of(options.families.begin(), options.families.end(), draws)) {
         std::vector<std::string> names;
@@ -158,10 +157,9 @@ Result<BaselineComparison> compare_with_baseline(const AuditReport& report, cons
                                 static_cast<double>(f.statistics.not_run)});
                 continue;
             }
-            if (before.cases != f.statistics.cases || before.regions != regions_of(f.statistics)) {
+            if (before.cases != f.statistics.cases || before.regions != regions_of(f.statistics))
                 return not_comparable(b, "the same exact regions in " + family, "others",
                                       "a mesh, or barycert's families, have changed: make a new baseline");
-            }
             const std::vector<double> after = figures_of(f.statistics);
             for (std::size_t i = 0; i < after.size(); ++i) {
                 // Where nothing could be measured, the findings tell why.

@@ -45,9 +45,8 @@ Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::
     const std::size_t component = random.below(components);
     for (int i = 0; i < vertex_count(s); ++i) {
         const auto node = static_cast<std::size_t>(nodes[static_cast<std::size_t>(i)]);
-        for (int axis = 0; axis < space_dimension(s); ++axis) {
+        for (int axis = 0; axis < space_dimension(s); ++axis)
             draw.simplex.vertex(i, axis) = mesh.points[node * d + static_cast<std::size_t>(axis)];
-        }
         double& value = draw.simplex.values[static_cast<std::size_t>(i)];
         if (field != nullptr) value = field->data[node * components + component];
         if (field == nullptr || !std::isfinite(value)) value = random.uniform(-1, 1);

@@ -21,9 +21,8 @@ Draw drawn(base::Random& random, const MeshSource& meshes, Simplex s) {
 // Faces of dimension n - 1: the first n vertices after a random one has been put last, and so on.
 void shuffle(Draw& draw, base::Random& random) {
     const int n = vertex_count(draw.simplex.simplex);
-    for (int i = n - 1; i > 0; --i) {
+    for (int i = n - 1; i > 0; --i)
         std::swap(draw.nodes[random.below(static_cast<std::uint64_t>(i) + 1)], draw.nodes[static_cast<std::size_t>(i)]);
-    }
     draw = draw_of_nodes(*draw.from, draw.cell, draw.nodes, draw.simplex.simplex, random);
 }
 

@@ -28,9 +28,8 @@ void flat(Case& c, base::Random& random, int dimension) {
     for (int i = 0; i < vertex_count(c.simplex); ++i) {
         const double s = dimension >= 1 ? random.integer(-9, 9) : 0;
         const double t = dimension >= 2 ? random.integer(-9, 9) : 0;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(space_dimension(c.simplex)); ++k) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(space_dimension(c.simplex)); ++k)
             c.vertex(i, static_cast<int>(k)) = unit * (origin[k] + s * u[k] + t * v[k]);
-        }
     }
     const auto p = integer_vector();
     for (std::size_t k = 0; k < static_cast<std::size_t>(space_dimension(c.simplex)); ++k) c.point[k] = unit * p[k];

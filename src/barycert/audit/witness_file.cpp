@@ -183,9 +183,8 @@ std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) 
     const std::size_t reason = search_reason_named(w.reason);
     if (reason == search_reasons) return "no class of finding has that name";
     const auto named = [&](const auto& x) { return x.name == w.kernel; };
-    if (std::none_of(kernels.begin(), kernels.end(), named)) {
+    if (std::none_of(kernels.begin(), kernels.end(), named))
         return "no kernel of that name here; name its library with job.kernel_library";
-    }
     const auto a =
         std::find_if(r.answers.begin(), r.answers.end(), [&](const auto& x) { return x.kernel == w.kernel; });
     if (a == r.answers.end()) return "the kernel is for another simplex";

@@ -47,9 +47,7 @@ void add_hanging(int d, const PlacedFacet& f, const PlacedFacet& g, Mesh::Index 
 }  // namespace
 
 void sort_hanging(std::vector<HangingNode>& all) {
-    std::ranges::sort(all, [](const HangingNode& a, const HangingNode& b) {
-        return std::tie(a.node, a.face, a.cell) < std::tie(b.node, b.face, b.cell);
-    });
+    std::ranges::sort(all, {}, [](const HangingNode& h) { return std::tie(h.node, h.face, h.cell); });
     const auto same_place = [](const HangingNode& a, const HangingNode& b) {
         return std::tie(a.node, a.face) == std::tie(b.node, b.face);
     };

@@ -177,8 +177,7 @@ public:
           nodes_(nodes),
           arrays_(nodes * components_) {}
 
-    /// Of the nodes at the corners of cases [first, first + count), as the first nodes of each case. Returns all
-    /// arrays.
+    /// Of the corners of cases [first, first + count), as the first nodes of each case. Returns all arrays.
     template <class Batch>
     const double* const* block(const Batch& batch, std::size_t first, std::size_t count) {
         const auto n = static_cast<std::size_t>(vertex_count(batch.simplex));
@@ -235,8 +234,7 @@ Status for_blocks(const Batch& batch, Tier tier, TierCounts* tiers, Decide decid
         const std::size_t undecided_count = decide(first, block, undecided.data());
         counts.add(tier, block.count - undecided_count);
         counts.add(Tier::exact, undecided_count);
-        for (std::size_t i = 0; i < undecided_count; ++i) {
-            const auto j = static_cast<std::size_t>(undecided[i]);
+        for (const std::uint32_t j : std::span(undecided).first(undecided_count)) {
             const SingleCase c = single_case(batch.simplex, block, j);
             if (!all_finite(batch.simplex, c.vertices.data(), c.point.data()))
                 return not_finite_error(batch.simplex, c.vertices.data(), c.point.data(),

@@ -44,9 +44,8 @@ std::string column_of(const VerifyJob& job, const TableField& field, int c, cons
 
 void check_named(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                  const std::vector<std::string>& there) {
-    std::vector<TableField> all;
-    all.reserve(fields.size());
-    for (const FieldChoice& choice : fields) all.push_back(columns_of(mesh, choice));
+    std::vector<TableField> all(fields.size());
+    std::ranges::transform(fields, all.begin(), [&](const FieldChoice& choice) { return columns_of(mesh, choice); });
     const std::vector<std::string> known = column_names(all);
     for (const auto& [value, column] : job.values) {
         if (!has(known, value))
@@ -116,9 +115,8 @@ std::vector<std::string> ClaimedColumns::names() const {
 
 ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                                const std::vector<ColumnFormat>& formats, Notes& notes) {
-    std::vector<std::string> there;
-    there.reserve(formats.size());
-    for (const ColumnFormat& column : formats) there.push_back(column.name);
+    std::vector<std::string> there(formats.size());
+    std::ranges::transform(formats, there.begin(), &ColumnFormat::name);
     check_named(job, mesh, fields, there);
     ClaimedColumns out;
     for (const FieldChoice& choice : fields) {

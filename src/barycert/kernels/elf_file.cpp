@@ -35,9 +35,8 @@ public:
 
     Status check() {
         if (Status good = read_header(); !good) return good;
-        if (Status good = check_parts<ProgramHeader>(header_.e_phoff, header_.e_phnum, header_.e_phentsize); !good) {
+        if (Status good = check_parts<ProgramHeader>(header_.e_phoff, header_.e_phnum, header_.e_phentsize); !good)
             return good;
-        }
         return check_parts<SectionHeader>(header_.e_shoff, header_.e_shnum, header_.e_shentsize);
     }
 
@@ -51,9 +50,8 @@ private:
         if (size < sizeof bytes) return cut();
         std::memcpy(&header_, bytes, sizeof header_);
         if (header_.e_ident[EI_CLASS] != own_class || header_.e_ident[EI_DATA] != own_order ||
-            (own_machine != EM_NONE && header_.e_machine != own_machine)) {
+            (own_machine != EM_NONE && header_.e_machine != own_machine))
             return foreign("ELF for another machine");
-        }
         if (header_.e_type != ET_DYN) return foreign("ELF of another kind, as object files are");
         return Done{};
     }

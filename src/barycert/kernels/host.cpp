@@ -98,9 +98,7 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
         mmap(nullptr, channels_size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (memory == MAP_FAILED) return no_process(path, std::strerror(errno));
     host->channels_ = static_cast<Channel*>(memory);
-    for (std::uint32_t i = 0; i < max_workers; ++i) {
-        host->free_.push_back({max_workers - 1 - i, -1});
-    }
+    for (std::uint32_t i = 0; i < max_workers; ++i) host->free_.push_back({max_workers - 1 - i, -1});
     int ends[2];
     if (!socket_pair(ends, SOCK_SEQPACKET)) return no_process(path, std::strerror(errno));
     host->server_socket_ = ends[0];
@@ -132,9 +130,7 @@ Host::~Host() {
         if (worker.socket >= 0) close(worker.socket);
     }
     if (server_socket_ >= 0) close(server_socket_);
-    if (server_ > 0) {
-        (void)TEMP_FAILURE_RETRY(waitpid(server_, nullptr, 0));
-    }
+    if (server_ > 0) (void)TEMP_FAILURE_RETRY(waitpid(server_, nullptr, 0));
     if (channels_ != nullptr) munmap(channels_, channels_size);
 }
 

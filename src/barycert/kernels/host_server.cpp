@@ -107,9 +107,7 @@ bool end_children(std::span<const pid_t> kept) {
             if (*next != '\0' && std::find(kept.begin(), kept.end(), pid) == kept.end()) ended[count++] = pid;
         }
         for (std::size_t i = 0; i < count; ++i) kill(ended[i], SIGKILL);
-        for (std::size_t i = 0; i < count; ++i) {
-            (void)TEMP_FAILURE_RETRY(waitpid(ended[i], nullptr, __WALL));
-        }
+        for (std::size_t i = 0; i < count; ++i) (void)TEMP_FAILURE_RETRY(waitpid(ended[i], nullptr, __WALL));
         more = count != 0;
         any = any || more;
     }

@@ -27,26 +27,22 @@ Error refused(const std::string& path, std::string what, std::string expected, s
 
 /// The kernel that a library describes, its functions aside.
 Result<Kernel> described(const std::string& path, const Description& d) {
-    if (d.missing[0] != '\0') {
+    if (d.missing[0] != '\0')
         return refused(path, "the library is not a kernel library", std::string("the function ") + d.missing, "none",
                        "define it as barycert/kernel.h declares it, with C linkage and default visibility");
-    }
-    if (d.abi != BARYCERT_KERNEL_ABI) {
+    if (d.abi != BARYCERT_KERNEL_ABI)
         return refused(path, "the kernel library has another interface version", std::to_string(BARYCERT_KERNEL_ABI),
                        std::to_string(d.abi),
                        "set info->abi = BARYCERT_KERNEL_ABI and rebuild it with this version's barycert/kernel.h");
-    }
     const bool perspective = std::string_view(d.simplex) == "triangle.perspective";
     const auto simplex = perspective ? Simplex::triangle : simplex_named(d.simplex);
-    if (!simplex) {
+    if (!simplex)
         return refused(path, "the kernel library names an unknown simplex",
                        "segment, triangle, triangle3d, tetrahedron or triangle.perspective",
                        std::string("\"") + d.simplex + '"', "set info->simplex to one of these");
-    }
-    if (!well_formed(d.name)) {
+    if (!well_formed(d.name))
         return refused(path, "the kernel library has an unusable name", "letters, digits, -, _ and .",
                        std::string("\"") + d.name + '"', "set info->name accordingly");
-    }
     const std::string name = std::string(perspective ? "perspective-" : "") + d.name;
     Kernel k =
         kernels::make_kernel(*simplex, {name.c_str(), d.formula, d.source, "", nullptr,
@@ -55,10 +51,9 @@ Result<Kernel> described(const std::string& path, const Description& d) {
     k.perspective = perspective;
     if (d.classifies) k.rule = RegionRule::own;
     const auto same_name = [&](const Kernel& other) { return other.name == k.name; };
-    if (std::any_of(catalogue().begin(), catalogue().end(), same_name)) {
+    if (std::any_of(catalogue().begin(), catalogue().end(), same_name))
         return refused(path, "the kernel library takes the name of a kernel of the catalogue", "another name", k.name,
                        "change info->name");
-    }
     return k;
 }
 

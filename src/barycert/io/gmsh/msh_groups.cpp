@@ -171,9 +171,8 @@ void label_cells(const MshFile& file, const MshElements& elements, const MshGrou
         fill_from_entities(file, elements, groups, cells);
     }
     bool in_sequence = true;
-    for (std::size_t i = 0; i < cells.tags.size() && in_sequence; ++i) {
+    for (std::size_t i = 0; i < cells.tags.size() && in_sequence; ++i)
         in_sequence = cells.tags[i] == std::int64_t{mesh.cell_number(static_cast<Mesh::Index>(i))} + 1;
-    }
     if (!cells.physical.empty()) {
         std::vector<std::string> names = group_names(cells, groups);
         if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return !name.empty(); }))

@@ -164,9 +164,8 @@ void refuse_count(const TextTable& table, std::string_view field, const char* na
     const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
     const Complaint complaint = integer ? Complaint{} : about_integer(field);
     std::string remedy = complaint.remedy;
-    if (remedy.empty()) {
+    if (remedy.empty())
         remedy = integer ? "check the header" : "begin the file with its header; put # before any other text";
-    }
     const std::string expected = complaint.expected.find("zeros") != std::string::npos
                                      ? complaint.expected
                                      : "an integer from 0 to " + std::to_string(max_count);
@@ -178,9 +177,8 @@ void refuse_row(const TextTable& table, const char* at, std::size_t row) {
     const std::vector<std::string_view> fields = fields_of_line(table, at);
     std::size_t i = 0;
     for (const Columns& columns : table.columns) {
-        for (std::size_t k = 0; k < columns.count && i < fields.size(); ++k, ++i) {
+        for (std::size_t k = 0; k < columns.count && i < fields.size(); ++k, ++i)
             check_field(table, columns, fields[i], row);
-        }
     }
     if (!fields.empty() && fields.size() != table.column_count()) refuse_column_count(table, fields);
     refuse_at(table, at, "the last row has no line end, so the file may be cut short", "a line end",

@@ -31,12 +31,11 @@ public:
             fields_.push_back(&add(field.name, field.components, NumberType::float64));
             numbers_.push_back({field.name, field.components, {}});
         }
-        for (const ColumnFormat& column : format.carried) {
+        for (const ColumnFormat& column : format.carried)
             carried_.push_back(&add(column.name, 1,
                                     column.type == Column::Type::integer  ? NumberType::int64
                                     : column.type == Column::Type::number ? NumberType::float64
                                                                           : NumberType::text));
-        }
     }
 
     Status write(const TableView& rows) override {
@@ -60,9 +59,8 @@ public:
         for (Field& field : numbers_) field.data.clear();
         if (good) append_rows(rows, numbers_);
         for (std::size_t f = 0; f < fields_.size(); ++f) append(*fields_[f], std::span<const double>(numbers_[f].data));
-        for (std::size_t k = 0; k < carried_.size() && good; ++k) {
+        for (std::size_t k = 0; k < carried_.size() && good; ++k)
             std::visit([&](const auto& values) { good = append_column(*carried_[k], values); }, rows.carried[k].values);
-        }
         count_ += count;
         return good;
     }

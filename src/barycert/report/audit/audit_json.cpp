@@ -27,10 +27,9 @@ void put_statistics(Json& j, const KernelStatistics& s) {
     }
     Json& confusion = j["confusion"];
     for (const Region exact : all_regions) {
-        for (const Region claimed : all_regions) {
+        for (const Region claimed : all_regions)
             confusion[std::string(name(exact))][std::string(name(claimed))] =
                 s.confusion[static_cast<std::size_t>(exact)][static_cast<std::size_t>(claimed)];
-        }
     }
 }
 

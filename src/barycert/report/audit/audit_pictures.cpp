@@ -49,7 +49,7 @@ struct ParetoAxes {
         y.low = floor * 4 / 3;
         y.high = 0;
         for (int e = static_cast<int>(floor); e <= 0; ++e)
-            y.ticks.push_back({static_cast<double>(e), brief(std::pow(10, e + 2)) + " %"});
+            y.ticks.push_back({1.0 * e, brief(std::pow(10, e + 2)) + " %"});
         y.ticks.push_back({none, "none"});
     }
 

@@ -74,8 +74,7 @@ Json list(const auto& items, auto convert) {
     return j;
 }
 
-/// An argument of put() and record(): members of `object`, each under its own name. A macro, as C++ has no other way to
-/// that name.
+/// An argument of put() and record(): members of `object` under their own names, which nothing but a macro knows.
 #define MEMBERS(object, ...)                                               \
     [&](barycert::report::Json& record_of_members) {                       \
         const auto& with_members = object;                                 \
