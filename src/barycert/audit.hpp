@@ -335,7 +335,7 @@ constexpr std::string_view name(OracleChoice o) {
     return names[static_cast<std::size_t>(o)];
 }
 
-/// Cases by who decided them, and by who confirmed that. A disagreement is an error of run_audit().
+/// How many cases each oracle decided, and how many it confirmed. A disagreement is an error of run_audit().
 struct OracleCounts {
     std::uint64_t core = 0, integers = 0, cgal = 0;
     std::uint64_t wide = 0;                          ///< of the integers: wider ones than the machine's
@@ -430,7 +430,7 @@ std::vector<Violation> violations(const AuditReport& report, const std::vector<T
 std::vector<std::string> threshold_names();
 
 // An audit compared with an earlier one. The same seed, count, families and meshes give the same cases, so that figures
-// are compared exactly: one wrong case more is one more. Of other cases nothing is said.
+// are compared exactly: one wrong case more is one more. Audits of different cases are not compared.
 
 /// The figures of one kernel in one family.
 struct BaselineEntry {
@@ -465,7 +465,7 @@ struct BaselineChange {
 
 struct BaselineComparison {
     std::uint64_t compared = 0;  ///< pairs of kernel and family
-    /// Of those: given up on one side at least. There not_run alone is compared; given up on both, nothing.
+    /// Of those: given up in one audit, so that not_run alone is compared, or in both, so that nothing is.
     std::uint64_t given_up = 0;
     std::uint64_t not_now = 0;           ///< pairs of the baseline that this audit does not have
     std::uint64_t not_before = 0;        ///< pairs of this audit that the baseline does not have

@@ -143,8 +143,8 @@ std::string gaps_json(const GapsReport& report);
 
 // What an audit found, for the systems that run it (see report.hpp).
 //
-// An outcome fails where a rule of --fail-on is broken, or a figure is worse than the baseline's. Findings without a
-// rule against them are told and pass.
+// An outcome fails where a rule of --fail-on is broken, or a figure is worse than the baseline's. Findings that
+// break no rule are told and do not fail.
 
 /// The outcomes of an audit. `comparison` may be null. `artifacts`: kernel to file, of kernels from libraries.
 CiReport audit_outcomes(const AuditReport& report, const std::vector<Threshold>& rules,

@@ -1,8 +1,8 @@
 /// Worst-case search: walks through the cases of one kernel, uphill towards its faults, and brings back the worst of
 /// each kind and the plainest case that shows it.
 ///
-/// Enters: a kernel; families whose worst cases are where walks start. Each step makes one case, asks the oracle and
-/// compares. Leaves: for each class of finding that was met, and for the errors, a witness as found and a plain one.
+/// Input: a kernel; families, from whose worst cases walks start. Each step makes one case, asks the oracle and
+/// compares. Output: for each class of finding that was met, and for the errors, a witness as found and a plain one.
 ///
 /// A walk starts from a family's worst, from the worst so far, or from a new pattern of exponents; its steps move
 /// coordinates by ulps, redraw significands, shift exponents, and jump by a secant of the exact weights to where a

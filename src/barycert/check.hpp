@@ -230,7 +230,7 @@ struct Defect {
     bool at_least = false;            ///< the search stopped at that count
     std::vector<DefectPlace> places;  ///< the first of them
     std::uint64_t curved_cells = 0;   ///< with this defect: their sides were taken as straight, and may be its cause
-    /// It is why others break the certificate, though its kind does not in every case.
+    /// It causes others that break the certificate, although defects of its kind do not always.
     bool cause = false;
     std::string_view better_remedy = {};  ///< where the cause is known
 

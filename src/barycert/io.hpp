@@ -39,9 +39,9 @@ struct GmshReadOptions {
 /// - $NodeData and $ElementData become fields of the view's name. Nodes and cells without a value have NaN.
 /// - What else there is (values at the nodes of elements, interpolation schemes, periodic nodes) is left out: Notes.
 ///
-/// Error: the file is missing, cut off, contradicts itself, has a coordinate that is not finite, a tag of two nodes, an
-/// unknown node, cells of other types (which are named), no cells, or triangles off the plane z = 0; memory is short.
-/// Memory is bounded by a multiple of the file's size.
+/// Error: the file is missing, cut off, contradicts itself, has a coordinate that is not finite, two nodes of one tag,
+/// a cell with an unknown node, other types of cells (which are named), no cells, or triangles off the plane z = 0.
+/// Memory is bounded by a multiple of the file's size; where it is short: Error.
 Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options = {});
 
 /// One section of values of a .msh file.
@@ -95,7 +95,7 @@ struct StepChoice {
 
 /// Reads an unstructured grid or polygon data in XML (.vtu, .vtp) or in the legacy format (.vtk); the pieces of a
 /// partitioned one (.pvtu) or of a multiblock data set (.vtm, .vtpd, .vtpc); a step of a series (.pvd, .vtu.series,
-/// .vtp.series). Which it is, is told by its first bytes. ASCII, base64, raw, compressed by zlib, LZ4 or LZMA, of
+/// .vtp.series). The first bytes tell which of them a file is. ASCII, base64, raw, compressed by zlib, LZ4 or LZMA, of
 /// either byte order.
 ///
 /// - Tetrahedra make a mesh of dimension 3; where there are none, triangles one of dimension 2, with z = 0. All cells
@@ -256,7 +256,7 @@ struct SliceCounts {
 /// that is too long is cut; a scale, a line of 1, 2 or 5 times a power of ten, is there where there is place for it.
 ///
 /// `counts`: if given, set. Errors: sizes that do not fit together, no value at all, more than a million pixels a side;
-/// an aspect or a range that is none; a file that cannot be written.
+/// an aspect or a range that is not valid; a file that cannot be written.
 Status write_png(const std::string& path, const Slice& slice, SliceCounts* counts = nullptr);
 
 // Any of these, and rows of results.
@@ -334,8 +334,8 @@ struct PointOptions {
     /// commas between them. Empty: see above.
     std::vector<std::string> columns = {};
 
-    /// Those that are carried through, likewise, or "all" of the others; NEW=NAME gives a column another name. Columns
-    /// of files that name none are column1, column2, ...
+    /// Columns to copy into the rows, likewise; "all" copies all but the coordinates; NEW=NAME renames one. Columns of
+    /// files that name none are column1, column2, ...
     std::vector<std::string> keep = {};
 
     /// nan: points that are not finite are given as they are, and an empty field of a CSV file as NaN. Not for nodes of

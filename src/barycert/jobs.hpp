@@ -392,7 +392,7 @@ struct ContourReport : MeshReport {
 };
 
 /// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, an output is an input
-/// or cannot be written, or there is nothing to draw in a picture. An empty surface is written, and told.
+/// or cannot be written, or there is nothing to draw in a picture. An empty surface is written; the report tells.
 Result<ContourReport> contour_files(const ContourJob& job);
 
 }  // namespace barycert

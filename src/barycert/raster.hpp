@@ -117,7 +117,7 @@ inline constexpr std::int64_t max_image_pixels = std::int64_t{1} << 26;
 /// An image of one colour, or an Error if a side is less than 1 or there would be too many pixels.
 Result<Image> blank_image(std::int32_t width, std::int32_t height, Rgba colour);
 
-/// Returns an Error if a side is less than 1, there are too many pixels, or `data` has not four bytes for each.
+/// Returns an Error if a side is less than 1, there are too many pixels, or `data` does not have four bytes for each.
 Status check_image(const Image& image);
 
 /// Reads a PNG file of any colour type, depth and interlacing as 8-bit RGBA: 16 bits are rounded to 8, greys and

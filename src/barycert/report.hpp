@@ -111,7 +111,7 @@ std::string render_json(const RenderReport& summary, const Environment& environm
 // What a run found, for the systems that run it: JUnit's XML, SARIF 2.1.0, annotations of GitHub's workflows.
 //
 // All three say the same outcomes. One fails where the program's exit code says so and nowhere else: a mesh that is
-// not certified, rows that are wrong, a broken rule of --fail-on. What else was found is told and passes.
+// not certified, rows that are wrong, a broken rule of --fail-on. Other findings are told and do not fail.
 
 struct CiOutcome {
     enum class State : unsigned char { passed, noted, failed };

@@ -149,7 +149,7 @@ struct ViewCounts {
 };
 
 /// Draws the surface as large as it fits. Error: spans that do not fit together; an index, coordinate, angle or range
-/// that is none; a size that is refused or leaves no room beside the bar.
+/// that is not valid; a size that is refused or leaves no room beside the bar.
 Result<Image> draw_surface(const SurfaceView& surface, const ViewOptions& options = {}, ViewCounts* counts = nullptr);
 
 }  // namespace barycert

@@ -90,7 +90,7 @@ struct Cut {
 
 /// The boundary of the set where the component of the field of nodes is at least `value`, in a mesh of tetrahedra.
 /// Returns an Error if the mesh or a field is inconsistent, the mesh is one of triangles, `value` is not finite, there
-/// is no such component, or there would be more than 2^31 - 1 points or triangles; not if it is empty.
+/// is no such component, or there would be more than 2^31 - 1 points or triangles. It may be empty.
 Result<Cut> isosurface(const Mesh& mesh, const Field& field, double value, const CutOptions& options = {},
                        int component = 0);
 

@@ -51,8 +51,8 @@ Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& pat
 
 void add_kernel_rules(const Options& o, KernelChoice& kernels) {
     o.number("--class-tolerance", kernels.class_tolerance, 0,
-             "A point is inside if all weights are >= -X, of kernels that neither classify points themselves nor "
-             "certify; without it, if no weight is below 0",
+             "For kernels that neither classify points nor certify: a point is inside if all weights are >= -X; "
+             "default: if no weight is below 0",
              "X");
     add_containment(o, kernels);
 }

@@ -81,13 +81,12 @@ CommandEntry mesher(const CommandEntry& program) {
 }
 
 std::vector<Variable> variables() {
-    return {
-        {"BARYCERT_DATA_DIR", "The folder of barycert's own data, whose meshes are audited where none is named."},
-        {"BARYCERT_COMMAND", "How the program names itself in commands to repeat, for scripts that run it."},
-        {"BARYCERT_MESHIO",
-         "The Python whose meshio reads formats that are not read otherwise; python3 without it. Empty: none does."},
-        {"NO_COLOR", "If set and not empty, nothing is coloured."},
-        {"TMPDIR", "The folder of temporary files; /tmp without it."}};
+    return {{"BARYCERT_DATA_DIR", "The folder of barycert's own data, whose meshes are audited where none is named."},
+            {"BARYCERT_COMMAND", "How the program names itself in commands to repeat, for scripts that run it."},
+            {"BARYCERT_MESHIO",
+             "The Python whose meshio reads formats that barycert does not read; default: python3. Empty: none."},
+            {"NO_COLOR", "If set and not empty, nothing is coloured."},
+            {"TMPDIR", "The folder of temporary files; /tmp without it."}};
 }
 
 /// The day that packages are made on, by SOURCE_DATE_EPOCH; else none, for pages depend on the program alone.

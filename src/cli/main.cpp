@@ -94,8 +94,8 @@ int run(int argc, char** argv) {
     add_help(program);
     // After the subcommands, which would take it over.
     app.footer(with_command_name(
-        R"(Exit codes: 0 success; 1 a mesh is not certified, results are wrong, a rule or baseline is not kept, a mutant
-is not caught, or a witness is not reproduced; 2 usage or input error.
+        R"(Exit codes: 0 success; 1 a mesh is not certified, results are wrong, a rule is broken, a figure is worse than
+in the baseline, a mutant is not caught, or a witness is not reproduced; 2 usage or input error.
 Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.)"));
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {

@@ -193,7 +193,7 @@ void Options::step(StepChoice& step, bool* all) const {
                   step.number = integer_of<std::size_t>(text);
                   return step.number.has_value();
               });
-    parsed("--time", "T", "Likewise, by its time, exactly as the file has it", "a finite number", step.time, finite)
+    parsed("--time", "T", "The step of exactly this time in the file", "a finite number", step.time, finite)
         ->excludes(number);
 }
 

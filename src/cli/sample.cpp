@@ -79,8 +79,8 @@ void add_sample(const Options& program) {
 fields, cell fields, lengths; then with --outside nearest or extrapolate the distance to the mesh, then labels of cells named
 in --fields (texts, large integers), then columns of the points (--keep). cell: the number in the file, from
 0, of the first cell that contains the point; -1 outside. feature: interior, face, edge, vertex or outside,
-exact. TetGen's node attributes are named attribute0, attribute1, ... Rows are points again: --points takes
-the output of another run.
+exact. TetGen's node attributes are named attribute0, attribute1, ... --points takes the output of another
+run, whose rows are points.
 Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input
 error.)",
         run_sampling<SampleJob, sample_files>);
@@ -94,8 +94,8 @@ error.)",
            "the file does not name x,y,z and has more columns than the mesh has dimensions",
            "A,B,C");
     o.text("--keep", job.keep,
-           "Columns of the points that rows are to have, as they are: names; or all: every column but the coordinates "
-           "and those that rows have anyway; NEW=NAME gives a column another name",
+           "Columns of the points to copy into the rows: names; or all: every column but the coordinates and those "
+           "that rows have anyway; NEW=NAME renames a column",
            "NAMES|all");
     o.text("--output", job.output, "Rows: .csv .npy .vtu; - is CSV on stdout");
     add_sampling_options(o, job, a.reports);

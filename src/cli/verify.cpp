@@ -56,9 +56,10 @@ Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or i
                job.values[field] = std::move(column);
            });
     o.text("--columns", job.columns, "Columns of the coordinates: names, or numbers from 1; default: x,y,z", "A,B,C");
-    o.text("--cell-column", job.cell_column, "Column with the cell of each point; default: cell; none: none", "NAME");
+    o.text("--cell-column", job.cell_column, "Column with the cell of each point; default: cell; none: no column",
+           "NAME");
     o.integer("--cell-base", job.cell_base, 0, 1, "Number of the first cell in that column", "0|1");
-    o.text("--mask-column", job.mask_column, "Column that is 0 outside; default: vtkValidPointMask; none: none",
+    o.text("--mask-column", job.mask_column, "Column that is 0 outside; default: vtkValidPointMask; none: no column",
            "NAME");
     o.app()
         .add_option("--outside-value", job.options.outside_value,

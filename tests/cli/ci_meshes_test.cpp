@@ -150,10 +150,10 @@ TEST_F(CiVerify, RightRowsPass) {
     EXPECT_EQ(times(r.junit, "<testcase "), 4U);
 }
 
-// A rule that nothing could break must not pass.
+// A rule that no row can break must not pass.
 TEST_F(CiVerify, RulesOnWhatIsNotComparedAreRefused) {
     expect_error({"verify", two_, "--results", bad_, "--cell-column", "none", "--fail-on", "wrong_cell"},
-                 "a rule that nothing could break: wrong_cell");
+                 "a rule that no row can break: wrong_cell");
     const std::string cells = scratch_.put("cells.csv", "x,y,z,cell\n.25,.25,.25,0\n");
     expect_error({"verify", two_, "--results", cells, "--fail-on", "wrong_value"}, "wrong_value");
     const Reports r = reports_of({"verify", two_, "--results", cells});

@@ -81,7 +81,7 @@ TEST(MeshFormat, FilesThatAreNotRead) {
         {"a.csv", "x,y\n", "a table, not a mesh", "--points"},
         {"a.npy", "\x93NUMPY", "a table, not a mesh", "--points"},
         {"a.msh", "5 2 6\n0 0 1\n", "a mesh of FreeFem", "savemesh"},
-        {"a.rst", "?", "no mesh that is read", ".vtu or Gmsh's .msh"},
+        {"a.rst", "?", "does not read this format", ".vtu or Gmsh's .msh"},
         {"it's a.unv", "", "a universal file of I-deas", "it'\\''s a.unv' "},
     };
     const TemporaryFolder folder;

@@ -400,7 +400,7 @@ TEST(Png, Errors) {
     EXPECT_EQ(refused({.width = 3, .height = 2, .values = values, .valid = valid}), fit);
     for (const double aspect : {0.0, -1.0, nan, inf}) {
         EXPECT_EQ(refused({.width = 3, .height = 2, .values = values, .aspect = aspect}),
-                  "the aspect of a slice is none");
+                  "the aspect of a slice is not valid");
     }
     for (const double aspect : {1e7, 1e-7, 5e-324, 1.7e308}) {
         EXPECT_EQ(refused({.width = 3, .height = 2, .values = values, .aspect = aspect}),
@@ -409,7 +409,7 @@ TEST(Png, Errors) {
     for (const auto& [low, high] :
          std::vector<std::pair<double, double>>{{1, 0}, {nan, 1}, {0, nan}, {0, inf}, {-inf, 0}}) {
         EXPECT_EQ(refused({.width = 3, .height = 2, .values = values, .range = {{low, high}}}),
-                  "the range of colours is none");
+                  "the range of colours is not valid");
     }
     const std::vector<double> line(1000000);
     EXPECT_EQ(refused({.width = 1000000, .height = 1, .values = line}), "there is no room for the colour bar");

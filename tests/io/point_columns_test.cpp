@@ -29,7 +29,7 @@ TEST(PointColumns, WithoutNamesNothingIsGuessed) {
     expect_refused("p.csv", "1,2,3,a\n", 3, none, {1, what, nullptr, nullptr, "options.columns 1,2,3"});
     expect_refused(
         "p.csv", "1,2,3,\n4,5,6,7\n", 3, none,
-        {2, "a value behind the last separator", "none, as in the first line", "\"7\"", "options.columns 1,2,3"});
+        {2, "a value after the last separator", "none, as in the first line", "\"7\"", "options.columns 1,2,3"});
     EXPECT_EQ(points_of("1,2,3,\n4,5,6,\n", 3, none), (std::vector<double>{1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(points_of("1;2;3; ;\n4;5;6;;\"\"\n", 3, none), (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }

@@ -207,7 +207,7 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
 Status check_search_rules(const std::vector<Threshold>& rules) {
     for (const Threshold& rule : rules) {
         if (!figure({}, rule.name))
-            return Error{.what = "a rule that a search cannot tell",
+            return Error{.what = "a rule on a figure that a search does not measure",
                          .expected = "any, a class of finding, worst_weight_ulp or worst_value_ulp",
                          .found = rule.name};
     }

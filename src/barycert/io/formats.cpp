@@ -210,7 +210,7 @@ Result<MeshFormat> format_of_file(const std::string& path) {
     if (found->format) return *found->format;
     if (found->other != nullptr && found->other->meshio != nullptr) return MeshFormat::by_meshio;
     if (found->other != nullptr) return other_format_error(*found->other, path);
-    return Error{.what = "this is no mesh that is read",
+    return Error{.what = "barycert does not read this format",
                  .file = path,
                  .expected = formats_read,
                  .remedy =

@@ -131,7 +131,7 @@ private:
         for (const VerifyLimit& limit : job_.limits) {
             if (report_.compared(limit.verdict)) continue;
             const bool cells = limit.verdict == RowVerdict::wrong_cell;
-            refuse(job_.results, "a rule that nothing could break: " + std::string(handle(limit.verdict)),
+            refuse(job_.results, "a rule that no row can break: " + std::string(handle(limit.verdict)),
                    cells ? "a column that names cells" : "a column of values of a field", "none",
                    cells ? "name it with job.cell_column, or leave the rule out"
                          : "name it with job.values, or leave the rule out");

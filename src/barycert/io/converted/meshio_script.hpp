@@ -67,7 +67,7 @@ def plain(name, parts, rows):
     if any(p.dtype.kind not in "biuf" or p.dtype.itemsize > 8 for p in parts):
         return lost.append(name + ", which holds no numbers of at most 64 bits")
     if not parts or sum(len(p) for p in parts if p.ndim) != rows or len({p.shape[1:] for p in parts}) != 1:
-        return lost.append(name + ", which has not one row for each")
+        return lost.append(name + ", which does not have one row for each")
     whole = numpy.concatenate(parts)
     if any((p.astype(whole.dtype).astype(p.dtype) != p)[p == p].any() for p in parts):
         return lost.append(name + ", whose types differ from block to block")

@@ -118,7 +118,7 @@ Error csv_row_error(const CsvFault& fault, const CsvLayout& layout, const LinePl
     const std::size_t fields = layout.role_of.size();
     switch (fault.kind) {
         case CsvFault::Kind::behind_the_last:
-            return refused("a value behind the last separator", "none, as in the first line", found,
+            return refused("a value after the last separator", "none, as in the first line", found,
                            "say which columns are the coordinates, such as options.columns 1,2,3");
         case CsvFault::Kind::value: {
             const ColumnFormat& column = layout.kept[fault.number];

@@ -37,14 +37,14 @@ Status check(const std::string& path, const Slice& s) {
                               " marks of which are valid",
                           "give one value, and one mark or none, for each point");
     if (!(s.aspect > 0) || !std::isfinite(s.aspect))
-        return file_error(path, "the aspect of a slice is none", "a positive number", base::shortest(s.aspect),
+        return file_error(path, "the aspect of a slice is not valid", "a positive number", base::shortest(s.aspect),
                           "divide the spacing along a line by the spacing of lines");
     if (!(s.pixel_length >= 0) || !std::isfinite(s.pixel_length))
-        return file_error(path, "the length of a pixel is none", "a finite number, 0 or more",
+        return file_error(path, "the length of a pixel is not valid", "a finite number, 0 or more",
                           base::shortest(s.pixel_length), "leave it at 0 for a picture without a scale");
     const auto [low, high] = s.range.value_or(std::pair(0.0, 0.0));
     if (!std::isfinite(low) || !std::isfinite(high) || low > high)
-        return file_error(path, "the range of colours is none", "two finite numbers, the lower one first",
+        return file_error(path, "the range of colours is not valid", "two finite numbers, the lower one first",
                           base::shortest(low) + " and " + base::shortest(high), "choose another range");
     return Done{};
 }
