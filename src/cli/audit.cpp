@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/io.hpp"
-#include "reports.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -47,7 +45,7 @@ void check_mutants_alone(const AuditArguments& a) {
 }
 
 /// The mutation score of the families.
-Told told_of(const MutantReport& report) {
+Told told_of_mutants(const MutantReport& report) {
     return {.files = {{"--json", [&] { return mutants_json(report); }}},
             .text = [&](bool colour) { return mutants_text(report, {.colour = colour, .command = command_name()}); },
             .clean = report.caught() == report.mutants.size()};
@@ -55,15 +53,9 @@ Told told_of(const MutantReport& report) {
 
 Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const AuditReport& report,
              const BaselineComparison* comparison, const std::vector<OtherResults>& others) {
-    const std::string& apart = a.reports.path("--witnesses");
-    const std::string witnesses = apart.empty() ? a.reports.path("--json") : apart;
-    const TerminalStyle style{.colour = false,
-                              .command = command_name(),
-                              .witness_path = witnesses == "-" ? std::string() : witnesses,
-                              .mesh_arguments = a.meshes,
-                              .library_arguments = a.job.kernels.libraries,
-                              .kernel_arguments = words_of(a.job.kernels),
-                              .wide = a.wide};
+    TerminalStyle style = style_to_repeat(a.reports, a.job.kernels);
+    style.mesh_arguments = a.meshes;
+    style.wide = a.wide;
     const auto page = [=, &a, &prepared, &report, &others]() -> Result<std::string> {
         std::vector<Kernel> kernels;
         for (const KernelResult& k : report.kernels) kernels.push_back(k.kernel);
@@ -80,10 +72,9 @@ Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const Audit
                   {"--witnesses", [&report] { return witnesses_json(report); }},
                   {"--plot", [&report] { return condition_plot(report); }}},
         .text =
-            [=, &report](bool colour) {
-                TerminalStyle shown = style;
-                shown.colour = colour;
-                return audit_text(report, shown);
+            [=, &report](bool colour) mutable {
+                style.colour = colour;
+                return audit_text(report, style);
             },
         .ci = [=, &a, &report, &prepared] { return audit_outcomes(report, a.rules, comparison, prepared.libraries); },
         .curved = report.curved,
@@ -114,9 +105,7 @@ int run_audit(AuditArguments& a) {
         progress.stage(fmt::format("{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
                                    p.cases_total, p.family));
     };
-    if (a.mutants)
-        return a.reports.end(audit_mutants(prepared.options, prepared.meshes),
-                             [](const MutantReport& report) { return told_of(report); });
+    if (a.mutants) return a.reports.end(audit_mutants(prepared.options, prepared.meshes), told_of_mutants);
     std::optional<BaselineComparison> comparison;
     return a.reports.end(barycert::run_audit(prepared.options, prepared.meshes), [&](const AuditReport& report) {
         Status compared = Done{};
@@ -168,11 +157,10 @@ void add_audit(const Options& program) {
     a.reports.file(o, "--witnesses", "Write the worst cases as JSON, for `barycert replay`; - is stdout");
     a.reports.file(o, "--plot",
                    "Plot the errors of the kernels over the condition numbers of the cells, as SVG; - is stdout");
-    std::string names;
-    for (const std::string& rule : threshold_names()) names += " " + rule;
     o.each("--fail-on", "RULE[>NUMBER]",
-           "Exit with 1 if this figure of a kernel exceeds NUMBER (0 if omitted); may be repeated. RULE is one of:" +
-               names,
+           fmt::format("Exit with 1 if this figure of a kernel exceeds NUMBER (0 if omitted); may be repeated. RULE is "
+                       "one of: {}",
+                       fmt::join(threshold_names(), " ")),
            [&rules = a.rules](const std::string& text) { rules.push_back(parse_threshold(text).value()); });
     o.text("--baseline", job.baseline,
            "Compare with the --json report of an earlier audit of the same seed, count and meshes; exit with 1 if a "

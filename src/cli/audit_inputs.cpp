@@ -1,15 +1,11 @@
 #include "audit_inputs.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdlib>
 #include <filesystem>
 
 #include "barycert/audit_report.hpp"
-#include "barycert/base/named_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "reports.hpp"
 
 namespace barycert::cli {
 namespace {
@@ -27,6 +23,15 @@ fs::path data_folder() {
     }
     if (fs::is_directory(BARYCERT_SOURCE_DATA_DIR, ignored)) return BARYCERT_SOURCE_DATA_DIR;
     return {};
+}
+
+/// A list as a table, and JSON.
+template <class Chosen, class Items, Result<Items> (*choose)(const Chosen&), std::string (*json)(const Items&),
+          std::string (*text)(const Items&)>
+int list(Arguments<Chosen>& a) {
+    return a.reports.end(choose(a.job), [&](const Items& all) {
+        return Told{.files = {{"--json", [&] { return json(all); }}}, .text = [&](bool) { return text(all); }};
+    });
 }
 
 }  // namespace
@@ -65,12 +70,16 @@ void add_containment(const Options& o, KernelChoice& kernels) {
            "Run kernels of yours in this process: a crash of theirs is then one of the audit's");
 }
 
-std::string words_of(const KernelChoice& kernels) {
-    std::string words;
+TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernels) {
+    const std::string& apart = reports.path("--witnesses");
+    const std::string& witnesses = apart.empty() ? reports.path("--json") : apart;
+    TerminalStyle style{.command = command_name(), .library_arguments = kernels.libraries};
+    if (witnesses != "-") style.witness_path = witnesses;
+    std::string& words = style.kernel_arguments;
     if (kernels.in_process) words += " --in-process";
     if (kernels.seconds != KernelChoice{}.seconds) words += " --time-limit " + base::shortest(kernels.seconds);
     if (kernels.class_tolerance) words += " --class-tolerance " + base::shortest(*kernels.class_tolerance);
-    return words;
+    return style;
 }
 
 void add_count(const Options& o, std::uint64_t& count, int most_bits, const std::string& help) {
@@ -104,25 +113,6 @@ std::string failures_of(const std::vector<Violation>& violations) {
     return lines;
 }
 
-namespace {
-
-/// A list as a table, and JSON.
-template <class Chosen, class Items>
-struct ListArguments {
-    Chosen chosen;
-    Reports reports;
-};
-
-template <class Chosen, class Items, Result<Items> (*choose)(const Chosen&), std::string (*json)(const Items&),
-          std::string (*text)(const Items&)>
-int list(ListArguments<Chosen, Items>& a) {
-    return a.reports.end(choose(a.chosen), [&](const Items& all) {
-        return Told{.files = {{"--json", [&] { return json(all); }}}, .text = [&](bool) { return text(all); }};
-    });
-}
-
-}  // namespace
-
 // barycert kernels, barycert families: list and explain.
 void add_catalogue(const Options& program) {
     using Names = std::vector<std::string>;
@@ -130,13 +120,13 @@ void add_catalogue(const Options& program) {
     const auto& [kernels, k] =
         program.command("kernels", "List the kernels: formula, source, known failures", done_or_error,
                         list<KernelChoice, std::vector<Kernel>, chosen_kernels, kernels_json, kernels_text>);
-    kernels.app().add_option("KERNEL|GLOB", k.chosen.names, "List only matching names");
-    kernels.text("--kernel-library", k.chosen.libraries, "Also list the kernel of this shared library");
+    kernels.app().add_option("KERNEL|GLOB", k.job.names, "List only matching names");
+    kernels.text("--kernel-library", k.job.libraries, "Also list the kernel of this shared library");
     k.reports.file(kernels, "--json", json_list);
     const auto& [families, f] =
         program.command("families", "List the families of cases: what each tests, and its recipe", done_or_error,
                         list<Names, std::vector<Family>, choose_families, families_json, families_text>);
-    families.app().add_option("FAMILY|GLOB", f.chosen, "List only matching names");
+    families.app().add_option("FAMILY|GLOB", f.job, "List only matching names");
     f.reports.file(families, "--json", json_list);
 }
 

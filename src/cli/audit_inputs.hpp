@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "barycert/audit.hpp"
-#include "barycert/base/named_file.hpp"
-#include "options.hpp"
+#include "reports.hpp"
 
 namespace barycert::cli {
 
@@ -17,8 +16,8 @@ Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& pat
 void add_containment(const Options& o, KernelChoice& kernels);
 void add_kernel_rules(const Options& o, KernelChoice& kernels);
 
-/// As words to repeat: " --in-process --class-tolerance 1e-10"; empty if all are as without options.
-std::string words_of(const KernelChoice& kernels);
+/// For commands to repeat: how the program is called, the kernels as the user gave them, where witnesses are written.
+TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernels);
 
 /// --count and --seed.
 void add_count(const Options& o, std::uint64_t& count, int most_bits, const std::string& help);

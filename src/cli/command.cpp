@@ -54,10 +54,7 @@ bool in_name(char c) {
     return (c >= 'a' && c <= 'z') || c == '_';
 }
 
-std::string& remembered_arguments() {
-    static std::string arguments;
-    return arguments;
-}
+std::string remembered_arguments;
 
 }  // namespace
 
@@ -126,11 +123,11 @@ Notes with_options(Notes notes) {
 }
 
 std::string command_line() {
-    return command_name() + remembered_arguments();
+    return command_name() + remembered_arguments;
 }
 
 void remember_command_line(int argc, const char* const* argv) {
-    for (int i = 1; i < argc; ++i) remembered_arguments() += " " + base::shell_word(argv[i]);
+    for (int i = 1; i < argc; ++i) remembered_arguments += " " + base::shell_word(argv[i]);
 }
 
 }  // namespace barycert::cli

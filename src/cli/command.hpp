@@ -3,9 +3,7 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "barycert/check.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::cli {

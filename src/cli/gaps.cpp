@@ -9,7 +9,6 @@
 #include "barycert/audit_search.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
-#include "reports.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -2,17 +2,13 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <memory>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/jobs.hpp"
 #include "command.hpp"
 #include "options.hpp"
@@ -27,6 +23,7 @@ namespace {
 using CompletionOf = std::string (*)(const CommandEntry&);
 
 struct HelpArguments {
+    const CLI::App* program = nullptr;
     std::vector<std::string> words;
     CompletionOf completion = nullptr;
     std::string folder;
@@ -134,7 +131,8 @@ int explain(const CLI::App& app, const std::vector<std::string>& words) {
     return exit_clean;
 }
 
-int run_help(const CLI::App& app, const HelpArguments& a) {
+int run_help(HelpArguments& a) {
+    const CLI::App& app = *a.program;
     const bool pages = !a.folder.empty(), script = a.completion != nullptr;
     if (pages || script) {
         const bool of_mesher = script && a.words == std::vector<std::string>{"mesh"};
@@ -154,18 +152,18 @@ int run_help(const CLI::App& app, const HelpArguments& a) {
 }  // namespace
 
 void add_help(const Options& program) {
-    const Options o = program.below(
+    const auto& [o, a] = program.command(
         "help", "Explain a subcommand; print completions for shells, write manual pages",
         "`source <(barycert help --completion bash)` completes commands in this shell; `barycert help mesh\n"
         "--completion bash` those of barycert-tetgen. Packages install both.\nExit codes: 0 done; 2 usage or input "
-        "error.");
-    const auto a = std::make_shared<HelpArguments>();
-    o.app().add_option("SUBCOMMAND", a->words, "The subcommand, such as sample or render iso; default: all, in a list");
-    o.choice<CompletionOf>("--completion", a->completion,
+        "error.",
+        run_help);
+    a.program = &program.app();
+    o.app().add_option("SUBCOMMAND", a.words, "The subcommand, such as sample or render iso; default: all, in a list");
+    o.choice<CompletionOf>("--completion", a.completion,
                            {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}},
                            "Print a script that completes subcommands, options and their values in this shell");
-    o.text("--man", a->folder, "Write the manual pages of barycert, its subcommands and barycert-tetgen", "DIR");
-    o.run([program, a] { return run_help(program.app(), *a); });
+    o.text("--man", a.folder, "Write the manual pages of barycert, its subcommands and barycert-tetgen", "DIR");
 }
 
 }  // namespace barycert::cli

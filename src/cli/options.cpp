@@ -8,21 +8,19 @@
 #include <filesystem>
 #include <system_error>
 
-#include "barycert/base/text.hpp"
-#include "command.hpp"
 #include "options/command_table.hpp"
 
 namespace barycert::cli {
 namespace {
 
 /// The help behind "Picture: "; alone it begins with a capital.
-std::string with_heading(const std::string& what, std::string help) {
+std::string with_heading(Text what, std::string help) {
     if (what.empty()) help.front() = static_cast<char>(std::toupper(help.front()));
     return what + help;
 }
 
 /// Whether the text is NAME@PATTERN, and where the pattern begins; a name may have an @, and a file an =.
-std::optional<FieldFile> series_of(FieldFile::Of of, const std::string& text) {
+std::optional<FieldFile> series_of(FieldFile::Of of, Text text) {
     const std::size_t sign = text.find('@'), equals = text.find('=');
     if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) return std::nullopt;
     const bool of_steps = text.find('*', sign) != std::string::npos || text.find(".pvd", sign) != std::string::npos ||
@@ -31,7 +29,7 @@ std::optional<FieldFile> series_of(FieldFile::Of of, const std::string& text) {
     return FieldFile{of, text.substr(0, sign), text.substr(sign + 1)};
 }
 
-FieldFile field_file_of(const std::string& option, FieldFile::Of of, const std::string& text) {
+FieldFile field_file_of(Text option, FieldFile::Of of, Text text) {
     auto [name, rest] = assignment(option, "NAME=FILE", text);
     FieldFile file{of, std::move(name), std::move(rest)};
     // FILE:COLUMN, where the file is the shortest beginning that there is; a file may have a colon in its name, and a
@@ -58,7 +56,7 @@ std::string given_option(const CLI::App& app, std::initializer_list<std::string_
     return "";
 }
 
-void refuse_option(const std::string& option, const std::string& expected, std::string_view found) {
+void refuse_option(Text option, Text expected, std::string_view found) {
     throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
 }
 
@@ -83,28 +81,22 @@ std::optional<std::pair<double, double>> ends_of(std::string_view text) {
     return std::pair((*ends)[0], (*ends)[1]);
 }
 
-std::pair<std::string, std::string> assignment(const std::string& option, const std::string& expected,
-                                               const std::string& text) {
+std::pair<std::string, std::string> assignment(Text option, Text expected, Text text) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) refuse_option(option, expected, text);
     return {text.substr(0, sign), text.substr(sign + 1)};
 }
 
-std::string Options::told(const std::string& help) {
-    return with_command_name(help);
-}
-
-std::string finite_number(double least, bool above) {
-    return fmt::format("a finite number {} {}", above ? "above" : "of at least", base::shortest(least));
-}
-
-Options Options::below(std::string_view name, const std::string& about, const std::string& footer) const {
+Options Options::below(std::string_view name, Text about, Text footer, const std::function<int()>& work) const {
     CLI::App* const sub = app_->add_subcommand(std::string(name), about);
-    sub->footer(told(footer));
+    sub->footer(with_command_name(footer));
+    sub->callback([work, sub, code = exit_code_] {
+        if (sub->get_subcommands().empty()) *code = work();
+    });
     return {*sub, *exit_code_};
 }
 
-CLI::Option* Options::text_like(CLI::Option* option, const std::string& type, bool several) {
+CLI::Option* Options::text_like(CLI::Option* option, Text type, bool several) {
     if (several) option->allow_extra_args(false);
     if (is_type_of_files(type))
         option->check(
@@ -112,31 +104,25 @@ CLI::Option* Options::text_like(CLI::Option* option, const std::string& type, bo
     return option->type_name(type);
 }
 
-void Options::run(const std::function<int()>& work) const {
-    app_->callback([work, app = app_, code = exit_code_] {
-        if (app->get_subcommands().empty()) *code = work();
-    });
-}
-
-CLI::Option* Options::taken(const std::string& name, const std::string& type, const std::string& help,
-                            const std::string& expected, const std::function<bool(const std::string&)>& take) const {
-    const auto read = [=](const std::string& text) {
+CLI::Option* Options::taken(Text name, Text type, Text help, Text expected,
+                            const std::function<bool(Text)>& take) const {
+    const auto read = [=](Text text) {
         if (!take(text)) refuse_option(name, expected, text);
     };
-    return app_->add_option_function<std::string>(name, read, told(help))->type_name(type);
+    return app_->add_option_function<std::string>(name, read, with_command_name(help))->type_name(type);
 }
 
-CLI::Option* Options::each(const std::string& name, const std::string& type, const std::string& help,
-                           const std::function<void(const std::string&)>& take) const {
+CLI::Option* Options::each(Text name, Text type, Text help, const std::function<void(Text)>& take) const {
     const auto take_all = [take](const std::vector<std::string>& texts) {
-        for (const std::string& text : texts) take(text);
+        for (Text text : texts) take(text);
     };
-    return text_like(app_->add_option_function<std::vector<std::string>>(name, take_all, told(help)), type, true);
+    return text_like(app_->add_option_function<std::vector<std::string>>(name, take_all, with_command_name(help)), type,
+                     true);
 }
 
-CLI::Option* Options::flag(const std::string& name, bool& value, const std::string& help, bool given) const {
+CLI::Option* Options::flag(Text name, bool& value, Text help, bool given) const {
     return app_->add_flag_callback(
-        name, [&value, given] { value = given; }, told(help));
+        name, [&value, given] { value = given; }, with_command_name(help));
 }
 
 void Options::mesh(std::string& mesh) const {
@@ -171,13 +157,12 @@ void Options::rounding(Rounding& rounding, const char* help) const {
     choice<Rounding>("--rounding", rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, help);
 }
 
-void Options::range(std::optional<std::pair<double, double>>& range, const std::string& what) const {
+void Options::range(std::optional<std::pair<double, double>>& range, Text what) const {
     const std::string help = "the values of the first and the last colour; default: min and max of the values drawn";
-    parsed("--range", "MIN,MAX", with_heading(what, help), "MIN,MAX, finite numbers, MIN < MAX", range,
-           [](const std::string& text) {
-               const auto ends = ends_of(text);
-               return ends && ends->first < ends->second ? ends : std::nullopt;
-           });
+    parsed("--range", "MIN,MAX", with_heading(what, help), "MIN,MAX, finite numbers, MIN < MAX", range, [](Text text) {
+        const auto ends = ends_of(text);
+        return ends && ends->first < ends->second ? ends : std::nullopt;
+    });
 }
 
 void Options::step(StepChoice& step, bool* all) const {
@@ -186,8 +171,7 @@ void Options::step(StepChoice& step, bool* all) const {
               std::string("Of a MESH that is a series (.pvd, .vtu.series, .vtp.series): the step to read, by its "
                           "number from 0; default: the first") +
                   (all == nullptr ? "" : ", or all where {step} or {time} stands in --output: a file for each"),
-              std::string("a number from 0, ") + (all != nullptr ? "all or last" : "or last"),
-              [&step, all](const std::string& text) {
+              std::string("a number from 0, ") + (all != nullptr ? "all or last" : "or last"), [&step, all](Text text) {
                   if (all != nullptr && text == "all") return *all = true;
                   if (text == "last") return step.last = true;
                   step.number = integer_of<std::size_t>(text);
@@ -197,8 +181,7 @@ void Options::step(StepChoice& step, bool* all) const {
         ->excludes(number);
 }
 
-void Options::field_files(std::vector<FieldFile>& files, const std::string& either,
-                          std::vector<FieldFile>* series) const {
+void Options::field_files(std::vector<FieldFile>& files, Text either, std::vector<FieldFile>* series) const {
     const std::string any =
         std::string(
             "Add a field: one row of numbers per node or per cell (text with blanks or commas, or .npy); FILE:COLUMN: "
@@ -207,8 +190,8 @@ void Options::field_files(std::vector<FieldFile>& files, const std::string& eith
                            : "; NAME@'step-*.npy': a series, one file a step in natural order, or a .pvd or "
                              ".vtu.series file. {step} in --output: a file for each step; else columns NAME@STEP");
     const std::string type = series == nullptr ? "NAME=FILE[:COLUMN]" : "NAME=FILE[:COLUMN]|NAME@PATTERN[:COLUMN]";
-    const auto add = [&](const std::string& name, FieldFile::Of of, const std::string& help) {
-        each(name, type, help, [=, &files](const std::string& text) {
+    const auto add = [&](Text name, FieldFile::Of of, Text help) {
+        each(name, type, help, [=, &files](Text text) {
             const auto steps = series == nullptr ? std::nullopt : series_of(of, text);
             steps ? series->push_back(*steps) : files.push_back(field_file_of(name, of, text));
         });
@@ -221,15 +204,15 @@ void Options::field_files(std::vector<FieldFile>& files, const std::string& eith
 void Options::size(RasterSize& size) const {
     parsed("--size", "WxH", fmt::format("Width and height in pixels; default: {}x{}", size.width, size.height),
            fmt::format("width and height in pixels, 1 to {}, such as 640x480", max_raster_side), size,
-           [](const std::string& text) -> std::optional<RasterSize> {
+           [](Text text) -> std::optional<RasterSize> {
                const auto sides = numbers('x', count_of, 2, 2)(text);
                if (!sides || std::max((*sides)[0], (*sides)[1]) > max_raster_side) return std::nullopt;
                return RasterSize{static_cast<std::int32_t>((*sides)[0]), static_cast<std::int32_t>((*sides)[1])};
            });
 }
 
-void Options::camera(ViewOptions& view, const std::string& what) const {
-    const auto angle = [&](const char* name, double& degrees, const std::string& help) {
+void Options::camera(ViewOptions& view, Text what) const {
+    const auto angle = [&](const char* name, double& degrees, Text help) {
         parsed(name, "DEGREES", with_heading(what, help), "degrees, a finite number", degrees, finite);
     };
     angle("--azimuth", view.azimuth, "where the camera stands, from the x axis towards the y axis; default: 30");

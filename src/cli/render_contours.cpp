@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <optional>
 
 #include "barycert/base/text.hpp"
@@ -119,13 +118,12 @@ void add_iso(const Options& render) {
 std::optional<Plane> plane_of(const std::string& given) {
     std::string text = given;
     std::erase(text, ' ');
-    if (text.size() > 2 && text[1] == '=')
-        text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
-    if (text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=') {
+    const std::size_t axis = std::string_view("xyzXYZ").find(text[0]);  // of no text: none
+    if (axis != std::string_view::npos && text.size() > 2 && text[1] == '=') {
         const std::optional<double> offset = finite(std::string_view(text).substr(2));
         if (!offset) return std::nullopt;
         Plane plane{{0, 0, 0}, *offset};
-        plane.normal[static_cast<std::size_t>(text[0] - 'x')] = 1;
+        plane.normal[axis % 3] = 1;
         return plane;
     }
     const auto n = numbers(',', finite, 4, 4)(text);

@@ -2,7 +2,6 @@
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
-#include "reports.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -10,7 +10,6 @@
 #include "barycert/audit_report.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "reports.hpp"
 
 namespace barycert::cli {
 namespace {

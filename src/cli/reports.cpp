@@ -40,18 +40,18 @@ void Reports::ci(const Options& o, const std::string& failures) {
 
 const std::string& Reports::path(std::string_view option) const {
     static const std::string none;
-    const auto named = std::find_if(files_.begin(), files_.end(), [&](const File& f) { return f.option == option; });
+    const auto named = std::find_if(files_.begin(), files_.end(), [&](const auto& f) { return f.what == option; });
     return named == files_.end() ? none : named->path;
 }
 
 bool Reports::table() const {
     const bool rows = rows_ != nullptr && *rows_ == "-";
-    return !quiet_ && !rows && std::none_of(files_.begin(), files_.end(), [](const File& f) { return f.path == "-"; });
+    return !quiet_ && !rows && std::none_of(files_.begin(), files_.end(), [](const auto& f) { return f.path == "-"; });
 }
 
 std::vector<std::pair<std::string, std::string>> Reports::outputs() const {
     std::vector<std::pair<std::string, std::string>> all;
-    for (const File& f : files_) all.emplace_back(f.option, f.path);
+    for (const auto& f : files_) all.emplace_back(f.what, f.path);
     // Annotations follow the table; without one stdout is theirs alone.
     if (table()) {
         all.emplace_back(summary_ ? "the summary" : "the table", "-");
@@ -89,8 +89,8 @@ int Reports::write(Told told) {
         told.files["--sarif"] = [&] { return ci_sarif(told.ci()); };
     }
     std::vector<Status> done{told.written};
-    for (const File& f : files_) {
-        const auto made = told.files.find(f.option);
+    for (const auto& f : files_) {
+        const auto made = told.files.find(f.what);
         if (f.path.empty() || made == told.files.end()) continue;
         const Result<std::string> text = made->second();
         done.push_back(text ? write_output(f.path, *text) : Status(text.error()));

@@ -99,13 +99,10 @@ public:
     }
 
 private:
-    struct File {
-        std::string option, path;
-    };
     bool table() const;
     std::vector<std::pair<std::string, std::string>> outputs() const;
 
-    std::deque<File> files_;  // options refer to the paths
+    std::deque<base::NamedFile> files_;  // options refer to the paths
     bool annotations_ = false, quiet_ = false;
     bool summary_ = false;  ///< a table stands aside for a report on stdout; a summary goes to stderr then
     const std::string* rows_ = nullptr;

@@ -9,18 +9,15 @@
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/audit_search.hpp"
-#include "reports.hpp"
 
 namespace barycert::cli {
 namespace {
 
-struct SearchArguments {
-    SearchOptions options;
+struct SearchArguments : Arguments<SearchOptions> {
     KernelChoice kernel;
     std::string name, library;
     std::vector<std::string> families;
     std::vector<Threshold> rules;
-    Reports reports;
 };
 
 volatile sig_atomic_t interrupted = 0;
@@ -60,7 +57,7 @@ std::string progress_line(const SearchProgress& p, double seconds) {
 Result<SearchReport> search(SearchArguments& a) {
     a.reports.begin_progress();
     const auto start = std::chrono::steady_clock::now();
-    a.options.progress = [&](const SearchProgress& p) {
+    a.job.progress = [&](const SearchProgress& p) {
         if (a.reports.progress().due()) {
             const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
             a.reports.progress().stage(progress_line(p, elapsed.count()));
@@ -68,7 +65,7 @@ Result<SearchReport> search(SearchArguments& a) {
         return interrupted == 0;
     };
     const InterruptEndsSearch while_searching;
-    return search_worst_case(a.options);
+    return search_worst_case(a.job);
 }
 
 int run_search(SearchArguments& a) {
@@ -76,22 +73,18 @@ int run_search(SearchArguments& a) {
     if (!a.name.empty()) a.kernel.names = {a.name};
     if (!a.library.empty()) a.kernel.libraries = {a.library};
     a.reports.check(library_files(a.kernel));
-    a.options.kernel = choose_kernel(a.kernel).value();
-    tell_note(a.library, a.options.kernel);
-    a.options.families = choose_families(a.families).value();
+    a.job.kernel = choose_kernel(a.kernel).value();
+    tell_note(a.library, a.job.kernel);
+    a.job.families = choose_families(a.families).value();
     return a.reports.end(search(a), [&](const SearchReport& report) {
         const std::vector<Violation> broken = violations(report, a.rules);
         return Told{.files = {{"--json", [&] { return search_json(report); }},
                               {"--witnesses", [&] { return witnesses_json(report); }}},
                     .text =
                         [&](bool colour) {
-                            const std::string& witnesses = a.reports.path("--witnesses");
-                            return search_text(
-                                report, {.colour = colour,
-                                         .command = command_name(),
-                                         .witness_path = witnesses.empty() ? a.reports.path("--json") : witnesses,
-                                         .library_arguments = a.kernel.libraries,
-                                         .kernel_arguments = words_of(a.kernel)});
+                            TerminalStyle style = style_to_repeat(a.reports, a.kernel);
+                            style.colour = colour;
+                            return search_text(report, style);
                         },
                     .failures = failures_of(broken),
                     .clean = broken.empty()};
@@ -104,13 +97,13 @@ void add_search(const Options& program) {
     const auto& [o, a] =
         program.command("search", "Search for the worst cases of one kernel, and the plainest that show them",
                         "Exit codes: 0 done; 1 a rule of --fail-on is broken; 2 usage or input error.", run_search);
-    SearchOptions& options = a.options;
+    SearchOptions& options = a.job;
     o.app().add_option("KERNEL", a.name, with_command_name("The kernel, as `barycert kernels` lists it"));
     o.text("--kernel-library", a.library, "Instead: a shared library with a kernel of yours (see barycert/kernel.h)");
     add_containment(o, a.kernel);
     o.integer("--steps", options.steps, std::uint64_t{1}, std::uint64_t{1} << 48, "Cases to make");
-    o.number("--seconds", options.seconds, 0, "End after this time at the latest; then a repetition may find otherwise",
-             "S", true);
+    o.parsed("--seconds", "S", "End after this time at the latest; then a repetition may find otherwise",
+             "a finite number above 0", options.seconds, positive);
     add_seed(o, options.seed, "The same seed and steps find the same, on any number of threads");
     o.taken("--exponents", "LOW:HIGH",
             "Keep coordinates within 2^LOW <= |x| < 2^(HIGH+1), or zero; default: -1074:1023, all doubles",

@@ -17,9 +17,8 @@ void add_words(OptionEntry& entry, std::string_view type, const Vocabulary& voca
         const std::size_t bracket = part.find('[');
         std::string_view word = part.substr(0, bracket);
         if (word.empty()) word = part.substr(1, part.find(']') - 1);  // [RATIO]
-        const bool small = std::islower(static_cast<unsigned char>(word.front())) != 0 ||
-                           std::isdigit(static_cast<unsigned char>(word.front())) != 0;
-        if (small) {
+        const int first = static_cast<unsigned char>(word.front());
+        if (std::islower(first) != 0 || std::isdigit(first) != 0) {
             const std::size_t sign = word.find('=');
             entry.words.emplace_back(word.substr(0, sign == std::string_view::npos ? sign : sign + 1));
         } else if (const auto known = vocabulary.find(std::string(word)); known != vocabulary.end()) {

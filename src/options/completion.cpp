@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string_view>
 
@@ -73,8 +72,8 @@ std::string zsh_value(const OptionEntry& option) {
 }
 
 std::string specification(const OptionEntry& option) {
+    if (option.operand) return ' ' + in_quotes((option.repeats ? "*" : "") + zsh_value(option));
     const std::string text = '[' + escaped(summary(option.text), "[]\\:") + ']';
-    if (option.operand) return (option.repeats ? "*" : "") + zsh_value(option);
     std::string all;
     for (const std::string& name : option.names) {
         std::string one = option.repeats ? "*" : "";
@@ -90,9 +89,7 @@ std::string specification(const OptionEntry& option) {
 std::string function_of(const CommandEntry& command) {
     std::string text = function_name(command.path) + "() {\n";
     std::string specifications;
-    for (const OptionEntry& option : command.options)
-        specifications +=
-            " \\\n   " + (option.operand ? ' ' + in_quotes(specification(option)) : specification(option));
+    for (const OptionEntry& option : command.options) specifications += " \\\n   " + specification(option);
     if (command.commands.empty()) return text + "  _arguments -s -S" + specifications + "\n}\n";
     std::string names, cases;
     for (const CommandEntry& below : command.commands) {

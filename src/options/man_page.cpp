@@ -136,8 +136,7 @@ std::string see_also(const CommandEntry& command, const CommandEntry& program) {
 std::string page(const CommandEntry& command, const CommandEntry& program, std::string_view version,
                  const std::vector<Variable>& environment, std::string_view date) {
     std::string title = page_name(command);
-    std::transform(title.begin(), title.end(), title.begin(),
-                   [](char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); });
+    for (char& c : title) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     const auto [notes, codes] = split_notes(command.notes);
     std::string text =
         fmt::format(".TH {} 1 \"{}\" \"{}\" \"User Commands\"\n.nh\n.ad l\n", roff(title), date, roff(version));

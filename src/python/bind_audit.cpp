@@ -1,16 +1,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
-#include <pybind11/stl.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "barycert/audit.hpp"
 #include "barycert/audit_pictures.hpp"
@@ -21,13 +12,12 @@
 namespace barycert::python {
 
 template <>
-inline constexpr Words<OracleChoice> words<OracleChoice> = named<OracleChoice>("oracle", OracleChoice::automatic,
-                                                                               OracleChoice::integers,
-                                                                               OracleChoice::cgal, OracleChoice::both);
+inline constexpr Words<OracleChoice> words<OracleChoice> = named("oracle", OracleChoice::automatic,
+                                                                 OracleChoice::integers, OracleChoice::cgal,
+                                                                 OracleChoice::both);
 template <>
-inline constexpr Words<Simplex> words<Simplex> = named<Simplex>("simplex of the kernel", Simplex::segment,
-                                                                Simplex::triangle, Simplex::triangle3d,
-                                                                Simplex::tetrahedron);
+inline constexpr Words<Simplex> words<Simplex> = named("simplex of the kernel", Simplex::segment, Simplex::triangle,
+                                                       Simplex::triangle3d, Simplex::tetrahedron);
 
 namespace {
 
@@ -162,7 +152,7 @@ std::shared_ptr<AuditReport> audit(const py::object& function, Simplex simplex, 
     options.families = named(choose_families(families), "barycert.families() lists them");
     if (families.empty() && meshes.empty())
         std::erase_if(options.families, [](const Family& f) { return f.needs_mesh; });
-    options.progress = [&](const AuditProgress& p) { progress.tell(p.family, p.cases_done, p.cases_total); };
+    options.progress = [&](const AuditProgress& p) { tell(progress, p.family, p.cases_done, p.cases_total); };
     Callable callable;
     if (!function.is_none()) {
         callable = {function, simplex, {}};
@@ -208,12 +198,7 @@ void bind_audit(py::module_& module) {
         .def("text", [](const AuditReport& r, bool wide) { return audit_text(r, {.wide = wide}); })
         .def("html", &html_of);
     module.def("audit", &audit);
-    module.def("finding_names", [] {
-        std::vector<std::string> names;
-        names.reserve(finding_count);
-        for (const FindingText& text : finding_texts) names.emplace_back(text.name);
-        return names;
-    });
+    module.def("finding_names", [] { return list_of(finding_texts, [](const FindingText& f) { return f.name; }); });
     module.def("kernels", [] { return kernels_json(catalogue()); });
     module.def("families", [] { return families_json(all_families()); });
 }

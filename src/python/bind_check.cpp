@@ -1,13 +1,4 @@
-#include <pybind11/stl.h>
-
-#include <array>
-#include <cstdint>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "barycert/check.hpp"
 #include "barycert/report.hpp"
@@ -33,7 +24,7 @@ Shared check_of(const MeshObject& mesh, bool delaunay, std::size_t examples, std
                          .examples = examples,
                          .contacts = contacts,
                          .verdict_only = verdict_only,
-                         .progress = [&](const char* stage) { progress.tell(stage, 0, 0); }};
+                         .progress = [&](const char* stage) { tell(progress, stage, 0, 0); }};
     const std::shared_ptr<const Mesh> fields = mesh.fields();
     const py::gil_scoped_release unlocked;
     auto report = std::make_shared<BoundReport>(BoundReport{mesh.geometry(), check_mesh(mesh.mesh(), options)});
@@ -52,18 +43,15 @@ py::tuple used(const std::array<Mesh::Index, n>& all) {
 }
 
 py::list defects_of(const CheckReport& report) {
-    py::list defects;
-    for (const Defect& defect : report.defects) {
-        const DefectText& text = defect_text(defect.kind);
-        py::list places;
-        for (const DefectPlace& place : defect.places)
-            places.append(py::make_tuple(used(place.cells), used(place.nodes), place.detail, used(place.other_nodes),
-                                         place.distance));
-        defects.append(py::dict("kind"_a = text.name, "count"_a = defect.count, "at_least"_a = defect.at_least,
-                                "breaks"_a = defect.breaks(), "condition"_a = text.condition, "text"_a = text.text,
-                                "remedy"_a = defect.remedy(), "places"_a = places));
-    }
-    return defects;
+    const auto place_of = [](const DefectPlace& p) {
+        return py::make_tuple(used(p.cells), used(p.nodes), p.detail, used(p.other_nodes), p.distance);
+    };
+    return list_of(report.defects, [&](const Defect& d) {
+        const DefectText& text = defect_text(d.kind);
+        return py::dict("kind"_a = text.name, "count"_a = d.count, "at_least"_a = d.at_least, "breaks"_a = d.breaks(),
+                        "condition"_a = text.condition, "text"_a = text.text, "remedy"_a = d.remedy(),
+                        "places"_a = list_of(d.places, place_of));
+    });
 }
 
 py::tuple fix_of(const MeshObject& mesh, double merge_within, bool nodes, bool cells, bool orientation, int threads) {
@@ -84,13 +72,11 @@ py::tuple fix_of(const MeshObject& mesh, double merge_within, bool nodes, bool c
 }
 
 py::list contacts_of(const CheckReport& report, std::size_t dimension) {
-    py::list contacts;
-    for (const CellContact& contact : report.contacts)
-        contacts.append(
-            py::dict("cells"_a = tuple_of(contact.cells, 2), "overlap"_a = contact.overlap,
-                     "dimension"_a = contact.dimension, "point"_a = tuple_of(contact.common.point, dimension),
-                     "exact"_a = contact.common.exact, "fraction"_a = tuple_of(contact.common.fraction, dimension)));
-    return contacts;
+    return list_of(report.contacts, [&](const CellContact& c) {
+        return py::dict("cells"_a = tuple_of(c.cells, 2), "overlap"_a = c.overlap, "dimension"_a = c.dimension,
+                        "point"_a = tuple_of(c.common.point, dimension), "exact"_a = c.common.exact,
+                        "fraction"_a = tuple_of(c.common.fraction, dimension));
+    });
 }
 
 py::dict measures_of(const Shared& bound) {

@@ -1,12 +1,3 @@
-#include <pybind11/stl.h>
-
-#include <algorithm>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "barycert/check.hpp"
 #include "barycert/gradient.hpp"
 #include "barycert/io.hpp"
@@ -15,8 +6,8 @@
 namespace barycert::python {
 
 template <>
-inline constexpr Words<VtkData> words<VtkData> = named<VtkData>("encoding of VTK's files", VtkData::raw, VtkData::zlib,
-                                                                VtkData::lz4, VtkData::lzma, VtkData::ascii);
+inline constexpr Words<VtkData> words<VtkData> = named("encoding of VTK's files", VtkData::raw, VtkData::zlib,
+                                                       VtkData::lz4, VtkData::lzma, VtkData::ascii);
 
 namespace {
 
@@ -64,11 +55,9 @@ py::object field_named(const MeshObject& mesh, const std::string& name, bool of_
     return py::none();
 }
 
-std::vector<std::string> field_names(const MeshObject& mesh, bool of_cells) {
-    std::vector<std::string> names;
-    for (const Field& field : of_cells ? mesh.fields()->cell_fields : mesh.fields()->point_fields)
-        names.push_back(field.name);
-    return names;
+py::list field_names(const MeshObject& mesh, bool of_cells) {
+    const std::shared_ptr<const Mesh> fields = mesh.fields();
+    return list_of(of_cells ? fields->cell_fields : fields->point_fields, [](const Field& f) { return f.name; });
 }
 
 Field field_of(std::string name, const Given<double>& values) {
@@ -101,10 +90,8 @@ py::array gradients_of(const MeshObject& object, const Given<double>& values, co
     return owned(std::move(all), row);
 }
 
-std::vector<std::pair<std::string, bool>> notes_of(const MeshObject& mesh) {
-    std::vector<std::pair<std::string, bool>> notes;
-    for (const Note& note : mesh.mesh().notes) notes.emplace_back(message(note), note.important);
-    return notes;
+py::list notes_of(const MeshObject& mesh) {
+    return list_of(mesh.mesh().notes, [](const Note& note) { return std::pair(message(note), note.important); });
 }
 
 /// The figures of CurvedCells, and what to warn of: empty if no cell is curved.
@@ -130,9 +117,8 @@ void write(const MeshObject& object, const std::string& path, const std::string&
 const Locator& Geometry::locator(const Progress& progress) {
     const std::lock_guard once(making_);
     if (!locator_) {
-        BuildOptions options;
-        options.progress = [&](const char* stage) { progress.tell(stage, 0, 0); };
-        locator_ = take(Locator::build(mesh, options));
+        const auto on_stage = [&](const char* stage) { tell(progress, stage, 0, 0); };
+        locator_ = take(Locator::build(mesh, {.progress = on_stage}));
     }
     return *locator_;
 }
@@ -173,9 +159,8 @@ std::shared_ptr<BoundSampler> MeshObject::sampler(const std::vector<std::string>
 std::shared_ptr<BoundSampler> MeshObject::sampler_of(const std::optional<Given<double>>& values,
                                                      const Progress& progress) const {
     const auto fields = std::make_shared<Mesh>();
-    if (values) fields->point_fields.push_back(field_of("value", *values));
     std::vector<FieldChoice> choices;
-    for (const Field& one : fields->point_fields) choices.push_back({.field = &one});
+    if (values) choices.push_back({.field = &fields->point_fields.emplace_back(field_of("value", *values))});
     return made(geometry_, fields, choices, progress);
 }
 

@@ -1,16 +1,6 @@
-#include <pybind11/stl.h>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <exception>
 #include <limits>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "barycert/grid.hpp"
 #include "barycert/sampler.hpp"
@@ -127,7 +117,7 @@ py::array sample(const BoundSampler& bound, const Given<double>& points, const S
     const std::size_t first_size = first_block(!near && bound.sampler.locator().certified());
     const bool one_block = count <= first_size;  // whose values are not copied
     Table rows;
-    Array<double> out(Shape{one_block ? 0 : extent(count), extent(columns)});
+    Array<double> out(Shape{one_block ? 0 : count, columns});
     double* const values = out.mutable_data();
     const auto block = [&](std::size_t first, std::size_t n) {
         if (cells) {
@@ -162,14 +152,14 @@ py::array coordinates(const Grid& grid, std::size_t k) {
 /// Values (points of the grid, columns), x fastest.
 py::array on_grid(const BoundSampler& bound, const Grid& grid, const SampleOptions& options, const Progress& progress) {
     const std::size_t columns = bound.sampler.columns().size(), total = grid.point_count();
-    Array<double> out(Shape{extent(total), extent(columns)});
+    Array<double> out(Shape{total, columns});
     double* const values = out.mutable_data();
     std::exception_ptr raised;
     const auto sink = [&](const TableView& rows) -> Status {
         const auto first = static_cast<std::size_t>(rows.first_row);
         std::copy_n(rows.values.data(), rows.values.size(), values + first * columns);
         try {
-            progress.tell("points", first + rows.row_count(), total);
+            tell(progress, "points", first + rows.row_count(), total);
         } catch (...) {
             raised = std::current_exception();
             return Error{.what = "interrupted"};
@@ -186,10 +176,8 @@ py::array on_grid(const BoundSampler& bound, const Grid& grid, const SampleOptio
 }
 
 /// (name, components) of each field, in the order of the columns.
-std::vector<std::pair<std::string, int>> fields_of(const BoundSampler& bound) {
-    std::vector<std::pair<std::string, int>> fields;
-    for (const TableField& field : bound.sampler.fields()) fields.emplace_back(field.name, field.components);
-    return fields;
+py::list fields_of(const BoundSampler& bound) {
+    return list_of(bound.sampler.fields(), [](const TableField& f) { return std::pair(f.name, f.components); });
 }
 
 }  // namespace

@@ -1,11 +1,3 @@
-#include <pybind11/stl.h>
-
-#include <array>
-#include <cstddef>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 #include "bindings.hpp"

@@ -4,6 +4,7 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <algorithm>
 #include <array>
@@ -66,9 +67,9 @@ struct Words {
 template <class T>
 inline constexpr Words<T> words{};
 /// The words are the values' names.
-template <class T, class... Value>
-constexpr Words<T> named(const char* what, Value... values) {
-    return {what, {{{name(values), values}...}}};
+template <class T, class... More>
+constexpr Words<T> named(const char* what, T first, More... more) {
+    return {what, {{{name(first), first}, {name(more), more}...}}};
 }
 
 template <>
@@ -105,11 +106,7 @@ struct Given : Array<T> {
     }
 };
 
-using Shape = std::vector<py::ssize_t>;
-
-inline py::ssize_t extent(std::size_t n) {
-    return static_cast<py::ssize_t>(n);
-}
+using Shape = std::vector<std::size_t>;
 
 /// What lives as long as an array that looks at it.
 template <class T>
@@ -122,8 +119,7 @@ py::capsule keeper(T&& thing) {
 
 /// Of rows of so many columns; 0: one axis.
 inline Shape shape_of(std::size_t size, std::size_t columns) {
-    if (columns == 0) return {extent(size)};
-    return {extent(size / columns), extent(columns)};
+    return columns == 0 ? Shape{size} : Shape{size / columns, columns};
 }
 
 /// An array that owns the vector. Features become their numbers.
@@ -152,23 +148,25 @@ py::tuple tuple_of(const All& all, std::size_t n) {
     return tuple;
 }
 
+/// make(item) of each.
+template <class Items, class Make>
+py::list list_of(const Items& items, const Make& make) {
+    py::list list;
+    for (const auto& item : items) list.append(make(item));
+    return list;
+}
+
 // Long work: without the interpreter's lock, with Ctrl-C and progress between blocks.
 
 /// Who is told of progress: None, or a callable of (stage, done, total); total 0: not counted.
-class Progress : public py::object {
-public:
-    PYBIND11_OBJECT_DEFAULT(Progress, py::object, is_any)
+using Progress = std::optional<py::function>;
 
-    /// To be called without the lock. Throws what a signal handler or the callable raised.
-    void tell(std::string_view stage, std::size_t done, std::size_t total) const {
-        const py::gil_scoped_acquire lock;
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (*this && !is_none()) (*this)(py::str(stage.data(), stage.size()), done, total);
-    }
-
-private:
-    static bool is_any(PyObject*) { return true; }
-};
+/// To be called without the lock. Throws what a signal handler or the callable raised.
+inline void tell(const Progress& progress, std::string_view stage, std::size_t done, std::size_t total) {
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (progress) (*progress)(py::str(stage.data(), stage.size()), done, total);
+}
 
 /// Points that cost next to nothing begin with so many that sorting them pays; all else begins with few.
 constexpr std::size_t first_block(bool cheap) {
@@ -190,7 +188,7 @@ void in_blocks(const Progress& progress, std::string_view stage, std::size_t tot
         body(first, count);
         const Clock::duration taken = Clock::now() - begin;
         first += count;
-        progress.tell(stage, first, total);
+        tell(progress, stage, first, total);
         if (taken < 50ms) size *= 4;
         if (taken > 400ms) size = std::max(size / 4, smallest);
     }
@@ -266,7 +264,7 @@ struct pyobject_caster<barycert::python::Given<T>> {
 };
 
 template <class T>
-struct WordCaster {
+requires(std::is_enum_v<T> && !barycert::python::words<T>.all[0].first.empty()) struct type_caster<T> {
     PYBIND11_TYPE_CASTER(T, const_name("str"));
     bool load(handle from, bool convert) {
         make_caster<std::string> word;
@@ -274,9 +272,6 @@ struct WordCaster {
         value = barycert::python::words<T>.at(cast_op<std::string&>(word));
         return true;
     }
-};
-template <class T>
-requires(std::is_enum_v<T> && !barycert::python::words<T>.all[0].first.empty()) struct type_caster<T> : WordCaster<T> {
 };
 
 }  // namespace pybind11::detail

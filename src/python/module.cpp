@@ -16,12 +16,11 @@ void set_error(const Error& error) {
             PyUnicode_DecodeUTF8(s.data(), static_cast<Py_ssize_t>(s.size()), "backslashreplace"));
     };
     const py::object exception = py::handle(error_type)(text(error.message()));
-    const std::pair<const char*, const std::string&> parts[] = {{"what", error.what},
-                                                                {"file", error.file},
-                                                                {"expected", error.expected},
-                                                                {"found", error.found},
-                                                                {"remedy", error.remedy}};
-    for (const auto& [name, part] : parts) exception.attr(name) = text(part);
+    exception.attr("what") = text(error.what);
+    exception.attr("file") = text(error.file);
+    exception.attr("expected") = text(error.expected);
+    exception.attr("found") = text(error.found);
+    exception.attr("remedy") = text(error.remedy);
     exception.attr("line") = error.line;
     PyErr_SetObject(error_type, exception.ptr());
 }

@@ -3,7 +3,6 @@
 #include <tetgen.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace barycert {
 namespace {
@@ -95,31 +94,22 @@ Mesh mesh_of(const tetgenio& out) {
 
 }  // namespace
 
-Mesh make_mesh(const Plc& plc, const std::string& switches) {
+Mesh make_mesh(const Plc& plc, std::string switches) {
     tetgenio in, out;
     fill(plc, in);
-    std::string text = switches;
-    try {
-        tetrahedralize(text.data(), &in, &out);
-    } catch (int code) {
-        throw TetgenFailure{code};
-    }
+    tetrahedralize(switches.data(), &in, &out);
     return mesh_of(out);
 }
 
-CodeMeaning meaning_of(int code) {
-    static constexpr std::pair<int, CodeMeaning> known[] = {
-        {1, {"TetGen ran out of memory", "ask for larger cells"}},
-        {2, {"TetGen met an internal error", "try other options, or repair the PLC"}},
-        {3, {"TetGen found facets that intersect", "repair them; `--switches pd` lists all that do"}},
-        {4,
-         {"the PLC has a feature too small for TetGen's tolerance",
-          "remove it, or lower the tolerance by `--switches pT1e-12`"}},
-        {5, {"two facets lie too close to each other", "repair them, or try --keep-boundary"}},
-        {10, {"TetGen refuses the PLC", "repair it"}}};
-    for (const auto& [number, meaning] : known) {
-        if (number == code) return meaning;
-    }
+std::pair<std::string_view, std::string_view> meaning_of(int code) {
+    if (code == 1) return {"TetGen ran out of memory", "ask for larger cells"};
+    if (code == 2) return {"TetGen met an internal error", "try other options, or repair the PLC"};
+    if (code == 3) return {"TetGen found facets that intersect", "repair them; `--switches pd` lists all that do"};
+    if (code == 4)
+        return {"the PLC has a feature too small for TetGen's tolerance",
+                "remove it, or lower the tolerance by `--switches pT1e-12`"};
+    if (code == 5) return {"two facets lie too close to each other", "repair them, or try --keep-boundary"};
+    if (code == 10) return {"TetGen refuses the PLC", "repair it"};
     return {"TetGen failed with an unknown code", "try other options, or repair the PLC"};
 }
 

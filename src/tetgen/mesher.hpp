@@ -6,26 +6,18 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "barycert/io.hpp"
 #include "barycert/mesh.hpp"
 
 namespace barycert {
 
-/// What TetGen throws, as an exception like any other.
-struct TetgenFailure {
-    int code;
-};
-
 /// The cells of the region that the facets enclose. `switches` are TetGen's, without a dash. The mesh has no cells if
-/// TetGen carved everything away. Throws TetgenFailure, std::bad_alloc.
-Mesh make_mesh(const Plc& plc, const std::string& switches);
+/// TetGen carved everything away. Throws TetGen's error codes, which are integers, and std::bad_alloc.
+Mesh make_mesh(const Plc& plc, std::string switches);
 
-/// What one of TetGen's error codes means, and what to do about it.
-struct CodeMeaning {
-    std::string_view what;
-    std::string_view remedy;
-};
-CodeMeaning meaning_of(int code);
+/// What one of these codes means, and what to do about it.
+std::pair<std::string_view, std::string_view> meaning_of(int code);
 
 }  // namespace barycert

@@ -4,8 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
-#include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -53,23 +51,14 @@ namespace {
 std::string default_output(const std::string& input) {
     std::filesystem::path stem = std::filesystem::path(input).replace_extension();
     const std::string last = stem.extension().string();
-    int number = 0;
-    if (last.size() > 1) {
-        const auto [end, error] = std::from_chars(last.data() + 1, last.data() + last.size(), number);
-        const bool counted = error == std::errc{} && end == last.data() + last.size() && number >= 0 &&
-                             number < std::numeric_limits<int>::max();
-        if (counted)
-            stem.replace_extension();
-        else
-            number = 0;
-    }
-    return stem.string() + "." + std::to_string(number + 1);
+    const auto number = cli::integer_of<int>(std::string_view(last).substr(last.empty() ? 0 : 1));
+    if (!number || *number < 0 || *number == std::numeric_limits<int>::max()) return stem.string() + ".1";
+    return stem.replace_extension().string() + "." + std::to_string(*number + 1);
 }
 
 }  // namespace
 
-Parsed parse_options(int argc, char** argv) {
-    Options options;
+std::optional<int> parse_options(int argc, char** argv, Options& options) {
     CLI::App app{"Meshes a PLC by TetGen: .poly .smesh .off .stl .ply in; .node .ele .face .neigh out."};
     app.name("barycert-tetgen");
     add_options(app, options);
@@ -83,19 +72,16 @@ Parsed parse_options(int argc, char** argv) {
     } catch (const CLI::Success& wish) {  // --help, --version
         const int code = app.exit(wish);
         std::cout.flush();
-        if (std::cout) return {.options = {}, .exit_code = code};
-        fmt::print(stderr, "error: cannot write to stdout: found {}\n", std::strerror(errno));
-        return {.options = {}, .exit_code = 2};
+        if (std::cout) return code;
+        throw Exception({.what = "cannot write to stdout", .found = std::strerror(errno)});
     } catch (const std::bad_alloc&) {
         throw;  // it is not about an option
     } catch (const std::exception& problem) {
-        fmt::print(stderr, "error: {}\n",
-                   base::printable(cli::usage_error(app, problem, "run barycert-tetgen --help for the usage")));
-        return {.options = {}, .exit_code = 2};
+        throw Exception({.what = cli::usage_error(app, problem, "run barycert-tetgen --help for the usage")});
     }
     if (options.output.empty()) options.output = default_output(options.input);
     options.output = tetgen_stem(options.output);
-    return {.options = std::move(options), .exit_code = {}};
+    return std::nullopt;
 }
 
 }  // namespace barycert

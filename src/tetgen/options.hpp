@@ -37,11 +37,7 @@ struct Options {
 /// subcommand mesh, so TetGen has no part in this.
 void add_options(CLI::App& app, Options& options);
 
-/// The options, or the code to exit with: 0 after --help or --version, 2 after an error told on stderr.
-struct Parsed {
-    Options options;
-    std::optional<int> exit_code;
-};
-Parsed parse_options(int argc, char** argv);
+/// Sets the options, or returns the code to exit with, after --help or --version. Throws what is wrong with them.
+std::optional<int> parse_options(int argc, char** argv, Options& options);
 
 }  // namespace barycert

@@ -22,9 +22,7 @@ inline bool all_finite(std::span<const double> numbers) {
         for (std::size_t k = 0; k < 8; ++k) sums[k] += numbers[i + k] - numbers[i + k];
     }
     for (const double x : numbers.subspan(i)) sums[0] += x - x;
-    bool finite = true;
-    for (const double sum : sums) finite = finite && sum == 0;
-    return finite;
+    return std::ranges::count(sums, 0.0) == 8;
 }
 
 /// The place of the first number that is not finite; numbers.size() if all are.

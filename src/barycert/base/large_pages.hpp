@@ -12,13 +12,10 @@ namespace barycert::base {
 inline constexpr std::size_t large_page = std::size_t{1} << 21;
 
 /// Asks the system for large pages in the part of the memory that can have them. A hint: failing changes nothing.
-inline void ask_for_large_pages(void* start, std::size_t bytes) {
+inline void ask_for_large_pages([[maybe_unused]] void* start, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
     if (bytes >= large_page && std::align(large_page, large_page, start, bytes) != nullptr)
         ::madvise(start, bytes, MADV_HUGEPAGE);
-#else
-    static_cast<void>(start);
-    static_cast<void>(bytes);
 #endif
 }
 

@@ -172,8 +172,7 @@ Status OutputFile::close() {
 }
 
 Status OutputFile::status() const {
-    if (!error_.what.empty()) return error_;
-    return Done{};
+    return error_.what.empty() ? Status(Done{}) : error_;
 }
 
 /// True if the target itself is the name, so that nothing is left to rename.
@@ -223,10 +222,8 @@ Status OutputFile::commit() {
 
 void OutputFile::fail(const char* what, int error_number) {
     if (!error_.what.empty()) return;
-    error_.file = target_;
-    error_.what = what;
-    error_.found = std::strerror(error_number);
-    error_.remedy = remedy_for(error_number);
+    error_ = {
+        .what = what, .file = target_, .found = std::strerror(error_number), .remedy = remedy_for(error_number)};
 }
 
 }  // namespace barycert::base

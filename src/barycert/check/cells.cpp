@@ -250,7 +250,7 @@ void check_cells(Checked& c) {
     for (const auto& [name, values] : cell_measures) barycert::base::resize_large(measures.*values, shapes ? count : 0);
     const CellChecker check{c};
     in_blocks(
-        count, 8192, [&] { return CellPart{c.defects.part()}; },
+        count, 8192, CellPart{c.defects.part()},
         [&](std::size_t first, std::size_t last, CellPart& part) {
             for (std::size_t cell = first; cell < last; ++cell) {
                 if (check.usable(cell, part)) {

@@ -41,9 +41,7 @@ std::vector<CellContact> contacts(const Checked& c, std::vector<CellPair> overla
     }
     std::vector<CellContact> all;
     for (const CellPair& p : pairs) {
-        if (std::ranges::all_of(p,
-                                [&](Mesh::Index cell) { return c.orientation[static_cast<std::size_t>(cell)] != 0; }))
-            all.push_back(common_part(c.mesh, p));
+        if (!c.degenerate(p[0]) && !c.degenerate(p[1])) all.push_back(common_part(c.mesh, p));
     }
     return all;
 }

@@ -132,7 +132,7 @@ private:
         const mesh::FacetTable table(c_.mesh, c_.usable);
         std::vector<Candidate> all;
         in_blocks(
-            table.node_count(), 4096, [] { return std::vector<Candidate>(); },
+            table.node_count(), 4096, std::vector<Candidate>(),
             [&](std::size_t first, std::size_t last, std::vector<Candidate>& part) {
                 table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) {
                     const auto nodes = nodes_of(equal.front());

@@ -53,7 +53,7 @@ struct FacetChecker {
     void operator()(std::span<const mesh::CellFacet> equal, FacetPart& part) const {
         const mesh::CellFacet &f = equal.front(), &g = equal.back();
         if (equal.size() == 1) {
-            part.boundary.push_back({f.cell, f.corner, outward(f), orientation(f) != 0});
+            part.boundary.push_back({f.cell, f.corner, outward(f), !c.degenerate(f.cell)});
             return;
         }
         mesh::pair_facets(equal, c.mesh.corners(), c.neighbours);
@@ -64,12 +64,10 @@ struct FacetChecker {
         part.defects.add(kind, {.cells = {f.cell, equal[1].cell}, .nodes = outward(f)});
     }
 
-    std::int8_t orientation(const mesh::CellFacet& f) const { return c.orientation[static_cast<std::size_t>(f.cell)]; }
-
     Triple outward(const mesh::CellFacet& f) const { return outward_nodes(c, f.cell, f.corner); }
 
     /// On which side of the facet, taken with its nodes ascending, the cell lies: -1 or 1; 0 if it is degenerate.
-    int side(const mesh::CellFacet& f) const { return orientation(f) == 0 ? 0 : parity(c.mesh.dimension, outward(f)); }
+    int side(const mesh::CellFacet& f) const { return c.degenerate(f.cell) ? 0 : parity(c.mesh.dimension, outward(f)); }
 
     Mesh::Index apex(const mesh::CellFacet& f) const {
         return nodes_of(c.mesh, static_cast<std::size_t>(f.cell))[static_cast<std::size_t>(f.corner)];
@@ -112,7 +110,7 @@ void search_facets(Checked& c) {
     const mesh::FacetTable table(c.mesh, c.usable);
     const FacetChecker check{c};
     in_blocks(
-        table.node_count(), 4096, [&] { return FacetPart{c.defects.part()}; },
+        table.node_count(), 4096, FacetPart{c.defects.part()},
         [&](std::size_t first, std::size_t last, FacetPart& part) {
             table.for_each_group(first, last, [&](std::span<const mesh::CellFacet> equal) { check(equal, part); });
         },

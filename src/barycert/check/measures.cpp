@@ -20,14 +20,8 @@ Distribution distribution(const std::vector<double>& values) {
         const double x = values[i];
         const auto cell = static_cast<std::int64_t>(i);
         if (std::isnan(x)) continue;
-        if (known.empty() || x < d.min) {
-            d.min = x;
-            d.min_cell = cell;
-        }
-        if (known.empty() || x > d.max) {
-            d.max = x;
-            d.max_cell = cell;
-        }
+        if (known.empty() || x < d.min) std::tie(d.min, d.min_cell) = std::pair(x, cell);
+        if (known.empty() || x > d.max) std::tie(d.max, d.max_cell) = std::pair(x, cell);
         known.push_back(x);
     }
     if (known.empty()) return d;

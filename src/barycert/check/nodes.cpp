@@ -107,7 +107,7 @@ bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, cons
         const std::size_t end = std::min(nodes.size(), begin + wave), room = std::min(limit, 64 * wave);
         std::atomic<std::size_t> count = 0;
         in_blocks(
-            end - begin, 1024, [] { return std::vector<NearPair>(); },
+            end - begin, 1024, std::vector<NearPair>(),
             [&](std::size_t first, std::size_t last, std::vector<NearPair>& part) {
                 const auto keep = [&](const NearPair& p) {
                     part.push_back(p);
@@ -117,7 +117,7 @@ bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, cons
                 }
             },
             [&](const std::vector<NearPair>& part) {
-                if (count <= room) std::for_each(part.begin(), part.end(), found);
+                if (count <= room) std::ranges::for_each(part, found);
             });
         if (count > room) {
             // Which of them were found first depends on threads: the first in order are found once more.

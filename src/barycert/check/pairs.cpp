@@ -91,7 +91,7 @@ std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint3
     std::vector<Item> items;
     for (const std::uint32_t piece : pieces) {
         const Mesh::Index cell = c.boundary[piece].cell;
-        if (c.orientation[static_cast<std::size_t>(cell)] == 0) continue;  // degenerate, and told
+        if (c.degenerate(cell)) continue;  // and told
         inner.push_back(cell);
         items.push_back(item_of(mesh, static_cast<std::size_t>(cell)));
     }
@@ -120,7 +120,7 @@ std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint3
     };
     bool complete = true;
     in_waves(
-        mesh.cell_count(), 1024, [] { return std::monostate(); },
+        mesh.cell_count(), 1024, std::monostate(),
         [&](std::size_t first, std::size_t last, std::monostate) {
             for (std::size_t cell = first; cell < last; ++cell) {
                 if (c.orientation[cell] == 0 || is_far(cell)) continue;

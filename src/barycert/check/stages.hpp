@@ -85,27 +85,25 @@ private:
     std::vector<Defect> all_;
 };
 
-/// work(first, last, part) for blocks of [0, count), on all threads of the calling arena; then join(part) for each
-/// block in order. `make` makes an empty part.
-template <class Make, class Work, class Join>
-void in_blocks(std::size_t count, std::size_t block, Make make, Work work, Join join) {
-    const std::size_t blocks = (count + block - 1) / block;
-    std::vector<decltype(make())> parts;
-    parts.reserve(blocks);
-    for (std::size_t i = 0; i < blocks; ++i) parts.push_back(make());
-    base::parallel_for(blocks, [&](std::size_t i) { work(i * block, std::min(count, (i + 1) * block), parts[i]); });
-    for (auto& part : parts) join(part);
+/// work(first, last, part) for blocks of [0, count), on all threads of the calling arena, each part a copy of `empty`;
+/// then join(part) for each block in order.
+template <class Part, class Work, class Join>
+void in_blocks(std::size_t count, std::size_t block, const Part& empty, Work work, Join join) {
+    std::vector<Part> parts((count + block - 1) / block, empty);
+    base::parallel_for(parts.size(),
+                       [&](std::size_t i) { work(i * block, std::min(count, (i + 1) * block), parts[i]); });
+    for (const Part& part : parts) join(part);
 }
 
 /// The same in waves of a fixed number of blocks, for searches that may find more than anybody wants: when more()
 /// returns false after a wave, nothing else is done. So the outcome does not depend on threads.
-template <class Make, class Work, class Join, class More>
-void in_waves(std::size_t count, std::size_t block, Make make, Work work, Join join, More more) {
+template <class Part, class Work, class Join, class More>
+void in_waves(std::size_t count, std::size_t block, const Part& empty, Work work, Join join, More more) {
     constexpr std::size_t blocks = 64;
     for (std::size_t from = 0; from < count; from += block * blocks) {
         in_blocks(
-            std::min(count - from, block * blocks), block, make,
-            [&](std::size_t first, std::size_t last, auto& part) { work(from + first, from + last, part); }, join);
+            std::min(count - from, block * blocks), block, empty,
+            [&](std::size_t first, std::size_t last, Part& part) { work(from + first, from + last, part); }, join);
         if (!more()) return;
     }
 }
@@ -122,7 +120,7 @@ template <class T, class Work>
 Found<T> up_to(std::size_t limit, std::size_t count, std::size_t block, Work work) {
     Found<T> found;
     in_waves(
-        count, block, [] { return std::vector<T>(); }, work,
+        count, block, std::vector<T>(), work,
         [&](const std::vector<T>& part) { found.list.insert(found.list.end(), part.begin(), part.end()); },
         [&] { return found.complete = found.list.size() <= limit; });
     found.list.resize(std::min(found.list.size(), limit));
@@ -176,6 +174,8 @@ struct Checked {
     Integer total = {};                        ///< d! times the sum of all |volume|, in the unit of `volumes`
     std::vector<Mesh::Index> neighbours = {};  ///< as compute_neighbours gives them, of usable cells
     std::vector<BoundaryFacet> boundary = {};  ///< ordered by their nodes
+
+    bool degenerate(Mesh::Index cell) const { return orientation[static_cast<std::size_t>(cell)] == 0; }
 };
 
 // The stages. Each says which defects it finds.

@@ -146,9 +146,9 @@ ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std
                          "columns that are not compared: " + listed(unused, [](const auto& name) { return name; }),
                          job.results});
     if (!used.empty()) return out;
-    const auto name_of = [](const FieldChoice& choice) { return base::quoted(choice.field->name); };
+    const auto name = [](const FieldChoice& choice) { return base::quoted(choice.field->name); };
     refuse(job.results, "the results have no column to compare",
-           "columns named as fields of the mesh (" + listed(fields, name_of, "it has none") +
+           "columns named as fields of the mesh (" + listed(fields, name, "it has none") +
                "), `cell` or vtkValidPointMask",
            listed(there, base::quoted),
            "say which column is which: job.values FIELD=COLUMN, job.cell_column NAME; fields that are not in the mesh "

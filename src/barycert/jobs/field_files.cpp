@@ -49,14 +49,9 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
     if (!table) return fault;
     Mesh mesh;
     mesh.points = std::move(table->points);
-    if (dimension == 2) {
-        std::size_t to = 0;
-        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-            if (i % 3 != 2) mesh.points[to++] = mesh.points[i];
-        }
-        mesh.points.resize(to);
-        mesh.dimension = 2;
-    }
+    mesh.dimension = dimension;
+    // Without z: by their places, as they were read.
+    if (dimension == 2) std::erase_if(mesh.points, [&](const double& x) { return (&x - mesh.points.data()) % 3 == 2; });
     mesh.point_fields = std::move(table->fields);
     for (const Column& label : table->labels) {
         const auto* const integers = std::get_if<std::vector<std::int64_t>>(&label.values);
@@ -74,7 +69,7 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
 
 /// Whether it has fields of Medit, and no mesh.
 bool is_solution(const std::string& path) {
-    return has_suffix_of(path, ".sol .solb");
+    return has_suffix_of(path, {".sol", ".solb"});
 }
 
 /// The array file.column of the mesh in the file; file.of becomes what it is of.
@@ -147,10 +142,10 @@ void check_label(const Mesh& mesh, const Column& label) {
 }  // namespace
 
 bool is_file_of_a_mesh(const std::string& path) {
-    if (io::is_vtk_points_file(path) || has_suffix_of(path, ".msh .mesh .meshb .node .ele")) return true;
+    if (io::is_vtk_points_file(path) || has_suffix_of(path, {".msh", ".mesh", ".meshb", ".node", ".ele"})) return true;
     std::error_code ignored;  // what is no regular file is not opened to look at it
-    return !has_suffix_of(path, ".csv .txt .dat .xyz .tsv .npy") && std::filesystem::is_regular_file(path, ignored) &&
-           io::mesh_format(path);
+    return !has_suffix_of(path, {".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"}) &&
+           std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);
 }
 
 bool is_name_of_rows(const std::string& name) {
@@ -214,11 +209,8 @@ std::vector<std::string> with_other_names(const std::vector<std::string>& names,
         const auto add = [&](const std::string& name) {
             const auto others = other(name);
             some = some || others;
-            if (others) {
-                parts.insert(parts.end(), others->begin(), others->end());
-            } else {
-                parts.push_back(name);
-            }
+            const std::vector<std::string> put = others.value_or(std::vector{name});
+            parts.insert(parts.end(), put.begin(), put.end());
             return true;
         };
         add(text);
@@ -248,13 +240,6 @@ std::vector<const Column*> take_labels(const Mesh& mesh, std::vector<std::string
         check_label(mesh, **label);
     }
     return taken;
-}
-
-void note_labels(const Mesh& mesh, const std::vector<std::string>& names, Notes& notes) {
-    if (mesh.cell_labels.empty() || !names.empty()) return;
-    notes.push_back({Note::Kind::left_out, (mesh.cell_labels.size() == 1 ? "label of cells " : "labels of cells ") +
-                                               listed(mesh.cell_labels, &Column::name) +
-                                               "; name fields and labels in job.fields to have them"});
 }
 
 }  // namespace barycert::jobs

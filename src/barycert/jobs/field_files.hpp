@@ -59,7 +59,4 @@ std::vector<std::string> with_other_names(const std::vector<std::string>& names,
 /// which is the one that stands for "outside".
 std::vector<const Column*> take_labels(const Mesh& mesh, std::vector<std::string>& names);
 
-/// Says which labels there are, if there are some and nothing is named.
-void note_labels(const Mesh& mesh, const std::vector<std::string>& names, Notes& notes);
-
 }  // namespace barycert::jobs

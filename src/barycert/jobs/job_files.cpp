@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <set>
-#include <thread>
-#include <utility>
 
+#include "barycert/base/workers.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
 
@@ -62,15 +61,12 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
     report.cells = mesh.cell_count();
     report.dimension = mesh.dimension;
     report.notes = mesh.notes;
-    report.threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    report.threads = base::threads_for(threads);
 }
 
 Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove) {
-    BuildOptions options;
-    options.prove = prove;
-    options.threads = threads;
-    options.progress = [&](const char* stage) { tell_stage(job, stage); };
-    return Locator::build(mesh, options).value();
+    const auto progress = [&](const char* stage) { tell_stage(job, stage); };
+    return Locator::build(mesh, {.prove = prove, .threads = threads, .progress = progress}).value();
 }
 
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more) {
@@ -119,13 +115,8 @@ void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::ve
     check_files(job, std::move(more_inputs), std::move(outputs), of_steps);
 }
 
-bool has_suffix_of(const std::string& path, std::string_view suffixes) {
-    for (;;) {
-        const std::size_t blank = suffixes.find(' ');
-        if (io::has_suffix(path, suffixes.substr(0, blank))) return true;
-        if (blank == std::string_view::npos) return false;
-        suffixes.remove_prefix(blank + 1);
-    }
+bool has_suffix_of(const std::string& path, std::initializer_list<std::string_view> suffixes) {
+    return std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view s) { return io::has_suffix(path, s); });
 }
 
 void check_vtk_data(std::optional<VtkData> data, const std::string& path) {
@@ -134,16 +125,13 @@ void check_vtk_data(std::optional<VtkData> data, const std::string& path) {
     if (legacy && *data != VtkData::raw && *data != VtkData::ascii)
         refuse(path, "job.vtk_data: legacy files of VTK know no compression", "raw or ascii", std::string(name(*data)),
                "name a .vtu file");
-    if (!legacy && !has_suffix_of(path, ".vtu .vtp .vti"))
+    if (!legacy && !has_suffix_of(path, {".vtu", ".vtp", ".vti"}))
         refuse(path, "job.vtk_data is for files of VTK", ".vtu, .vtk, .vtp or .vti", "",
                "leave it out, or name such a file");
 }
 
 void refuse_output(const std::string& path, const std::string& expected) {
-    const std::size_t dot = path.find_last_of("./");
-    const bool suffix = dot != std::string::npos && path[dot] == '.';
-    refuse(path, "unknown suffix of job.output", expected, suffix ? '"' + path.substr(dot) + '"' : "no suffix",
-           "choose another name");
+    throw Exception(io::unknown_suffix(path, "unknown suffix of job.output", expected, "choose another name"));
 }
 
 }  // namespace barycert::jobs

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,16 +44,10 @@ private:
     std::optional<tbb::global_control> limit_;
 };
 
-/// In the order of the message; empty parts are left out.
-inline Error refusal(std::string file, std::string what, std::string expected = {}, std::string found = {},
-                     std::string remedy = {}) {
-    return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
-}
-
-/// Throws it.
+/// Throws a file_error of these parts: in the order of the message; empty ones are left out.
 template <class... Parts>
 [[noreturn]] void refuse(Parts&&... parts) {
-    throw Exception(refusal(std::forward<Parts>(parts)...));
+    throw Exception(file_error(std::forward<Parts>(parts)...));
 }
 
 /// text(item) of each, with commas between them.
@@ -107,8 +102,8 @@ void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::ve
 /// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
 void check_vtk_data(std::optional<VtkData> data, const std::string& path);
 
-/// Whether the path ends as one of these, in any case: ".csv .npy".
-bool has_suffix_of(const std::string& path, std::string_view suffixes);
+/// Whether the path ends as one of these, in any case.
+bool has_suffix_of(const std::string& path, std::initializer_list<std::string_view> suffixes);
 
 /// Refuses an output whose suffix is none of those `expected`.
 [[noreturn]] void refuse_output(const std::string& path, const std::string& expected);

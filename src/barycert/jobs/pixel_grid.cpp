@@ -69,6 +69,16 @@ struct Frame {
 
 }  // namespace
 
+SurfaceView view_of(const Surface& s) {
+    SurfaceView view{.points = s.points, .triangles = s.cells};
+    if (!s.point_fields.empty()) {
+        view.point_values = s.point_fields.front().data;
+    } else if (!s.cell_fields.empty()) {
+        view.triangle_values = s.cell_fields.front().data;
+    }
+    return view;
+}
+
 Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& points, std::int64_t width) {
     const Frame frame(plane);
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
@@ -82,15 +92,16 @@ Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& poi
     }
     const double across = high[0] - low[0], tall = high[1] - low[1];
     if (!(across > 0) || !(tall > 0) || !std::isfinite(across) || !std::isfinite(tall))
-        return refusal("", "the section has no area", "a plane that goes through the mesh",
-                       points.empty() ? "no cell on both sides of it" : "a point or a line", "choose another offset");
+        return file_error("", "the section has no area", "a plane that goes through the mesh",
+                          points.empty() ? "no cell on both sides of it" : "a point or a line",
+                          "choose another offset");
     PixelGrid grid;
     grid.width = width;
     grid.pixel = across / static_cast<double>(width);
     const double lines = std::max(1.0, std::round(tall / grid.pixel));
     if (!(lines * static_cast<double>(width) <= static_cast<double>(max_pixels)) || !(grid.pixel > 0))
-        return refusal("", "the picture would be too large", "at most " + std::to_string(max_pixels) + " pixels",
-                       std::to_string(width) + " by " + base::shortest(lines), "choose a smaller job.width");
+        return file_error("", "the picture would be too large", "at most " + std::to_string(max_pixels) + " pixels",
+                          std::to_string(width) + " by " + base::shortest(lines), "choose a smaller job.width");
     grid.height = static_cast<std::int64_t>(lines);
     // Lines are centred in the box.
     const double first[2] = {low[0] + 0.5 * grid.pixel, low[1] + 0.5 * (tall - (lines - 1) * grid.pixel)};

@@ -14,20 +14,6 @@
 #include "barycert/raster.hpp"
 
 namespace barycert {
-namespace jobs {
-
-SurfaceView view_of(const Surface& s) {
-    SurfaceView view{.points = s.points, .triangles = s.cells};
-    if (!s.point_fields.empty()) {
-        view.point_values = s.point_fields.front().data;
-    } else if (!s.cell_fields.empty()) {
-        view.triangle_values = s.cell_fields.front().data;
-    }
-    return view;
-}
-
-}  // namespace jobs
-
 namespace {
 
 using jobs::refuse;
@@ -158,11 +144,12 @@ void set_clip(Scene& scene) {
 Scene small_picture(const RenderJob& job) {
     Scene scene;
     scene.size = job.view.size;
-    if (job.picture != PictureKind::clip) {
-        scene.method = job.view.method;
-        scene.rounding = job.view.rounding;
+    if (job.picture == PictureKind::clip) {
+        set_clip(scene);
+        return scene;
     }
-    if (job.picture == PictureKind::clip) set_clip(scene);
+    scene.method = job.view.method;
+    scene.rounding = job.view.rounding;
     if (job.picture == PictureKind::texture) set_texture(job, scene);
     if (job.picture == PictureKind::cube) set_cube(job, scene);
     if (job.picture == PictureKind::gradient) {

@@ -56,12 +56,24 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
                "for the points of a grid, write them to a file first (job.output grid.csv), and use "
                "`barycert sample --points grid.csv --weights`");
     if (job.onto.empty()) {
-        jobs::check_grid_output(job);
+        if (job.range && !io::has_suffix(job.output, ".png"))
+            refuse(job.output, "job.range needs a picture", "", "", "use job.output FILE.png, or leave job.range out");
+        if (job.output != "-" && !jobs::has_suffix_of(job.output, {".csv", ".npy", ".vti", ".png"}))
+            jobs::refuse_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
-    jobs::check_mesh_output(job);
+    if (job.range) refuse("", "job.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
+    std::vector<std::string> outputs{job.output};
+    if (!jobs::is_rows_output(job.output)) {
+        const Result<io::MeshFormat> format = io::mesh_output_format(job.output);
+        if (!format)
+            jobs::refuse_output(
+                job.output, ".vtu, .vtk, .msh, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
+        const std::string stem = tetgen_stem(job.output);
+        if (*format == io::MeshFormat::tetgen) outputs = {stem + ".node", stem + ".ele"};
+    }
     jobs::check_files(job, steps, base::named_files("the mesh of job.onto", mesh_files(job.onto)),
-                      base::named_files("job.output", jobs::files_of_mesh_output(job)));
+                      base::named_files("job.output", outputs));
 }
 
 /// What its reader told, and the fields of nodes that the sampled ones replace.

@@ -9,10 +9,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -152,26 +151,13 @@ struct SampledNodes {
 
 Status write_tetgen_files(const Mesh& mesh, const std::string& path) {
     for (const Field& f : mesh.point_fields) {
-        const auto it = std::find_if(f.data.begin(), f.data.end(), [](double x) { return !std::isfinite(x); });
-        if (it == f.data.end()) continue;
-        const auto node = static_cast<std::size_t>(it - f.data.begin()) / static_cast<std::size_t>(f.components);
-        return refusal(path, fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
-                       "finite attributes: a .node file cannot hold NaN or infinity", "",
-                       "choose job.outside nearest, extrapolate or fill=V for nodes outside, or another format");
+        const std::size_t bad = base::first_not_finite(f.data), node = bad / static_cast<std::size_t>(f.components);
+        if (bad == f.data.size()) continue;
+        return file_error(path, fmt::format("field \"{}\" is not finite at node {}, counted from 0", f.name, node),
+                          "finite attributes: a .node file cannot hold NaN or infinity", "",
+                          "choose job.outside nearest, extrapolate or fill=V for nodes outside, or another format");
     }
     return write_tetgen(mesh, tetgen_stem(path));
-}
-
-Status write_all(SampledNodes& of, const std::string& path, VtkData data) {
-    const Result<io::MeshFormat> format = io::mesh_output_format(path);
-    if (!format) return format.error();
-    if (*format == io::MeshFormat::tetgen) return write_tetgen_files(of.mesh, path);
-    // Where there is room for what else is known of each node. In Gmsh each field is a picture of its own: `cell` tells
-    // what the mask does, too.
-    if (!of.distance.data.empty()) of.mesh.point_fields.push_back(std::move(of.distance));
-    if (*format == io::MeshFormat::vtk) of.mesh.point_fields.push_back(std::move(of.mask));
-    of.mesh.point_fields.push_back(std::move(of.cell));
-    return write_mesh(of.mesh, path, {.comment = {}, .data = data});
 }
 
 }  // namespace
@@ -183,13 +169,6 @@ std::array<double, 3> point_of(const Grid& grid, std::uint64_t i) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(grid.dimension); ++k)
         point[k] = grid.coordinate(k, static_cast<std::int64_t>(at[k]));
     return point;
-}
-
-void check_grid_output(const ResampleJob& job) {
-    if (job.range && !io::has_suffix(job.output, ".png"))
-        refuse(job.output, "job.range needs a picture", "", "", "use job.output FILE.png, or leave job.range out");
-    if (job.output != "-" && !has_suffix_of(job.output, ".csv .npy .vti .png"))
-        refuse_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
 }
 
 Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
@@ -218,21 +197,7 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
 }
 
 bool is_rows_output(const std::string& path) {
-    return path == "-" || has_suffix_of(path, ".csv .npy");
-}
-
-std::vector<std::string> files_of_mesh_output(const ResampleJob& job) {
-    const Result<io::MeshFormat> format = io::mesh_output_format(job.output);
-    if (is_rows_output(job.output) || (format && *format != io::MeshFormat::tetgen)) return {job.output};
-    const std::string stem = tetgen_stem(job.output);
-    return {stem + ".node", stem + ".ele"};
-}
-
-void check_mesh_output(const ResampleJob& job) {
-    if (job.range) refuse("", "job.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
-    if (!is_rows_output(job.output) && !io::mesh_output_format(job.output))
-        refuse_output(job.output,
-                      ".vtu, .vtk, .msh, .node, .csv or .npy, a stem of TetGen's files, or - for CSV on stdout");
+    return path == "-" || has_suffix_of(path, {".csv", ".npy"});
 }
 
 Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes) {
@@ -254,7 +219,17 @@ Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, No
         of->distance.data.insert(of->distance.data.end(), rows.distances.begin(), rows.distances.end());
         return Done{};
     };
-    return sink_of(write, [of, path, data = format.vtk_data] { return write_all(*of, path, data); });
+    return sink_of(write, [of, path, kind, data = format.vtk_data]() -> Status {
+        if (!kind) return kind.error();
+        if (*kind == io::MeshFormat::tetgen) return write_tetgen_files(of->mesh, path);
+        // Where there is room for what else is known of each node. In Gmsh each field is a picture of its own: `cell`
+        // tells what the mask does, too.
+        std::vector<Field>& fields = of->mesh.point_fields;
+        if (!of->distance.data.empty()) fields.push_back(std::move(of->distance));
+        if (*kind == io::MeshFormat::vtk) fields.push_back(std::move(of->mask));
+        fields.push_back(std::move(of->cell));
+        return write_mesh(of->mesh, path, {.comment = {}, .data = data});
+    });
 }
 
 }  // namespace barycert::jobs

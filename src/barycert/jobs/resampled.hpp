@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "barycert/grid.hpp"
 #include "barycert/jobs/stream.hpp"
@@ -12,18 +11,11 @@ namespace barycert::jobs {
 /// The point of that number; in 2D without a third coordinate.
 std::array<double, 3> point_of(const Grid& grid, std::uint64_t i);
 
-/// Refuses what is wrong with the output of a grid, as far as its name and the options tell.
-void check_grid_output(const ResampleJob& job);
-
 /// A sink of the blocks of a grid, in order, whose views have no points: the output `path` of the job, by its suffix.
 /// `picture` gets what became of the values of a picture, with the commit. Refused: a format that cannot hold
 /// these fields or that grid; a path that cannot be written.
 Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
                     std::optional<SliceCounts>& picture);
-
-/// The files that an output at the nodes of another mesh has; what is wrong with it, as far as its name tells.
-std::vector<std::string> files_of_mesh_output(const ResampleJob& job);
-void check_mesh_output(const ResampleJob& job);
 
 /// True if the output is rows: CSV or NPY.
 bool is_rows_output(const std::string& path);

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "barycert/base/finite.hpp"
@@ -37,7 +36,7 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
         !(job.fields.empty() && job.field_files.empty() && job.series.empty() && job.keep.empty()))
         refuse("", "fields or columns without job.output", "", "",
                "weights depend on no field: leave fields out, or name job.output too");
-    if (!job.output.empty() && job.output != "-" && !jobs::has_suffix_of(job.output, ".csv .npy .vtu"))
+    if (!job.output.empty() && job.output != "-" && !jobs::has_suffix_of(job.output, {".csv", ".npy", ".vtu"}))
         jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
     std::vector<base::NamedFile> inputs{{"job.map", job.map}};
     if (job.map.empty()) inputs = {{"job.points", job.points}};
@@ -49,40 +48,29 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
     jobs::check_files(job, steps, inputs, {{"job.output", job.output}, {"job.save_map", job.save_map}});
 }
 
-/// Rows of a map. Those of one point follow one another, their cells ascending.
-class MapRows {
-public:
-    explicit MapRows(MapReader map) : map_(std::move(map)) {}
-
-    jobs::RowSource source() {
-        const auto read = [this](std::size_t most, jobs::Block& block) { this->read(most, block); };
-        // The reader tells that the map is of another mesh.
-        const auto again = [this](const SampledMesh& mesh) {
-            map_ = MapReader::open(mesh.report.points, mesh.mesh()).value();
-        };
-        return {.located = true, .count = map_.rows(), .read = read, .begin_again = again};
-    }
-
-private:
-    void read(std::size_t most, jobs::Block& block) {
-        block.size = map_.read(most, block.rows).value();
+/// Rows of a map, which must stay. Those of one point follow one another, their cells ascending.
+jobs::RowSource rows_of_map(MapReader& map) {
+    const auto read = [&map, cell = Mesh::Index{-1}, before = std::array<double, 3>()](std::size_t most,
+                                                                                       jobs::Block& block) mutable {
+        block.size = map.read(most, block.rows).value();
         LocationCounts& locations = block.locations.emplace();
         const Table& rows = block.rows;
         const auto d = static_cast<std::size_t>(rows.dimension);
         for (std::size_t i = 0; i < rows.row_count(); ++i) {
             const double* const at = rows.points.data() + d * i;
-            const bool same = cell_ >= 0 && rows.cells[i] > cell_ && std::equal(at, at + d, at_.begin());
+            const bool same = cell >= 0 && rows.cells[i] > cell && std::equal(at, at + d, before.begin());
             if (!same) locations.add(rows.features[i]);
             if (!same && !base::all_finite({at, d})) ++locations.not_finite;
-            std::copy(at, at + d, at_.begin());
-            cell_ = rows.cells[i];
+            std::copy(at, at + d, before.begin());
+            cell = rows.cells[i];
         }
-    }
-
-    MapReader map_;
-    Mesh::Index cell_ = -1;
-    std::array<double, 3> at_{};
-};
+    };
+    // The reader tells that the map is of another mesh.
+    const auto again = [&map](const SampledMesh& mesh) {
+        map = MapReader::open(mesh.report.points, mesh.mesh()).value();
+    };
+    return {.located = true, .count = map.rows(), .read = read, .begin_again = again};
+}
 
 /// The outputs of the job; `carried`: columns of the points.
 jobs::OpenRows outputs_of(SampledMesh& mesh, const SampleJob& job, const std::vector<ColumnFormat>& carried) {
@@ -132,8 +120,7 @@ void at_points_of_map(SampledMesh& mesh, const SampleJob& job) {
     mesh.report.points = job.map;
     mesh.report.all = map.all();
     mesh.prepare_without_search(FoundBy::map, "cells are those of the map");
-    MapRows rows(std::move(map));
-    sample_rows(mesh, rows.source(), outputs_of(mesh, job, {}));
+    sample_rows(mesh, rows_of_map(map), outputs_of(mesh, job, {}));
 }
 
 }  // namespace

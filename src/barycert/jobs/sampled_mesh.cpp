@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "barycert/base/arena.hpp"
@@ -12,19 +11,18 @@
 #include "barycert/environment.hpp"
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"
-#include "barycert/predicates.hpp"
+#include "barycert/sample/points/chunk_sampler.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
+#include "barycert/surface/parts.hpp"
 
 namespace barycert::jobs {
 namespace {
 
+using sample::gives_distances;
+
 std::uint64_t count_degenerate(const Mesh& mesh) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
     const auto is_degenerate = [&](std::size_t cell) {
-        std::array<const double*, 4> at{};
-        for (std::size_t i = 0; i <= d; ++i)
-            at[i] = mesh.points.data() + d * static_cast<std::size_t>(mesh.cells[(d + 1) * cell + i]);
-        return (d == 2 ? orient2d(at[0], at[1], at[2]) : orient3d(at[0], at[1], at[2], at[3])) == Sign::zero;
+        return surface::orientation(mesh, mesh.cells.data() + mesh.corners() * cell) == Sign::zero;
     };
     return base::parallel_reduce(
         mesh.cell_count(), 1 << 14, std::uint64_t{0},
@@ -40,8 +38,9 @@ void give_back(std::vector<T>& numbers) {
     std::vector<T>().swap(numbers);
 }
 
-bool gives_distances(const OutsidePolicy& policy) {
-    return policy.kind == Outside::nearest || policy.kind == Outside::extrapolate;
+/// The name of a field of one step among those of others.
+std::string name_of_step(const std::string& name, const Step& step) {
+    return name + '@' + step.label;
 }
 
 /// Why points are found by walks, and where not.
@@ -77,7 +76,11 @@ void SampledMesh::open() {
     choose_fields();
     names_of_first_ = names_of_chosen();
     report_mesh(job, mesh_, job.options.threads, report);
-    note_labels(mesh_, job.fields, report.notes);
+    const std::vector<Column>& labels = mesh_.cell_labels;
+    if (!labels.empty() && job.fields.empty())
+        report.notes.push_back({Note::Kind::left_out, (labels.size() == 1 ? "label of cells " : "labels of cells ") +
+                                                          listed(labels, &Column::name) +
+                                                          "; name fields and labels in job.fields to have them"});
     report.seconds.mesh = watch.lap();
 }
 
@@ -212,11 +215,11 @@ void SampledMesh::choose_fields() {
     for (const FieldChoice& choice : fields_) count_not_finite(*choice.field, choice.of_cells, report.not_finite);
     // What depends on all cells is made before some of them are looked at.
     for (FieldChoice& choice : fields_) {
-        const std::size_t steps = sample::steps_of_whole_mesh(choice);
-        if (steps == 0) continue;
+        const std::size_t count = sample::steps_of_whole_mesh(choice);
+        if (count == 0) continue;
         if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
             refuse(job.mesh, std::string("the mesh is inconsistent: ") + wrong);
-        sample::make_fields(mesh_, choice, steps, made_).value();
+        sample::make_fields(mesh_, choice, count, made_).value();
     }
 }
 
@@ -288,10 +291,12 @@ bool SampledMesh::find_cells_near(std::span<const double> points, std::vector<Me
     // What is wrong with fields or points is told by the usual way.
     if (gives_distances(job.options.outside) || !needs_no_index(count, cells) || !fit || !base::all_finite(points))
         return false;
+    // If more cells may hold a point, an index is made all the same.
+    const std::size_t most = cells / 8;
     Stopwatch watch;
     tell("looking for the cells of the points");
-    auto found = base::in_arena(job.options.threads, cells,
-                                [&] { return locate::cells_at_points(mesh_, points, most_cells(cells)); });
+    auto found =
+        base::in_arena(job.options.threads, cells, [&] { return locate::cells_at_points(mesh_, points, most); });
     report.seconds.build += watch.lap();
     if (found) near = std::move(*found);
     return found.has_value();

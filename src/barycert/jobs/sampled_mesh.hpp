@@ -22,11 +22,6 @@ constexpr bool needs_no_index(std::size_t points, std::size_t cells) {
     return points != 0 && cells >= 20'000 && points <= cells / 100;
 }
 
-/// If more cells than these may hold a point, an index is made all the same.
-constexpr std::size_t most_cells(std::size_t cells) {
-    return cells / 8;
-}
-
 /// Writes what it does into the report of the job. The job must stay, and so must this: sampler and locator refer to
 /// the mesh.
 class SampledMesh {

@@ -4,10 +4,8 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -24,6 +22,7 @@ namespace barycert::jobs {
 namespace {
 
 namespace fs = std::filesystem;
+using base::step_place, base::time_place;
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
@@ -126,7 +125,7 @@ std::vector<Step> matches_of(const FieldFile& series) {
 }
 
 bool names_steps(const std::string& path) {
-    return has_suffix_of(path, ".pvd .series");
+    return has_suffix_of(path, {".pvd", ".series"});
 }
 
 /// FILE.pvd, or FILE.pvd:COLUMN; also of .vtu.series.
@@ -147,9 +146,8 @@ void check_places(const std::string& output) {
     }
 }
 
-}  // namespace
-
-std::vector<Step> find_steps(const std::vector<FieldFile>& series) {
+/// Of all series; none if there is none.
+std::vector<Step> steps_of_series(const std::vector<FieldFile>& series) {
     std::vector<Step> steps;
     for (const FieldFile& one : series) {
         const auto file = file_of_steps(one);
@@ -173,12 +171,14 @@ std::vector<Step> find_steps(const std::vector<FieldFile>& series) {
     return steps;
 }
 
+}  // namespace
+
 std::vector<Step> find_steps(const SamplingJob& job) {
     const bool place = has_step_place(job.output), series = names_steps(job.mesh);
     if ((series || !job.series.empty()) && !place) check_places(job.output);
     // The steps of which of them? And which mesh would be that of a step of the fields?
     const bool both = !job.series.empty() && (job.all_steps || (place && series && !job.step.made()));
-    if (!job.series.empty() && !both) return find_steps(job.series);
+    if (!job.series.empty() && !both) return steps_of_series(job.series);
     if (both)
         refuse(job.mesh, "all steps of the mesh, and of series of fields", "", "",
                "choose one step of the mesh: job.step N");
@@ -215,10 +215,6 @@ std::string output_of_step(const std::string& output, const Step& step) {
             path.replace(at, place.size(), text);
     }
     return path;
-}
-
-std::string name_of_step(const std::string& name, const Step& step) {
-    return name + '@' + step.label;
 }
 
 void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,

@@ -243,8 +243,8 @@ Result<VerifyLimit> parse_verify_limit(std::string_view text) {
         if (names.back() == limit.name && limit.most && std::floor(*limit.most) == *limit.most && *limit.most <= 0x1p53)
             return VerifyLimit{kind, static_cast<std::uint64_t>(*limit.most)};
     }
-    return jobs::refusal("", "unknown rule", "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
-                         '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
+    return file_error("", "unknown rule", "missed, invented, wrong_cell or wrong_value, perhaps >COUNT",
+                      '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
 }
 
 bool VerifyReport::compared(RowVerdict verdict) const {

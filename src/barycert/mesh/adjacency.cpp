@@ -1,7 +1,6 @@
 #include "barycert/mesh/adjacency.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <tuple>
 

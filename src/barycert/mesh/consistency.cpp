@@ -1,7 +1,6 @@
 #include "barycert/mesh/consistency.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "barycert/table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 namespace barycert {

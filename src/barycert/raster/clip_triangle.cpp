@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "barycert/base/finite.hpp"
@@ -33,8 +31,36 @@ public:
     TriangleClipper(const double* vertices, std::size_t stride) : vertices_(vertices), stride_(stride) {}
 
     /// False if less than a polygon is left.
-    bool clip(int bound);
-    void append_to(std::vector<double>& rows) const;
+    bool clip(int bound) {
+        const Form form = form_of(3 + bound);
+        std::vector<int> signs;
+        for (const Corner& c : polygon_)
+            signs.push_back(c.vertex < 3 ? side(vertex(c.vertex), bound) : sign_at(form, made(c.vertex), 3));
+        std::vector<Corner> left;
+        // Where the sign changes strictly along an edge, its form and that of the bound differ by more than a factor,
+        // so that they have one zero in common.
+        const auto cross = [&](int edge, int next_edge) {
+            made_.push_back(zero_in_triangle(form_of(edge), form));
+            left.push_back({2 + static_cast<int>(made_.size()), next_edge});
+        };
+        for (std::size_t i = 0; i < polygon_.size(); ++i) {
+            const Corner& c = polygon_[i];
+            const int from = signs[i], to = signs[(i + 1) % signs.size()];
+            if (from >= 0) left.push_back({c.vertex, from == 0 && to < 0 ? 3 + bound : c.edge});
+            if (from > 0 && to < 0) cross(c.edge, 3 + bound);
+            if (from < 0 && to > 0) cross(c.edge, c.edge);
+        }
+        polygon_ = std::move(left);
+        return polygon_.size() >= 3;
+    }
+
+    void append_to(std::vector<double>& rows) const {
+        for (const Corner& c : polygon_) {
+            for (std::size_t k = 0; k < stride_; ++k)
+                rows.push_back(c.vertex < 3 ? vertex(c.vertex)[k]
+                                            : value_at(made(c.vertex), vertices_ + k, stride_, 3));
+        }
+    }
 
 private:
     /// A vertex, and what the edge from it to the next one lies on: 0 to 2: where the weight of that vertex is zero;
@@ -44,64 +70,23 @@ private:
         int edge;
     };
 
-    Form form_of(int edge) const;
-    int sign(int vertex, int bound, const Form& form) const;
+    const double* vertex(int i) const { return vertices_ + stride_ * static_cast<std::size_t>(i); }
+    const ExactPoint& made(int i) const { return made_[static_cast<std::size_t>(i - 3)]; }
+
+    Form form_of(int edge) const {
+        if (edge >= 3)
+            return difference_form(
+                3, [&](int i) { return vertex(i)[3]; }, [&](int i) { return beside(vertex(i), edge - 3); });
+        Form form;
+        form[static_cast<std::size_t>(edge)] = core::Integer(false, 1, 0);
+        return form;
+    }
 
     const double* vertices_;
     std::size_t stride_;
     std::vector<Corner> polygon_{{0, 2}, {1, 0}, {2, 1}};
     std::vector<ExactPoint> made_;
 };
-
-Form TriangleClipper::form_of(int edge) const {
-    if (edge < 3) {
-        Form form;
-        form[static_cast<std::size_t>(edge)] = core::Integer(false, 1, 0);
-        return form;
-    }
-    const auto vertex = [&](int i) { return vertices_ + stride_ * static_cast<std::size_t>(i); };
-    return difference_form(
-        3, [&](int i) { return vertex(i)[3]; }, [&](int i) { return beside(vertex(i), edge - 3); });
-}
-
-int TriangleClipper::sign(int vertex, int bound, const Form& form) const {
-    if (vertex < 3) return side(vertices_ + stride_ * static_cast<std::size_t>(vertex), bound);
-    return sign_at(form, made_[static_cast<std::size_t>(vertex - 3)], 3);
-}
-
-bool TriangleClipper::clip(int bound) {
-    const Form form = form_of(3 + bound);
-    std::vector<int> signs;
-    for (const Corner& c : polygon_) signs.push_back(sign(c.vertex, bound, form));
-    std::vector<Corner> left;
-    // Where the sign changes strictly along an edge, its form and that of the bound differ by more than a factor, so
-    // that they have one zero in common.
-    const auto cross = [&](int edge, int next_edge) {
-        made_.push_back(zero_in_triangle(form_of(edge), form));
-        left.push_back({2 + static_cast<int>(made_.size()), next_edge});
-    };
-    for (std::size_t i = 0; i < polygon_.size(); ++i) {
-        const Corner& c = polygon_[i];
-        const int from = signs[i], to = signs[(i + 1) % signs.size()];
-        if (from >= 0) left.push_back({c.vertex, from == 0 && to < 0 ? 3 + bound : c.edge});
-        if (from > 0 && to < 0) cross(c.edge, 3 + bound);
-        if (from < 0 && to > 0) cross(c.edge, c.edge);
-    }
-    polygon_ = std::move(left);
-    return polygon_.size() >= 3;
-}
-
-void TriangleClipper::append_to(std::vector<double>& rows) const {
-    for (const Corner& c : polygon_) {
-        if (c.vertex < 3) {
-            const double* const row = vertices_ + stride_ * static_cast<std::size_t>(c.vertex);
-            rows.insert(rows.end(), row, row + stride_);
-            continue;
-        }
-        const ExactPoint& p = made_[static_cast<std::size_t>(c.vertex - 3)];
-        for (std::size_t k = 0; k < stride_; ++k) rows.push_back(value_at(p, vertices_ + k, stride_, 3));
-    }
-}
 
 /// The bounds beyond which a vertex lies, as a mask.
 unsigned beyond(const double* vertex) {

@@ -59,11 +59,7 @@ void divide_by_scale(double* numbers, std::size_t attributes, std::size_t count)
 /// The same, each number the exact function of the vertices' window coordinates, w and attributes, rounded once.
 class CorrectAttributes {
 public:
-    CorrectAttributes(const WindowTriangle& t, const Shading& s)
-        : triangle_(t),
-          shading_(s),
-          depth_(t.window.data(), t.z, 1),
-          linear_(t.window.data(), t.attributes, static_cast<int>(s.components())) {
+    CorrectAttributes(const WindowTriangle& t, const Shading& s) : triangle_(t), shading_(s) {
         for (std::size_t i = 0; i < 3; ++i) {
             vertices_[3 * i] = t.window[2 * i];
             vertices_[3 * i + 1] = t.window[2 * i + 1];
@@ -93,7 +89,8 @@ public:
 private:
     const WindowTriangle& triangle_;
     const Shading& shading_;
-    CorrectRows depth_, linear_;
+    CorrectRows depth_{triangle_.window.data(), triangle_.z, 1};
+    CorrectRows linear_{triangle_.window.data(), triangle_.attributes, static_cast<int>(shading_.components())};
     std::array<double, 9> vertices_;
     std::vector<double> points_, depths_, values_;
 };

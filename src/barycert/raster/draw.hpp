@@ -50,8 +50,6 @@ struct Canvas {
     std::vector<double> depth;          ///< of each pixel; infinite where nothing is drawn
     PixelValues* attributes = nullptr;  ///< if they are wanted
     Shading shading;
-
-    RasterSize size() const { return {image.width, image.height}; }
 };
 
 struct PixelCounts {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "barycert/base/finite.hpp"
@@ -73,9 +72,8 @@ Status check(const Scene& s) {
             return misfit("vertex " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
                           "an index below " + std::to_string(vertices), std::to_string(s.triangles[i]));
     }
-    for (const double x : s.to_clip.m) {
-        if (!std::isfinite(x)) return misfit("the matrix of the scene", "finite numbers", std::to_string(x));
-    }
+    if (const std::size_t i = base::first_not_finite(s.to_clip.m); i != s.to_clip.m.size())
+        return misfit("the matrix of the scene", "finite numbers", std::to_string(s.to_clip.m[i]));
     return check_choices(s);
 }
 

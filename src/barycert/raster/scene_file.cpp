@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <set>
 #include <string>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io.hpp"
 #include "barycert/raster/draw.hpp"
 #include "barycert/raster/scene_json.hpp"
 #include "barycert/scene.hpp"
@@ -26,11 +25,8 @@ Result<std::string> text_of_file(const std::string& path) {
     const Result<base::InputFile> file = base::InputFile::open(path);
     if (!file) return file.error();
     if (file->size() > longest_file)
-        return Error{.what = "the scene file is too large",
-                     .file = path,
-                     .expected = "at most " + std::to_string(longest_file) + " bytes",
-                     .found = std::to_string(file->size()),
-                     .remedy = "draw large scenes through the library: scene.hpp"};
+        return file_error(path, "the scene file is too large", "at most " + std::to_string(longest_file) + " bytes",
+                          std::to_string(file->size()), "draw large scenes through the library: scene.hpp");
     std::string text(file->size(), '\0');
     const Result<std::size_t> read = file->read_at(0, text, path);
     if (!read) return read.error();
@@ -45,10 +41,8 @@ Json parse(const std::string& text, const std::string& path) {
         if (event == Json::parse_event_t::object_start) names.emplace_back();
         if (event == Json::parse_event_t::object_end) names.pop_back();
         if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second)
-            throw Exception({.what = "a member occurs twice in one object",
-                             .file = path,
-                             .found = base::quoted(parsed.get<std::string>()),
-                             .remedy = "leave one out"});
+            throw Exception(file_error(path, "a member occurs twice in one object", "",
+                                       base::quoted(parsed.get<std::string>()), "leave one out"));
         return true;
     };
     const auto behind = [](const std::string& all, const char* mark) {
@@ -65,10 +59,7 @@ Json parse(const std::string& text, const std::string& path) {
                          .found = behind(e.what(), ": "),  // [id] parse error at line L, column C: what
                          .remedy = "correct the file"});
     } catch (const Json::exception& e) {  // a number beyond the doubles
-        throw Exception({.what = "the scene cannot be read",
-                         .file = path,
-                         .found = behind(e.what(), "] "),
-                         .remedy = "correct the file"});
+        throw Exception(file_error(path, "the scene cannot be read", "", behind(e.what(), "] "), "correct the file"));
     }
 }
 

@@ -16,8 +16,6 @@
 
 namespace barycert::raster {
 
-inline constexpr const char* scene_remedy = "doc/rendering.md describes scene files";
-
 /// What stands there, in a few words.
 inline std::string brief(const nlohmann::json& value) {
     if (value.is_object()) return "an object";
@@ -48,22 +46,13 @@ public:
             if (std::find(names.begin(), names.end(), name) != names.end()) continue;
             std::string all;
             for (const char* known : names) all += (all.empty() ? "" : ", ") + std::string(known);
-            throw Exception({.what = place_ + '/' + escaped(name),
-                             .file = path_,
-                             .expected = "one of the members " + all,
-                             .found = base::quoted(name),
-                             .remedy = scene_remedy});
+            refuse(place_ + '/' + escaped(name), "one of the members " + all, base::quoted(name));
         }
     }
 
     bool has(const char* name) const { return value_.contains(name); }
     SceneValue member(const char* name) const {
-        if (!has(name))
-            throw Exception({.what = place_.empty() ? "the scene" : place_,
-                             .file = path_,
-                             .expected = std::string("a member \"") + name + '"',
-                             .found = "none",
-                             .remedy = scene_remedy});
+        if (!has(name)) refuse(place(), std::string("a member \"") + name + '"', "none");
         return {value_.at(name), place_ + '/' + name, path_};
     }
     SceneValue entry(std::size_t i) const { return {value_.at(i), place_ + '/' + std::to_string(i), path_}; }
@@ -123,13 +112,7 @@ public:
         if (has(name)) to = member(name).choice(words);
     }
 
-    [[noreturn]] void fail(const std::string& expected) const {
-        throw Exception({.what = place_.empty() ? "the scene" : place_,
-                         .file = path_,
-                         .expected = expected,
-                         .found = brief(value_),
-                         .remedy = scene_remedy});
-    }
+    [[noreturn]] void fail(const std::string& expected) const { refuse(place(), expected, brief(value_)); }
 
     /// An Error of what was made of this value.
     [[noreturn]] void fail(const Error& error) const {
@@ -142,6 +125,13 @@ public:
     }
 
 private:
+    std::string place() const { return place_.empty() ? "the scene" : place_; }
+
+    [[noreturn]] void refuse(std::string what, std::string expected, std::string found) const {
+        throw Exception({std::move(what), path_, 0, std::move(expected), std::move(found),
+                         "doc/rendering.md describes scene files"});
+    }
+
     const Json& value_;
     std::string place_;
     const std::string& path_;

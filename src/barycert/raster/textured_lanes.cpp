@@ -319,11 +319,6 @@ HWY_EXPORT(draw);
 
 namespace {
 
-/// Preconditions: as check_textured() makes sure: three vertices a triangle, all finite, w > 0 with perspective.
-std::size_t draw_lanes(Image& out, const Texture& texture, std::span<const TexturedVertex> vertices, bool perspective) {
-    return HWY_DYNAMIC_DISPATCH(draw)(out, texture, vertices, perspective);
-}
-
 Status check_textured(const Image& image, const Texture& texture, std::span<const TexturedVertex> vertices,
                       bool perspective) {
     if (Status s = check_image(image); !s) return s;
@@ -353,9 +348,10 @@ Status check_textured(const Image& image, const Texture& texture, std::span<cons
 
 Result<std::size_t> draw_textured(Image& image, const Texture& texture, std::span<const TexturedVertex> vertices,
                                   bool perspective) {
+    using namespace raster;
     const ExactEnvironment environment;
-    if (Status s = raster::check_textured(image, texture, vertices, perspective); !s) return s.error();
-    return raster::draw_lanes(image, texture, vertices, perspective);
+    if (Status s = check_textured(image, texture, vertices, perspective); !s) return s.error();
+    return HWY_DYNAMIC_DISPATCH(draw)(image, texture, vertices, perspective);
 }
 
 }  // namespace barycert

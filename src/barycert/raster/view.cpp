@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
@@ -46,11 +46,9 @@ Status check_arrays(const SurfaceView& s) {
             return refusal("corner " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
                            "an index below " + std::to_string(points), std::to_string(s.triangles[i]));
     }
-    for (std::size_t i = 0; i < s.points.size(); ++i) {
-        if (!std::isfinite(s.points[i]))
-            return refusal("coordinate " + std::to_string(i % d) + " of point " + std::to_string(i / d),
-                           "a finite number", base::shortest(s.points[i]));
-    }
+    if (const std::size_t i = base::first_not_finite(s.points); i != s.points.size())
+        return refusal("coordinate " + std::to_string(i % d) + " of point " + std::to_string(i / d), "a finite number",
+                       base::shortest(s.points[i]));
     return Done{};
 }
 
@@ -77,24 +75,30 @@ bool has_values(const SurfaceView& s) {
     return !s.point_values.empty() || !s.triangle_values.empty();
 }
 
+/// The least and the greatest of numbers.
+struct Range {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+
+    void add(double x) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+    }
+    double middle() const { return 0.5 * low + 0.5 * high; }
+    double half() const { return 0.5 * high - 0.5 * low; }
+};
+
 /// From values to the u of the texture of colours.
 struct ValueScale {
     double low = std::numeric_limits<double>::quiet_NaN(), high = low;
 
     ValueScale(const SurfaceView& s, const ViewOptions& o) {
         if (!has_values(s)) return;
-        double least = HUGE_VAL, greatest = -HUGE_VAL;
+        Range range;
         for (std::size_t c = 0; c < s.triangles.size(); ++c) {
-            const double x = value_at(s, c);
-            if (!std::isfinite(x)) continue;
-            least = std::min(least, x);
-            greatest = std::max(greatest, x);
+            if (const double x = value_at(s, c); std::isfinite(x)) range.add(x);
         }
-        if (o.range) {
-            low = o.range->first, high = o.range->second;
-        } else if (least <= greatest) {
-            low = least, high = greatest;
-        }
+        if (o.range) range = {o.range->first, o.range->second};
+        if (range.low <= range.high) low = range.low, high = range.high;
         // A zero may come with either sign: the bar says 0.
         if (low == 0) low = 0;
         if (high == 0) high = 0;
@@ -128,18 +132,6 @@ Texture colour_texture() {
 
 constexpr double part = 0.94;  ///< of the window that the surface may fill
 constexpr double fovy = 30;    ///< degrees
-
-/// The least and the greatest of numbers.
-struct Range {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-
-    void add(double x) {
-        low = std::min(low, x);
-        high = std::max(high, x);
-    }
-    double middle() const { return 0.5 * low + 0.5 * high; }
-    double half() const { return 0.5 * high - 0.5 * low; }
-};
 
 /// The axes of a camera: to the right and up in the picture, and towards the viewer. Unit vectors.
 struct ViewAxes {
@@ -227,12 +219,8 @@ Result<Matrix4> fitting_map(std::span<const double> points, double aspect) {
 
 /// How bright a triangle is: two-sided, from 0.35 to 1.
 double brightness(const double* a, const double* b, const double* c, const Vector3& light) {
-    Vector3 u, v;
-    for (std::size_t k = 0; k < 3; ++k) {
-        u[k] = b[k] - a[k];
-        v[k] = c[k] - a[k];
-    }
-    const Vector3 n = base::cross(u, v);
+    const auto from_a = [&](const double* p) { return Vector3{p[0] - a[0], p[1] - a[1], p[2] - a[2]}; };
+    const Vector3 n = base::cross(from_a(b), from_a(c));
     const double length = std::sqrt(dot(n, n.data()));
     if (!(length > 0)) return 1;
     return ambient + (1 - ambient) * std::min(1.0, std::abs(dot(n, light.data())) / length);

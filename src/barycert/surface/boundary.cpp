@@ -1,10 +1,7 @@
 // The facets of a mesh that only one cell has.
-#include <algorithm>
-#include <array>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/surface/parts.hpp"
@@ -59,26 +56,23 @@ void number_nodes(const Mesh& mesh, Surface& surface) {
     for (Index& node : surface.cells) node = point_of[static_cast<std::size_t>(node)];
 }
 
-Surface boundary_of(const Mesh& mesh, const CutOptions& options) {
-    Surface surface;
-    surface.dimension = mesh.dimension;
-    write_facets(mesh, single_facets(mesh), surface);
-    number_nodes(mesh, surface);
-    surface.points = take_rows(mesh.points, surface.corners(), surface.mesh_edges, 2);
-    take_rows(options.point_fields, surface.mesh_edges, 2, surface.point_fields);
-    take_rows(options.cell_fields, surface.mesh_cells, 1, surface.cell_fields);
-    return surface;
-}
-
 }  // namespace
 }  // namespace barycert::surface
 
 namespace barycert {
 
 Result<Surface> boundary(const Mesh& mesh, const CutOptions& options) {
-    return surface::on_good_input(mesh, 0, options, [&]() -> Result<Surface> {
-        if (!surface::indices_fit(mesh.cells, mesh.point_count())) return surface::bad_index();
-        return surface::boundary_of(mesh, options);
+    using namespace surface;
+    return on_good_input(mesh, 0, options, [&]() -> Result<Surface> {
+        if (!indices_fit(mesh.cells, mesh.point_count())) return bad_index();
+        Surface out;
+        out.dimension = mesh.dimension;
+        write_facets(mesh, single_facets(mesh), out);
+        number_nodes(mesh, out);
+        out.points = take_rows(mesh.points, out.corners(), out.mesh_edges, 2);
+        take_rows(options.point_fields, out.mesh_edges, 2, out.point_fields);
+        take_rows(options.cell_fields, out.mesh_cells, 1, out.cell_fields);
+        return out;
     });
 }
 

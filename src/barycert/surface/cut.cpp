@@ -172,11 +172,7 @@ template <class Level>
 class PointBlock {
 public:
     PointBlock(const Level& level, const Surface& surface, const std::vector<Carried>& carried)
-        : level_(level),
-          surface_(surface),
-          carried_(carried),
-          arrays_(Level::arrays + 2 * carried.size()),
-          out_(carried.size() * core::block_size) {}
+        : level_(level), surface_(surface), carried_(carried), out_(carried.size() * core::block_size) {}
 
     /// Points [first, last), at most core::block_size of them.
     void place(std::size_t first, std::size_t last, TierCounts& tiers) {
@@ -227,7 +223,7 @@ private:
     const Level& level_;
     const Surface& surface_;
     const std::vector<Carried>& carried_;
-    core::LaneArrays arrays_;
+    core::LaneArrays arrays_{Level::arrays + 2 * carried_.size()};
     std::vector<double> out_;
     std::array<Edge, core::block_size> edge_{};
     std::array<std::size_t, core::block_size> point_{};

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <string>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/consistency.hpp"

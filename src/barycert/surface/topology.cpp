@@ -1,12 +1,9 @@
 #include "barycert/surface/parts.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <numeric>
-#include <span>
 #include <string>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/surface/cell_cases.hpp"

@@ -6,9 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <tuple>
-#include <vector>
 
 #include "barycert/base/decades.hpp"
 #include "barycert/base/strict_math.hpp"

@@ -60,13 +60,11 @@ Status check_claims(const Sampler& sampler, const ClaimedRows& rows, NonfinitePo
 }
 
 ClaimedRows part_of(const ClaimedRows& rows, std::size_t d, std::size_t columns, std::size_t first, std::size_t size) {
-    ClaimedRows part;
-    part.points = rows.points.subspan(d * first, d * size);
-    if (!rows.cells.empty()) part.cells = rows.cells.subspan(first, size);
-    if (!rows.inside.empty()) part.inside = rows.inside.subspan(first, size);
-    part.values = rows.values.subspan(columns * first, columns * size);
-    part.first_row = rows.first_row + first;
-    return part;
+    const auto part = [&](auto all, std::size_t width) {
+        return all.empty() ? all : all.subspan(width * first, width * size);
+    };
+    return {part(rows.points, d), part(rows.cells, 1), part(rows.inside, 1), part(rows.values, columns),
+            rows.first_row + first};
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ import numpy as np
 from . import _core
 
 Progress = Union[None, bool, Callable[[str, int, int], Any]]
+Shape = Tuple[int, ...]
 
 
 def contiguous(array: Any, dtype: Any = np.float64) -> np.ndarray:
@@ -53,9 +54,7 @@ def exact_doubles(array: Any, what: str, nonfinite_points: Optional[str] = None)
     return np.asarray(doubles, order="C")
 
 
-def points_of(
-    points: Any, dimension: int, nonfinite_points: Optional[str] = None,
-) -> Tuple[np.ndarray, Tuple[int, ...]]:  # fmt: skip
+def points_of(points: Any, dimension: int, nonfinite_points: Optional[str] = None) -> Tuple[np.ndarray, Shape]:
     """Points as (n, dimension), without a copy where they are contiguous doubles, and their leading shape. With "nan"
     for `nonfinite_points` masked coordinates are NaN.
 
@@ -71,7 +70,7 @@ def points_of(
     return array.reshape(-1, dimension), array.shape[:-1]
 
 
-def values_of(values: Any, count: int, what: str) -> Tuple[np.ndarray, Tuple[int, ...]]:
+def values_of(values: Any, count: int, what: str) -> Tuple[np.ndarray, Shape]:
     """Real values as doubles (count, components), and the shape of one value."""
     array = exact_doubles(values, what)
     if array.ndim == 0 or array.shape[0] != count:
@@ -92,8 +91,7 @@ def count_of(number: Any, what: str) -> int:
 
 
 def options_of(
-    outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int,
-    nonfinite_points: str = "error",
+    outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int, nonfinite_points: str = "error",
 ) -> _core.SampleOptions:  # fmt: skip
     """outside None: fill_value, which is NaN unless it is given."""
     if outside is None:

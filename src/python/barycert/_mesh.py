@@ -462,9 +462,6 @@ class Mesh(GivenBack):
         parts = parts_of(self)
         return _unpickle, (parts.points, parts.cells, parts.cell_numbers, parts.point_data, parts.cell_data, parts.notes)
 
-    def __copy__(self) -> Mesh:
-        return self.__deepcopy__({})
-
     def __deepcopy__(self, _: Any) -> Mesh:
         make, arguments = self.__reduce__()
         return make(*arguments)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Tuple
+from typing import Any, Callable, Tuple
 
 import numpy as np
 
@@ -86,18 +86,16 @@ def insphere(a: Any, b: Any, c: Any, d: Any, e: Any) -> Any:
     return _signs("insphere", 3, (a, b, c, d, e))
 
 
-def _cases(vertices: Any, points: Any) -> Tuple[np.ndarray, np.ndarray, Tuple[int, ...]]:
+def _of_weights(ask: Callable[[np.ndarray, np.ndarray], np.ndarray], vertices: Any, points: Any) -> np.ndarray:
     vertices, points = exact_doubles(vertices, "vertices"), exact_doubles(points, "points")
     if vertices.ndim < 2 or points.ndim < 1 or vertices.shape[-1] != points.shape[-1]:
         _core.fail("shapes of vertices and points", expected="(..., n, d) and (..., d)",
                    found=f"{vertices.shape} and {points.shape}")  # fmt: skip
     leading = _broadcast("leading shapes of vertices and points", vertices.shape[:-2], points.shape[:-1])
     n, d = vertices.shape[-2:]
-    return (
-        np.ascontiguousarray(np.broadcast_to(vertices, leading + (n, d)).reshape(-1, n, d)),
-        np.ascontiguousarray(np.broadcast_to(points, leading + (d,)).reshape(-1, d)),
-        leading + (n,),
-    )
+    simplices = np.ascontiguousarray(np.broadcast_to(vertices, leading + (n, d)).reshape(-1, n, d))
+    places = np.ascontiguousarray(np.broadcast_to(points, leading + (d,)).reshape(-1, d))
+    return ask(simplices, places).reshape(leading + (n,))
 
 
 def barycentric_weights(vertices: Any, points: Any) -> np.ndarray:
@@ -114,8 +112,7 @@ def barycentric_weights(vertices: Any, points: Any) -> np.ndarray:
     >>> barycentric_weights([[0, 0], [3, 0], [0, 3]], [1, 1])
     array([0.33333333, 0.33333333, 0.33333333])
     """
-    simplices, places, shape = _cases(vertices, points)
-    return _core.barycentric_weights(simplices, places).reshape(shape)
+    return _of_weights(_core.barycentric_weights, vertices, points)
 
 
 def weight_signs(vertices: Any, points: Any) -> np.ndarray:
@@ -130,5 +127,4 @@ def weight_signs(vertices: Any, points: Any) -> np.ndarray:
            [ 1,  1,  0],
            [-1,  1,  1]], dtype=int8)
     """
-    simplices, places, shape = _cases(vertices, points)
-    return _core.weight_signs(simplices, places).reshape(shape)
+    return _of_weights(_core.weight_signs, vertices, points)

@@ -58,7 +58,6 @@ def _information(project):
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
     """Without this, pip would build the wheel to learn its name."""
-    del config_settings
     project = _project()
     folder = project["base"] + ".dist-info"
     os.mkdir(os.path.join(metadata_directory, folder))
@@ -97,7 +96,6 @@ def _stage(settings, folder):
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Settings (pip --config-settings): build-dir=FOLDER; audit=OFF leaves out the audit, and GMP and MPFR with it;
     prebuilt=FOLDER takes the package from a build by CMake that has it."""
-    del metadata_directory
     project = _project()
     info = project["base"] + ".dist-info"
     name = f"{project['base']}-{_tag()}.whl"
@@ -122,7 +120,6 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 def build_sdist(sdist_directory, config_settings=None):
     """What git knows of."""
-    del config_settings
     project = _project()
     base = project["base"]
     files = subprocess.run(["git", "ls-files", "-z"], check=True, cwd=ROOT, capture_output=True).stdout.decode().split("\0")

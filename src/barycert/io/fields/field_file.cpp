@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
@@ -38,13 +37,11 @@ FieldLayout settle(std::string_view line, const std::string& column, const LineP
     out.lines.separator = cut.separator;
     out.lines.role_of.assign(cut.fields.size(), CsvLayout::passed_over);
     out.lines.header = true;
-    if (const std::optional<std::size_t> number = place_of(column); number) {
-        if (*number <= cut.fields.size()) {
-            out.columns = {*number - 1};
-            out.lines.header = !looks_numeric(cut.fields[*number - 1]);
-        }
-    } else {
-        out.columns = columns_of_field(cut.fields, column);
+    const std::optional<std::size_t> number = place_of(column);
+    if (!number) out.columns = columns_of_field(cut.fields, column);
+    if (number && *number <= cut.fields.size()) {
+        out.columns = {*number - 1};
+        out.lines.header = !looks_numeric(cut.fields[*number - 1]);
     }
     if (!out.columns.empty()) return out;
     refuse_line(place.file, place.line, "no such column", base::quoted(column), listed(cut.fields),
@@ -63,10 +60,9 @@ void take_line(std::string_view line, bool whole, const FieldLayout& layout, con
             if (layout.columns[c] != count) continue;
             const auto x = base::parse_double(text);
             if (!x || is_inexact(text, *x))
-                throw Exception(
-                    line_error(place.file, place.line, "a value of field \"" + field.name + '"',
-                               x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
-                               x ? "write it with a decimal point to round it" : "mend or remove the line"));
+                refuse_line(place.file, place.line, "a value of field \"" + field.name + '"',
+                            x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
+                            x ? "write it with a decimal point to round it" : "mend or remove the line");
             field.data[before + c] = *x;
             cut = !whole && text.data() + text.size() == line.data() + line.size();
         }
@@ -117,12 +113,10 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
         if (words.empty()) continue;
         for (const std::string_view word : words) {
             const auto x = base::parse_double(word);
-            if (!x)
-                refuse("numbers", base::quoted(word),
-                       "write one row of numbers per node or cell; start header lines with #");
-            if (is_inexact(word, *x))
-                refuse("an integer that a double holds exactly", base::quoted(word),
-                       "write it with a decimal point to round it");
+            if (!x || is_inexact(word, *x))
+                refuse(x ? "an integer that a double holds exactly" : "numbers", base::quoted(word),
+                       x ? "write it with a decimal point to round it"
+                         : "write one row of numbers per node or cell; start header lines with #");
             if (word.data() + word.size() == file_end) throw Exception(base::unended_number(path, line_number));
             field.data.push_back(*x);
         }
@@ -141,12 +135,9 @@ std::vector<std::size_t> components_of(const NpyTable& table, const Field& field
     std::vector<std::string> names;
     for (const NpyColumn& c : table.columns) names.push_back(c.name);
     std::vector<std::size_t> columns;
-    if (!table.structured && column.empty()) {
-        for (std::size_t c = 0; c < names.size(); ++c) columns.push_back(c);
-        if (!columns.empty()) return columns;
-    }
     if (!column.empty())
         columns = columns_of_field(names, place_of(column) && !table.structured ? "column" + column : column);
+    for (std::size_t c = 0; column.empty() && !table.structured && c < names.size(); ++c) columns.push_back(c);
     if (!columns.empty()) return columns;
     refuse_file(path, column.empty() ? "the type of field \"" + field.name + '"' : "no such column",
                 column.empty() ? "an array of numbers" : base::quoted(column),

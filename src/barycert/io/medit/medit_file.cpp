@@ -14,53 +14,47 @@
 namespace barycert::io {
 namespace {
 
-using K = MeditKeyword;
 using enum MeditKind;
 
-// Codes of libMeshb's documentation. What is not named here is left out in any case. Some programs write Hexaedra.
-constexpr std::array keywords{
-    K{4, "Vertices", vertices, 0, 0},
-    K{5, "Edges", cells, 1, 2},
-    K{6, "Triangles", cells, 2, 3},
-    K{7, "Quadrilaterals", cells, 2, 4},
-    K{8, "Tetrahedra", cells, 3, 4},
-    K{9, "Prisms", cells, 3, 6},
-    K{9, "Wedges", cells, 3, 6},
-    K{10, "Hexahedra", cells, 3, 8},
-    K{10, "Hexaedra", cells, 3, 8},
-    K{24, "TrianglesP2", cells, 2, 6},
-    K{25, "EdgesP2", cells, 1, 3},
-    K{27, "QuadrilateralsQ2", cells, 2, 9},
-    K{30, "TetrahedraP2", cells, 3, 10},
-    K{33, "HexahedraQ2", cells, 3, 27},
-    K{49, "Pyramids", cells, 3, 5},
-    K{62, "SolAtVertices", solution, 0, 0},
-    K{64, "SolAtTriangles", solution, 2, 0},
-    K{66, "SolAtTetrahedra", solution, 3, 0},
-    K{86, "PrismsP2", cells, 3, 18},
-    K{87, "PyramidsP2", cells, 3, 14},
-    K{88, "QuadrilateralsQ3", cells, 2, 16},
-    K{89, "QuadrilateralsQ4", cells, 2, 25},
-    K{90, "TrianglesP3", cells, 2, 10},
-    K{91, "TrianglesP4", cells, 2, 15},
-    K{92, "EdgesP3", cells, 1, 4},
-    K{93, "EdgesP4", cells, 1, 5},
-    K{96, "TetrahedraP3", cells, 3, 20},
-    K{97, "TetrahedraP4", cells, 3, 35},
-    K{98, "HexahedraQ3", cells, 3, 64},
-    K{99, "HexahedraQ4", cells, 3, 125},
-    K{100, "PyramidsP3", cells, 3, 30},
-    K{101, "PyramidsP4", cells, 3, 55},
-    K{102, "PrismsP3", cells, 3, 40},
-    K{103, "PrismsP4", cells, 3, 75},
+/// Keywords of one kind and dimension, each behind its code; those of cells before the number of their nodes.
+struct KeywordList {
+    MeditKind kind;
+    int dimension;
+    std::string_view words;
 };
 
-// Names of others, for messages about binary files.
-constexpr std::string_view other_keywords =
-    " 3 Dimension 13 Corners 14 Ridges 15 RequiredVertices 16 RequiredEdges 17 RequiredTriangles "
-    "18 RequiredQuadrilaterals 20 NormalAtVertices 34 ExtraVerticesAtEdges 35 ExtraVerticesAtTriangles "
-    "37 ExtraVerticesAtTetrahedra 59 Tangents 60 Normals 61 TangentAtVertices 63 SolAtEdges "
-    "65 SolAtQuadrilaterals 67 SolAtPrisms 68 SolAtHexahedra 77 Iterations 78 Time ";
+// Codes of libMeshb's documentation. What is not named here is left out in any case. Some programs write Hexaedra.
+constexpr std::array<KeywordList, 8> keyword_lists{
+    {{vertices, 0, "4 Vertices"},
+     {cells, 1, "5 Edges 2 25 EdgesP2 3 92 EdgesP3 4 93 EdgesP4 5"},
+     {cells, 2,
+      "6 Triangles 3 7 Quadrilaterals 4 24 TrianglesP2 6 27 QuadrilateralsQ2 9 88 QuadrilateralsQ3 16 "
+      "89 QuadrilateralsQ4 25 90 TrianglesP3 10 91 TrianglesP4 15"},
+     {cells, 3,
+      "8 Tetrahedra 4 9 Prisms 6 9 Wedges 6 10 Hexahedra 8 10 Hexaedra 8 30 TetrahedraP2 10 33 HexahedraQ2 27 "
+      "49 Pyramids 5 86 PrismsP2 18 87 PyramidsP2 14 96 TetrahedraP3 20 97 TetrahedraP4 35 98 HexahedraQ3 64 "
+      "99 HexahedraQ4 125 100 PyramidsP3 30 101 PyramidsP4 55 102 PrismsP3 40 103 PrismsP4 75"},
+     {solution, 0, "62 SolAtVertices"},
+     {solution, 2, "64 SolAtTriangles"},
+     {solution, 3, "66 SolAtTetrahedra"},
+     {other, 0,
+      "3 Dimension 13 Corners 14 Ridges 15 RequiredVertices 16 RequiredEdges 17 RequiredTriangles "
+      "18 RequiredQuadrilaterals 20 NormalAtVertices 34 ExtraVerticesAtEdges 35 ExtraVerticesAtTriangles "
+      "37 ExtraVerticesAtTetrahedra 59 Tangents 60 Normals 61 TangentAtVertices 63 SolAtEdges "
+      "65 SolAtQuadrilaterals 67 SolAtPrisms 68 SolAtHexahedra 77 Iterations 78 Time"}}};
+
+const std::vector<MeditKeyword>& keywords() {
+    static const std::vector<MeditKeyword> all = [] {
+        std::vector<MeditKeyword> found;
+        for (auto [kind, dimension, words] : keyword_lists) {
+            while (const auto code = parse_count(next_word(words)))
+                found.push_back({static_cast<int>(*code), next_word(words), kind, dimension,
+                                 kind == cells ? *parse_count(next_word(words)) : 0});
+        }
+        return found;
+    }();
+    return all;
+}
 
 constexpr const char* cut_short = "the file may be cut short: write it again, or mend the count";
 constexpr std::int64_t max_rows = INT32_MAX, max_fields = 1 << 16;
@@ -74,16 +68,8 @@ bool same_word(std::string_view word, std::string_view name) {
 /// nullptr if there is none for which that holds.
 template <class IsOne>
 const MeditKeyword* find_keyword(const IsOne& is_one) {
-    const auto* const found = std::find_if(keywords.begin(), keywords.end(), is_one);
-    return found == keywords.end() ? nullptr : found;
-}
-
-std::string name_of(std::int64_t code, const MeditKeyword* keyword) {
-    if (keyword != nullptr) return std::string(keyword->name);
-    const std::string word = " " + std::to_string(code) + " ";
-    const std::size_t at = other_keywords.find(word);
-    if (at == std::string_view::npos) return "keyword " + std::to_string(code);
-    return std::string(first_word(other_keywords.substr(at + word.size()), '#'));
+    const auto found = std::find_if(keywords().begin(), keywords().end(), is_one);
+    return found == keywords().end() ? nullptr : &*found;
 }
 
 /// Takes the text up to the next keyword and the keyword itself off `text`; empty, at its end, if there is none. Names
@@ -256,7 +242,7 @@ void MeditFile::list_text() {
             set_header(dimension_, body, 2, 3);
         } else {
             add(base::printable(keyword.substr(0, 40)),
-                find_keyword([&](const K& k) { return same_word(k.name, keyword); }), body);
+                find_keyword([&](const MeditKeyword& k) { return same_word(k.name, keyword); }), body);
         }
     }
     // Without End, what is cut may be a keyword or a number.
@@ -277,8 +263,8 @@ void MeditFile::list_binary() {
         const std::int64_t code = take_integer(rest, 4, swapped_), here = at - bytes_.data(),
                            next = take_integer(rest, head - 4, swapped_);
         if (code == code_of_end) return;
-        const MeditKeyword* const known = find_keyword([&](const K& k) { return k.code == code; });
-        const std::string name = name_of(code, known);
+        const MeditKeyword* const known = find_keyword([&](const MeditKeyword& k) { return k.code == code; });
+        const std::string name = known != nullptr ? std::string(known->name) : "keyword " + std::to_string(code);
         if (next < here + static_cast<std::int64_t>(head) || next > static_cast<std::int64_t>(bytes_.size()))
             refuse(at, "the place of what follows " + name,
                    "one behind it, in a file of " + std::to_string(bytes_.size()) + " bytes", std::to_string(next),
@@ -289,8 +275,9 @@ void MeditFile::list_binary() {
     }
 }
 
-void MeditFile::read_text_rows(const MeditSection& section, MeditRows& rows) const {
-    const std::size_t reals = rows.reals_a_row, integers = rows.integers_a_row, width = reals + integers;
+MeditRows MeditFile::text_rows(const MeditSection& section, std::size_t reals, std::size_t integers) const {
+    MeditRows rows{reals, integers, {}, {}};
+    const std::size_t width = reals + integers;
     std::string_view text = section.body;
     // Rows of both are read as real numbers.
     std::vector<double> numbers;
@@ -308,7 +295,7 @@ void MeditFile::read_text_rows(const MeditSection& section, MeditRows& rows) con
         refuse(at, "more numbers in " + section.name,
                std::to_string(section.count) + " rows of " + std::to_string(width) + " numbers", "more",
                "mend the count, or the dimension");
-    if (integers == 0 || reals == 0) return;
+    if (integers == 0 || reals == 0) return rows;
     make_rows(section.count, rows);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::size_t row = i / width, column = i % width;
@@ -320,14 +307,12 @@ void MeditFile::read_text_rows(const MeditSection& section, MeditRows& rows) con
             refuse_in(section, rows, row, column, "an integer up to 2^53", base::shortest(numbers[i]));
         }
     }
+    return rows;
 }
 
 MeditRows MeditFile::rows(const MeditSection& section, std::size_t reals_a_row, std::size_t integers_a_row) const {
+    if (!binary_) return text_rows(section, reals_a_row, integers_a_row);
     MeditRows rows{reals_a_row, integers_a_row, {}, {}};
-    if (!binary_) {
-        read_text_rows(section, rows);
-        return rows;
-    }
     const std::size_t row_bytes = reals_a_row * real_bytes() + integers_a_row * integer_bytes();
     if (section.count * row_bytes != section.body.size())
         refuse(section.body.data(), "the size of " + section.name,

@@ -77,7 +77,7 @@ private:
     void set_header(std::int64_t& number, std::string_view text, std::int64_t least, std::int64_t most);
     std::int64_t take_count(std::string_view& text, std::size_t bytes, const char* what, std::int64_t least,
                             std::int64_t most) const;
-    void read_text_rows(const MeditSection& section, MeditRows& rows) const;
+    MeditRows text_rows(const MeditSection& section, std::size_t reals, std::size_t integers) const;
     std::size_t real_bytes() const { return version_ == 1 ? 4 : 8; }
     std::size_t integer_bytes() const { return version_ == 4 ? 8 : 4; }
     std::size_t line_at(const char* at) const { return binary_ ? 0 : line_of(bytes_, at); }

@@ -1,4 +1,3 @@
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -95,6 +94,10 @@ private:
         refuse_file(file_.path(), std::move(what), std::move(expected), std::move(found), std::move(remedy));
     }
 
+    void note(Note::Kind kind, std::string text, bool important = false) {
+        mesh_.notes.push_back({kind, std::move(text), file_.path(), important});
+    }
+
     /// Which section has the cells.
     void choose() {
         std::vector<const MeditSection*> found;
@@ -139,8 +142,7 @@ private:
         if (mesh_.dimension < file_.dimension())
             mesh_.points =
                 to_points(std::move(mesh_.points), 2, file_.path(), is_simplex(cells_->keyword, 1) ? file_.path() : "");
-        if (file_.narrow())
-            mesh_.notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", file_.path()});
+        if (file_.narrow()) note(Note::Kind::converted, "float32 to double: the coordinates");
     }
 
     /// Where all are 0 there are none.
@@ -170,9 +172,8 @@ private:
                     file_.refuse_in(section, rows, i, k, "a node from 1 to " + std::to_string(points),
                                     std::to_string(row[k]),
                                     row[k] == 0 ? "nodes count from 1: add 1 to all" : "check the numbers");
-                Mesh::Index& to =
-                    k < corners ? cells.corners[i * corners + k] : cells.mids[i * (nodes - corners) + k - corners];
-                to = static_cast<Mesh::Index>(node);
+                (k < corners ? cells.corners[i * corners + k] : cells.mids[i * (nodes - corners) + k - corners]) =
+                    static_cast<Mesh::Index>(node);
             }
             cells.references[i] = row[nodes];
         }
@@ -184,8 +185,7 @@ private:
         mesh_.cells = std::move(cells.corners);
         mesh_.mid_nodes = std::move(cells.mids);
         const std::vector<std::int64_t> all = references(std::move(cells.references));
-        const bool doubles =
-            std::all_of(all.begin(), all.end(), [](std::int64_t n) { return std::abs(n) <= 1LL << 53; });
+        const bool doubles = std::ranges::all_of(all, [](std::int64_t n) { return std::abs(n) <= 1LL << 53; });
         if (all.empty()) return;
         if (doubles) {
             mesh_.cell_fields.push_back({"medit:ref", 1, {all.begin(), all.end()}});
@@ -204,9 +204,7 @@ private:
         // Where no cell tells it, as libMeshb documents it.
         mesh_.mid_edge_order = vote->guessed ? MidEdgeOrder::vtk : vote->order;
         if (vote->guessed)
-            mesh_.notes.push_back({Note::Kind::guessed,
-                                   "mid-edge nodes in the order of Medit, as no cell tells another", file_.path(),
-                                   true});
+            note(Note::Kind::guessed, "mid-edge nodes in the order of Medit, as no cell tells another", true);
         mesh::normalise_mid_nodes(mesh_);
     }
 
@@ -233,10 +231,10 @@ private:
             mesh_.face_markers = references(std::move(cells.references));
         }
         if (!left_out.empty())
-            mesh_.notes.push_back({Note::Kind::left_out,
-                                   "elements of a lower dimension: " + counted_sections(left_out) +
-                                       (apart ? "; some have nodes that no cell has" : ""),
-                                   file_.path(), apart});
+            note(Note::Kind::left_out,
+                 "elements of a lower dimension: " + counted_sections(left_out) +
+                     (apart ? "; some have nodes that no cell has" : ""),
+                 apart);
     }
 
     /// Fields in a file of their own are read where they are named.
@@ -245,12 +243,10 @@ private:
             const std::string path = std::filesystem::path(file_.path()).replace_extension(suffix).string();
             std::error_code ignored;
             if (std::filesystem::exists(path, ignored))
-                mesh_.notes.push_back({Note::Kind::left_out,
-                                       std::string("the fields of ")
-                                           .append(path)
-                                           .append(", unless it is named: --field NAME=")
-                                           .append(path),
-                                       file_.path()});
+                note(Note::Kind::left_out, std::string("the fields of ")
+                                               .append(path)
+                                               .append(", unless it is named: --field NAME=")
+                                               .append(path));
         }
     }
 

@@ -45,8 +45,8 @@ std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, con
 /// Precondition: is_text().
 std::optional<std::string> npy_text(const char* at, const NpyType& type);
 
-/// Precondition: a code of Unicode, and no surrogate.
-void append_utf8(std::string& text, std::uint32_t code);
+/// False if it is no code of Unicode, or a surrogate.
+bool append_utf8(std::string& text, std::uint32_t code);
 
 inline constexpr std::string_view npy_magic = "\x93NUMPY";
 
@@ -95,7 +95,6 @@ struct NpyTable {
 /// The rows are read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.
 class NpyFile {
 public:
-    NpyFile() = default;
     /// Reads the header.
     explicit NpyFile(const std::string& path);
 

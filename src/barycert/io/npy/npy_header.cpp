@@ -45,9 +45,7 @@ bool take_escape(std::string_view& rest, std::string& value) {
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + digits, code, 16);
     if (error != std::errc{} || end != rest.data() + digits) return false;
     rest.remove_prefix(digits);
-    if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return false;
-    append_utf8(value, code);
-    return true;
+    return append_utf8(value, code);
 }
 
 /// Takes a literal off the text. Python 2 wrote numbers as 5L.
@@ -114,16 +112,14 @@ bool list_ends(std::string_view text) {
 
 /// (5, 3) or (5,) or ().
 bool is_tuple(const Literal& literal) {
-    return literal.kind == '(' && std::all_of(literal.items.begin(), literal.items.end(),
-                                              [](const Literal& item) { return item.kind == '0'; });
+    return literal.kind == '(' && std::ranges::count(literal.items, '0', &Literal::kind) == std::ssize(literal.items);
 }
 
-[[noreturn]] void not_npy(const std::string& file, std::string expected, std::string found, std::string remedy) {
+[[noreturn]] void not_npy(const std::string& file, std::string expected, std::string found,
+                          std::string remedy = "save the array again with numpy.save") {
     refuse_file(file, "cannot read the header of the NPY file", std::move(expected), std::move(found),
                 std::move(remedy));
 }
-
-constexpr const char* save_again = "save the array again with numpy.save";
 
 /// Values of a field at most that become columns, and structures within structures.
 constexpr std::uint64_t most_values = 1024;
@@ -188,25 +184,20 @@ NpyText find_npy_text(std::string_view head, const std::string& file) {
                 "save the one array of points with numpy.save");
     if (!head.starts_with(npy_magic))
         not_npy(file, "a file that begins with \\x93NUMPY",
-                head.empty() ? "nothing" : base::quoted(head.substr(0, npy_magic.size())), save_again);
+                head.empty() ? "nothing" : base::quoted(head.substr(0, npy_magic.size())));
     const auto need = [&](std::size_t size) {
-        if (head.size() < size) not_npy(file, "a whole header", "the end of the file", save_again);
+        if (head.size() < size) not_npy(file, "a whole header", "the end of the file");
     };
     need(10);
     const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(head[i])); };
     const std::size_t major = byte(6);
     if (major < 1 || major > 3)
-        not_npy(file, "version 1, 2 or 3", "version " + std::to_string(major) + "." + std::to_string(byte(7)),
-                save_again);
-    NpyText text{.offset = 10, .size = byte(8) | byte(9) << 8, .latin1 = major != 3};
-    if (major != 1) {
-        need(npy_head);
-        text.offset = npy_head;
-        text.size |= byte(10) << 16 | byte(11) << 24;
-    }
+        not_npy(file, "version 1, 2 or 3", "version " + std::to_string(major) + "." + std::to_string(byte(7)));
+    NpyText text{.offset = major == 1 ? 10 : npy_head, .latin1 = major != 3};
+    need(text.offset);
+    for (std::size_t i = text.offset; i-- > 8;) text.size = text.size << 8 | byte(i);
     if (text.size > longest_npy_text)
-        not_npy(file, "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(text.size),
-                save_again);
+        not_npy(file, "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(text.size));
     return text;
 }
 
@@ -249,7 +240,7 @@ NpyHeader parse_npy_text(std::string_view text, bool latin1, const std::string& 
     }
     skip_blanks(rest);
     if (good && seen == 7 && rest.empty()) return header;
-    not_npy(file, "a dictionary of descr, fortran_order and shape", base::quoted(text), save_again);
+    not_npy(file, "a dictionary of descr, fortran_order and shape", base::quoted(text));
 }
 
 }  // namespace
@@ -279,8 +270,7 @@ std::string npy_header_of(const std::string& descr, const std::vector<std::uint6
     std::string text = "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + as_tuple(shape) + ", }";
     const auto aligned = [&](std::size_t before) { return (before + text.size() + 1 + 63) / 64 * 64; };
     // Version 1 has 2 bytes for the length of the text and is in Latin-1, version 2 has 4, version 3 is in UTF-8.
-    const bool ascii =
-        std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) > 127; });
+    const bool ascii = std::ranges::none_of(text, [](char c) { return static_cast<unsigned char>(c) > 127; });
     const char version = !ascii ? 3 : std::max(size, aligned(12)) > UINT16_MAX ? 2 : 1;
     const std::size_t before = version == 1 ? 10 : 12;
     if (size == 0) size = aligned(before);

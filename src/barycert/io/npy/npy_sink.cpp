@@ -6,7 +6,6 @@
 #include <set>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -55,14 +54,6 @@ CarriedType type_of(const ColumnFormat& column) {
     return {(characters ? "<U" : "|S") + std::to_string(length), length * (characters ? 4 : 1), characters};
 }
 
-const char* fault_of(const std::string& name, std::set<std::string>& seen) {
-    if (name.empty()) return "a name";
-    if (mesh::count_characters(name) < 0) return "a name in UTF-8";
-    if (!seen.insert(name).second)
-        return "a name that differs from the others and from x, y, z, cell, feature, distance";
-    return nullptr;
-}
-
 char* put(char* at, std::uint64_t bits) {
     if constexpr (std::endian::native != std::endian::little) bits = __builtin_bswap64(bits);
     std::memcpy(at, &bits, sizeof bits);
@@ -92,7 +83,24 @@ char* put(char* at, const CarriedType& type, std::string_view text) {
 
 class NpySink final : public RowSink {
 public:
-    NpySink(const std::string& path, const TableFormat& format);
+    NpySink(const std::string& path, const TableFormat& format) : RowSink(path, format) {
+        file_.status().value();
+        if (!file_.can_replace())
+            refuse_file(path_, "cannot write NPY to a pipe or device",
+                        "a regular file: the number of rows is written into its header at the end", {},
+                        "name a regular file, or write CSV");
+        settle_types();
+        for (std::size_t f = 0; f < features_.size(); ++f)
+            name(static_cast<Feature>(f)).copy(features_[f].data(), feature_size);
+        head_size_ = npy_header_of(types_, {UINT64_MAX}).size();
+        if (head_size_ > longest_npy_text)
+            refuse_file(path_, "too many columns for an NPY file",
+                        "a header of at most " + std::to_string(longest_npy_text) + " bytes",
+                        std::to_string(head_size_), "choose fewer fields, or write CSV");
+        file_.write(npy_header_of(types_, {0}, head_size_));
+        file_.status().value();
+    }
+
     Status commit() override {
         file_.replace(0, npy_header_of(types_, {count_}, head_size_));
         return RowSink::commit();
@@ -104,15 +112,66 @@ public:
     }
 
 private:
-    void settle_types();
-    Status check(const TableView& rows) const override;
+    /// Error: an empty name, one that is not UTF-8, two that are alike.
+    void settle_types() {
+        struct Field {
+            std::string name;
+            std::string type = "<f8";
+        };
+        std::vector<Field> fields{{"x"}, {"y"}};
+        if (format_.dimension == 3) fields.push_back({"z"});
+        fields.push_back({"cell", "<i8"});
+        fields.push_back({"feature", "|S8"});
+        for (const std::string& column : format_.columns()) fields.push_back({column});
+        if (format_.distances) fields.push_back({"distance"});
+        row_size_ = 8 * fields.size();  // each has 8 bytes
+        for (const ColumnFormat& column : format_.carried) {
+            carried_.push_back(type_of(column));
+            fields.push_back({column.name, carried_.back().descr});
+            row_size_ += carried_.back().size;
+        }
+        std::set<std::string> seen;
+        for (const Field& field : fields) {
+            const char* const expected =
+                field.name.empty()                       ? "a name"
+                : mesh::count_characters(field.name) < 0 ? "a name in UTF-8"
+                : !seen.insert(field.name).second
+                    ? "a name that differs from the others and from x, y, z, cell, feature, distance"
+                    : nullptr;
+            if (expected != nullptr)
+                refuse_file(path_, "a column name is not allowed in an NPY file", expected, base::quoted(field.name),
+                            "rename the field, leave it out, or write CSV");
+            types_ += (types_.empty() ? "[(" : ", (") + as_literal(field.name) + ", '" + field.type + "')";
+        }
+        types_ += "]";
+    }
+
+    /// What the types of the file cannot hold.
+    Status check(const TableView& rows) const override {
+        for (std::size_t k = 0; k < carried_.size(); ++k) {
+            const auto* const texts = std::get_if<std::vector<std::string>>(&rows.carried[k].values);
+            if (texts == nullptr) continue;
+            const CarriedType& type = carried_[k];
+            for (const std::string& text : *texts) {
+                if (holds(type, text)) continue;
+                return file_error(
+                    path_, "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
+                    std::to_string(type.size / (type.characters ? 4 : 1)) +
+                        (type.characters ? " characters of UTF-8" : " bytes") +
+                        " at most, as the column was told, and no zero byte at its end",
+                    base::quoted(text), "write CSV");
+            }
+        }
+        return Done{};
+    }
+
     std::size_t longest_row(const TableView&) const override { return row_size_; }
     char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const override {
         const auto put_one = [&]<class T>(const T& value, std::size_t k) {
             if constexpr (std::is_same_v<T, std::string>) {
                 at = put(at, carried_[k], value);
             } else if constexpr (std::is_same_v<T, Feature>) {
-                std::memcpy(at, &features_[static_cast<std::size_t>(value)], feature_size);
+                std::memcpy(at, features_[static_cast<std::size_t>(value)].data(), feature_size);
                 at += feature_size;
             } else if constexpr (std::is_same_v<T, double>) {
                 at = put(at, std::bit_cast<std::uint64_t>(value));
@@ -129,77 +188,8 @@ private:
     std::size_t row_size_ = 0;
     std::vector<CarriedType> carried_;
     std::uint64_t count_ = 0;
-    std::array<std::uint64_t, feature_count> features_{};  // as they stand in the file, in the memory of this machine
+    std::array<std::array<char, feature_size>, feature_count> features_{};  // as they stand in the file
 };
-
-/// Error: an empty name, one that is not UTF-8, two that are alike.
-void NpySink::settle_types() {
-    struct Field {
-        std::string name;
-        std::string type = "<f8";
-    };
-    std::vector<Field> fields{{"x"}, {"y"}};
-    if (format_.dimension == 3) fields.push_back({"z"});
-    fields.push_back({"cell", "<i8"});
-    fields.push_back({"feature", "|S8"});
-    for (const std::string& column : format_.columns()) fields.push_back({column});
-    if (format_.distances) fields.push_back({"distance"});
-    row_size_ = 8 * fields.size();  // each has 8 bytes
-    for (const ColumnFormat& column : format_.carried) {
-        carried_.push_back(type_of(column));
-        fields.push_back({column.name, carried_.back().descr});
-        row_size_ += carried_.back().size;
-    }
-    std::set<std::string> seen;
-    for (const Field& field : fields) {
-        if (const char* const expected = fault_of(field.name, seen); expected != nullptr)
-            refuse_file(path_, "a column name is not allowed in an NPY file", expected, base::quoted(field.name),
-                        "rename the field, leave it out, or write CSV");
-        types_ += (types_.empty() ? "[(" : ", (") + as_literal(field.name) + ", '" + field.type + "')";
-    }
-    types_ += "]";
-}
-
-NpySink::NpySink(const std::string& path, const TableFormat& format) : RowSink(path, format) {
-    file_.status().value();
-    if (!file_.can_replace())
-        refuse_file(path_, "cannot write NPY to a pipe or device",
-                    "a regular file: the number of rows is written into its header at the end", {},
-                    "name a regular file, or write CSV");
-    settle_types();
-    for (std::size_t f = 0; f < features_.size(); ++f) {
-        std::array<char, feature_size> text{};
-        const std::string_view word = name(static_cast<Feature>(f));
-        std::copy_n(word.begin(), std::min(word.size(), text.size()), text.begin());
-        std::memcpy(&features_[f], text.data(), text.size());
-    }
-    head_size_ = npy_header_of(types_, {UINT64_MAX}).size();
-    if (head_size_ > longest_npy_text)
-        refuse_file(path_, "too many columns for an NPY file",
-                    "a header of at most " + std::to_string(longest_npy_text) + " bytes", std::to_string(head_size_),
-                    "choose fewer fields, or write CSV");
-    file_.write(npy_header_of(types_, {0}, head_size_));
-    file_.status().value();
-}
-
-/// What the types of the file cannot hold.
-Status NpySink::check(const TableView& rows) const {
-    for (std::size_t k = 0; k < carried_.size(); ++k) {
-        const auto* const texts = std::get_if<std::vector<std::string>>(&rows.carried[k].values);
-        if (texts == nullptr) continue;
-        const CarriedType& type = carried_[k];
-        for (const std::string& text : *texts) {
-            if (holds(type, text)) continue;
-            return file_error(path_,
-                              "a text of column " + base::quoted(format_.carried[k].name) + " does not fit the file",
-                              std::to_string(type.size / (type.characters ? 4 : 1)) +
-                                  (type.characters ? " characters of UTF-8" : " bytes") +
-                                  " at most, as the column was told, and no zero byte at its end",
-                              base::quoted(text), "write CSV");
-        }
-    }
-    return Done{};
-}
 
 }  // namespace
 

@@ -48,13 +48,15 @@ std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, con
 template std::size_t npy_numbers(const char*, std::size_t, std::size_t, const NpyType&, double*, std::size_t);
 template std::size_t npy_numbers(const char*, std::size_t, std::size_t, const NpyType&, std::int64_t*, std::size_t);
 
-void append_utf8(std::string& text, std::uint32_t code) {
+bool append_utf8(std::string& text, std::uint32_t code) {
+    if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return false;
     // The first code that takes two, three and four bytes; what marks the first of so many.
     constexpr std::array<std::uint32_t, 3> longer{0x80, 0x800, 0x10000};
     constexpr std::array<std::uint32_t, 4> marks{0, 0xC0, 0xE0, 0xF0};
     auto more = static_cast<std::size_t>(std::upper_bound(longer.begin(), longer.end(), code) - longer.begin());
     text += static_cast<char>(marks[more] | code >> 6 * more);
     while (more-- != 0) text += static_cast<char>(0x80U | (code >> 6 * more & 0x3FU));
+    return true;
 }
 
 std::optional<NpyType> npy_type(std::string_view descr) {
@@ -70,9 +72,8 @@ std::optional<NpyType> npy_type(std::string_view descr) {
     const bool time = kind == 'M' || kind == 'm';
     if (!unit.empty() && !(time && unit.starts_with('[') && unit.ends_with(']'))) return std::nullopt;
     type.swapped = big == (std::endian::native == std::endian::little);
-    const bool fits = kind == 'f'   ? type.size == 2 || type.size == 4 || type.size == 8
-                      : kind == 'b' ? type.size == 1
-                                    : type.size == 1 || type.size == 2 || type.size == 4 || type.size == 8;
+    const std::size_t least = kind == 'f' ? 2 : 1, most = kind == 'b' ? 1 : 8;
+    const bool fits = std::has_single_bit(type.size) && type.size >= least && type.size <= most;
     if (((kind == 'f' || kind == 'i' || kind == 'u' || kind == 'b') && fits) || kind == 'S' || kind == 'U')
         type.kind = kind;
     constexpr std::string_view known = "fiubSUVcMm";
@@ -92,9 +93,7 @@ std::optional<std::string> npy_text(const char* at, const NpyType& type) {
     const auto code_at = [&](std::size_t i) { return number_at<std::uint32_t>(at + 4 * i, type.swapped); };
     while (count != 0 && code_at(count - 1) == 0) --count;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t code = code_at(i);
-        if (code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return std::nullopt;
-        append_utf8(text, code);
+        if (!append_utf8(text, code_at(i))) return std::nullopt;
     }
     return text;
 }

@@ -5,12 +5,8 @@
 #include <zlib.h>
 #include <algorithm>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <string>
+#include <functional>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "barycert/base/output_file.hpp"
@@ -19,7 +15,6 @@
 #include "barycert/result.hpp"
 
 namespace barycert::io {
-
 namespace {
 
 // The header of an array has one size whatever the shape, for that is known last: NumPy reads past the blanks.
@@ -33,7 +28,8 @@ constexpr unsigned zip_date = 0x21;                               // 1 January 1
 class Bytes {
 public:
     Bytes& two(std::uint64_t x) { return put(x, 2); }
-    Bytes& four(std::uint64_t x) { return put(x, 4); }
+    /// A larger number is the limit, which says that it stands in a ZIP64 field.
+    Bytes& four(std::uint64_t x) { return put(std::min(x, zip_limit), 4); }
     Bytes& eight(std::uint64_t x) { return put(x, 8); }
     Bytes& text(std::string_view text) {
         bytes_ += text;
@@ -48,10 +44,6 @@ private:
     }
     std::string bytes_;
 };
-
-std::uint64_t or_limit(std::uint64_t x) {
-    return x < zip_limit ? x : zip_limit;
-}
 
 static_assert(std::endian::native == std::endian::little, "NPY files are written as numbers stand in memory");
 
@@ -110,7 +102,7 @@ public:
             b.eight(count).eight(count).eight(end - begin).eight(begin);
             b.four(0x07064b50).four(0).eight(end).four(1);
         }
-        b.four(0x06054b50).two(0).two(0).two(count).two(count).four(or_limit(end - begin)).four(or_limit(begin)).two(0);
+        b.four(0x06054b50).two(0).two(0).two(count).two(count).four(end - begin).four(begin).two(0);
         put(b.all());
         return file_.commit();
     }
@@ -132,7 +124,7 @@ private:
         const bool large = m.size >= zip_limit;
         Bytes b;
         b.four(0x04034b50).two(large ? zip64_version : zip_version).two(0).two(0).two(0).two(zip_date);
-        b.four(m.checksum).four(or_limit(m.size)).four(or_limit(m.size)).two(m.name.size()).two(20).text(m.name);
+        b.four(m.checksum).four(m.size).four(m.size).two(m.name.size()).two(20).text(m.name);
         b.two(large ? zip64_field : padding_field).two(16).eight(large ? m.size : 0).eight(large ? m.size : 0);
         return b.all();
     }
@@ -145,8 +137,8 @@ private:
         const unsigned version = extra == 0 ? zip_version : zip64_version;
         Bytes b;
         b.four(0x02014b50).two(3U << 8 | version).two(version).two(0).two(0).two(0).two(zip_date);
-        b.four(m.checksum).four(or_limit(m.size)).four(or_limit(m.size)).two(m.name.size()).two(extra);
-        b.two(0).two(0).two(0).four(0100644ULL << 16).four(or_limit(m.offset)).text(m.name);
+        b.four(m.checksum).four(m.size).four(m.size).two(m.name.size()).two(extra);
+        b.two(0).two(0).two(0).four(0100644ULL << 16).four(m.offset).text(m.name);
         if (extra != 0) b.two(zip64_field).two(field.all().size()).text(field.all());
         return b.all();
     }
@@ -172,13 +164,11 @@ void write_changed(std::span<const From> all, NpzWriter& file, Change change) {
     }
 }
 
-constexpr auto unchanged = [](auto x) { return x; };
-
 template <class Offset>
 void write_pattern(NpzWriter& file, std::span<const std::uint8_t> counts, std::span<const Mesh::Index> indices) {
     const char* const type = sizeof(Offset) == 4 ? "<i4" : "<i8";
     file.begin("indices", type);
-    write_changed<Offset>(indices, file, unchanged);
+    write_changed<Offset>(indices, file, std::identity());
     file.end({indices.size()});
     file.begin("indptr", type);
     Offset at = 0;
@@ -189,15 +179,14 @@ void write_pattern(NpzWriter& file, std::span<const std::uint8_t> counts, std::s
 
 }  // namespace
 
-WeightsFile::WeightsFile(std::unique_ptr<NpzWriter> file, const std::string& path, std::uint64_t nodes)
-    : file_(std::move(file)), counts_(path), indices_(path), cells_(path), nodes_(nodes) {}
+WeightsFile::WeightsFile(const std::string& path, std::uint64_t nodes)
+    : file_(std::make_unique<NpzWriter>(path)), counts_(path), indices_(path), cells_(path), nodes_(nodes) {}
 
 WeightsFile::~WeightsFile() = default;
 
 Result<std::unique_ptr<WeightsFile>> WeightsFile::open(const std::string& path, std::uint64_t nodes) {
-    auto file = std::make_unique<NpzWriter>(path);
-    if (Status opened = file->check(path); !opened) return opened.error();
-    std::unique_ptr<WeightsFile> weights(new WeightsFile(std::move(file), path, nodes));
+    std::unique_ptr<WeightsFile> weights(new WeightsFile(path, nodes));
+    if (Status opened = weights->file_->check(path); !opened) return opened.error();
     weights->file_->begin("data", "<f8");
     return weights;
 }
@@ -222,7 +211,7 @@ Status WeightsFile::commit() {
     narrow ? write_pattern<std::int32_t>(*file_, counts, indices)
            : write_pattern<std::int64_t>(*file_, counts, indices);
     file_->begin("cell", "<i8");
-    write_changed<std::int64_t>(cells, *file_, unchanged);
+    write_changed<std::int64_t>(cells, *file_, std::identity());
     file_->end({cells.size()});
     const std::uint64_t shape[] = {cells.size(), nodes_};
     file_->begin("shape", "<i8");

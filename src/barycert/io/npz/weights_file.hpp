@@ -1,7 +1,6 @@
 /// Weights of points as a sparse matrix in an NPZ file, which scipy.sparse.load_npz reads.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -31,7 +30,7 @@ public:
     Status commit();
 
 private:
-    WeightsFile(std::unique_ptr<NpzWriter> file, const std::string& path, std::uint64_t nodes);
+    WeightsFile(const std::string& path, std::uint64_t nodes);
 
     std::unique_ptr<NpzWriter> file_;
     base::Spool counts_, indices_, cells_;

@@ -58,9 +58,7 @@ void put_run(const Colour& colour, std::size_t first, std::size_t last, std::uin
 }  // namespace
 
 std::size_t character_count(std::string_view text) {
-    std::size_t count = 0;
-    for (const char c : text) count += goes_on(c) ? 0 : 1;
-    return count;
+    return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, goes_on));
 }
 
 void draw_text(std::string_view text, std::size_t scale, std::size_t line, std::size_t left, std::uint8_t* pixels) {
@@ -69,8 +67,7 @@ void draw_text(std::string_view text, std::size_t scale, std::size_t line, std::
     for (const char c : text) {
         if (goes_on(c)) continue;
         for (std::size_t x = 0; x < scale * glyph_width; ++x) {
-            if (!glyph_dot(c, line / scale, x / scale)) continue;
-            put_pixel(text_colour, at + 4 * x);
+            if (glyph_dot(c, line / scale, x / scale)) put_pixel(text_colour, at + 4 * x);
         }
         at += 4 * scale * glyph_advance;
     }

@@ -37,7 +37,6 @@ struct Decoder : Session {
     Error unreadable = {};               ///< what the system said, if it was the system
     bool cut_short = false;
 
-    Decoder(const base::InputFile& f, const std::string& p) : file(f), path(p) {}
     ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
@@ -45,10 +44,9 @@ struct Encoder : Session {
     base::OutputFile& file;
     const std::function<void(std::size_t, std::uint8_t*)>& row;
     std::vector<std::uint8_t> pixels;
-    png_uint_32 width = 0, height = 0;
-    PngContent content = PngContent::few_colours;
+    png_uint_32 width, height;
+    PngContent content;
 
-    Encoder(base::OutputFile& f, const std::function<void(std::size_t, std::uint8_t*)>& r) : file(f), row(r) {}
     ~Encoder() { png_destroy_write_struct(&png, &info); }
 };
 
@@ -154,7 +152,7 @@ bool encode(Encoder& e) {
 Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels) {
     const Result<base::InputFile> file = base::InputFile::open(path);
     if (!file) return file.error();
-    Decoder decoder(*file, path);
+    Decoder decoder{{}, *file, path};
     decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, on_png_error, on_png_warning);
     if (decoder.png != nullptr) decoder.info = png_create_info_struct(decoder.png);
     if (decoder.info == nullptr || !decode_header(decoder)) return failure(decoder);
@@ -180,11 +178,8 @@ Status write_png_rows(const std::string& path, std::size_t width, std::size_t he
                       const std::function<void(std::size_t, std::uint8_t*)>& row, PngContent content) {
     base::OutputFile file(path);
     if (Status opened = file.status(); !opened) return opened;
-    Encoder encoder(file, row);
-    encoder.pixels.resize(4 * width);
-    encoder.width = static_cast<png_uint_32>(width);
-    encoder.height = static_cast<png_uint_32>(height);
-    encoder.content = content;
+    const auto columns = static_cast<png_uint_32>(width), rows = static_cast<png_uint_32>(height);
+    Encoder encoder{{}, file, row, std::vector<std::uint8_t>(4 * width), columns, rows, content};
     encoder.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &encoder, on_png_error, on_png_warning);
     if (encoder.png != nullptr) encoder.info = png_create_info_struct(encoder.png);
     const bool made = encoder.info != nullptr;

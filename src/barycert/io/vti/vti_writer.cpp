@@ -1,8 +1,5 @@
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string_view>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
@@ -43,14 +40,14 @@ OutFile layout_of(const VtiGrid& grid) {
             .sections = {{"PointData", {}}, {"CellData", {}}}};
 }
 
-/// Numbers of such an array; nothing if their bytes are 2^63 or more.
-std::optional<std::uint64_t> count_of(const VtiGrid& grid, const ArrayFormat& array) {
+/// Bytes of such an array, or INT64_MAX if they are more.
+std::uint64_t size_of(const VtiGrid& grid, const ArrayFormat& array) {
     std::uint64_t size = number_bytes(array.type) * static_cast<std::uint64_t>(array.components);
     for (const std::int64_t count : grid.counts) {
-        if (__builtin_mul_overflow(size, static_cast<std::uint64_t>(count), &size)) return std::nullopt;
+        if (__builtin_mul_overflow(size, static_cast<std::uint64_t>(count), &size) || size > INT64_MAX)
+            return INT64_MAX;
     }
-    if (size > INT64_MAX) return std::nullopt;
-    return size / number_bytes(array.type);
+    return size;
 }
 
 }  // namespace
@@ -64,11 +61,11 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
     if (Status s = check_arrays(path, writer->arrays()); !s) return s.error();
     std::uint64_t end = 0;
     for (OutArray& array : writer->arrays()) {
-        const std::optional<std::uint64_t> count = count_of(grid, array.format);
-        array.count = count.value_or(0);
+        const std::uint64_t size = size_of(grid, array.format);
+        array.count = size / number_bytes(array.format.type);
         writer->places_.push_back({end, 0});
-        // Room is left for the head and the tail.
-        if (!count || __builtin_add_overflow(end, array.size() + appended_header, &end) || end > INT64_MAX / 2)
+        end += size + appended_header;
+        if (end > INT64_MAX / 2)  // room is left for the head and the tail
             return wrong_in_memory(path, "the size of the arrays", "less than 2^62 bytes", "more");
         if (data != VtkData::raw) writer->spools_.emplace_back(path);
     }
@@ -89,12 +86,10 @@ bool VtiWriter::put(std::uint64_t at, std::string_view bytes) {
     if (at == end_ && (bytes.size() < many || !file_.can_replace())) {
         file_.write(bytes);
         end_ += bytes.size();
-    } else if (file_.can_replace()) {
-        file_.replace(at, bytes);
-    } else {
-        return false;
+        return true;
     }
-    return true;
+    if (file_.can_replace()) file_.replace(at, bytes);
+    return file_.can_replace();
 }
 
 Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {

@@ -1,12 +1,10 @@
 #include "barycert/io/vtk/collection.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
@@ -25,16 +23,9 @@ std::string path_beside(const std::string& collection, std::string_view name) {
     return (std::filesystem::path(collection).parent_path() / std::filesystem::path(name)).string();
 }
 
-/// Types of files, the element that holds the names, and the attribute in which they stand.
-struct CollectionKind {
-    std::string_view type, entry, attribute;
-};
-constexpr std::array<CollectionKind, 6> collection_kinds{{{"PUnstructuredGrid", "Piece", "Source"},
-                                                          {"PPolyData", "Piece", "Source"},
-                                                          {"vtkMultiBlockDataSet", "DataSet", "file"},
-                                                          {"vtkPartitionedDataSet", "DataSet", "file"},
-                                                          {"vtkPartitionedDataSetCollection", "DataSet", "file"},
-                                                          {"Collection", "DataSet", "file"}}};
+/// Types of files. Those of pieces (P...) have the names in <Piece Source="...">, the others in <DataSet file="...">.
+constexpr std::string_view collection_types =
+    "PUnstructuredGrid PPolyData vtkMultiBlockDataSet vtkPartitionedDataSet vtkPartitionedDataSetCollection Collection";
 
 /// Discarded where there is none.
 const Json& member_of(const Json& object, const char* name) {
@@ -46,17 +37,18 @@ const Json& member_of(const Json& object, const char* name) {
 /// a file, or a time that is none.
 std::optional<Collection> files_of(const XmlTree& tree) {
     const std::string_view type = tree.root().attribute_or("type", "");
-    const auto* const kind = std::ranges::find(collection_kinds, type, &CollectionKind::type);
-    if (tree.root().name != "VTKFile" || kind == collection_kinds.end() || tree.child(&tree.root(), type) == nullptr)
+    if (tree.root().name != "VTKFile" || !has_word(collection_types, type) || tree.child(&tree.root(), type) == nullptr)
         return std::nullopt;
+    const bool pieces = type.starts_with('P');
+    const std::string_view entry = pieces ? "Piece" : "DataSet", attribute = pieces ? "Source" : "file";
     Collection collection{.is_series = type == "Collection"};
     // All elements of the data set stand behind its own, blocks within blocks in their order.
     for (const XmlElement& element : tree.elements) {
-        if (element.name != kind->entry) continue;
-        const std::string_view name = element.attribute_or(kind->attribute, "");
+        if (element.name != entry) continue;
+        const std::string_view name = element.attribute_or(attribute, "");
         if (name.empty() && type.starts_with("vtk")) continue;  // an empty block
         if (name.empty())
-            tree.refuse_at(element, "an entry without a file", "an attribute " + std::string(kind->attribute), "none");
+            tree.refuse_at(element, "an entry without a file", "an attribute " + std::string(attribute), "none");
         const std::string_view time = collection.is_series ? element.attribute_or("timestep", "0") : "0";
         const double value = base::parse_double(time).value_or(HUGE_VAL);
         if (!std::isfinite(value)) tree.refuse_at(element, "the time of a step", "a finite number", in_quotes(time));

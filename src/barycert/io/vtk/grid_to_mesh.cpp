@@ -1,10 +1,7 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
@@ -59,18 +56,16 @@ const CellType& choose(const TypeCounts& counts, const RawGrid& grid, const std:
                     "tetrahedra or triangles, linear or quadratic", others,
                     surface ? plane_remedy(grid.points, {}) : to_simplices(path));
     }
-    constexpr std::array<std::pair<std::uint8_t, std::uint8_t>, 2> pairs{
+    constexpr std::array<std::array<VtkCell, 2>, 2> orders{
         {{vtk_tetra, vtk_quadratic_tetra}, {vtk_triangle, vtk_quadratic_triangle}}};
-    for (const auto& [linear, quadratic] : pairs) {
-        if (counts[linear] != 0 && counts[quadratic] != 0) {
-            const auto is_one = [one = linear, other = quadratic](std::uint8_t type) {
-                return type == one || type == other;
-            };
+    for (const auto& both : orders) {
+        if (counts[both[0]] != 0 && counts[both[1]] != 0) {
+            const auto is_one = [&](std::uint8_t type) { return type == both[0] || type == both[1]; };
             refuse_file(path, "linear and quadratic cells in one mesh", "cells of one type",
                         counts_by_name(counts, true, is_one),
                         "make all cells linear, or all quadratic: " + to_simplices(path));
         }
-        for (const std::uint8_t type : {linear, quadratic}) {
+        for (const VtkCell type : both) {
             if (counts[type] != 0) return cell_types()[type];
         }
     }

@@ -78,11 +78,9 @@ private:
     void read_offsets(RawCells& cells, std::size_t offsets, std::size_t nodes) {
         if (offsets == 0 && nodes == 0) return;
         text_.expect("OFFSETS");
-        const NumberType offset_type = text_.number_type("the offsets of cells");
-        text_.numbers("the offsets of cells", offset_type, offsets, cells.ends);
+        text_.numbers("the offsets of cells", text_.number_type("the offsets of cells"), offsets, cells.ends);
         text_.expect("CONNECTIVITY");
-        const NumberType type = text_.number_type("the connectivity");
-        text_.numbers("the connectivity", type, nodes, cells.connectivity);
+        text_.numbers("the connectivity", text_.number_type("the connectivity"), nodes, cells.connectivity);
         const bool grows = std::is_sorted(cells.ends.begin(), cells.ends.end());
         if (!grows || cells.ends.empty() || cells.ends.front() != 0 ||
             cells.ends.back() != static_cast<std::int64_t>(nodes))

@@ -19,9 +19,7 @@ namespace barycert::io {
 
 inline std::string capitals(std::string_view word) {
     std::string text(word);
-    for (char& c : text) {
-        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    }
+    for (char& c : text) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
     return text;
 }
 
@@ -35,13 +33,10 @@ inline std::string decoded(std::string_view word) {
     std::string text;
     for (std::size_t i = 0; i < word.size(); ++i) {
         unsigned code = 0;
-        if (word[i] == '%' && i + 2 < word.size() &&
-            std::from_chars(&word[i + 1], &word[i + 1] + 2, code, 16).ptr == &word[i + 1] + 2) {
-            text += static_cast<char>(code);
-            i += 2;
-        } else {
-            text += word[i];
-        }
+        const bool one_byte = word[i] == '%' && i + 2 < word.size() &&
+                              std::from_chars(&word[i + 1], &word[i + 1] + 2, code, 16).ptr == &word[i + 1] + 2;
+        text += one_byte ? static_cast<char>(code) : word[i];
+        if (one_byte) i += 2;
     }
     return text;
 }

@@ -93,13 +93,6 @@ std::string legacy_name(std::string_view name, char but = '!') {
     return text;
 }
 
-/// The bytes of each number the other way round.
-void reverse_numbers(std::string& bytes, std::uint64_t size) {
-    if (std::endian::native == std::endian::big || size == 1) return;
-    for (auto at = bytes.begin(); at != bytes.end(); at += static_cast<std::ptrdiff_t>(size))
-        std::reverse(at, at + static_cast<std::ptrdiff_t>(size));
-}
-
 class LegacyFile {
 public:
     LegacyFile(const std::string& path, bool text) : file_(path), text_(text) {}
@@ -107,15 +100,14 @@ public:
     void write(std::string_view bytes) { file_.write(bytes); }
     void write(const OutArray& array, std::size_t per_line) {
         const auto out = [&](std::string_view bytes) { file_.write(bytes); };
-        if (text_) {
-            write_as_text(array, per_line, out);
-        } else {
-            const std::uint64_t size = number_bytes(array.format.type);
-            write_parts(
-                array, std::size_t{1} << 15,
-                [size](std::size_t, std::size_t, std::string& bytes) { reverse_numbers(bytes, size); }, out);
-            file_.write("\n");
-        }
+        if (text_) return write_as_text(array, per_line, out);
+        const auto size = static_cast<std::ptrdiff_t>(number_bytes(array.format.type));
+        const auto reverse_numbers = [size](std::size_t, std::size_t, std::string& bytes) {
+            if (std::endian::native == std::endian::big || size == 1) return;
+            for (auto at = bytes.begin(); at != bytes.end(); at += size) std::reverse(at, at + size);
+        };
+        write_parts(array, std::size_t{1} << 15, reverse_numbers, out);
+        file_.write("\n");
     }
     /// FIELD FieldData: any number of arrays of any type; texts last.
     void write_arrays(const char* section, std::size_t rows, std::vector<OutArray>& arrays) {

@@ -3,7 +3,6 @@
 #include <fast_float/fast_float.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 
 #include "barycert/base/text.hpp"
@@ -116,17 +115,15 @@ struct WordReader {
 
     /// The number at `at`, behind which there is white space or the end; nullptr where a closer look is needed.
     const char* quick(const char* at, const char* end, Wide& value) const {
-        const char* behind = nullptr;
-        if constexpr (std::is_floating_point_v<Wide>) {
-            const auto [next, error] = fast_float::from_chars(at, end, value);
-            if (error != std::errc{} || !std::isfinite(value)) return nullptr;
-            behind = next;
-        } else {
-            const auto [next, error] = std::from_chars(at, end, value);
-            if (error != std::errc{} || value < min || value > max) return nullptr;
-            behind = next;
-        }
-        return behind == end || is_white(*behind) ? behind : nullptr;
+        const auto [behind, error] = [&] {
+            if constexpr (std::is_floating_point_v<Wide>) {
+                return fast_float::from_chars(at, end, value);
+            } else {
+                return std::from_chars(at, end, value);
+            }
+        }();
+        const bool good = error == std::errc{} && value >= min && value <= max;  // a NaN is not
+        return good && (behind == end || is_white(*behind)) ? behind : nullptr;
     }
 };
 
@@ -279,7 +276,7 @@ std::optional<std::uint64_t> parse_count(std::string_view text) {
     if (word.starts_with('+')) word.remove_prefix(1);
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.empty() || error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+    if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
     return value;
 }
 

@@ -14,16 +14,6 @@ namespace barycert::io {
 namespace {
 
 template <class T>
-char* put_number(T x, char* at) {
-    if constexpr (std::is_floating_point_v<T>) {
-        if (std::isnan(x)) return std::copy_n("nan", 3, at);  // its sign says nothing
-        return std::to_chars(at, at + 32, x).ptr;
-    } else {
-        return std::to_chars(at, at + 32, static_cast<std::int64_t>(x)).ptr;
-    }
-}
-
-template <class T>
 void put_numbers(std::size_t first, std::size_t last, std::size_t per_line, std::string& bytes) {
     std::string text;
     text.resize((last - first) * 33);
@@ -31,7 +21,8 @@ void put_numbers(std::size_t first, std::size_t last, std::size_t per_line, std:
     for (std::size_t i = first; i < last; ++i) {
         T x{};
         std::memcpy(&x, bytes.data() + (i - first) * sizeof(T), sizeof(T));
-        at = put_number(x, at);
+        // The sign of a NaN says nothing.
+        at = std::isnan(x) ? std::copy_n("nan", 3, at) : std::to_chars(at, at + 32, x).ptr;
         *at++ = (i + 1) % per_line == 0 ? '\n' : ' ';
     }
     text.resize(static_cast<std::size_t>(at - text.data()));
@@ -54,15 +45,6 @@ const std::string* name_twice(const std::vector<OutArray>& arrays) {
 
 }  // namespace
 
-void OutArray::copy(std::size_t first, std::size_t last, char* to) const {
-    const std::uint64_t number = number_bytes(format.type);
-    if (bytes == nullptr) {
-        fill(first, last, to);
-    } else if (last != first) {
-        std::memcpy(to, bytes + first * number, (last - first) * number);
-    }
-}
-
 OutArray array_of_points(std::span<const double> points, int dimension) {
     if (dimension == 3) return array_in_memory("Points", points, 3);
     const auto at = [points](std::size_t i) { return i % 3 == 2 ? 0.0 : points[i / 3 * 2 + i % 3]; };
@@ -79,9 +61,13 @@ void write_parts(const OutArray& array, std::size_t part, const Transform& trans
         const std::size_t end = std::min(count, begin + wave * part), parts_now = (end - begin + part - 1) / part;
         in_parallel(parts_now, [&](std::size_t i) {
             const std::size_t first = begin + i * part, last = std::min(end, first + part);
-            parts[i].resize((last - first) * number);
-            array.copy(first, last, parts[i].data());
-            transform(first, last, parts[i]);
+            if (array.bytes != nullptr) {
+                parts[i].assign(array.bytes + first * number, (last - first) * number);
+            } else {
+                parts[i].resize((last - first) * number);
+                array.fill(first, last, parts[i].data());
+            }
+            if (transform) transform(first, last, parts[i]);
         });
         for (std::size_t i = 0; i < parts_now; ++i) write(parts[i]);
     }

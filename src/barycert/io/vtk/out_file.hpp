@@ -34,7 +34,6 @@ struct OutArray {
     std::function<void(std::size_t first, std::size_t last, char* to)> fill = {};
 
     std::uint64_t size() const { return count * number_bytes(format.type); }
-    void copy(std::size_t first, std::size_t last, char* to) const;
 };
 
 /// The type of numbers T; char stands for text.
@@ -75,7 +74,8 @@ inline OutArray array_of_field(const Field& field) {
 /// What is done to a part of an array on any thread: its numbers `first` to `last` - 1 are `bytes`.
 using Transform = std::function<void(std::size_t first, std::size_t last, std::string& bytes)>;
 
-/// Writes the array in parts of `part` numbers in their order; they are transformed on all threads, some at a time.
+/// Writes the array in parts of `part` numbers in their order; they are made, and transformed where `transform` is not
+/// empty, on all threads, some at a time.
 void write_parts(const OutArray& array, std::size_t part, const Transform& transform,
                  const std::function<void(std::string_view)>& write);
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <utility>
 
 #include "barycert/io/vtk/parallel.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 constexpr int base64_space = -1, base64_padding = -2, base64_other = -3;
 
 /// What each character stands for.
-constexpr std::array<std::int8_t, 256> make_base64_table() {
+constexpr std::array<std::int8_t, 256> base64_values = [] {
     std::array<std::int8_t, 256> table{};
     table.fill(base64_other);
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -26,11 +27,10 @@ constexpr std::array<std::int8_t, 256> make_base64_table() {
     for (const char c : {' ', '\t', '\n', '\r'}) table[static_cast<unsigned char>(c)] = base64_space;
     table['='] = base64_padding;
     return table;
-}
+}();
 
 int base64_value(char c) {
-    static constexpr std::array<std::int8_t, 256> table = make_base64_table();
-    return table[static_cast<unsigned char>(c)];
+    return base64_values[static_cast<unsigned char>(c)];
 }
 
 /// Whether all `quadruples` are digits, which give three bytes each.
@@ -46,10 +46,6 @@ bool decode_digits(const char* from, std::size_t quadruples, char* to) {
         to[2] = static_cast<char>(word);
     }
     return all >= 0;
-}
-
-bool fits_int(std::size_t size) {
-    return size <= static_cast<std::size_t>(std::numeric_limits<int>::max());
 }
 
 }  // namespace
@@ -131,7 +127,7 @@ bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_
                LIBDEFLATE_SUCCESS;
     }
     if (compressor == Compressor::lz4)
-        return fits_int(packed.size()) && fits_int(size) &&
+        return std::in_range<int>(packed.size()) && std::in_range<int>(size) &&
                static_cast<std::size_t>(LZ4_decompress_safe(packed.data(), to, static_cast<int>(packed.size()),
                                                             static_cast<int>(size))) == size;
     if (compressor != Compressor::lzma) return false;
@@ -154,7 +150,7 @@ std::string pack(Compressor compressor, std::string_view plain) {
         if (own == nullptr) return {};
         packed.resize(libdeflate_zlib_compress_bound(own.get(), plain.size()));
         size = libdeflate_zlib_compress(own.get(), plain.data(), plain.size(), packed.data(), packed.size());
-    } else if (compressor == Compressor::lz4 && fits_int(plain.size())) {
+    } else if (compressor == Compressor::lz4 && std::in_range<int>(plain.size())) {
         packed.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
         constexpr int acceleration = 5;  // speed before size
         size = static_cast<std::size_t>(

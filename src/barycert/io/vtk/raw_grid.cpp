@@ -1,7 +1,6 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "barycert/io/formats.hpp"
 
@@ -40,32 +39,6 @@ const std::array<CellType, 256>& cell_types() {
         return all;
     }();
     return types;
-}
-
-namespace {
-
-/// The type of a cell in that section, by its number of nodes.
-std::uint8_t type_in(Section section, std::int64_t nodes) {
-    if (section == vertices) return nodes == 1 ? vtk_vertex : vtk_poly_vertex;
-    if (section == lines) return nodes == 2 ? vtk_line : vtk_poly_line;
-    if (section == strips) return vtk_triangle_strip;
-    return nodes == 3 ? vtk_triangle : nodes == 4 ? vtk_quad : vtk_polygon;
-}
-
-}  // namespace
-
-void RawGrid::append(RawCells more, std::optional<Section> section) {
-    const auto before = static_cast<std::int64_t>(cells.connectivity.size());
-    if (section || before != 0) {
-        std::int64_t end = 0;
-        for (std::int64_t& own : more.ends) {
-            if (section) types.push_back(type_in(*section, own - end));
-            end = own;
-            own += before;
-        }
-    }
-    move_behind(cells.ends, more.ends);
-    move_behind(cells.connectivity, more.connectivity);
 }
 
 void FileText::refuse(const char* at, std::string what, std::string expected, std::string found,
@@ -137,6 +110,14 @@ std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t
 
 namespace {
 
+/// The type of a cell in that section, by its number of nodes.
+std::uint8_t type_in(Section section, std::int64_t nodes) {
+    if (section == vertices) return nodes == 1 ? vtk_vertex : vtk_poly_vertex;
+    if (section == lines) return nodes == 2 ? vtk_line : vtk_poly_line;
+    if (section == strips) return vtk_triangle_strip;
+    return nodes == 3 ? vtk_triangle : nodes == 4 ? vtk_quad : vtk_polygon;
+}
+
 constexpr const char* missing = "it is missing in a piece of the file";
 
 void add_new(std::vector<std::string>& names, const std::vector<std::string>& more) {
@@ -193,6 +174,20 @@ void append_arrays(std::vector<RawArray>& to, std::vector<RawArray>& from, std::
 }
 
 }  // namespace
+
+void RawGrid::append(RawCells more, std::optional<Section> section) {
+    const auto before = static_cast<std::int64_t>(cells.connectivity.size());
+    if (section || before != 0) {
+        std::int64_t end = 0;
+        for (std::int64_t& own : more.ends) {
+            if (section) types.push_back(type_in(*section, own - end));
+            end = own;
+            own += before;
+        }
+    }
+    move_behind(cells.ends, more.ends);
+    move_behind(cells.connectivity, more.connectivity);
+}
 
 void keep_rows(std::vector<RawArray>& arrays, const std::vector<std::int32_t>& rows) {
     for (RawArray& array : arrays) {

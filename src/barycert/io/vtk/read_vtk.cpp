@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <set>
-#include <span>
 #include <system_error>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -29,13 +26,12 @@ bool is_other_kind(const std::string& path) {
 
 /// Whether a grid that is no polygon data is among the files, or those that they name.
 bool has_cells_of_grids(std::span<const io::CollectionFile> files) {
-    for (const io::CollectionFile& file : files) {
-        if (is_polygons(file.path)) continue;
-        for (const std::string& named : vtk_mesh_files(file.path)) {
-            if (io::has_suffix(named, ".vtu") || io::has_suffix(named, ".vtk")) return true;
-        }
-    }
-    return false;
+    const auto is_grid = [](const std::string& path) {
+        return io::has_suffix(path, ".vtu") || io::has_suffix(path, ".vtk");
+    };
+    return std::ranges::any_of(files, [&](const io::CollectionFile& file) {
+        return !is_polygons(file.path) && std::ranges::any_of(vtk_mesh_files(file.path), is_grid);
+    });
 }
 
 /// Of files that name files, each is read once. Errors are thrown as Exceptions.
@@ -130,10 +126,8 @@ Result<io::PointTable> read_table(const std::string& path, int dimension, bool a
         }
         if (names != nullptr)
             std::erase_if(grid.point_arrays, [&](auto& array) { return std::ranges::count(*names, array.name) == 0; });
-        for (io::RawArray& array : grid.point_arrays) {
-            const bool whole = array.type < io::NumberType::float32;
-            if (labels && whole && array.components == 1) array.make_labels();
-        }
+        for (io::RawArray& array : grid.point_arrays)
+            if (labels && array.type < io::NumberType::float32 && array.components == 1) array.make_labels();
         io::take_fields(grid.point_arrays, "point array", path, table.fields, &table.labels, table.notes);
         io::note_narrow_points(grid, path, table.notes);
         return table;

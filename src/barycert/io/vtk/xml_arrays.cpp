@@ -8,7 +8,6 @@
 #include <memory>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 namespace barycert::io {
 namespace {
@@ -94,10 +93,8 @@ public:
             if (!unpack_wave(first, last, packed_room, to)) return {NumberFault::Kind::too_few, done};
             if (!direct) {
                 NumberFault found = read_binary({to, plain}, type, layout_.swap_bytes, numbers, values);
-                if (found && !fault) {
-                    fault = std::move(found);
-                    fault.index += done;
-                }
+                found.index += done;
+                if (!fault) fault = std::move(found);
             }
             done += numbers;
         }

@@ -6,14 +6,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {
-
 namespace {
 
 /// So many finite numbers, or integers as large as counts may be, and no more.
@@ -55,21 +53,16 @@ public:
         std::size_t pieces = 0;
         for (const std::size_t i : data->children) {
             const XmlElement& element = tree_.elements[i];
-            if (element.name == "FieldData") {
-                for (std::string& name : names_of(element))
-                    if (!is_time(name)) grid.loose_arrays.push_back(std::move(name));
-            }
+            if (element.name == "FieldData")
+                std::ranges::copy_if(names_of(element), std::back_inserter(grid.loose_arrays), std::not_fn(is_time));
             if (element.name != "Piece") continue;
             // Grids have one piece, or the points on the borders of pieces would be there twice.
             if (structured && ++pieces > 1)
                 tree_.refuse_at(element, "a grid in several pieces", "one piece", "more",
                                 "write it again in one piece, as ParaView's Merge Blocks or VTK's writer do");
             RawGrid piece;
-            if (structured) {
-                read_grid_points(*data, element, type, piece);
-            } else {
-                read_points(element, count_of(element, "NumberOfPoints", grid.point_count()), piece);
-            }
+            structured ? read_grid_points(*data, element, type, piece)
+                       : read_points(element, count_of(element, "NumberOfPoints", grid.point_count()), piece);
             if (const XmlElement* const of_points = tree_.child(&element, "PointData"); of_points != nullptr) {
                 piece.global_ids = of_points->attribute_or("GlobalIds", "");
                 if (part_ == Part::points) {
@@ -86,12 +79,9 @@ public:
 
 private:
     [[noreturn]] void refuse_kind(const XmlElement* data, const std::string& type) const {
-        std::string found = "type " + in_quotes(type);
-        if (tree_.root().name != "VTKFile") {
-            found = "an element " + in_quotes(tree_.root().name);
-        } else if (data == nullptr) {
-            found = "no element of its type " + in_quotes(type);
-        }
+        const std::string found = tree_.root().name != "VTKFile" ? "an element " + in_quotes(tree_.root().name)
+                                  : data == nullptr              ? "no element of its type " + in_quotes(type)
+                                                                 : "type " + in_quotes(type);
         tree_.refuse_at(tree_.root(), "the kind of the file",
                         part_ == Part::all ? "a VTKFile of type UnstructuredGrid or PolyData"
                                            : "a VTKFile of type UnstructuredGrid, PolyData, ImageData, "

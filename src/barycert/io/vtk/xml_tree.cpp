@@ -44,8 +44,7 @@ public:
     /// Where that is in the file.
     std::size_t place() const {
         const auto index = static_cast<std::size_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(parser_), 0));
-        const auto behind = std::upper_bound(jumps_.begin(), jumps_.end(), index,
-                                             [](std::size_t i, const Jump& jump) { return i < jump.fed; });
+        const auto behind = std::ranges::upper_bound(jumps_, index, {}, &Jump::fed);
         return behind == jumps_.begin() ? index : index - (behind - 1)->fed + (behind - 1)->place;
     }
 
@@ -90,16 +89,9 @@ private:
 
 /// Behind the tag that begins at `at`. Values in quotes may hold a closing bracket.
 std::size_t behind_tag(std::string_view bytes, std::size_t at) {
-    char quote = 0;
-    for (; at < bytes.size(); ++at) {
-        const char c = bytes[at];
-        if (quote != 0) {
-            if (c == quote) quote = 0;
-        } else if (c == '"' || c == '\'') {
-            quote = c;
-        } else if (c == '>') {
-            return at + 1;
-        }
+    while ((at = bytes.find_first_of("\"'>", at)) != std::string_view::npos) {
+        if (bytes[at] == '>') return at + 1;
+        at = std::min(bytes.find(bytes[at], at + 1), bytes.size() - 1) + 1;
     }
     return bytes.size();
 }

@@ -1,9 +1,7 @@
 #include "barycert/io/vtk/out_file.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
-#include <utility>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/io.hpp"
@@ -34,11 +32,8 @@ public:
         direct_ ? file_.write(bytes) : static_cast<void>(memory_.append(bytes));
     }
     void replace(std::uint64_t at, std::string_view bytes) {
-        if (direct_) {
-            file_.replace(at, bytes);
-        } else {
-            memory_.replace(static_cast<std::size_t>(at), bytes.size(), bytes);
-        }
+        direct_ ? file_.replace(at, bytes)
+                : static_cast<void>(memory_.replace(static_cast<std::size_t>(at), bytes.size(), bytes));
     }
     void finish() { file_.write(memory_); }
 
@@ -94,19 +89,14 @@ std::string head_of(const OutFile& f, std::string_view compressor, const std::ve
 }
 
 void write_raw(const OutFile& f, base::OutputFile& file) {
-    file.write(raw_head(f));
+    const auto write = [&](std::string_view bytes) { file.write(bytes); };
+    write(raw_head(f));
     for_each_array(f, [&](const OutArray& a) {
         const std::uint64_t size = a.size();
-        file.write({reinterpret_cast<const char*>(&size), appended_header});
-        if (a.bytes != nullptr) {
-            file.write({a.bytes, static_cast<std::size_t>(size)});
-        } else {
-            write_parts(
-                a, block_size, [](std::size_t, std::size_t, std::string&) {},
-                [&](std::string_view bytes) { file.write(bytes); });
-        }
+        write({reinterpret_cast<const char*>(&size), appended_header});
+        a.bytes != nullptr ? write({a.bytes, static_cast<std::size_t>(size)}) : write_parts(a, block_size, {}, write);
     });
-    file.write(appended_tail);
+    write(appended_tail);
 }
 
 /// Header (number of blocks, their size, that of the last if it is shorter, their compressed sizes), then the blocks.

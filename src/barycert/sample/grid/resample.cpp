@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include "barycert/base/arena.hpp"
@@ -41,12 +40,79 @@ SlabRange slabs_between(const Raster& raster, std::size_t axis, std::uint32_t de
     return {slab_of(std::max(from, 0.0)), slab_of(std::min(to, last_layer))};
 }
 
+/// How many parts of a size there are.
+std::size_t parts_of(std::size_t all, std::size_t size) {
+    return (all + size - 1) / size;
+}
+
+Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
+    Raster raster;
+    raster.precise = true;
+    double worst = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<double>& at = raster.at[k];
+        at.reserve(static_cast<std::size_t>(grid.counts[k]));
+        for (std::int64_t i = 0; i < grid.counts[k]; ++i) at.push_back(grid.coordinate(k, i));
+        if (k >= index.dimension()) break;
+        double max = 0;
+        for (const double x : {at.front(), at.back(), index.low[k], index.high[k]}) max = std::max(max, std::abs(x));
+        // One point alone stands at place 0, whatever the scale: one in which the slack is nothing beside the mesh.
+        const double extent = index.high[k] - index.low[k];
+        raster.origin[k] = grid.origin[k];
+        raster.spacing[k] = grid.spacing[k];
+        raster.scale[k] = grid.counts[k] > 1 ? 1 / grid.spacing[k] : extent > 0 ? 0x1p16 / extent : 1;
+        // Ends of intervals: some roundings of numbers up to `largest`; the same for coordinates of the grid. In
+        // places: these times the scale, the roundings of that, and how far the last point is from where it were by the
+        // spacing.
+        const double count = static_cast<double>(grid.counts[k]);
+        const double regular_last = grid.origin[k] + (count - 1) * grid.spacing[k];
+        const double error =
+            (48 * 0x1p-53 * max + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] + 16 * 0x1p-53 * count;
+        worst = std::max(worst, error);
+        raster.precise = raster.precise && error <= 0x1p-9 && raster.scale[k] <= 0x1p300 &&
+                         raster.scale[k] >= 0x1p-300 && max <= 0x1p300;
+    }
+    raster.slack = std::clamp(64 * worst, 0x1p-30, 0x1p-8);
+    return raster;
+}
+
+/// Layers a slab. Few slabs, for a cell that lies in two of them is looked at twice; of `room` points or one layer
+/// each; as many for each thread.
+std::size_t slab_depth(std::size_t layers, std::size_t layer_size, std::size_t room, std::size_t threads) {
+    const std::size_t fewest = parts_of(layers, std::max<std::size_t>(room / layer_size, 1));
+    return parts_of(layers, std::min(parts_of(fewest, threads) * threads, layers));
+}
+
+Status check_grid(const SamplerData& data, const Grid& grid) {
+    const int dimension = data.located().mesh->dimension;
+    if (grid.dimension != dimension)
+        return Error{.what = "dimension of the grid",
+                     .expected = std::to_string(dimension) + ", that of the mesh",
+                     .found = std::to_string(grid.dimension)};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool several = grid.counts[k] > 1;
+        const bool good = grid.counts[k] >= 1 && grid.counts[k] <= Grid::max_on_axis && std::isfinite(grid.origin[k]) &&
+                          std::isfinite(grid.last[k]) && grid.spacing[k] >= 0 && std::isfinite(grid.spacing[k]) &&
+                          (!several || grid.spacing[k] > 0) &&
+                          (!several || grid.coordinate(k, grid.counts[k] - 2) <= grid.last[k]) &&
+                          (grid.dimension == 3 || k < 2 || !several);
+        if (!good) return Error{.what = "invalid grid", .remedy = "make it by grid_over or grid_spaced"};
+    }
+    const std::int64_t layer = grid.counts[0] * (grid.dimension == 3 ? grid.counts[1] : 1);
+    if (layer > 0x7fffffff)
+        return Error{.what = "points of one layer of the grid",
+                     .expected = "at most 2147483647",
+                     .found = std::to_string(layer),
+                     .remedy = "resample in several grids"};
+    return Done{};
+}
+
 }  // namespace
 
 SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::size_t depth) {
     const std::size_t axis = index.dimension() - 1, cells = index.cell_count();
     constexpr std::size_t at_once = 32768;
-    parts_.resize((cells + at_once - 1) / at_once);
+    parts_.resize(parts_of(cells, at_once));
     base::parallel_for(parts_.size(), [&](std::size_t p) {
         const std::size_t first = p * at_once, count = std::min(at_once, cells - first);
         std::vector<SlabRange> ranges(count);
@@ -84,83 +150,13 @@ SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::
 }  // namespace barycert::sample
 
 namespace barycert {
-namespace {
-
-/// How many parts of a size there are.
-std::size_t parts_of(std::size_t all, std::size_t size) {
-    return (all + size - 1) / size;
-}
-
-sample::Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
-    sample::Raster raster;
-    raster.precise = true;
-    double worst = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        std::vector<double>& at = raster.at[k];
-        at.reserve(static_cast<std::size_t>(grid.counts[k]));
-        for (std::int64_t i = 0; i < grid.counts[k]; ++i) at.push_back(grid.coordinate(k, i));
-        if (k >= index.dimension()) break;
-        double max = 0;
-        for (const double x : {at.front(), at.back(), index.low[k], index.high[k]}) max = std::max(max, std::abs(x));
-        // One point alone stands at place 0, whatever the scale: one in which the slack is nothing beside the mesh.
-        const double extent = index.high[k] - index.low[k];
-        raster.origin[k] = grid.origin[k];
-        raster.spacing[k] = grid.spacing[k];
-        raster.scale[k] = grid.counts[k] > 1 ? 1 / grid.spacing[k] : extent > 0 ? 0x1p16 / extent : 1;
-        // Ends of intervals: some roundings of numbers up to `largest`; the same for coordinates of the grid. In
-        // places: these times the scale, the roundings of that, and how far the last point is from where it were by the
-        // spacing.
-        const double count = static_cast<double>(grid.counts[k]);
-        const double regular_last = grid.origin[k] + (count - 1) * grid.spacing[k];
-        const double error =
-            (48 * 0x1p-53 * max + 2 * std::abs(at.back() - regular_last)) * raster.scale[k] + 16 * 0x1p-53 * count;
-        worst = std::max(worst, error);
-        raster.precise = raster.precise && error <= 0x1p-9 && raster.scale[k] <= 0x1p300 &&
-                         raster.scale[k] >= 0x1p-300 && max <= 0x1p300;
-    }
-    raster.slack = std::clamp(64 * worst, 0x1p-30, 0x1p-8);
-    return raster;
-}
-
-/// Layers a slab. Few slabs, for a cell that lies in two of them is looked at twice; of `room` points or one layer
-/// each; as many for each thread.
-std::size_t slab_depth(std::size_t layers, std::size_t layer_size, std::size_t room, std::size_t threads) {
-    const std::size_t fewest = parts_of(layers, std::max<std::size_t>(room / layer_size, 1));
-    return parts_of(layers, std::min(parts_of(fewest, threads) * threads, layers));
-}
-
-Status check_grid(const sample::SamplerData& data, const Grid& grid) {
-    const int dimension = data.located().mesh->dimension;
-    if (grid.dimension != dimension)
-        return Error{.what = "dimension of the grid",
-                     .expected = std::to_string(dimension) + ", that of the mesh",
-                     .found = std::to_string(grid.dimension)};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const bool several = grid.counts[k] > 1;
-        const bool good = grid.counts[k] >= 1 && grid.counts[k] <= Grid::max_on_axis && std::isfinite(grid.origin[k]) &&
-                          std::isfinite(grid.last[k]) && grid.spacing[k] >= 0 && std::isfinite(grid.spacing[k]) &&
-                          (!several || grid.spacing[k] > 0) &&
-                          (!several || grid.coordinate(k, grid.counts[k] - 2) <= grid.last[k]) &&
-                          (grid.dimension == 3 || k < 2 || !several);
-        if (!good) return Error{.what = "invalid grid", .remedy = "make it by grid_over or grid_spaced"};
-    }
-    const std::int64_t layer = grid.counts[0] * (grid.dimension == 3 ? grid.counts[1] : 1);
-    if (layer > 0x7fffffff)
-        return Error{.what = "points of one layer of the grid",
-                     .expected = "at most 2147483647",
-                     .found = std::to_string(layer),
-                     .remedy = "resample in several grids"};
-    return Done{};
-}
-
-}  // namespace
 
 Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                               const GridSink& sink) {
     const ExactEnvironment environment;
     const sample::SamplerData& data = sample::SamplerData::of(sampler);
-    if (Status status = check_grid(data, grid); !status) return status.error();
-    const sample::Raster raster = raster_of(grid, data.index());
+    if (Status status = sample::check_grid(data, grid); !status) return status.error();
+    const sample::Raster raster = sample::raster_of(grid, data.index());
     const std::vector<double>& layers = raster.at[data.index().dimension() - 1];
     const std::size_t layer = static_cast<std::size_t>(grid.point_count()) / layers.size();
     // Points of 64 MiB or so.
@@ -170,8 +166,8 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
     SampleCounts all;
     base::in_arena(options.threads, data.index().cell_count() + layer * layers.size(), [&] {
         const auto threads = static_cast<std::size_t>(base::arena_threads());
-        const std::size_t depth = slab_depth(layers.size(), layer, room, threads);
-        const std::size_t slabs = parts_of(layers.size(), depth);
+        const std::size_t depth = sample::slab_depth(layers.size(), layer, room, threads);
+        const std::size_t slabs = sample::parts_of(layers.size(), depth);
         const sample::SlabCells cells(data.index(), raster, depth);
         // A slab may wait for its turn while others are filled. As they are begun and end in order, those under way
         // are consecutive.

@@ -90,6 +90,17 @@ struct MapWriterData {
         clear_map_rows(pending);
     }
 
+    std::array<char, map_header_size> header() const {
+        std::array<char, map_header_size> all{};
+        char* at = std::copy(map_magic.begin(), map_magic.end(), all.data());
+        at = put_little(at, map_version);
+        at = put_little(at, static_cast<std::uint8_t>(head.dimension));
+        at = put_little(at, static_cast<std::uint8_t>(head.all)) + 2;
+        for (const std::uint64_t x : {head.rows, head.nodes, head.cells, head.fingerprint}) at = put_little(at, x);
+        put_little(at, map_checksum({all.data(), map_header_size - map_checksum_size}, 0));
+        return all;
+    }
+
     std::string name;
     MapHeader head;  // head.rows: those written so far, without those pending
     base::OutputFile file;
@@ -100,20 +111,6 @@ struct MapWriterData {
     bool done = false;
 };
 
-namespace {
-
-std::array<char, map_header_size> header_bytes(const MapHeader& head) {
-    std::array<char, map_header_size> bytes{};
-    char* at = std::copy(map_magic.begin(), map_magic.end(), bytes.data());
-    at = put_little(at, map_version);
-    at = put_little(at, static_cast<std::uint8_t>(head.dimension));
-    at = put_little(at, static_cast<std::uint8_t>(head.all)) + 2;
-    for (const std::uint64_t word : {head.rows, head.nodes, head.cells, head.fingerprint}) at = put_little(at, word);
-    put_little(at, map_checksum({bytes.data(), map_header_size - map_checksum_size}, 0));
-    return bytes;
-}
-
-}  // namespace
 }  // namespace sample
 
 Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, bool all) {
@@ -148,7 +145,7 @@ Status MapWriter::commit() {
     if (!to.error.what.empty()) return to.error;
     if (to.done) return Done{};
     if (to.pending.row_count() != 0) to.put_block();
-    const auto header = sample::header_bytes(to.head);
+    const auto header = to.header();
     to.file.replace(0, {header.data(), header.size()});
     if (Status committed = to.file.commit(); !committed) return to.fail(committed.error());
     to.done = true;

@@ -10,14 +10,6 @@
 
 namespace barycert {
 namespace sample {
-namespace {
-
-std::string size_of_mesh(int dimension, std::uint64_t nodes, std::uint64_t cells) {
-    return "one of " + std::to_string(nodes) + " nodes and " + std::to_string(cells) +
-           (dimension == 2 ? " triangles" : " tetrahedra");
-}
-
-}  // namespace
 
 // Read, not mapped: a file that is cut off meanwhile is then an error and not the end of the process.
 struct MapReaderData {
@@ -98,11 +90,15 @@ struct MapReaderData {
         const bool alike =
             head.dimension == mesh.dimension && head.nodes == mesh.point_count() && head.cells == mesh.cell_count();
         if (alike && head.fingerprint == mesh_fingerprint(mesh)) return Done{};
+        const auto size_of = [](int dimension, std::uint64_t nodes, std::uint64_t cells) {
+            return "one of " + std::to_string(nodes) + " nodes and " + std::to_string(cells) +
+                   (dimension == 2 ? " triangles" : " tetrahedra");
+        };
         return Error{.what = "the map was made for another mesh",
                      .file = name,
-                     .expected = size_of_mesh(head.dimension, head.nodes, head.cells),
+                     .expected = size_of(head.dimension, head.nodes, head.cells),
                      .found = alike ? "one of that size with other coordinates or cells"
-                                    : size_of_mesh(mesh.dimension, mesh.point_count(), mesh.cell_count()),
+                                    : size_of(mesh.dimension, mesh.point_count(), mesh.cell_count()),
                      .remedy = "name the mesh of the map, or create the map again for this mesh"};
     }
 

@@ -1,12 +1,10 @@
 #include "barycert/sample/points/chunk_sampler.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>
-#include <vector>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"

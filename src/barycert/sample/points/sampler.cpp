@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -94,14 +93,6 @@ private:
     std::optional<ChunkSampler> sampler_;
 };
 
-}  // namespace
-}  // namespace sample
-
-namespace {
-
-using locate::Place;
-using sample::SamplerData;
-
 /// visit(component among all, node of the mesh, value) for every number of the point fields.
 template <class Visit>
 void for_values(const SamplerData& data, Visit visit) {
@@ -119,8 +110,8 @@ void arrange_by_place(SamplerData& data) {
     data.nodes = locate::Buffer<locate::NodeRecord>(nodes);
     std::copy_n(index.nodes.begin(), nodes, data.nodes.begin());
     const std::size_t groups = (data.point_components + 2) / 4;
-    data.more = locate::Buffer<sample::ValueRecord>(groups * nodes);
-    std::fill(data.more.begin(), data.more.end(), sample::ValueRecord{});
+    data.more = locate::Buffer<ValueRecord>(groups * nodes);
+    std::fill(data.more.begin(), data.more.end(), ValueRecord{});
     for_values(data, [&](std::size_t first, std::size_t components, const std::vector<double>& values) {
         for (std::size_t place = 0; place < nodes; ++place) {
             const double* const from =
@@ -150,9 +141,9 @@ std::size_t components_of(const Field* field) {
 }
 
 /// What is computed for each point, by what is left of the steps of a choice.
-sample::AtPoint at_points(const Mesh& mesh, const FieldChoice& choice) {
+AtPoint at_points(const Mesh& mesh, const FieldChoice& choice) {
     using Kind = QuantityStep::Kind;
-    sample::AtPoint late{choice.field, 0, components_of(choice.field)};
+    AtPoint late{choice.field, 0, components_of(choice.field)};
     for (const QuantityStep& step : choice.steps) {
         if (step.kind == Kind::gradient) {
             late.gradient = true;
@@ -171,11 +162,11 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
     for (const FieldChoice& asked : fields) {
         const std::size_t rows = asked.of_cells ? mesh.cell_count() : mesh.point_count();
         if (Status fits = mesh::check_field(asked.field, rows, asked.of_cells ? "cell" : "node"); !fits) return fits;
-        const Result<sample::QuantityShape> shape = sample::shape_of(mesh, asked);
+        const Result<QuantityShape> shape = shape_of(mesh, asked);
         if (!shape) return shape.error();
         FieldChoice choice = asked;
-        if (Status made = sample::make_fields(mesh, choice, choice.steps.size(), data.made); !made) return made;
-        const TableField column{sample::name_of(asked), static_cast<int>(shape->components)};
+        if (Status made = make_fields(mesh, choice, choice.steps.size(), data.made); !made) return made;
+        const TableField column{name_of(asked), static_cast<int>(shape->components)};
         if (shape->at_points) {
             late.push_back(column);
             data.at_points.push_back(at_points(mesh, choice));
@@ -186,7 +177,7 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
     }
     // Fields that nobody asked for but by their lengths come first, where they can be left out.
     std::vector<const Field*> hidden;
-    for (const sample::AtPoint& one : data.at_points) {
+    for (const AtPoint& one : data.at_points) {
         const bool known = std::count(data.point_fields.begin(), data.point_fields.end(), one.field) != 0 ||
                            std::count(hidden.begin(), hidden.end(), one.field) != 0;
         if (one.gradient || known) continue;
@@ -195,7 +186,7 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
     }
     data.point_fields.insert(data.point_fields.begin(), hidden.begin(), hidden.end());
     for (const Field* field : data.point_fields) {
-        for (sample::AtPoint& one : data.at_points) {
+        for (AtPoint& one : data.at_points) {
             if (one.field == field) one.first = data.point_components;
         }
         data.point_components += components_of(field);
@@ -215,7 +206,7 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     out.features.resize(rows);
     out.values.resize(rows * data.columns.size());
     out.distances.clear();
-    if (sample::gives_distances(options.outside)) out.distances.assign(rows, 0);
+    if (gives_distances(options.outside)) out.distances.assign(rows, 0);
 }
 
 /// What the policies say of the rows: an Error, or NaN where a point is not finite. `finite`: all points are.
@@ -233,27 +224,28 @@ Status apply_policies(std::span<const double> points, bool finite, const SampleO
     if (options.outside.kind != Outside::error) return Done{};
     const std::optional<std::size_t> refused = locate::first_outside(out.cells, points, d);
     if (!refused) return Done{};
-    return sample::outside_error("point " + std::to_string(first_point + *refused));
+    return outside_error("point " + std::to_string(first_point + *refused));
 }
 
 }  // namespace
+}  // namespace sample
 
 Result<std::vector<FieldChoice>> choose_fields(const Mesh& mesh, const std::vector<std::string>& names) {
     return sample::quantities_named(mesh, names);
 }
 
-Sampler::Sampler(std::unique_ptr<SamplerData> data) : data_(std::move(data)) {}
+Sampler::Sampler(std::unique_ptr<sample::SamplerData> data) : data_(std::move(data)) {}
 Sampler::Sampler(Sampler&&) noexcept = default;
 Sampler& Sampler::operator=(Sampler&&) noexcept = default;
 Sampler::~Sampler() = default;
 
 Result<Sampler> Sampler::build(const Locator& locator, const std::vector<FieldChoice>& fields) {
     const ExactEnvironment environment;
-    auto data = std::make_unique<SamplerData>();
+    auto data = std::make_unique<sample::SamplerData>();
     data->locator = &locator;
     data->quadratic = !locator.mesh().mid_nodes.empty();
-    if (Status arranged = arrange_columns(locator.mesh(), fields, *data); !arranged) return arranged.error();
-    if (data->point_components != 0) data->quadratic ? arrange_by_node(*data) : arrange_by_place(*data);
+    if (Status arranged = sample::arrange_columns(locator.mesh(), fields, *data); !arranged) return arranged.error();
+    if (data->point_components != 0) data->quadratic ? sample::arrange_by_node(*data) : sample::arrange_by_place(*data);
     return Sampler(std::move(data));
 }
 
@@ -291,7 +283,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     const ExactEnvironment environment;
     out.counts = {};
     if (Status status = locate::check_size(points, data_->index().dimension()); !status) return status;
-    resize(*data_, options, points.size() / data_->index().dimension(), out);
+    sample::resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
     bool finite = true;
     base::in_arena(options.threads, data_->index().cell_count() + out.cells.size(), [&] {
@@ -306,7 +298,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
             locate::for_chunks(data_->located(), data_->node_values().first, points, out.counts.locations, make, keep);
         for (const SampleCounts& part : counts) out.counts.add(part);
     });
-    Status status = apply_policies(points, finite, options, first_point, out);
+    Status status = sample::apply_policies(points, finite, options, first_point, out);
     if (!status) out.counts = {};
     return status;
 }
@@ -331,7 +323,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
             return Error{
                 .what = "a cell of a point that is not finite", .expected = "-1", .found = std::to_string(cells[row])};
     }
-    resize(*data_, options, count, out);
+    sample::resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
     const locate::CellIndex& index = data_->index();
     std::vector<double> whole;  // rows with what is hidden
@@ -353,7 +345,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                 constexpr std::size_t ahead = 64;
                 if (row + ahead < last && cells[row + ahead] >= 0)
                     __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
-                const Place owner = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
+                const locate::Place owner = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
                 if (owner >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner)]);
                 sampler.push(record, owner, features[row]);
             }
@@ -362,7 +354,8 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
         });
     });
     if (data_->hidden != 0) sample::leave_out_hidden(*data_, whole.data(), count, out.values.data());
-    if (Status status = apply_policies(points, finite.has_value(), options, first_point, out); !status) return status;
+    if (Status status = sample::apply_policies(points, finite.has_value(), options, first_point, out); !status)
+        return status;
     for (const SampleCounts& part : counts) out.counts.add(part);
     for (const Feature feature : features) out.counts.locations.add(feature);
     return Done{};

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
-#include <string_view>
 #include <utility>
 
 #include "barycert/base/nearest_name.hpp"
@@ -134,9 +132,6 @@ Error no_such_field(const Mesh& mesh, const std::string& name) {
         remedy = cells.empty() ? "the mesh has none; a field may come from a file of its own" : "there are";
     if (!cells.empty()) remedy += (points.empty() ? " " : ", and of cells ") + cells;
     return {.what = "no field of that name",
-            .file = {},
-            .line = 0,
-            .expected = {},
             .found = '"' + name + '"',
             .remedy = base::did_you_mean(name, all_field_names(mesh), remedy)};
 }

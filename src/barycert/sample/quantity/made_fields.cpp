@@ -5,8 +5,6 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
-#include <optional>
-#include <span>
 #include <utility>
 
 #include "barycert/base/arena.hpp"

@@ -2,11 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/core/fixed_integer.hpp"
@@ -54,24 +51,15 @@ CellsOfNodes cells_of_nodes(const Mesh& mesh) {
 /// The mean at one node, in integers: where the filter is not certain. Kept from node to node, for its memory.
 class MeanAtNode {
 public:
-    MeanAtNode(const Mesh& mesh, const Field& field)
-        : mesh_(mesh),
-          field_(field),
-          d_(static_cast<std::size_t>(mesh.dimension)),
-          components_(static_cast<std::size_t>(field.components)),
-          values_(components_),
-          sums_(components_),
-          finite_(components_) {}
+    MeanAtNode(const Mesh& mesh, const Field& field) : mesh_(mesh), field_(field) {}
 
     void operator()(std::span<const Mesh::Index> cells, double* out) {
-        std::array<Unit, 3> units;
+        Unit units[3];
         for (const Mesh::Index cell : cells) {
             for (std::size_t i = 0; i <= d_; ++i) {
                 for (std::size_t k = 0; k < d_; ++k) units[k].add(core::scaled(corner(cell, i)[k]));
             }
         }
-        int bits = 0;
-        for (const Unit& unit : units) bits = std::max(bits, unit.bits());
         values_.assign(components_, {});
         for (const Mesh::Index cell : cells) {
             for (std::size_t c = 0; c < components_; ++c) {
@@ -82,7 +70,7 @@ public:
         sums_.assign(components_, Integer());
         finite_.assign(components_, 1);
         // Widths as in check/exact_volumes.cpp.
-        core::with_integers<3>(bits, [&]<class T>() {
+        core::with_integers<3>(core::max_bits(units), [&]<class T>() {
             for (const Mesh::Index cell : cells) add<T>(units, cell);
             return 0;
         });
@@ -105,7 +93,7 @@ private:
     }
 
     template <class T>
-    void add(const std::array<Unit, 3>& units, Mesh::Index cell) {
+    void add(const Unit (&units)[3], Mesh::Index cell) {
         const Integer volume = d_ == 2 ? determinant<T, 2>(units, cell) : determinant<T, 3>(units, cell);
         if (volume.sign() == 0) return;
         const Integer weight = volume.sign() < 0 ? Integer() - volume : volume;
@@ -120,12 +108,11 @@ private:
     }
 
     template <class T, int d>
-    Integer determinant(const std::array<Unit, 3>& units, Mesh::Index cell) const {
+    Integer determinant(const Unit (&units)[3], Mesh::Index cell) const {
         T edge[d][d];
         for (int k = 0; k < d; ++k) {
             const auto at = [&](int i) {
-                return units[static_cast<std::size_t>(k)].template multiple<T>(
-                    core::scaled(corner(cell, static_cast<std::size_t>(i))[k]));
+                return units[k].template multiple<T>(core::scaled(corner(cell, static_cast<std::size_t>(i))[k]));
             };
             for (int i = 0; i < d; ++i) edge[i][k] = at(i + 1) - at(0);
         }
@@ -134,7 +121,8 @@ private:
 
     const Mesh& mesh_;
     const Field& field_;
-    std::size_t d_, components_;
+    std::size_t d_ = static_cast<std::size_t>(mesh_.dimension);
+    std::size_t components_ = static_cast<std::size_t>(field_.components);
     std::vector<Unit> values_;
     Integer total_;
     std::vector<Integer> sums_;

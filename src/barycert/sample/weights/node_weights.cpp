@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <span>
-#include <string>
 #include <utility>
 
 #include "barycert/base/finite.hpp"
@@ -12,7 +9,6 @@
 #include "barycert/locate/batch.hpp"
 #include "barycert/quadratic.hpp"
 #include "barycert/sample/points/near_piece.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert {
 namespace {
@@ -31,14 +27,7 @@ Status check_located(const Mesh& mesh, const TableView& rows) {
 class WeightRows {
 public:
     WeightRows(const Locator& locator, const TableView& rows, const OutsidePolicy& outside)
-        : locator_(locator),
-          mesh_(locator.mesh()),
-          rows_(rows),
-          outside_(outside),
-          d_(static_cast<std::size_t>(mesh_.dimension)),
-          corners_(d_ + 1),
-          simplex_(mesh_.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron),
-          nodes_(corners_ + (quadratic() ? static_cast<std::size_t>(mid_node_count(simplex_)) : 0)) {}
+        : locator_(locator), rows_(rows), outside_(outside) {}
 
     Result<NodeWeights> all() {
         // Cases of second order have nodes of their own, with unit vectors as values: the value of component c is then
@@ -153,12 +142,13 @@ private:
     }
 
     const Locator& locator_;
-    const Mesh& mesh_;
+    const Mesh& mesh_ = locator_.mesh();
     const TableView& rows_;
     const OutsidePolicy& outside_;
-    std::size_t d_, corners_;
-    Simplex simplex_;
-    std::size_t nodes_;  // of a cell
+    std::size_t d_ = static_cast<std::size_t>(mesh_.dimension), corners_ = mesh_.corners();
+    Simplex simplex_ = d_ == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    /// Of a cell.
+    std::size_t nodes_ = corners_ + (quadratic() ? static_cast<std::size_t>(mid_node_count(simplex_)) : 0);
     NodeWeights out_;
     std::vector<Mesh::Index> owners_, cells_, corner_numbers_, mid_numbers_, own_;
     std::vector<double> points_, weights_, places_, units_;
