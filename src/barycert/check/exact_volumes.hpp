@@ -24,6 +24,9 @@ public:
     /// d! times the signed volume of the cone from the origin over the facet with d corners: det(p0, p1, ...).
     Integer cone(const double* const* p) const { return determinant_from(p, nullptr); }
 
+    /// The integers from above count 2^unit().
+    int unit() const { return exponent_; }
+
     /// floor(log2) of the volume that `n` from above stands for, to within d. Precondition: not zero.
     int exponent(const Integer& n) const;
 
