@@ -159,7 +159,7 @@ TEST(Search, BadUsageIsTold) {
     EXPECT_TRUE(contains(error(short_search({"--exponents", "5:x"})), "LOW:HIGH"));
     EXPECT_TRUE(contains(error(short_search({"--exponents", "5:4"})), "LOW <= HIGH"));
     EXPECT_TRUE(contains(error(short_search({"--exponents", "-2000:4"})), "-1074"));
-    EXPECT_TRUE(contains(error(short_search({"--fail-on", "worst_partition_residual"})), "cannot tell"));
+    EXPECT_TRUE(contains(error(short_search({"--fail-on", "worst_partition_residual"})), "does not measure"));
     EXPECT_TRUE(contains(error(short_search({"--steps", "0"})), "--steps"));
     EXPECT_TRUE(contains(error(short_search({"--seconds", "0"})), "--seconds"));
     EXPECT_TRUE(contains(error(short_search({"--json", "a.json", "--witnesses", "a.json"})), "a.json"));
