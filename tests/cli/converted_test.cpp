@@ -221,8 +221,9 @@ TEST_F(Converted, MessagesArePassedOnOnce) {
     const Ended check = barycert({"check", "a.inp"}, environment);
     EXPECT_EQ(check.code, 0) << check.err;
     const std::string all = check.out + check.err;
-    for (const char* part : {"by meshio of a test, as abaqus", "meshio says: Warning: half of it\\x1b[31m",
-                             "point data lost, which does not have one row for each", "point data text", "cell data big"})
+    for (const char* part :
+         {"by meshio of a test, as abaqus", "meshio says: Warning: half of it\\x1b[31m",
+          "point data lost, which does not have one row for each", "point data text", "cell data big"})
         EXPECT_TRUE(contains(all, part)) << part << '\n' << all.substr(0, 3000);
     EXPECT_EQ(check.err.find("meshio says: x"), check.err.rfind("meshio says: x"));
     EXPECT_LT(all.size(), 10000U);

@@ -222,8 +222,7 @@ Status OutputFile::commit() {
 
 void OutputFile::fail(const char* what, int error_number) {
     if (!error_.what.empty()) return;
-    error_ = {
-        .what = what, .file = target_, .found = std::strerror(error_number), .remedy = remedy_for(error_number)};
+    error_ = {.what = what, .file = target_, .found = std::strerror(error_number), .remedy = remedy_for(error_number)};
 }
 
 }  // namespace barycert::base
