@@ -72,10 +72,10 @@ void add_check(const Options& program) {
                              "or TetGen's STEM.node, STEM.ele (.face, .neigh)");
     o.number("--merge-within", job.merge_within, 0, "With --fix, merge nodes of cells at most so far apart",
              "DISTANCE");
-    o.text("--fix-orientation", job.fix_orientation, "Write a copy that differs in this: negative cells are turned")
+    o.text("--fix-orientation", job.fix_orientation, "Write a copy with negative cells turned, and no other repair")
         ->excludes(all);
     o.number("--near", job.options.near, 0,
-             "Tell boundary nodes that are within RATIO times the shortest boundary edge at either; 0: none", "RATIO")
+             "Tell boundary nodes apart by at most RATIO times the shortest boundary edge at either; 0: none", "RATIO")
         ->default_str(base::shortest(job.options.near));
     o.vtk_data(job.vtk_data);
     a.reports.ci(o, "what breaks the certificate");

@@ -96,7 +96,7 @@ private:
         struct Edge {
             std::array<Index, 2> ends, given;
             Index mid;
-            auto operator<=>(const Edge&) const = default;  // NOLINT(modernize-use-nullptr): not of the source
+            auto operator<=>(const Edge&) const = default;  // NOLINT(modernize-use-nullptr)
         };
         std::vector<std::uint8_t> merged(old_.point_count(), 0);
         for (std::size_t n = 0; n < merged.size(); ++n) {

@@ -50,8 +50,13 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
     Mesh mesh;
     mesh.points = std::move(table->points);
     mesh.dimension = dimension;
-    // Without z: by their places, as they were read.
-    if (dimension == 2) std::erase_if(mesh.points, [&](const double& x) { return (&x - mesh.points.data()) % 3 == 2; });
+    if (dimension == 2) {
+        std::size_t to = 0;
+        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+            if (i % 3 != 2) mesh.points[to++] = mesh.points[i];
+        }
+        mesh.points.resize(to);
+    }
     mesh.point_fields = std::move(table->fields);
     for (const Column& label : table->labels) {
         const auto* const integers = std::get_if<std::vector<std::int64_t>>(&label.values);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/text.hpp"

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/output_file.hpp"

@@ -1,5 +1,6 @@
 #include "barycert/surface/parts.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <numeric>
 #include <string>

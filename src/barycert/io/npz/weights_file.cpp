@@ -5,6 +5,7 @@
 #include <zlib.h>
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <functional>
 #include <string_view>
 #include <vector>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"

@@ -1,7 +1,9 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"

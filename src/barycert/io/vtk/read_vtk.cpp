@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <set>
+#include <span>
 #include <system_error>
+#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -126,8 +129,9 @@ Result<io::PointTable> read_table(const std::string& path, int dimension, bool a
         }
         if (names != nullptr)
             std::erase_if(grid.point_arrays, [&](auto& array) { return std::ranges::count(*names, array.name) == 0; });
-        for (io::RawArray& array : grid.point_arrays)
+        for (io::RawArray& array : grid.point_arrays) {
             if (labels && array.type < io::NumberType::float32 && array.components == 1) array.make_labels();
+        }
         io::take_fields(grid.point_arrays, "point array", path, table.fields, &table.labels, table.notes);
         io::note_narrow_points(grid, path, table.notes);
         return table;

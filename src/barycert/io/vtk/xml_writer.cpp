@@ -1,7 +1,9 @@
 #include "barycert/io/vtk/out_file.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+#include <utility>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/io.hpp"

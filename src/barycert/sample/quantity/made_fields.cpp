@@ -5,6 +5,8 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "barycert/base/arena.hpp"

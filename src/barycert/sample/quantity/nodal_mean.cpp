@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/core/fixed_integer.hpp"

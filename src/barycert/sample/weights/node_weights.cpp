@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "barycert/base/finite.hpp"
