@@ -91,9 +91,7 @@ int run_audit(AuditArguments& a) {
     for (const std::string& file : a.others) others.push_back(read_other_results(file).value());
     a.job.meshes_asked = !a.meshes.empty();
     PreparedAudit prepared = prepare_audit(a.job).value();
-    if (!meshes && std::any_of(prepared.options.families.begin(), prepared.options.families.end(),
-                               [](const Family& f) { return f.needs_mesh; }))
-        return fail(meshes.error());
+    if (!meshes && std::ranges::any_of(prepared.options.families, &Family::needs_mesh)) return fail(meshes.error());
     for (const Kernel& kernel : prepared.options.kernels) {
         if (prepared.libraries.contains(kernel.name)) tell_note(prepared.libraries.at(kernel.name), kernel);
     }

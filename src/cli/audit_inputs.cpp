@@ -70,10 +70,10 @@ void add_containment(const Options& o, KernelChoice& kernels) {
            "Run kernels of yours in this process: a crash of theirs is then one of the audit's");
 }
 
-TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernels) {
+TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernels, bool colour) {
     const std::string& apart = reports.path("--witnesses");
     const std::string& witnesses = apart.empty() ? reports.path("--json") : apart;
-    TerminalStyle style{.command = command_name(), .library_arguments = kernels.libraries};
+    TerminalStyle style{.colour = colour, .command = command_name(), .library_arguments = kernels.libraries};
     if (witnesses != "-") style.witness_path = witnesses;
     std::string& words = style.kernel_arguments;
     if (kernels.in_process) words += " --in-process";

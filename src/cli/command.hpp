@@ -35,12 +35,10 @@ void add_help(const Options& program);
 void add_render_contours(const Options& render);
 void add_render_tables(const Options& render);
 
-/// From now on a failed allocation in CGAL's or GMP's code, which would abort, ends the process as
-/// fail_for_want_of_memory() does, or is thrown.
+/// From now on a failed allocation in CGAL or GMP ends the process as fail_for_want_of_memory() does, or is thrown.
 void prepare_for_want_of_memory();
 
-/// Text on stderr, which holds no control characters but those of this program (see printable()). That nobody can read
-/// it (a closed or full stderr) is no reason to stop.
+/// Text on stderr, its control characters this program's own (see printable()). A closed or full stderr is no error.
 void tell(std::string_view text);
 
 /// "error: ..." on stderr, with the options that set the members of jobs that it names; returns exit_error. What a

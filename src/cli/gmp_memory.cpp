@@ -1,6 +1,5 @@
-// Want of memory in CGAL's numbers. GMP cannot report a failed allocation: by itself it aborts, and an exception may
-// not pass through it. An exception that passes through std::call_once needs a part of the C library that is loaded
-// then.
+// Want of memory in CGAL's numbers. GMP cannot report a failed allocation: it aborts, and no exception may pass through
+// it. An exception that passes through std::call_once needs a part of the C library that is loaded then.
 
 #include <gmp.h>
 #include <unistd.h>

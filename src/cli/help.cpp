@@ -134,15 +134,13 @@ int explain(const CLI::App& app, const std::vector<std::string>& words) {
 int run_help(HelpArguments& a) {
     const CLI::App& app = *a.program;
     const bool pages = !a.folder.empty(), script = a.completion != nullptr;
-    if (pages || script) {
-        const bool of_mesher = script && a.words == std::vector<std::string>{"mesh"};
-        if ((!a.words.empty() && !of_mesher) || (pages && script))
-            return fail({.what = "manual pages and completions are of all subcommands",
-                         .expected = "--man DIR, --completion SHELL or subcommands",
-                         .found = "several of these",
-                         .remedy = "give one of them alone"});
-    }
     if (!pages && !script) return explain(app, a.words);
+    const bool of_mesher = script && a.words == std::vector<std::string>{"mesh"};
+    if ((!a.words.empty() && !of_mesher) || (pages && script))
+        return fail({.what = "manual pages and completions are of all subcommands",
+                     .expected = "--man DIR, --completion SHELL or subcommands",
+                     .found = "several of these",
+                     .remedy = "give one of them alone"});
     const CommandEntry program = command_table(app, vocabulary(app));
     if (!script) return write_pages(program, a.folder);
     write_output("-", a.completion(a.words.empty() ? with_names_below_help(program) : mesher(program))).value();

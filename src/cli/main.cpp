@@ -36,8 +36,7 @@ void fetch_memory_for_threads() {
     memory.deallocate(memory.allocate(more_than_the_tables), more_than_the_tables);
 }
 
-/// Hands over to barycert-tetgen, with the same arguments, as git does with its subcommands, so that TetGen's licence
-/// stays there; returns exit_error if it cannot be found.
+/// Hands over to barycert-tetgen, as git does with its subcommands, so that TetGen's licence stays there; or fails.
 int exec_mesh(int argc, char** argv) {
     namespace fs = std::filesystem;
     std::vector<char*> arguments(argv + 1, argv + argc);
@@ -87,10 +86,10 @@ int run(int argc, char** argv) {
     const Options program(app, exit_code);
     add_subcommands(program);
     // Its options are those of barycert-tetgen, for help and completions; main() has handed all else over.
-    auto* mesh =
-        app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen");
-    barycert::Options mesh_options;
-    add_options(*mesh, mesh_options);
+    barycert::Options of_mesh;
+    add_options(
+        *app.add_subcommand("mesh", "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen: runs barycert-tetgen"),
+        of_mesh);
     add_help(program);
     // After the subcommands, which would take it over.
     app.footer(with_command_name(
@@ -98,11 +97,10 @@ int run(int argc, char** argv) {
 in the baseline, a mutant is not caught, or a witness is not reproduced; 2 usage or input error.
 Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.)"));
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
-    if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty()) {
+    if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty())
         return fail({.what = "no such subcommand",
                      .found = '"' + std::string(first) + '"',
                      .remedy = base::did_you_mean(first, command_names(app), "`barycert --help` lists them")});
-    }
     try {
         remember_command_line(argc, argv);
         app.parse(argc, argv);

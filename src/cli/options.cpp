@@ -13,6 +13,10 @@
 namespace barycert::cli {
 namespace {
 
+[[noreturn]] void refuse_option(Text option, Text expected, Text found) {
+    throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
+}
+
 /// The help behind "Picture: "; alone it begins with a capital.
 std::string with_heading(Text what, std::string help) {
     if (what.empty()) help.front() = static_cast<char>(std::toupper(help.front()));
@@ -32,8 +36,7 @@ std::optional<FieldFile> series_of(FieldFile::Of of, Text text) {
 FieldFile field_file_of(Text option, FieldFile::Of of, Text text) {
     auto [name, rest] = assignment(option, "NAME=FILE", text);
     FieldFile file{of, std::move(name), std::move(rest)};
-    // FILE:COLUMN, where the file is the shortest beginning that there is; a file may have a colon in its name, and a
-    // column, too.
+    // FILE:COLUMN, where the file is the shortest beginning that there is: both may have colons in their names.
     std::error_code ignored;
     const auto is_there = [&](const std::string& path) { return std::filesystem::exists(path, ignored); };
     std::size_t colon = is_there(file.path) ? std::string::npos : file.path.find(':');
@@ -54,10 +57,6 @@ std::string given_option(const CLI::App& app, std::initializer_list<std::string_
         if (option->count() != 0 && named != others) return option->get_name();
     }
     return "";
-}
-
-void refuse_option(Text option, Text expected, std::string_view found) {
-    throw CLI::ValidationError(option, fmt::format("expected {}, found \"{}\"", expected, found));
 }
 
 std::optional<double> finite(std::string_view text) {

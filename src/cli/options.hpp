@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,7 +28,7 @@ std::optional<std::int64_t> count_of(std::string_view text);
 
 /// Reads the parts of a text between separators, each by `read`, from `least` to `most` of them; nothing if that fails.
 template <class Read>
-auto numbers(char separator, Read read, std::size_t least, std::size_t most = std::numeric_limits<std::size_t>::max()) {
+auto numbers(char separator, Read read, std::size_t least, std::size_t most) {
     return [=](std::string_view text) {
         std::optional<std::vector<typename decltype(read(text))::value_type>> all(std::in_place);
         for (;;) {
@@ -62,8 +61,7 @@ std::vector<std::string> names_of(const Items& items) {
 /// What options are declared with: names, types, helps.
 using Text = const std::string&;
 
-/// The options of one subcommand. What they set must live as long as the parser. Texts name the program as it is
-/// called.
+/// The options of one subcommand. What they set must outlive the parser. Texts name the program as it is called.
 class Options {
 public:
     /// `exit_code` is set by the subcommand that has run.
@@ -100,8 +98,7 @@ public:
             ->check(CLI::Range(least, most).description(""))
             ->type_name(type);
     }
-    /// A whole number of 64 bits, all of which may be given. "-1" and 2^64 are refused: the parser would take both for
-    /// 2^64 - 1.
+    /// Any whole number of 64 bits. "-1" and 2^64 are refused: the parser would take both for 2^64 - 1.
     template <class N>
     CLI::Option* whole(Text name, N& n, Text help, Text type = "S") const {
         return parsed(name, type, help, "a whole number from 0 to 2^64 - 1", n, integer_of<std::uint64_t>);
@@ -149,15 +146,12 @@ public:
     void vtk_data(std::optional<VtkData>& data) const;
     void nonfinite(NonfinitePoints& points) const;
     void rounding(Rounding& rounding, const char* help) const;
-    /// MIN,MAX: what the first and the last colour of a picture mean. `what`: "Picture: ", where there are other
-    /// outputs.
+    /// MIN,MAX: what the first and the last colour of a picture mean. `what`: "Picture: ", if there are other outputs.
     void range(std::optional<std::pair<double, double>>& range, Text what) const;
     /// --step and --time, of a MESH that is a series. `all`: what --step all sets; nullptr: not allowed.
     void step(StepChoice& step, bool* all = nullptr) const;
-    /// Fields from files; `either` names the option whose rows may belong to nodes or to cells. `series`: where fields
-    /// with a file for each step go; nullptr: there are none.
+    /// Fields from files; `either`: the option whose rows may be of nodes or cells. `series`: where those in steps go.
     void field_files(std::vector<FieldFile>& files, Text either, std::vector<FieldFile>* series = nullptr) const;
-    /// --size WxH.
     void size(RasterSize& size) const;
     /// Where the camera stands. `what`: as above.
     void camera(ViewOptions& view, Text what) const;
@@ -173,13 +167,9 @@ private:
 /// The first option that was given and is among these; or, with `others`, that is not. Empty: none.
 std::string given_option(const CLI::App& app, std::initializer_list<std::string_view> names, bool others = false);
 
-/// Throws what the parser of options tells.
-[[noreturn]] void refuse_option(Text option, Text expected, std::string_view found);
-
 /// NAME and VALUE of NAME=VALUE, neither of them empty; else refuses the option.
 std::pair<std::string, std::string> assignment(Text option, Text expected, Text text);
 
-/// What MESH may be.
 inline constexpr const char* mesh_help =
     "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
     ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";

@@ -1,5 +1,4 @@
-// barycert render iso: where a field has a value, in a mesh or on one segment. barycert render slice: a plane through a
-// mesh. Both as a surface or a picture.
+// barycert render iso, slice: where a field has a value, in a mesh or on one segment; a plane through a mesh.
 
 #include <fmt/format.h>
 
@@ -42,12 +41,11 @@ void add_segment(const Options& o, ContourArguments& a) {
     o.parsed("--segment", "A:B", "Instead of a mesh: the ends of one segment; with --values",
              "XA,YA,ZA:XB,YB,ZB, finite numbers, as many at both ends (one to three)", a.ends,
              [](std::string_view text) -> std::optional<std::vector<double>> {
-                 const std::size_t colon = std::min(text.find(':'), text.size());
-                 auto ends = numbers(',', finite, 1, 3)(text.substr(0, colon));
-                 const auto second = numbers(',', finite, 1, 3)(text.substr(std::min(colon + 1, text.size())));
-                 if (!ends || !second || ends->size() != second->size()) return std::nullopt;
-                 ends->insert(ends->end(), second->begin(), second->end());
-                 return ends;
+                 const auto ends = numbers(':', numbers(',', finite, 1, 3), 2, 2)(text);
+                 if (!ends || (*ends)[0].size() != (*ends)[1].size()) return std::nullopt;
+                 std::vector<double> both = (*ends)[0];
+                 both.insert(both.end(), (*ends)[1].begin(), (*ends)[1].end());
+                 return both;
              });
     o.parsed("--values", "FA,FB", "The values at the ends of the segment", "two finite numbers, FA,FB", a.values,
              numbers(',', finite, 2, 2));

@@ -24,17 +24,15 @@ struct ReplayArguments {
     const CLI::App* app = nullptr;
 };
 
-/// What to do where no witness of the file matches; with the nearest name if no witness has that of --kernel or
-/// --reason.
+/// What to do where no witness of the file matches; the nearest name, if none has that of --kernel or --reason.
 std::string where_none_matches(const CaseJob& wanted, const std::vector<Witness>& witnesses) {
     const char* const rest = "leave out --kernel and --reason to see all";
     for (const auto& wish : {std::pair(wanted.kernel, &Witness::kernel), std::pair(wanted.reason, &Witness::reason)}) {
         std::vector<std::string> names;
         for (const Witness& w : witnesses) names.push_back(w.*wish.second);
-        const bool matched = wish.first.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& n) {
-                                 return base::glob_match(wish.first, n);
-                             });
-        if (!matched) return base::did_you_mean(wish.first, names, rest);
+        const auto matches = [&](const std::string& name) { return base::glob_match(wish.first, name); };
+        if (!wish.first.empty() && std::ranges::none_of(names, matches))
+            return base::did_you_mean(wish.first, names, rest);
     }
     return rest;
 }

@@ -53,11 +53,10 @@ std::vector<std::pair<std::string, std::string>> Reports::outputs() const {
     std::vector<std::pair<std::string, std::string>> all;
     for (const auto& f : files_) all.emplace_back(f.what, f.path);
     // Annotations follow the table; without one stdout is theirs alone.
-    if (table()) {
+    if (table())
         all.emplace_back(summary_ ? "the summary" : "the table", "-");
-    } else if (annotations_) {
+    else if (annotations_)
         all.emplace_back("--annotations", "-");
-    }
     return all;
 }
 

@@ -19,8 +19,7 @@
 
 namespace barycert::cli {
 
-/// One line of stderr that is written over and over and cleared at the end. Nothing is written where there is no
-/// terminal or the user wants no progress.
+/// One line of stderr that is written over and over and cleared at the end; none without a terminal, or if not wanted.
 class Progress {
 public:
     void begin(bool on) { on_ = on; }

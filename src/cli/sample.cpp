@@ -1,5 +1,4 @@
-// barycert sample, barycert resample: the fields of a mesh at points, on a regular grid, or at the nodes of another
-// mesh.
+// barycert sample, resample: the fields of a mesh at points, on a regular grid, or at the nodes of another mesh.
 
 #include <cmath>
 #include <optional>

@@ -78,16 +78,12 @@ int run_search(SearchArguments& a) {
     a.job.families = choose_families(a.families).value();
     return a.reports.end(search(a), [&](const SearchReport& report) {
         const std::vector<Violation> broken = violations(report, a.rules);
-        return Told{.files = {{"--json", [&] { return search_json(report); }},
-                              {"--witnesses", [&] { return witnesses_json(report); }}},
-                    .text =
-                        [&](bool colour) {
-                            TerminalStyle style = style_to_repeat(a.reports, a.kernel);
-                            style.colour = colour;
-                            return search_text(report, style);
-                        },
-                    .failures = failures_of(broken),
-                    .clean = broken.empty()};
+        return Told{
+            .files = {{"--json", [&] { return search_json(report); }},
+                      {"--witnesses", [&] { return witnesses_json(report); }}},
+            .text = [&](bool colour) { return search_text(report, style_to_repeat(a.reports, a.kernel, colour)); },
+            .failures = failures_of(broken),
+            .clean = broken.empty()};
     });
 }
 

@@ -1,5 +1,4 @@
-/// All commands and options of a program in plain words, read from its parser: what --help shows; and what is made of
-/// them, manual pages and completions.
+/// All commands and options of a program, as --help shows them; manual pages and completions that are made of them.
 #pragma once
 
 #include <map>
@@ -46,9 +45,8 @@ using Vocabulary = std::map<std::string, std::vector<std::string>>;
 /// Whether values of that type are names of files.
 bool is_type_of_files(std::string_view type);
 
-/// Types of values, by which their words are found: parts between |, of which those in small letters are words
-/// themselves (up to a [; with their = where one follows), names of files are completed as such, and others are looked
-/// up in the vocabulary.
+/// Types of values, by which their words are found: parts between |. Those in small letters are words themselves (up to
+/// a [; with their = where one follows), names of files are completed as such, others are looked up in the vocabulary.
 CommandEntry command_table(const CLI::App& app, const Vocabulary& vocabulary);
 
 /// Calls visit(command) for the command, and for all below it, depth first.

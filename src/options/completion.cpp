@@ -87,20 +87,17 @@ std::string specification(const OptionEntry& option) {
 }
 
 std::string function_of(const CommandEntry& command) {
-    std::string text = function_name(command.path) + "() {\n";
-    std::string specifications;
-    for (const OptionEntry& option : command.options) specifications += " \\\n   " + specification(option);
-    if (command.commands.empty()) return text + "  _arguments -s -S" + specifications + "\n}\n";
-    std::string names, cases;
+    const bool last = command.commands.empty();
+    std::string text = function_name(command.path) + "() {\n", options, operands, names, cases;
+    for (const OptionEntry& option : command.options) {
+        if (last || !option.operand) options += " \\\n   " + specification(option);
+        // Operands of a command that has commands below it: where the first word is none of them.
+        if (option.operand && option.files) operands = "_files";
+    }
+    if (last) return text + "  _arguments -s -S" + options + "\n}\n";
     for (const CommandEntry& below : command.commands) {
         names += "\n    " + in_quotes(escaped(below.name, ":\\") + ':' + escaped(summary(below.text), "\\"));
         cases += fmt::format("    {}) {} ;;\n", below.name, function_name(below.path));
-    }
-    // Operands of a command that has commands below it: where the first word is none of them.
-    std::string operands, options;
-    for (const OptionEntry& option : command.options) {
-        if (!option.operand) options += " \\\n   " + specification(option);
-        if (option.operand && option.files) operands = "_files";
     }
     text += "  local curcontext=$curcontext state line\n  local -a commands\n  typeset -A opt_args\n";
     text += "  commands=(" + names + "\n  )\n";

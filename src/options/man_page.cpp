@@ -46,9 +46,8 @@ std::string headline(const CommandEntry& command) {
 
 /// What stands in the place of a value: words as they are, names of things in italics.
 std::string man_value(const OptionEntry& option) {
-    const bool words = !option.words.empty() && std::none_of(option.type.begin(), option.type.end(), [](char c) {
-        return std::isupper(static_cast<unsigned char>(c)) != 0;
-    });
+    const auto capital = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
+    const bool words = !option.words.empty() && std::ranges::none_of(option.type, capital);
     return words ? bold(option.type) : italic(option.type);
 }
 

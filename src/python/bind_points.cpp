@@ -16,13 +16,11 @@ py::tuple locate(const MeshObject& object, const Given<double>& points, int thre
     const Locator& locator = object.locator(progress);
     std::vector<Mesh::Index> cells(points.rows());
     std::vector<Feature> features(points.rows());
-    in_blocks(
-        progress, "points", points.rows(),
-        [&](std::size_t first, std::size_t n) {
-            check(locator.locate(points.part(first, n), std::span(cells).subspan(first, n),
-                                 std::span(features).subspan(first, n), nullptr, threads, nonfinite));
-        },
-        first_block(locator.certified()));
+    const auto block = [&](std::size_t first, std::size_t n) {
+        check(locator.locate(points.part(first, n), std::span(cells).subspan(first, n),
+                             std::span(features).subspan(first, n), nullptr, threads, nonfinite));
+    };
+    in_blocks(progress, "points", points.rows(), block, first_block(locator.certified()));
     return py::make_tuple(owned(std::move(cells)), owned(std::move(features)));
 }
 

@@ -29,10 +29,9 @@ namespace {
 
 /// What can be known before TetGen starts.
 void check_output(const Options& options, const Plc& plc) {
-    std::vector<base::NamedFile> inputs{{"the PLC", options.input}}, outputs;
+    std::vector<base::NamedFile> inputs{{"the PLC", options.input}};
     if (plc.nodes_apart) inputs.push_back({"the PLC's nodes", plc_files(options.input).back()});
-    for (const std::string& path : tetgen_files(options.output + ".node")) outputs.push_back({"--output", path});
-    base::check_distinct(inputs, outputs).value();
+    base::check_distinct(inputs, base::named_files("--output", tetgen_files(options.output + ".node"))).value();
     const std::filesystem::path stem(options.output);
     const std::filesystem::path folder = stem.has_parent_path() ? stem.parent_path() : ".";
     std::error_code code;

@@ -30,7 +30,6 @@
 #include "vtk/probe_arrays.hpp"
 
 namespace barycert::in_vtk {
-
 namespace {
 
 using pieces::ArrayKind;
@@ -90,8 +89,7 @@ vtkSmartPointer<vtkAbstractArray> make(const ArrayKind& kind, vtkIdType tuples, 
     return array;
 }
 
-// Of arrays whose values stand one after the other, of bits, and of texts. Of a text its size goes first; a bit is a
-// byte.
+// Of arrays whose values stand one after the other, of bits (a byte each), and of texts (their size goes first).
 struct ArrayTuples : pieces::Tuples {
     void put(std::size_t tuple, std::vector<char>& bytes) const override {
         const auto append = [&](const char* from, std::size_t count) { bytes.insert(bytes.end(), from, from + count); };

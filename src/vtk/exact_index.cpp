@@ -24,7 +24,6 @@
 #include "barycert/environment.hpp"
 
 namespace barycert::in_vtk {
-
 namespace {
 
 struct Entry {
@@ -79,14 +78,12 @@ void remember(vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time,
     }
     cache().entries.push_back({&data, shape, time, std::move(index)});
     if (observed) return;
-    vtkCallbackCommand* const command = vtkCallbackCommand::New();
+    vtkNew<vtkCallbackCommand> command;
     command->SetClientData(&data);
     command->SetClientDataDeleteCallback(forget);
     data.AddObserver(vtkCommand::DeleteEvent, command);
-    command->Delete();
 }
 
-// Of cells of the data set.
 std::vector<std::int64_t> all_global_ids(vtkDataSet& data) {
     vtkNew<vtkTypeInt64Array> ids;
     ids->DeepCopy(data.GetCellData()->GetGlobalIds());
@@ -100,6 +97,51 @@ void order_by_global_ids(vtkDataSet& data, ExactIndex& index) {
     for (const Mesh::Index cell : order) ids.push_back(index.id(cell));
     if (!ids.empty()) index.ids = std::move(ids);
 }
+
+constexpr unsigned char ghost_mask =
+    vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::HIDDENCELL;
+
+bool is_quadratic(int type) {
+    return type == VTK_QUADRATIC_TRIANGLE || type == VTK_QUADRATIC_TETRA;
+}
+
+// Dimension of cells that may stand beside simplices and are left out there: 0 to 2; 3 tetrahedra; -1 all others.
+int plain_dimension(int type, Sides sides) {
+    if (type == VTK_EMPTY_CELL || type == VTK_VERTEX || type == VTK_POLY_VERTEX) return 0;
+    if (type == VTK_LINE || type == VTK_POLY_LINE) return 1;
+    if (is_quadratic(type) && sides == Sides::straight) return type == VTK_QUADRATIC_TRIANGLE ? 2 : 3;
+    return type == VTK_TRIANGLE ? 2 : type == VTK_TETRA ? 3 : -1;
+}
+
+// A data set of cells, whichever of the two it is.
+struct Cells {
+    explicit Cells(vtkDataSet& all, Sides of = Sides::none) : data(all), sides(of) {
+        if (surface != nullptr && surface->NeedToBuildCells()) surface->BuildCells();
+    }
+    vtkPoints* points() const { return grid != nullptr ? grid->GetPoints() : surface->GetPoints(); }
+    /// Calls `take(cell, size, nodes)` for each cell of that dimension that is no ghost.
+    template <class Take>
+    void each(int dimension, Take&& take) const {
+        vtkUnsignedCharArray* const ghosts = data.GetCellGhostArray();
+        for (vtkIdType i = 0; i < count; ++i) {
+            if (plain_dimension(data.GetCellType(i), sides) != dimension) continue;
+            if (ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0) continue;
+            vtkIdType size = 0;
+            const vtkIdType* nodes = nullptr;
+            if (grid != nullptr)
+                grid->GetCellPoints(i, size, nodes);
+            else
+                surface->GetCellPoints(i, size, nodes);
+            take(i, size, nodes);
+        }
+    }
+
+    vtkDataSet& data;
+    Sides sides;
+    vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(&data);
+    vtkPolyData* surface = vtkPolyData::SafeDownCast(&data);
+    vtkIdType count = data.GetNumberOfCells();
+};
 
 }  // namespace
 
@@ -159,62 +201,6 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Sh
     remember(data, shape, data.GetMTime(), index);
     return index;
 }
-
-// From VTK's cells to a mesh of simplices.
-
-namespace {
-
-constexpr unsigned char ghost_mask =
-    vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::HIDDENCELL;
-
-bool is_quadratic(int type) {
-    return type == VTK_QUADRATIC_TRIANGLE || type == VTK_QUADRATIC_TETRA;
-}
-
-// Dimension of cells that may stand beside simplices and are left out there: 0 to 2; 3 tetrahedra; -1 all others.
-int plain_dimension(int type, Sides sides) {
-    if (type == VTK_EMPTY_CELL || type == VTK_VERTEX || type == VTK_POLY_VERTEX) return 0;
-    if (type == VTK_LINE || type == VTK_POLY_LINE) return 1;
-    if (is_quadratic(type) && sides == Sides::straight) return type == VTK_QUADRATIC_TRIANGLE ? 2 : 3;
-    return type == VTK_TRIANGLE ? 2 : type == VTK_TETRA ? 3 : -1;
-}
-
-// A data set of cells, whichever of the two it is.
-struct Cells {
-    explicit Cells(vtkDataSet& all, Sides of = Sides::none)
-        : data(all),
-          sides(of),
-          grid(vtkUnstructuredGrid::SafeDownCast(&all)),
-          surface(vtkPolyData::SafeDownCast(&all)),
-          count(all.GetNumberOfCells()) {
-        if (surface != nullptr && surface->NeedToBuildCells()) surface->BuildCells();
-    }
-    vtkPoints* points() const { return grid != nullptr ? grid->GetPoints() : surface->GetPoints(); }
-    /// Calls `take(cell, size, nodes)` for each cell of that dimension that is no ghost.
-    template <class Take>
-    void each(int dimension, Take&& take) const {
-        vtkUnsignedCharArray* const ghosts = data.GetCellGhostArray();
-        for (vtkIdType i = 0; i < count; ++i) {
-            if (plain_dimension(data.GetCellType(i), sides) != dimension) continue;
-            if (ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0) continue;
-            vtkIdType size = 0;
-            const vtkIdType* nodes = nullptr;
-            if (grid != nullptr)
-                grid->GetCellPoints(i, size, nodes);
-            else
-                surface->GetCellPoints(i, size, nodes);
-            take(i, size, nodes);
-        }
-    }
-
-    vtkDataSet& data;
-    Sides sides;
-    vtkUnstructuredGrid* grid;
-    vtkPolyData* surface;
-    vtkIdType count;
-};
-
-}  // namespace
 
 std::vector<double> doubles_of(vtkDataArray& array) {
     std::vector<double> all(static_cast<std::size_t>(array.GetNumberOfValues()));

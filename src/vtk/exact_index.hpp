@@ -15,12 +15,6 @@ class vtkDataSet;
 
 namespace barycert::in_vtk {
 
-/// Returns x, by way of memory: across an ExactEnvironment compilers move arithmetic on numbers in registers.
-inline double held(double x) {
-    const volatile double there = x;
-    return there;
-}
-
 /// The simplices of a data set. Cells of a lower dimension, empty cells and ghost cells (vtkGhostType: duplicate,
 /// refined, hidden) are left out. There is no locator if there are no cells, or if there is a `reason`.
 struct ExactIndex : pieces::IndexedPiece {

@@ -85,7 +85,7 @@ private:
     const ExactIndex& index_;
     vtkCharArray* mask_ = nullptr;
     std::vector<Field> fields_;
-    Field cells_;  ///< the number of each cell
+    Field cells_{"cell", 1, {}};  ///< the number of each cell
     std::vector<Sampled> sampled_;
     std::vector<Copied> nearest_;  ///< of nodes: those of the vertex of greatest weight
     std::vector<Copied> mixed_;    ///< of nodes, no numbers: VTK mixes them by weights

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -38,10 +39,6 @@ using namespace barycert;
 namespace {
 
 using in_vtk::ExactIndex;
-
-unsigned char flag(bool on) {
-    return on ? 1 : 0;
-}
 
 // One value for each of `all`: of(one).
 template <class Array, class All, class Of>
@@ -116,18 +113,15 @@ void add_measures(const CheckReport& report, const ExactIndex& index, vtkDataSet
 
 // A row a defect.
 void fill_defects(const std::vector<Defect>& all, const ExactIndex& index, vtkTable& table) {
-    const auto add = [&]<class Array>(const char* name, Array*, auto&& of) {
-        table.AddColumn(array_of<Array>(name, all, of));
-    };
-    constexpr vtkStringArray* text = nullptr;
-    constexpr vtkUnsignedCharArray* flags = nullptr;
-    add("defect", text, [](const Defect& d) { return std::string(defect_text(d.kind).name); });
-    add("count", static_cast<vtkTypeInt64Array*>(nullptr), [](const Defect& d) { return vtkTypeInt64(d.count); });
-    add("at_least", flags, [](const Defect& d) { return flag(d.at_least); });
-    add("breaks", flags, [](const Defect& d) { return flag(d.breaks()); });
-    add("meaning", text, [](const Defect& d) { return std::string(defect_text(d.kind).text); });
-    add("remedy", text, [](const Defect& d) { return std::string(d.remedy()); });
-    add("places", text, [&](const Defect& d) { return places_of(d, index); });
+    using D = const Defect&;
+    table.AddColumn(array_of<vtkStringArray>("defect", all, [](D d) { return std::string(defect_text(d.kind).name); }));
+    table.AddColumn(array_of<vtkTypeInt64Array>("count", all, [](D d) { return vtkTypeInt64(d.count); }));
+    table.AddColumn(array_of<vtkUnsignedCharArray>("at_least", all, [](D d) { return d.at_least; }));
+    table.AddColumn(array_of<vtkUnsignedCharArray>("breaks", all, [](D d) { return d.breaks(); }));
+    table.AddColumn(
+        array_of<vtkStringArray>("meaning", all, [](D d) { return std::string(defect_text(d.kind).text); }));
+    table.AddColumn(array_of<vtkStringArray>("remedy", all, [](D d) { return std::string(d.remedy()); }));
+    table.AddColumn(array_of<vtkStringArray>("places", all, [&](D d) { return places_of(d, index); }));
 }
 
 // A vertex for each pair of cells that meet where they must not.
@@ -147,8 +141,8 @@ void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index,
     vtkPointData& data = *points.GetPointData();
     data.AddArray(array_of<vtkIdTypeArray>("cell_a", all, [&](Contact c) { return index.id(c.cells[0]); }));
     data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return index.id(c.cells[1]); }));
-    data.AddArray(array_of<vtkUnsignedCharArray>("overlap", all, [](Contact c) { return flag(c.overlap); }));
-    data.AddArray(array_of<vtkUnsignedCharArray>("exact", all, [](Contact c) { return flag(c.common.exact); }));
+    data.AddArray(array_of<vtkUnsignedCharArray>("overlap", all, [](Contact c) { return c.overlap; }));
+    data.AddArray(array_of<vtkUnsignedCharArray>("exact", all, [](Contact c) { return c.common.exact; }));
 }
 
 }  // namespace
@@ -234,7 +228,7 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     for (std::string line; std::getline(in, line);) lines->InsertNextValue(line);
     vtkFieldData& told = *output->GetFieldData();
     told.AddArray(lines);
-    told.AddArray(array_of<vtkUnsignedCharArray>("certified", std::array{Certified}, flag));
+    told.AddArray(array_of<vtkUnsignedCharArray>("certified", std::array{Certified}, std::identity()));
     fill_defects(report.defects, index, *defects);
     fill_contacts(report.contacts, index, *points);
     return 1;

@@ -211,7 +211,7 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     std::array<double, 4> its{};
     const bool outside = found < 0;
     if (outside && Tolerant && tol2 > 0) {
-        const pieces::Closest nearest = index->closest(x, std::sqrt(in_vtk::held(tol2)));
+        const pieces::Closest nearest = index->closest(x, std::sqrt(pieces::held(tol2)));
         found = nearest.cell;
         its = nearest.weights;
     }
@@ -264,7 +264,7 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
     if (found.cell < 0) return 0;
     cellId = index->id(found.cell);
     subId = 0;
-    dist2 = in_vtk::held(found.distance) * found.distance;
+    dist2 = pieces::held(found.distance) * found.distance;
     inside = found.inside ? 1 : 0;
     std::copy_n(found.point.begin(), 3, closestPoint);
     if (cell != nullptr) DataSet->GetCell(cellId, cell);

@@ -24,25 +24,17 @@ using namespace barycert;
 
 namespace {
 
-template <class Array, class T>
+template <class T>
 void add(vtkDataSetAttributes& attributes, const std::string& name, int components, const std::vector<T>& values) {
+    using Array =
+        std::conditional_t<std::is_same_v<T, double>, vtkDoubleArray,
+                           std::conditional_t<std::is_same_v<T, std::int64_t>, vtkTypeInt64Array, vtkStringArray>>;
     vtkNew<Array> array;
     array->SetName(name.c_str());
     array->SetNumberOfComponents(components);
     array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
     for (std::size_t i = 0; i < values.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), values[i]);
     attributes.AddArray(array);
-}
-
-void add(vtkDataSetAttributes& attributes, const Column& column) {
-    std::visit(
-        [&]<class T>(const std::vector<T>& values) {
-            using Array = std::conditional_t<
-                std::is_same_v<T, double>, vtkDoubleArray,
-                std::conditional_t<std::is_same_v<T, std::int64_t>, vtkTypeInt64Array, vtkStringArray>>;
-            add<Array>(attributes, column.name, 1, values);
-        },
-        column.values);
 }
 
 // Makes `grid` the mesh: as write_vtu writes it, so ParaView shows the same either way. Triangles get z = 0; cells are
@@ -72,12 +64,13 @@ void fill_grid(const Mesh& mesh, vtkUnstructuredGrid& grid) {
     const int solid = quadratic ? VTK_QUADRATIC_TETRA : VTK_TETRA;
     grid.SetCells(mesh.dimension == 2 ? flat : solid, cells);
 
-    for (const Field& field : mesh.point_fields)
-        add<vtkDoubleArray>(*grid.GetPointData(), field.name, field.components, field.data);
-    if (!mesh.point_markers.empty()) add<vtkTypeInt64Array>(*grid.GetPointData(), "marker", 1, mesh.point_markers);
-    for (const Field& field : mesh.cell_fields)
-        add<vtkDoubleArray>(*grid.GetCellData(), field.name, field.components, field.data);
-    for (const Column& column : mesh.cell_labels) add(*grid.GetCellData(), column);
+    vtkPointData& at_points = *grid.GetPointData();
+    vtkCellData& at_cells = *grid.GetCellData();
+    for (const Field& field : mesh.point_fields) add(at_points, field.name, field.components, field.data);
+    if (!mesh.point_markers.empty()) add(at_points, "marker", 1, mesh.point_markers);
+    for (const Field& field : mesh.cell_fields) add(at_cells, field.name, field.components, field.data);
+    for (const auto& [name, values] : mesh.cell_labels)
+        std::visit([&, &name = name](const auto& all) { add(at_cells, name, 1, all); }, values);
 }
 
 }  // namespace

@@ -91,8 +91,7 @@ private:
 };
 
 // A pipeline that executes its algorithm although what comes before it has failed, so that the algorithm can tell
-// others.
-// Takes data sets alone: a composite one would make the algorithm run as often as it has parts, on each process
+// others. Takes data sets alone: a composite one would make the algorithm run as often as it has parts, on each process
 // another number of times.
 class FailingUpstream : public vtkStreamingDemandDrivenPipeline {
 public:
@@ -100,8 +99,7 @@ public:
     vtkTypeMacro(FailingUpstream, vtkStreamingDemandDrivenPipeline)
 
     // What failed before an input, and has not been modified since then: its output is not to be used, although VTK
-    // takes it for the result from then on. Empty if nothing failed. Readers tell their failures by GetErrorCode()
-    // alone.
+    // takes it for the result from then on. Empty if nothing failed. Readers tell it by GetErrorCode() alone.
     std::string failure() const { return failures_.empty() ? std::string() : failures_.begin()->second.what; }
 
 protected:

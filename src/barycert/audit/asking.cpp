@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <utility>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/ulp.hpp"
@@ -10,14 +9,10 @@
 namespace barycert::audit {
 namespace {
 
-Region region_of(int number) {
-    return number >= 0 && number < 4 ? static_cast<Region>(number) : Region::degenerate;
-}
-
 /// The region by the kernel's rule; `own` is its own classification.
 Region claim(const Kernel& kernel, const Statement& s, std::size_t n, int own) {
     if (kernel.rule != RegionRule::own) return claimed_region(kernel, s.status, std::span(s.weights).first(n));
-    return s.status != 0 ? Region::degenerate : region_of(own);
+    return s.status != 0 || own < 0 || own > 3 ? Region::degenerate : static_cast<Region>(own);
 }
 
 Asked ask_in_process(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements) {
@@ -112,11 +107,6 @@ void count_incidents(Comparison& r, std::uint8_t incidents) {
         r.counts[i] = static_cast<std::uint8_t>(incidents >> i & 1);
 }
 
-/// It has a function of its own for values.
-bool gives_values(const Kernel& kernel) {
-    return kernel.interpolate != nullptr || (kernel.host != nullptr && kernel.host->description().interpolates);
-}
-
 void compare_regions(Comparison& r, Region exact) {
     if (exact == Region::degenerate) {
         if (r.claimed != Region::degenerate) count(r, Finding::missed_degenerate);
@@ -184,14 +174,13 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
         return r;
     }
     const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
+    const std::span weights(s.weights.data(), n), exact(answer.weights.data(), n);
     const bool degenerate = answer.region == Region::degenerate;
-    const bool perfect =
-        s.status == 0 && !degenerate &&
-        std::equal(s.weights.begin(), s.weights.begin() + static_cast<std::ptrdiff_t>(n), answer.weights.begin());
+    const bool perfect = s.status == 0 && !degenerate && std::equal(weights.begin(), weights.end(), exact.begin());
     if (!perfect || kernel.rule != RegionRule::sign) compare_regions(r, answer.region);
     if (degenerate) {
         if (r.wrong()) {
-            for (std::size_t i = 0; i < n; ++i) r.weight_error = std::max(r.weight_error, std::fabs(s.weights[i]));
+            for (const double w : weights) r.weight_error = std::max(r.weight_error, std::fabs(w));
             if (kernel.certifies) count(r, Finding::false_certificate);
         }
         return r;
@@ -203,11 +192,13 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
     }
     // A classification may say degenerate of a simplex that has weights.
     if (kernel.rule == RegionRule::own && s.claimed == Region::degenerate) count(r, Finding::false_declaration);
-    for (std::size_t i = 0; i < n; ++i) compare_weight(r, i, s.weights[i], answer.weights[i], answer.signs[i]);
-    r.relative_error = relative_error(std::span(s.weights).first(n), std::span(answer.weights).first(n));
+    for (std::size_t i = 0; i < n; ++i) compare_weight(r, i, weights[i], exact[i], answer.signs[i]);
+    r.relative_error = relative_error(weights, exact);
     if (std::isfinite(s.value) && std::isfinite(answer.value) && answer.value != 0)
         r.value_ulp = base::ulp_error_here(s.value, answer.value);
-    const bool wrong_value = gives_values(kernel) && s.value != answer.value;
+    const bool gives_values =
+        kernel.interpolate != nullptr || (kernel.host != nullptr && kernel.host->description().interpolates);
+    const bool wrong_value = gives_values && s.value != answer.value;
     if (kernel.certifies && (!perfect || wrong_value || r.wrong())) count(r, Finding::false_certificate);
     return r;
 }

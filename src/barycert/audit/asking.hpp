@@ -28,6 +28,14 @@ inline bool is_variant(const Kernel& kernel) {
     return std::ranges::count(kernel.name, '.') > 1;
 }
 
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+    std::vector<std::string> names;
+    names.reserve(items.size());
+    for (const Item& item : items) names.push_back(item.name);
+    return names;
+}
+
 struct Statement {
     bool ran = true;       ///< false: the kernel has been given up, and was not asked
     bool answered = true;  ///< false: it ran and gave no answer

@@ -1,4 +1,3 @@
-
 #include <set>
 
 #include "barycert/audit/asking.hpp"
@@ -84,11 +83,7 @@ void BaselineComparison::add(BaselineChange change) {
 }
 
 const std::vector<std::string>& baseline_figures() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> n;
-        for (const Figure& f : figures()) n.push_back(f.name);
-        return n;
-    }();
+    static const std::vector<std::string> names = names_of(figures());
     return names;
 }
 

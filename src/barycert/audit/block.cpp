@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "barycert/audit/asking.hpp"
+#include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 
@@ -62,9 +63,7 @@ private:
 /// neither over- nor underflow. Infinite if the sums of a component overflowed, to infinity or to none.
 double length_bound(const std::array<double, 3>& components) {
     constexpr double u = 0x1p-53;
-    for (const double x : components) {
-        if (!std::isfinite(x)) return std::numeric_limits<double>::infinity();
-    }
+    if (!base::all_finite(components)) return std::numeric_limits<double>::infinity();
     const double max = std::max({components[0], components[1], components[2]});
     if (!(max > 0)) return 0;
     double squares = 0;
@@ -99,11 +98,9 @@ ResidualBound plain_bound(const Case& c, const double* weights) {
 /// The same, as close as can be.
 ResidualBound direct_bound(const Case& c, const double* weights) {
     const int n = vertex_count(c.simplex);
-    ResidualBound bound;
     WatchedSum sum;
     sum.add(-1);
     for (int i = 0; i < n; ++i) sum.add(weights[i]);
-    bound.partition = sum.bound();
     std::array<double, 3> components{};
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
         const auto k = static_cast<std::size_t>(axis);
@@ -112,8 +109,7 @@ ResidualBound direct_bound(const Case& c, const double* weights) {
         for (int i = 0; i < n; ++i) r.add_product(weights[i], c.vertex(i, axis));
         components[k] = r.bound();
     }
-    bound.reproduction = length_bound(components);
-    return bound;
+    return {sum.bound(), length_bound(components)};
 }
 
 /// Where they belong to its projection, which is known by its exact weights: from the weights' errors. With w the
@@ -134,8 +130,6 @@ ResidualBound projected_bound(const Case& c, const OracleAnswer& answer, const d
         sum += d[i];
         error += e[i];
     }
-    ResidualBound bound;
-    bound.partition = (std::fabs(sum) + error) * (1 + 16 * u);
     std::array<double, 3> components{};
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
         double r = 0, slack = tiny;
@@ -146,8 +140,7 @@ ResidualBound projected_bound(const Case& c, const OracleAnswer& answer, const d
         }
         components[static_cast<std::size_t>(axis)] = std::fabs(r) + slack;
     }
-    bound.reproduction = length_bound(components);
-    return bound;
+    return {(std::fabs(sum) + error) * (1 + 16 * u), length_bound(components)};
 }
 
 /// The worst so far cannot be exceeded, nor equalled by an earlier case.
@@ -157,10 +150,8 @@ bool settled(double bound, const WorstCase& worst, std::uint64_t index) {
 
 void add_residuals(KernelStatistics& s, const Case& c, const OracleAnswer& answer, const double* weights,
                    std::uint64_t index) {
-    const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
-    for (std::size_t i = 0; i < n; ++i) {
-        if (!std::isfinite(weights[i])) return;
-    }
+    const std::span w(weights, static_cast<std::size_t>(vertex_count(c.simplex)));
+    if (!base::all_finite(w)) return;
     const bool direct = c.simplex == Simplex::tetrahedron || c.simplex == Simplex::triangle;
     if (direct && !c.perspective) {  // ever closer, and slower
         const auto both_settled = [&](const ResidualBound& bound) {
@@ -170,7 +161,6 @@ void add_residuals(KernelStatistics& s, const Case& c, const OracleAnswer& answe
         if (both_settled(plain_bound<double>(c, weights)) || both_settled(plain_bound<Long>(c, weights))) return;
     }
     const ResidualBound bound = direct ? direct_bound(c, weights) : projected_bound(c, answer, weights);
-    const std::span<const double> w(weights, n);
     if (!settled(bound.partition, s.partition_residual, index))
         s.partition_residual.include(std::fabs(partition_residual(w)), index);
     // Perspective divides by a sum of weights and depths, for which there is no bound.

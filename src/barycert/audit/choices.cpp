@@ -4,20 +4,16 @@
 
 #include <limits>
 
+#include "barycert/audit/asking.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 
 namespace barycert {
-namespace {
 
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-    std::vector<std::string> names;
-    names.reserve(items.size());
-    for (const Item& item : items) names.push_back(item.name);
-    return names;
-}
+using audit::names_of;
+
+namespace {
 
 /// That `word` is none of these names.
 Error unknown(std::string what, std::string expected, const std::string& word, const std::vector<std::string>& names,
@@ -53,10 +49,7 @@ Mesh cells_of(const std::string& path, int threads, Curved curved, Notes& notes)
 }
 
 Certificate certificate_of(const Mesh& mesh, int threads) {
-    CheckOptions options;
-    options.verdict_only = true;
-    options.threads = threads;
-    return check_mesh(mesh, options).certificate;
+    return check_mesh(mesh, {.threads = threads, .verdict_only = true}).certificate;
 }
 
 /// Throws an Exception.

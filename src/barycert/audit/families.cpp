@@ -8,7 +8,7 @@ namespace barycert::audit {
 namespace {
 
 bool serves(const PreparedMesh& m, Simplex s) {
-    return s == Simplex::triangle ? m.mesh.dimension == 2 : m.mesh.dimension == 3;
+    return m.mesh.dimension == space_dimension(s);
 }
 
 /// A mesh that serves; each has the same chance, however large: small ones are the nasty ones.
@@ -32,11 +32,7 @@ std::array<Mesh::Index, 4> nodes_of(const Mesh& mesh, std::size_t cell) {
 
 Draw draw_of_nodes(const PreparedMesh& from, Mesh::Index cell, std::array<Mesh::Index, 4> nodes, Simplex s,
                    base::Random& random) {
-    Draw draw;
-    draw.from = &from;
-    draw.cell = cell;
-    draw.nodes = nodes;
-    draw.simplex.simplex = s;
+    Draw draw{&from, cell, nodes, {.simplex = s}};
     const Mesh& mesh = from.mesh;
     const auto d = static_cast<std::size_t>(mesh.dimension);
     const Field* const field =
@@ -139,9 +135,7 @@ Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_
     const ExactEnvironment environment;
     const std::uint64_t stream = base::hash64(family.name) + static_cast<std::uint64_t>(s);
     base::Random random = base::Random::stream(seed, stream, index);
-    Case c;
-    c.simplex = s;
-    c.perspective = family.perspective;
+    Case c{.simplex = s, .perspective = family.perspective};
     if (witness != nullptr) witness->family = family.name, witness->seed = seed, witness->index = index;
     if (family.needs_mesh) {
         const Draw draw = family.mesh_recipe(random, meshes, s);

@@ -1,7 +1,7 @@
 // Families whose simplices come from a mesh: what a kernel meets in use.
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "barycert/audit/recipes.hpp"
 
@@ -38,12 +38,10 @@ void point_in_face(Draw& draw, base::Random& random) {
     draw.simplex.point = random_point(draw.simplex, random, vertex_count(draw.simplex.simplex) - fewer);
 }
 
-void point_on_edge(Draw& draw, base::Random& random) {
-    draw.simplex.point = random_point(draw.simplex, random, 2);
-}
-
-void point_at_vertex(Draw& draw, base::Random&) {
-    draw.simplex.point = combination(draw.simplex, {1, 0, 0, 0}, 1);
+/// On the edge of the first two vertices, or at the first one.
+template <int vertices>
+void point_on_first(Draw& draw, base::Random& random) {
+    draw.simplex.point = random_point(draw.simplex, random, vertices);
 }
 
 void point_at_centroid(Draw& draw, base::Random&) {
@@ -101,15 +99,15 @@ std::vector<Family> mesh_families() {
         {"mesh.faces", "points computed on a face: after rounding most are beside it",
          "fl(sum w_i v_i) over three vertices", tetrahedron_only, nullptr, drawn<draw_any, shuffle, point_in_face<1>>},
         {"mesh.edges", "points computed on an edge", "fl(w_0 v_0 + w_1 v_1)", sided, nullptr,
-         drawn<draw_any, shuffle, point_on_edge>},
+         drawn<draw_any, shuffle, point_on_first<2>>},
         {"mesh.vertices", "vertices: all weights but one are exactly zero", "the vertex itself", every, nullptr,
-         drawn<draw_any, shuffle, point_at_vertex>},
+         drawn<draw_any, shuffle, point_on_first<1>>},
         {"mesh.faces.ulp", "points one ulp off a face", "mesh.faces, one coordinate moved by one ulp", tetrahedron_only,
          nullptr, drawn<draw_any, shuffle, point_in_face<1>, nudge>},
         {"mesh.edges.ulp", "points one ulp off an edge", "mesh.edges, one coordinate moved by one ulp", sided, nullptr,
-         drawn<draw_any, shuffle, point_on_edge, nudge>},
+         drawn<draw_any, shuffle, point_on_first<2>, nudge>},
         {"mesh.vertices.ulp", "points one ulp off a vertex", "mesh.vertices, one coordinate moved by one ulp", every,
-         nullptr, drawn<draw_any, shuffle, point_at_vertex, nudge>},
+         nullptr, drawn<draw_any, shuffle, point_on_first<1>, nudge>},
         {"mesh.hull.near", "points just outside the mesh", "from the hull outwards by 2^-50 to 2^-4 of the height",
          solid, nullptr, drawn<draw_at_hull, point_in_face<1>, step_outwards>},
         {"mesh.hull.far", "points far outside: large weights that cancel", "up to 2^20 bounding boxes away", solid,

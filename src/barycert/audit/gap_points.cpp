@@ -21,14 +21,12 @@ GapPoints::GapPoints(const Mesh& mesh)
 }
 
 Case GapPoints::case_of(Mesh::Index cell, const std::array<double, 3>& point) const {
-    Case c;
-    c.simplex = mesh_.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    Case c{.simplex = mesh_.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron, .point = point};
     const auto corners = mesh_.corners(), d = static_cast<std::size_t>(mesh_.dimension);
     for (std::size_t i = 0; i < corners; ++i) {
         const auto node = static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(cell) * corners + i]);
         std::copy_n(&mesh_.points[node * d], d, &c.vertices[i * d]);
     }
-    c.point = point;
     return c;
 }
 
@@ -52,7 +50,7 @@ GapPoint GapPoints::make(Feature feature, std::uint64_t seed, std::uint64_t inde
         for (int axis = 0; axis < mesh_.dimension; ++axis)
             c.vertex(static_cast<int>(i), axis) = whole.vertex(static_cast<int>(order[i]), axis);
     }
-    p.point = used == 1 ? combination(c, {1, 0, 0, 0}, 1) : random_point(c, random, static_cast<int>(used));
+    p.point = random_point(c, random, static_cast<int>(used));
     if (random.coin()) {
         const auto axis = random.below(static_cast<std::uint64_t>(mesh_.dimension));
         const int ulps = random.integer(1, 4);

@@ -38,14 +38,10 @@ struct Found {
     std::optional<Disagreement> disagreement;
 };
 
-/// Whether `a` comes first: faces, edges, vertices, in each by number.
-bool before(const ClaimWitness& a, const ClaimWitness& b) {
-    return std::pair(a.feature, a.index) < std::pair(b.feature, b.index);
-}
-
+/// Of two witnesses the first: faces, edges, vertices, in each by number.
 void keep_first(ClaimResult& result, ClaimFault fault, const ClaimWitness& witness) {
-    const auto [kept, is_new] = result.witnesses.try_emplace(fault, witness);
-    if (!is_new && before(witness, kept->second)) kept->second = witness;
+    ClaimWitness& kept = result.witnesses.try_emplace(fault, witness).first->second;
+    if (std::pair(witness.feature, witness.index) < std::pair(kept.feature, kept.index)) kept = witness;
 }
 
 class Finder {

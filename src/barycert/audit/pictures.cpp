@@ -51,8 +51,7 @@ void add(DriftPoint& point, double value, double exact, std::uint64_t index) {
 Case drift_case(int size, std::uint64_t seed, std::uint64_t index) {
     const ExactEnvironment environment;
     base::Random random = base::Random::stream(seed, base::hash64("drift") + static_cast<std::uint64_t>(size), index);
-    Case c;
-    c.simplex = Simplex::triangle;
+    Case c{.simplex = Simplex::triangle};
     for (int attempt = 0; attempt < 64; ++attempt) {
         set_pixel_case(c, random, size, false, 1);
         if (twice_area(c) >= size * size / 4.0) break;
@@ -133,10 +132,7 @@ SignPicture picture_of(const Kernel& kernel, const SignPicture& exact) {
 }  // namespace
 
 Case sign_case(Simplex s, bool perspective, int i, int j) {
-    Case c;
-    c.simplex = s;
-    c.perspective = perspective;
-    c.values = {1, 2, 3, 4};
+    Case c{.simplex = s, .values = {1, 2, 3, 4}, .perspective = perspective};
     const auto set = [&](int vertex, double x, double y, double z) {
         c.vertex(vertex, 0) = x;
         c.vertex(vertex, 1) = y;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <limits>
-#include <utility>
 
 #include "barycert/audit.hpp"
 #include "barycert/base/random.hpp"

@@ -1,7 +1,7 @@
-
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <tuple>
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -69,17 +69,12 @@ void collect_witnesses(KernelResult& result, const AuditOptions& options, const 
 
 /// False certificates first, then by the share of wrong cases, then by the worst error.
 bool worse(const KernelResult& a, const KernelResult& b) {
-    const auto share = [](const KernelResult& r, double n) {
-        return r.total.cases == 0 ? 0.0 : n / static_cast<double>(r.total.cases);
+    const auto badness = [](const KernelStatistics& s) {
+        const double share = s.cases == 0 ? 0.0 : static_cast<double>(s.wrong_cases) / static_cast<double>(s.cases);
+        return std::tuple(s.counts[static_cast<std::size_t>(Finding::false_certificate)] != 0, share,
+                          s.weight_ulp.value);
     };
-    const auto certificates = [](const KernelResult& r) {
-        return r.total.counts[static_cast<std::size_t>(Finding::false_certificate)];
-    };
-    if ((certificates(a) != 0) != (certificates(b) != 0)) return certificates(a) != 0;
-    const double wrong_a = share(a, static_cast<double>(a.total.wrong_cases)),
-                 wrong_b = share(b, static_cast<double>(b.total.wrong_cases));
-    if (wrong_a != wrong_b) return wrong_a > wrong_b;
-    return a.total.weight_ulp.value > b.total.weight_ulp.value;
+    return badness(a.total) > badness(b.total);
 }
 
 }  // namespace
@@ -105,9 +100,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
         report.verdicts.push_back(m->certificate.verdict_on(m->mesh));
         report.curved.push_back(curved_cells(m->mesh));
     }
-    for (const Kernel& k : options.kernels)
-        report.kernels.push_back(
-            {.kernel = k, .total = {}, .families = {}, .prediction = {}, .ns = 0, .witnesses = {}});
+    for (const Kernel& k : options.kernels) report.kernels.emplace_back().kernel = k;
 
     const auto start = std::chrono::steady_clock::now();
     std::vector<std::vector<float>> times(options.kernels.size());

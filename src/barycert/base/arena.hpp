@@ -39,6 +39,15 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& wor
 /// work(begin, end) for ranges that together are [0, count), cut until they have at most `grain`.
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& work);
 
+/// work(i) for each i below `count`, up to `grain` of them in a row on one thread.
+template <class Work>
+void parallel_for_each(std::size_t count, std::size_t grain, const Work& work) {
+    parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+        const Work own = work;  // what it refers to stays in registers, whatever it writes
+        for (std::size_t i = begin; i != end; ++i) own(i);
+    });
+}
+
 /// What join(all, part) makes of the parts of such ranges, each made by work(begin, end, part) from a copy of `empty`.
 /// Parts come in any order: what threads decide must not show in what join() makes, and joining `empty` changes
 /// nothing.

@@ -12,6 +12,33 @@
 #include "barycert/result.hpp"
 
 namespace barycert::base {
+namespace {
+
+bool is_printable(char32_t code) {
+    if (code < 0x20 || (code >= 0x7F && code <= 0x9F)) return false;
+    if (code >= 0x200B && code <= 0x200F) return false;  // without width, and marks of direction
+    if (code >= 0x2028 && code <= 0x202E) return false;  // separators, embeddings, overrides
+    return !(code >= 0x2060 && code <= 0x2069) && code != 0x61C && code != 0xFEFF;  // isolates, marks without width
+}
+
+/// A word that is not printable: printf makes its bytes, also of -, which at the front would begin an option of its.
+/// Line ends after the last other byte are lost in "$(...)" and follow as they are.
+std::string word_of_bytes(std::string_view text) {
+    const std::size_t end = text.find_last_not_of('\n') + 1;
+    std::string word = "\"$(printf '";
+    for (const char c : text.substr(0, end)) {
+        const auto byte = static_cast<unsigned char>(c);
+        std::array<char, 5> octal{};
+        std::snprintf(octal.data(), octal.size(), "\\%03o", static_cast<unsigned>(byte));
+        const bool plain = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\' && c != '-';
+        word += c == '%' ? "%%" : plain ? std::string(1, c) : std::string(octal.data());
+    }
+    word += "')\"";
+    if (end != text.size()) word += "'" + std::string(text.substr(end)) + "'";
+    return word;
+}
+
+}  // namespace
 
 std::string shortest(double x) {
     const ExactEnvironment environment;
@@ -51,17 +78,6 @@ std::optional<double> parse_double(std::string_view text) {
     }
     return negative ? -x : x;
 }
-
-namespace {
-
-bool is_printable(char32_t code) {
-    if (code < 0x20 || (code >= 0x7F && code <= 0x9F)) return false;
-    if (code >= 0x200B && code <= 0x200F) return false;  // without width, and marks of direction
-    if (code >= 0x2028 && code <= 0x202E) return false;  // separators, embeddings, overrides
-    return !(code >= 0x2060 && code <= 0x2069) && code != 0x61C && code != 0xFEFF;  // isolates, marks without width
-}
-
-}  // namespace
 
 std::string printable(std::string_view text) {
     std::string out;
@@ -109,27 +125,6 @@ bool glob_match(std::string_view pattern, std::string_view text) {
     }
     return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
-
-namespace {
-
-/// A word that is not printable: printf makes its bytes, also of -, which at the front would begin an option of its.
-/// Line ends after the last other byte are lost in "$(...)" and follow as they are.
-std::string word_of_bytes(std::string_view text) {
-    const std::size_t end = text.find_last_not_of('\n') + 1;
-    std::string word = "\"$(printf '";
-    for (const char c : text.substr(0, end)) {
-        const auto byte = static_cast<unsigned char>(c);
-        std::array<char, 5> octal{};
-        std::snprintf(octal.data(), octal.size(), "\\%03o", static_cast<unsigned>(byte));
-        const bool plain = byte >= 0x20 && byte < 0x7f && c != '\'' && c != '\\' && c != '-';
-        word += c == '%' ? "%%" : plain ? std::string(1, c) : std::string(octal.data());
-    }
-    word += "')\"";
-    if (end != text.size()) word += "'" + std::string(text.substr(end)) + "'";
-    return word;
-}
-
-}  // namespace
 
 std::string shell_word(std::string_view text) {
     if (printable(text) != text) return word_of_bytes(text);

@@ -1,5 +1,3 @@
-
-#include <fcntl.h>
 #include <libdeflate.h>
 #include <sys/mman.h>
 #include <sys/stat.h>

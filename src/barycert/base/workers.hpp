@@ -5,8 +5,6 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
-#include <new>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -39,10 +37,8 @@ bool share_work(int threads, std::size_t count, const Work& work) {
     helpers.reserve(wanted);
     try {
         while (helpers.size() + 1 < wanted) helpers.emplace_back(take);
-    } catch (const std::system_error&) {
-        // The system gives no more threads: those at hand do it all.
-    } catch (const std::bad_alloc&) {
-        // Nor memory for one.
+    } catch (const std::exception&) {
+        // The system gives no more threads, or no memory for one: those at hand do it all.
     }
     take();
     for (std::thread& helper : helpers) helper.join();

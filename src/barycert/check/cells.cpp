@@ -55,9 +55,7 @@ struct Shape {
     double min_angle = 0, max_angle = 180;  ///< degrees
 };
 
-using base::cross;
-using base::dot;
-using base::minus;
+using base::cross, base::dot, base::minus;
 template <class Real>
 using Vector = base::Vector3<Real>;
 

@@ -21,9 +21,7 @@ namespace {
 
 using Number = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
 using Vector = base::Vector3<Number>;
-using base::cross;
-using base::dot;
-using base::minus;
+using base::cross, base::dot, base::minus;
 
 /// Coordinates as multiples of a power of two, one an axis.
 class Lattice {
@@ -198,9 +196,7 @@ Fraction dyadic(double x) {
 bool lies_in(int d, const Corners& cell, const double* point, bool inside) {
     const Simplex s = d == 2 ? Simplex::triangle : Simplex::tetrahedron;
     double vertices[12];
-    for (int i = 0; i <= d; ++i) {
-        for (int k = 0; k < d; ++k) vertices[i * d + k] = cell[static_cast<std::size_t>(i)][k];
-    }
+    for (int i = 0; i <= d; ++i) std::copy_n(cell[static_cast<std::size_t>(i)], d, vertices + i * d);
     const auto signs = checked_weight_signs(s, vertices, point);
     return signs && (inside ? signs->feature(s) == Feature::interior : signs->contains());
 }

@@ -5,7 +5,7 @@
 /// a coordinate if none needs more than 61 bits, two for 125, else as many as it takes.
 #pragma once
 
-#include <cstddef>
+#include <span>
 
 #include "barycert/core/scaled_double.hpp"
 

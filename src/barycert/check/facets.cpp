@@ -92,13 +92,11 @@ struct FacetChecker {
 std::vector<Mesh::Index> neighbours_of(const Mesh& mesh, const index::CellIndex& index) {
     std::vector<Mesh::Index> neighbours;
     base::resize_large(neighbours, mesh.cells.size());
-    base::parallel_for(index.cell_count(), 1 << 14, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            Mesh::Index* const out = &neighbours[mesh.corners() * static_cast<std::size_t>(index.original[c])];
-            for (std::size_t i = 0; i < mesh.corners(); ++i) {
-                const index::Place next = index.cells[c].next[i];
-                out[i] = next < 0 ? -1 : index.original[static_cast<std::size_t>(next)];
-            }
+    base::parallel_for_each(index.cell_count(), 1 << 14, [&](std::size_t c) {
+        Mesh::Index* const out = &neighbours[mesh.corners() * static_cast<std::size_t>(index.original[c])];
+        for (std::size_t i = 0; i < mesh.corners(); ++i) {
+            const index::Place next = index.cells[c].next[i];
+            out[i] = next < 0 ? -1 : index.original[static_cast<std::size_t>(next)];
         }
     });
     return neighbours;
@@ -211,16 +209,14 @@ std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std
             if (faces[i].nodes == sorted) std::atomic_ref(found[faces[i].index]).store(1, std::memory_order_relaxed);
         }
     };
-    base::parallel_for(mesh.cell_count(), 4096, [&](std::size_t first, std::size_t last) {
-        for (std::size_t cell = first; cell != last; ++cell) {
-            if (usable[cell] == 0) continue;
-            std::array<Mesh::Index, 4> n{};
-            std::copy_n(&mesh.cells[4 * cell], 4, n.begin());
-            std::sort(n.begin(), n.end());
-            for (const Triple& facet :
-                 {Triple{n[0], n[1], n[2]}, {n[0], n[1], n[3]}, {n[0], n[2], n[3]}, {n[1], n[2], n[3]}})
-                meet(facet);
-        }
+    base::parallel_for_each(mesh.cell_count(), 4096, [&](std::size_t cell) {
+        if (usable[cell] == 0) return;
+        std::array<Mesh::Index, 4> n{};
+        std::copy_n(&mesh.cells[4 * cell], 4, n.begin());
+        std::sort(n.begin(), n.end());
+        for (const Triple& facet :
+             {Triple{n[0], n[1], n[2]}, {n[0], n[1], n[3]}, {n[0], n[2], n[3]}, {n[1], n[2], n[3]}})
+            meet(facet);
     });
     return found;
 }

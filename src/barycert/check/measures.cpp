@@ -40,9 +40,8 @@ std::vector<Field> measure_fields(const CellMeasures& measures) {
 
 void count_not_finite(const Field& field, bool of_cells, std::vector<NotFinite>& to) {
     if (base::all_finite(field.data)) return;
-    for (const NotFinite& known : to) {
-        if (known.field == field.name && known.of_cells == of_cells) return;
-    }
+    const auto is_known = [&](const NotFinite& n) { return n.field == field.name && n.of_cells == of_cells; };
+    if (std::ranges::any_of(to, is_known)) return;
     const auto count = std::ranges::count_if(field.data, [](double x) { return !std::isfinite(x); });
     to.push_back({field.name, of_cells, static_cast<std::uint64_t>(count), field.data.size()});
 }

@@ -83,16 +83,13 @@ HWY_INLINE TwoTerms<V> two_product(V x, V y) {
 }
 
 template <class V>
-struct DoubleDouble {
-    V high, low;
-};
+using DoubleDouble = TwoTerms<V>;
 
 // Free templates, not friends: GCC gives friends the baseline's instruction set, and at -O0 their vectors get lost.
 template <class V>
 HWY_INLINE DoubleDouble<V> operator+(const DoubleDouble<V>& x, const DoubleDouble<V>& y) {
     const TwoTerms<V> s = two_sum(x.high, y.high);
-    const TwoTerms<V> r = two_sum(s.high, s.low + (x.low + y.low));  // not quick: s.high may have cancelled
-    return {r.high, r.low};
+    return two_sum(s.high, s.low + (x.low + y.low));  // not quick: s.high may have cancelled
 }
 template <class V>
 HWY_INLINE DoubleDouble<V> operator-(const DoubleDouble<V>& x, const DoubleDouble<V>& y) {
@@ -101,15 +98,13 @@ HWY_INLINE DoubleDouble<V> operator-(const DoubleDouble<V>& x, const DoubleDoubl
 template <class V>
 HWY_INLINE DoubleDouble<V> operator*(const DoubleDouble<V>& x, const DoubleDouble<V>& y) {
     const TwoTerms<V> p = two_product(x.high, y.high);
-    const TwoTerms<V> r = quick_two_sum(p.high, p.low + (x.high * y.low + x.low * y.high));
-    return {r.high, r.low};
+    return quick_two_sum(p.high, p.low + (x.high * y.low + x.low * y.high));
 }
 
 /// x - y, exactly.
 template <class V>
 HWY_INLINE DoubleDouble<V> difference(V x, V y) {
-    const TwoTerms<V> d = two_difference(x, y);
-    return {d.high, d.low};
+    return two_difference(x, y);
 }
 
 }  // namespace barycert::core::HWY_NAMESPACE

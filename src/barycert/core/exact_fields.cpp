@@ -139,56 +139,24 @@ struct Projected {
     Product<Number, T> depth;  ///< the numerator of Z
 };
 
-struct Parts {
-    ScaledDouble at[4][2], depth[3];  ///< vertices and point
-    Unit axis[2], depths;
-
-    Parts(const double* vertices, const double* point) {
-        for (int i = 0; i < 4; ++i) {
-            const double* const from = i < 3 ? vertices + 3 * i : point;
-            for (int k = 0; k < 2; ++k) {
-                at[i][k] = scaled(from[k]);
-                axis[k].add(at[i][k]);
-            }
-        }
-        for (int i = 0; i < 3; ++i) {
-            depth[i] = scaled(vertices[3 * i + 2]);
-            depths.add(depth[i]);
-        }
-    }
-};
-
 /// Widths, with coordinates and depths below 2^(64 N - 3) in N limbs: numerators of the window are below
 /// 2^(128 N - 3) in 2 N limbs (exact_weights.cpp), their sum d below 3 * 2^(128 N - 3) < 2^(128 N - 1), its range;
 /// products of two depths are below 2^(128 N - 6), m_i below 2^(256 N - 9) in 4 N limbs, m below 3 times that; d times
 /// three depths is below 2^(320 N - 10) in 5 N limbs: no sum overflows.
 template <class T>
-void project(const Parts& parts, Projected<T>& out) {
+void project(const Lattice<4, 3, T>& lattice, Projected<T>& out) {
     formulas::Relative<Simplex::triangle, T> c;
     for (int k = 0; k < 2; ++k) {
-        const T p = parts.axis[k].multiple<T>(parts.at[3][k]);
-        for (int i = 0; i < 3; ++i) c.r[i][k] = parts.axis[k].multiple<T>(parts.at[i][k]) - p;
+        const T p = lattice.at(3, k);
+        for (int i = 0; i < 3; ++i) c.r[i][k] = lattice.at(i, k) - p;
     }
     formulas::Fractions<Simplex::triangle, T> window;
     formulas::solve(c, Product<T>{}, window);
     T w[3];
-    for (int i = 0; i < 3; ++i) w[i] = parts.depths.multiple<T>(parts.depth[i]);
+    for (int i = 0; i < 3; ++i) w[i] = lattice.at(i, 2);
     for (int i = 0; i < 3; ++i) out.numerator[i] = window.numerator[i] * (w[(i + 1) % 3] * w[(i + 2) % 3]);
     out.denominator = out.numerator[0] + out.numerator[1] + out.numerator[2];
     out.depth = (window.denominator * (w[0] * w[1])) * w[2];
-}
-
-/// use(projected) if there are weights. The depths' product is zero exactly if the area is: no depth is.
-template <class Use>
-bool with_projected(const Parts& parts, Use use) {
-    const int bits = std::max(max_bits(parts.axis), parts.depths.bits());
-    return with_integers<3>(bits, [&]<class T>() {
-        Projected<T> p;
-        project(parts, p);
-        if (as_integer(p.depth).sign() == 0 || as_integer(p.denominator).sign() == 0) return false;
-        use(p);
-        return true;
-    });
 }
 
 template <class Number, class Divisor>
@@ -249,14 +217,21 @@ bool exact_quadratic(Simplex simplex, const double* vertices, const double* poin
 
 bool exact_perspective(PerspectiveAnswer what, const double* vertices, const double* point, const double* values,
                        int components, double* out) {
-    const Parts parts(vertices, point);
-    return with_projected(parts, [&](const auto& p) {
-        if (what == PerspectiveAnswer::values) return values_of(p, values, components, out);
-        if (what == PerspectiveAnswer::depth) {
-            out[0] = rounded(p.depth, p.denominator, parts.depths.exponent - 1074);
-            return;
+    // Depths are the third axis, on which the point is at that of the first vertex, for want of one.
+    const auto number = [&](int i, int k) { return i < 3 ? vertices[3 * i + k] : k < 2 ? point[k] : vertices[k]; };
+    return with_lattice<4, 3>(number, false, [&]<class T>(const Lattice<4, 3, T>& lattice) {
+        Projected<T> p;
+        project(lattice, p);
+        // The depths' product is zero exactly if the area is: no depth is.
+        if (as_integer(p.depth).sign() == 0 || as_integer(p.denominator).sign() == 0) return false;
+        if (what == PerspectiveAnswer::values) {
+            values_of(p, values, components, out);
+        } else if (what == PerspectiveAnswer::depth) {
+            out[0] = rounded(p.depth, p.denominator, lattice.units[2].exponent - 1074);
+        } else {
+            for (int i = 0; i < 3; ++i) out[i] = rounded(p.numerator[i], p.denominator, 0);
         }
-        for (int i = 0; i < 3; ++i) out[i] = rounded(p.numerator[i], p.denominator, 0);
+        return true;
     });
 }
 

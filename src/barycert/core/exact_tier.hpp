@@ -10,7 +10,6 @@
 /// integers too (scaled_double.hpp).
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -24,18 +23,6 @@
 namespace barycert::core {
 
 inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// Sets values that are not finite to zero. Returns whether has_part(i) is false for all of them.
-template <class HasPart>
-bool leave_out_not_finite(std::span<double> values, HasPart has_part) {
-    bool none_has_part = true;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (std::isfinite(values[i])) continue;
-        values[i] = 0;
-        none_has_part = none_has_part && !has_part(static_cast<int>(i));
-    }
-    return none_has_part;
-}
 
 /// Weights as fractions of integers.
 class ExactWeights {

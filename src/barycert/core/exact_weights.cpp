@@ -69,17 +69,13 @@ void add_product(std::uint64_t* sum, const std::uint64_t* x, int count, std::uin
     sum[count] = add_with_carry(sum[count], limb, carry);
 }
 
-/// Sign of the determinant of three differences, each from one point to another.
-template <int count>
-Sign sign_of_determinant(const double* const (&points)[count], const int (&ends)[3][2]) {
-    return with_points<count, 3>(points, false, [&]<class T>(const Lattice<count, 3, T>& lattice) {
-        T u[3], v[3], w[3];
-        formulas::Product<T> m[3];
-        lattice.difference(ends[0][1], ends[0][0], u);
-        lattice.difference(ends[1][1], ends[1][0], v);
-        lattice.difference(ends[2][1], ends[2][0], w);
-        formulas::cross(v, w, m);
-        return static_cast<Sign>(sign_of(formulas::dot(u, m)));
+/// Sign of the determinant of d differences, each from one point to another.
+template <int count, int d>
+Sign sign_of_determinant(const double* const (&points)[count], const int (&ends)[d][2]) {
+    return with_points<count, d>(points, false, [&]<class T>(const Lattice<count, d, T>& lattice) {
+        T rows[d][d];
+        for (int i = 0; i < d; ++i) lattice.difference(ends[i][1], ends[i][0], rows[i]);
+        return static_cast<Sign>(sign_of(formulas::determinant(rows)));
     });
 }
 
@@ -191,7 +187,13 @@ int ExactWeights::compare(std::span<const double> values, double t) const {
 
 bool ExactWeights::leave_out_not_finite(std::span<double> values) const {
     const bool quadratic = values.size() > static_cast<std::size_t>(count_);
-    return core::leave_out_not_finite(values, [&](int node) { return has_part(node, quadratic); });
+    bool none_has_part = true;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::isfinite(values[i])) continue;
+        values[i] = 0;
+        none_has_part = none_has_part && !has_part(static_cast<int>(i), quadratic);
+    }
+    return none_has_part;
 }
 
 /// The quadratic's shape functions are l (2 l - 1) at corners and 4 l l' between them.
@@ -208,20 +210,15 @@ bool ExactWeights::has_part(int node, bool quadratic) const {
 }
 
 Sign exact_orient2d(const double* a, const double* b, const double* c) {
-    return with_points<3, 2>({a, b, c}, false, []<class T>(const Lattice<3, 2, T>& lattice) {
-        T ab[2], ac[2];
-        lattice.difference(1, 0, ab);
-        lattice.difference(2, 0, ac);
-        return static_cast<Sign>(sign_of(formulas::cross(ab, ac)));
-    });
+    return sign_of_determinant<3, 2>({a, b, c}, {{0, 1}, {0, 2}});
 }
 
 Sign exact_orient3d(const double* a, const double* b, const double* c, const double* d) {
-    return sign_of_determinant<4>({a, b, c, d}, {{0, 1}, {0, 2}, {0, 3}});
+    return sign_of_determinant<4, 3>({a, b, c, d}, {{0, 1}, {0, 2}, {0, 3}});
 }
 
 Sign exact_det3d(const double* p, const double* q, const double* r, const double* s, const double* t, const double* u) {
-    return sign_of_determinant<6>({p, q, r, s, t, u}, {{0, 1}, {2, 3}, {4, 5}});
+    return sign_of_determinant<6, 3>({p, q, r, s, t, u}, {{0, 1}, {2, 3}, {4, 5}});
 }
 
 Sign exact_incircle(const double* a, const double* b, const double* c, const double* d) {

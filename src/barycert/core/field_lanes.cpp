@@ -66,11 +66,10 @@ std::size_t plain_quadratic_values_of(const CaseBlock& cases, const double* cons
         constexpr int n = vertex_count(s), nodes = quadratic_nodes<s>;
         Relative<s, hn::Vec<D>> c;
         load_relative<s>(tag, cases.vertices, cases.point, at, c);
-        Fractions<s, hn::Vec<D>> fractions;
-        solve(c, hn::Zero(tag), fractions);
-        const auto one = hn::Set(tag, 1), inverse = one / fractions.denominator;
+        const PlainWeights<s, D> plain(tag, c);
+        const auto one = hn::Set(tag, 1);
         hn::Vec<D> l[n];
-        for (int i = 0; i < n; ++i) l[i] = fractions.numerator[i] * inverse;
+        for (int i = 0; i < n; ++i) l[i] = plain.f.numerator[i] * plain.inverse;
         auto finite = hn::Eq(one, one);
         for (int component = 0; component < components; ++component) {
             const double* const* const f = values + nodes * component;
@@ -87,18 +86,14 @@ std::size_t plain_quadratic_values_of(const CaseBlock& cases, const double* cons
     });
 }
 
-template <Simplex s>
-std::size_t rounded_quadratic_values(Rounding rounding, const CaseBlock& cases, const double* const* values,
-                                     int components, double* const* out, std::uint32_t* undecided) {
-    const auto values_of = rounding == Rounding::plain ? plain_quadratic_values_of<s> : quadratic_values_of<s>;
-    return values_of(cases, values, components, out, undecided);
-}
-
 std::size_t quadratic_values(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* values,
                              int components, double* const* out, std::uint32_t* undecided) {
-    const auto values_of = s == Simplex::triangle ? rounded_quadratic_values<Simplex::triangle>
-                                                  : rounded_quadratic_values<Simplex::tetrahedron>;
-    return values_of(rounding, cases, values, components, out, undecided);
+    constexpr auto triangle = Simplex::triangle, tetrahedron = Simplex::tetrahedron;
+    const bool flat = s == triangle;
+    const auto values_of = rounding == Rounding::plain
+                               ? (flat ? plain_quadratic_values_of<triangle> : plain_quadratic_values_of<tetrahedron>)
+                               : (flat ? quadratic_values_of<triangle> : quadratic_values_of<tetrahedron>);
+    return values_of(cases, values, components, out, undecided);
 }
 
 template <PerspectiveAnswer what>

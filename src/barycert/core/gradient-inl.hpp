@@ -79,20 +79,12 @@ HWY_INLINE CellMatrix<d, D> cell_matrix(D tag, const V (&v)[d + 1][d]) {
     normals(m.edge, m.normal);
     m.inverse = constant(1) / dot(m.edge[0], m.normal[0]);
     const V scale = hn::Abs(m.inverse);
-    V x[d], volume, min_extent;
+    V x[d];
     extents(m.edge, x);
-    if constexpr (d == 3) {
-        m.reach[0] = x[1] * x[2];
-        m.reach[1] = x[0] * x[2];
-        m.reach[2] = x[0] * x[1];
-        volume = x[0] * m.reach[0];
-        min_extent = hn::Min(hn::Min(x[0], x[1]), x[2]);
-    } else {
-        m.reach[0] = x[1];
-        m.reach[1] = x[0];
-        volume = x[0] * x[1];
-        min_extent = hn::Min(x[0], x[1]);
-    }
+    across(x, m.reach);
+    const V volume = x[0] * m.reach[0];
+    V min_extent = x[0];
+    for (int k = 1; k < d; ++k) min_extent = hn::Min(min_extent, x[k]);
     for (int k = 0; k < d; ++k) m.reach[k] = m.reach[k] * scale;
     const V condition = volume * scale;
     m.residual_factor = constant(100 * u) * condition + constant(30 * u);

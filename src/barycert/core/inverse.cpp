@@ -15,12 +15,6 @@ Status check_finite(std::span<const double> numbers, const char* what) {
     return base::not_finite(std::string(what) + " " + std::to_string(i), numbers[i]);
 }
 
-/// The attribute as the coordinate: a segment along the first axis, from value_a to value_b, with the point at value.
-ExactWeights along_attribute(double value_a, double value_b, double value) {
-    const double ends[6] = {value_a, 0, 0, value_b, 0, 0}, at[3] = {value, 0, 0};
-    return {Simplex::segment, ends, at};
-}
-
 }  // namespace
 }  // namespace barycert::core
 
@@ -36,7 +30,10 @@ Result<Parameter> point_of_value(std::span<const double> a, std::span<const doub
     if (Status s = core::check_finite(attribute, "attribute value"); !s) return s.error();
     if (Status s = core::check_finite(a, "coordinate of the first end,"); !s) return s.error();
     if (Status s = core::check_finite(b, "coordinate of the second end,"); !s) return s.error();
-    const core::ExactWeights w = core::along_attribute(value_a, value_b, value);
+    // The attribute as the coordinate: a segment along the first axis, from value_a to value_b, with the point at
+    // value.
+    const double along[6] = {value_a, 0, 0, value_b, 0, 0}, at[3] = {value, 0, 0};
+    const core::ExactWeights w(Simplex::segment, along, at);
     if (w.degenerate()) {
         std::fill(point.begin(), point.end(), core::nan);
         return Parameter{core::nan, true};

@@ -71,6 +71,10 @@ HWY_INLINE void cross(const T (&x)[3], const T (&y)[3], Product<T> (&out)[3]) {
     out[2] = x[0] * y[1] - x[1] * y[0];
 }
 
+template <class T>
+HWY_INLINE Product<T> dot(const T (&x)[2], const T (&y)[2]) {
+    return x[0] * y[0] + x[1] * y[1];
+}
 template <class T, class U>
 HWY_INLINE Product<T, U> dot(const T (&x)[3], const U (&y)[3]) {
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
@@ -140,14 +144,7 @@ HWY_INLINE void lift(const Relative<s, T>& c, Lifted<s, T>& out) {
     solve(c, Numerator<s, T>{}, f);
     const auto& n = f.numerator;
     auto& square = out.square;
-    for (int i = 0; i < vertex_count(s); ++i) {
-        const auto& r = c.r[i];
-        if constexpr (s == Simplex::tetrahedron) {
-            square[i] = dot(r, r);
-        } else {
-            square[i] = r[0] * r[0] + r[1] * r[1];
-        }
-    }
+    for (int i = 0; i < vertex_count(s); ++i) square[i] = dot(c.r[i], c.r[i]);
     if constexpr (s == Simplex::tetrahedron) {
         out.sum = (n[0] * square[0] + n[1] * square[1]) + (n[2] * square[2] + n[3] * square[3]);
     } else {

@@ -68,13 +68,12 @@ HWY_INLINE ProjectedLanes<D> project_lanes(D tag, const double* vertices, V x, V
     solve(c, Number{hn::Zero(tag), hn::Zero(tag)}, window);
     V sum = hn::Zero(tag);
     for (int i = 0; i < 3; ++i) {
-        const TwoTerms<V> w =
+        const Number both =
             two_product(constant(vertices[3 * ((i + 1) % 3) + 2]), constant(vertices[3 * ((i + 2) % 3) + 2]));
-        const Number both{w.high, w.low};
         if (i == 0) out.product0 = both;
-        out.product[i] = w.high;
+        out.product[i] = both.high;
         out.numerator[i] = window.numerator[i] * both;
-        sum = sum + w.high;
+        sum = sum + both.high;
     }
     out.depth0 = constant(vertices[2]);
     out.area = window.denominator;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
@@ -38,19 +37,11 @@ Error unusable_error(const double* vertices, const double* point, const std::str
     return base::not_finite(which + "coordinate " + std::to_string(k) + " of the point", point[k]);
 }
 
-double* numbers_of(PerspectiveWeights& w) {
-    return w.weights.data();
-}
-double* numbers_of(Value& v) {
-    return &v.value;
-}
-
+/// Sets `found`, whose numbers begin at `out`.
 template <PerspectiveAnswer what, class Numbers>
-Result<Numbers> answer(const double* vertices, const double* point, const double* values) {
+Result<Numbers> answer(Numbers& found, double* out, const double* vertices, const double* point, const double* values) {
     const ExactEnvironment environment;
     constexpr std::size_t count = what == PerspectiveAnswer::weights ? 3 : 1;
-    Numbers found;
-    double* const out = numbers_of(found);
     double* to[count];
     for (std::size_t i = 0; i < count; ++i) to[i] = out + i;
     std::uint32_t undecided[1];
@@ -70,15 +61,18 @@ namespace barycert {
 using core::PerspectiveAnswer;
 
 Result<PerspectiveWeights> perspective_weights(const double* vertices, const double* point) {
-    return core::answer<PerspectiveAnswer::weights, PerspectiveWeights>(vertices, point, nullptr);
+    PerspectiveWeights w;
+    return core::answer<PerspectiveAnswer::weights>(w, w.weights.data(), vertices, point, nullptr);
 }
 
 Result<Value> perspective_depth(const double* vertices, const double* point) {
-    return core::answer<PerspectiveAnswer::depth, Value>(vertices, point, nullptr);
+    Value depth;
+    return core::answer<PerspectiveAnswer::depth>(depth, &depth.value, vertices, point, nullptr);
 }
 
 Result<Value> perspective_value(const double* vertices, const double* point, const double* values) {
-    return core::answer<PerspectiveAnswer::values, Value>(vertices, point, values);
+    Value v;
+    return core::answer<PerspectiveAnswer::values>(v, &v.value, vertices, point, values);
 }
 
 Status perspective_values(const double* vertices, std::span<const double> points, std::span<const double> values,

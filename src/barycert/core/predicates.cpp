@@ -1,7 +1,6 @@
 #include "barycert/predicates.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -83,10 +82,6 @@ bool in_range(double extent) {
 // its terms: lost in a product of them all it counts 2^-1020 against e X Y Z L >= 2^-52-901; elsewhere both have
 // factors in common, and what remains of the right side is larger. All far below the 2 %. Max value: 24 * 2^1002.
 
-bool in_sphere_range(double extent) {
-    return extent >= 0x1p-180 && extent <= 0x1p200;
-}
-
 template <Simplex s>
 [[gnu::always_inline]] inline Sign filtered_lifted(const double* const* points, double factor) {
     using Differences = formulas::Relative<s, double>;
@@ -102,7 +97,7 @@ template <Simplex s>
             extent = std::max(extent, std::fabs(c.r[i][k]));
         }
         bound *= extent;
-        valid = valid && in_sphere_range(extent);
+        valid = valid && extent >= 0x1p-180 && extent <= 0x1p200;
     }
     formulas::lift(c, lifted);
     bound *= *std::max_element(lifted.square, lifted.square + n);

@@ -58,9 +58,8 @@ HWY_INLINE QuadraticWeights<s, D> quadratic_weights(D tag, const Refined<s, D>& 
     QuadraticWeights<s, D> w;
     V magnitude = hn::Zero(tag);  // A
     for (int i = 0; i < vertex_count(s); ++i) {
-        const TwoTerms<V> sum = two_sum(r.weight[i], r.correction[i]);
-        w.weight[i] = {sum.high, sum.low};
-        magnitude = magnitude + hn::Abs(sum.high);
+        w.weight[i] = two_sum(r.weight[i], r.correction[i]);
+        magnitude = magnitude + hn::Abs(w.weight[i].high);
     }
     w.error = magnitude * (hn::Set(tag, 6) * r.error + hn::Set(tag, 50 * u * u) * magnitude);
     w.valid =
@@ -90,7 +89,7 @@ HWY_INLINE QuadraticValue<D> refined_quadratic(D tag, const QuadraticWeights<s, 
             const V mid = f[n + quadratic_edge(i, j)];
             const TwoTerms<V> rest = two_difference(hn::Set(tag, 4) * mid, corners.high);
             const TwoTerms<V> b = two_sum(rest.high, rest.low - corners.low);
-            inner = inner + w.weight[j] * DoubleDouble<V>{b.high, b.low};
+            inner = inner + w.weight[j] * b;
             max_b = hn::Max(max_b, hn::Abs(b.high));
         }
         const DoubleDouble<V> term = w.weight[i] * inner;

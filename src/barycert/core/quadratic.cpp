@@ -13,12 +13,8 @@
 namespace barycert::core {
 namespace {
 
-Status check_simplex(Simplex s) {
-    return check_fills_space(s, "quadratic interpolation");
-}
-
 Status check_quadratic(const MeshQueries& q, std::size_t mid_nodes, int components, std::size_t places) {
-    if (Status known = check_simplex(q.simplex); !known) return known;
+    if (Status known = check_fills_space(q.simplex, "quadratic interpolation"); !known) return known;
     if (Status some = check_components(components); !some) return some;
     const auto n = static_cast<std::size_t>(vertex_count(q.simplex));
     const auto m = static_cast<std::size_t>(mid_node_count(q.simplex));
@@ -64,7 +60,7 @@ namespace barycert {
 
 Result<Value> interpolate_quadratic(Simplex simplex, const double* vertices, const double* point,
                                     const double* values) {
-    if (Status known = core::check_simplex(simplex); !known) return known.error();
+    if (Status known = core::check_fills_space(simplex, "quadratic interpolation"); !known) return known.error();
     const ExactEnvironment environment;
     const int nodes = vertex_count(simplex) + mid_node_count(simplex);
     const double* at[10] = {};

@@ -132,9 +132,17 @@ HWY_INLINE void normals(const V (&e)[2][2], V (&n)[2][2]) {
     n[1][1] = e[0][0];
 }
 
-template <class V>
-HWY_INLINE V dot(const V (&x)[2], const V (&y)[2]) {
-    return x[0] * y[0] + x[1] * y[1];
+/// a_k: the extents x on the other axes, multiplied.
+template <int d, class V>
+HWY_INLINE void across(const V (&x)[d], V (&a)[d]) {
+    if constexpr (d == 3) {
+        a[0] = x[1] * x[2];
+        a[1] = x[0] * x[2];
+        a[2] = x[0] * x[1];
+    } else {
+        a[0] = x[1];
+        a[1] = x[0];
+    }
 }
 
 /// For tetrahedron and triangle.
@@ -175,16 +183,9 @@ HWY_INLINE Refined<s, D> refine(D tag, const Absolute<s, V>& c) {
     out.correction[last] = residual_sum - correction_sum;
 
     extents(e, x);
-    V a[d], g;
-    if constexpr (d == 3) {
-        a[0] = x[1] * x[2];
-        a[1] = x[0] * x[2];
-        a[2] = x[0] * x[1];
-    } else {
-        a[0] = x[1];
-        a[1] = x[0];
-    }
-    g = x[0] * a[0];
+    V a[d];
+    across(x, a);
+    const V g = x[0] * a[0];
     for (int k = 0; k < d; ++k) {
         magnitude[k] = max_magnitude(c.v[last][k], q[k]);
         residual[k] = hn::Abs(residual[k]);

@@ -172,18 +172,8 @@ std::optional<Found> perspective(const Case& c) {
 }
 
 std::optional<Found> found(const Case& c) {
-    if (c.perspective) return perspective(c);
-    switch (c.simplex) {
-        case Simplex::segment:
-            return segment(c);
-        case Simplex::triangle:
-            return triangle(c);
-        case Simplex::triangle3d:
-            return triangle3d(c);
-        case Simplex::tetrahedron:
-            break;
-    }
-    return tetrahedron(c);
+    constexpr std::array of_simplex{segment, triangle, triangle3d, tetrahedron};
+    return c.perspective ? perspective(c) : of_simplex[static_cast<std::size_t>(c.simplex)](c);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
-#include <cstdlib>
 
 namespace barycert::exact {
 
@@ -55,11 +54,7 @@ struct Scale {
     bool empty = true;
 
     void include(const Dyadic& d) {
-        if (d.mantissa == 0) return;
-        const int top = d.exponent + d.length;
-        low = empty || d.exponent < low ? d.exponent : low;
-        high = empty || top > high ? top : high;
-        empty = false;
+        if (d.mantissa != 0) include(Scale{d.exponent, d.exponent + d.length, false});
     }
     void include(double x) { include(dyadic(x)); }
     void include(const Scale& other) {

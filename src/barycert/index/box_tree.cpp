@@ -35,9 +35,7 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
     nodes_.resize(nodes_over(boxes_.size()));
     build(0, boxes_.size(), 0);
     std::vector<Box> sorted(boxes_.size());
-    base::parallel_for(boxes_.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i != end; ++i) sorted[i] = boxes_[order_[i]];
-    });
+    base::parallel_for_each(boxes_.size(), 4096, [&](std::size_t i) { sorted[i] = boxes_[order_[i]]; });
     boxes_ = std::move(sorted);
 }
 
@@ -67,11 +65,9 @@ void BoxTree::build(std::size_t first, std::size_t last, std::size_t at) {
     }
     const std::size_t middle = first + count / 2, left = at + 1, right = left + nodes_over(count / 2);
     // Ties by number, so that the tree depends on the boxes alone.
-    std::nth_element(order_.begin() + static_cast<std::ptrdiff_t>(first),
-                     order_.begin() + static_cast<std::ptrdiff_t>(middle),
-                     order_.begin() + static_cast<std::ptrdiff_t>(last), [&](std::uint32_t i, std::uint32_t j) {
-                         return std::pair(centre(i, axis), i) < std::pair(centre(j, axis), j);
-                     });
+    std::uint32_t* const order = order_.data();
+    std::ranges::nth_element(order + first, order + middle, order + last, {},
+                             [&](std::uint32_t i) { return std::pair(centre(i, axis), i); });
     node.right = static_cast<std::uint32_t>(right);
     if (count > 8192) {
         tbb::parallel_invoke([&] { build(first, middle, left); }, [&] { build(middle, last, right); });

@@ -6,28 +6,23 @@
 #include <unordered_map>
 #include <utility>
 
+#include "barycert/base/vectors.hpp"
+
 namespace barycert::index {
 namespace {
 
-using Vector = std::array<double, 3>;
+using Vector = base::Vector3<double>;
 
 constexpr Box everywhere{{-1, -1, -1}, {1, 1, 1}};
 
-/// v / sum |v_k|; nothing if that cannot be, for all is zero, infinite, or so small that quotients are not accurate.
-std::optional<Vector> normalised(const Vector& v) {
-    const double sum = std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
-    if (!(sum > 0x1p-900 && sum < 0x1p1020)) return std::nullopt;
-    return Vector{v[0] / sum, v[1] / sum, v[2] / sum};
-}
-
+/// v / sum |v_k|, v = to - from; nothing if that cannot be, for all is zero, infinite, or so small that quotients are
+/// not accurate.
 std::optional<Vector> direction(int d, const double* from, const double* to) {
     Vector v{};
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) v[k] = to[k] - from[k];
-    return normalised(v);
-}
-
-Vector cross(const Vector& x, const Vector& y) {
-    return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+    const double sum = std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]);
+    if (!(sum > 0x1p-900 && sum < 0x1p1020)) return std::nullopt;
+    return Vector{v[0] / sum, v[1] / sum, v[2] / sum};
 }
 
 /// Of all directions y / |y|, |y| the sum of magnitudes, of sums of the given ones with factors that are not negative.
@@ -80,7 +75,7 @@ Box directions_around(int d, const Item& item, const double* from, const double*
         const auto v = direction(d, from, item.at[i]);
         if (!v) return everywhere;
         // Products of numbers at most 1 that are off by 2^-49: each component is off by less than 2^-46.
-        const Vector normal = cross(*v, *axis);
+        const Vector normal = base::cross(*v, *axis);
         const double sum = std::fabs(normal[0]) + std::fabs(normal[1]) + std::fabs(normal[2]);
         if (!(sum > 0x1p-30)) return everywhere;
         given[count++] = {normal[0] / sum, normal[1] / sum, normal[2] / sum};

@@ -43,7 +43,6 @@ public:
     /// Returns false if it did.
     template <class F>
     bool for_each(const Item& item, F&& found) const {
-        if (groups_.empty()) return true;
         const Box place = box_of(d_, item.at.data(), item.count);
         return bounds_->for_each(place, [&](std::uint32_t g) {
             const Group& group = groups_[g];
@@ -54,8 +53,8 @@ public:
         });
     }
 
-    /// The box of all items.
-    const Box* bounds() const { return groups_.empty() ? nullptr : bounds_->bounds(); }
+    /// The box of all items; none if there are no items.
+    const Box* bounds() const { return bounds_->bounds(); }
 
 private:
     struct Group {

@@ -84,9 +84,8 @@ void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
 /// The nodes that cells have, ascending: others may lie anywhere.
 std::vector<Mesh::Index> used_nodes(const Mesh& mesh) {
     std::vector<std::uint8_t> used(mesh.point_count(), 0);
-    base::parallel_for(mesh.cells.size(), grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            std::atomic_ref(used[static_cast<std::size_t>(mesh.cells[i])]).store(1, std::memory_order_relaxed);
+    base::parallel_for_each(mesh.cells.size(), grain, [&](std::size_t i) {
+        std::atomic_ref(used[static_cast<std::size_t>(mesh.cells[i])]).store(1, std::memory_order_relaxed);
     });
     std::vector<Mesh::Index> nodes(used.size());
     std::size_t count = 0;
@@ -117,22 +116,19 @@ void find_box(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, CellIndex
 template <std::size_t d>
 Buffer<Place> place_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
     Buffer<KeyedPlace> order(used.size());
-    base::parallel_for(order.size(), grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            order[i] = {index.bins.of(&mesh.points[d * static_cast<std::size_t>(used[i])]), used[i]};
+    base::parallel_for_each(order.size(), grain, [&](std::size_t i) {
+        order[i] = {index.bins.of(&mesh.points[d * static_cast<std::size_t>(used[i])]), used[i]};
     });
     sort_by_key(order, index.bins.bits());
     Buffer<Place> place(mesh.point_count());
     index.nodes = Buffer<NodeRecord>(order.size());
     index.original_node.resize(order.size());
-    base::parallel_for(order.size(), grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const auto node = static_cast<std::size_t>(order[i].place);
-            place[node] = static_cast<Place>(i);
-            index.original_node[i] = order[i].place;
-            index.nodes[i] = {};
-            for (std::size_t k = 0; k < d; ++k) index.nodes[i].at[k] = mesh.points[d * node + k];
-        }
+    base::parallel_for_each(order.size(), grain, [&](std::size_t i) {
+        const auto node = static_cast<std::size_t>(order[i].place);
+        place[node] = static_cast<Place>(i);
+        index.original_node[i] = order[i].place;
+        index.nodes[i] = {};
+        for (std::size_t k = 0; k < d; ++k) index.nodes[i].at[k] = mesh.points[d * node + k];
     });
     return place;
 }
@@ -141,23 +137,19 @@ Buffer<Place> place_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& used
 template <std::size_t d>
 Buffer<KeyedPlace> order_cells(const Mesh& mesh, const Bins& bins) {
     Buffer<std::array<std::int32_t, d>> nodes(mesh.point_count());
-    base::parallel_for(nodes.size(), grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            for (std::size_t k = 0; k < d; ++k) nodes[i][k] = bins.quantizer().at(k, mesh.points[d * i + k]);
-        }
+    base::parallel_for_each(nodes.size(), grain, [&](std::size_t i) {
+        for (std::size_t k = 0; k < d; ++k) nodes[i][k] = bins.quantizer().at(k, mesh.points[d * i + k]);
     });
     Buffer<KeyedPlace> cells(mesh.cell_count());
-    base::parallel_for(cells.size(), grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t c = first; c < last; ++c) {
-            const Mesh::Index* const corner = mesh.cells.data() + (d + 1) * c;
-            std::array<std::int64_t, d> sum{};
-            for (std::size_t i = 0; i <= d; ++i) {
-                const auto& node = nodes[static_cast<std::size_t>(corner[i])];
-                for (std::size_t k = 0; k < d; ++k) sum[k] += node[k];
-            }
-            for (std::size_t k = 0; k < d; ++k) sum[k] /= static_cast<std::int64_t>(d + 1);
-            cells[c] = {bins.of_quantized(sum), static_cast<Place>(c)};
+    base::parallel_for_each(cells.size(), grain, [&](std::size_t c) {
+        const Mesh::Index* const corner = mesh.cells.data() + (d + 1) * c;
+        std::array<std::int64_t, d> sum{};
+        for (std::size_t i = 0; i <= d; ++i) {
+            const auto& node = nodes[static_cast<std::size_t>(corner[i])];
+            for (std::size_t k = 0; k < d; ++k) sum[k] += node[k];
         }
+        for (std::size_t k = 0; k < d; ++k) sum[k] /= static_cast<std::int64_t>(d + 1);
+        cells[c] = {bins.of_quantized(sum), static_cast<Place>(c)};
     });
     sort_by_key(cells, bins.bits());
     return cells;
@@ -205,12 +197,9 @@ std::size_t CellIndex::bytes() const {
 
 std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
     std::array<double, 12> vertices{};
-    const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];
+    const auto at = index.corner_points(cell);
     const std::size_t d = index.dimension();
-    for (std::size_t i = 0; i <= d; ++i) {
-        const auto& at = index.nodes[static_cast<std::size_t>(record.node[i])].at;
-        for (std::size_t k = 0; k < d; ++k) vertices[d * i + k] = at[k];
-    }
+    for (std::size_t i = 0; i <= d; ++i) std::copy_n(at[i], d, &vertices[d * i]);
     return vertices;
 }
 

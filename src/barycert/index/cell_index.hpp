@@ -47,6 +47,14 @@ struct CellIndex {
     std::size_t cell_count() const { return cells.size(); }
     std::size_t bytes() const;
 
+    /// Where the corners of a cell stand.
+    std::array<const double*, 4> corner_points(Place cell) const {
+        std::array<const double*, 4> at{};
+        const auto& node = cells[static_cast<std::size_t>(cell)].node;
+        for (std::size_t i = 0; i < corners(); ++i) at[i] = nodes[static_cast<std::size_t>(node[i])].at.data();
+        return at;
+    }
+
     /// A cell near the points of a bin: where it would stand among the cells of its bin of `first`, or the next cell.
     /// Precondition: there is a cell.
     Place start(std::uint32_t bin) const {

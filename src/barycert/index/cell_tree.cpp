@@ -16,20 +16,15 @@ CellBox box_of(const CellIndex& index, const double* const* points, std::size_t 
 }
 
 CellBox box_of(const CellIndex& index, Place cell) {
-    const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
-    std::array<const double*, 4> at{};
-    for (std::size_t i = 0; i < index.corners(); ++i) at[i] = index.nodes[static_cast<std::size_t>(node[i])].at.data();
-    return box_of(index, at.data(), index.corners());
+    return box_of(index, index.corner_points(cell).data(), index.corners());
 }
 
 CellTree make_cell_tree(const CellIndex& index) {
     std::vector<std::array<std::int32_t, 3>> nodes(index.original_node.size());
-    base::parallel_for(nodes.size(), 8192, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            nodes[i] = {};
-            for (std::size_t k = 0; k < index.dimension(); ++k)
-                nodes[i][k] = index.bins.quantizer().at(k, index.nodes[i].at[k]);
-        }
+    base::parallel_for_each(nodes.size(), 8192, [&](std::size_t i) {
+        nodes[i] = {};
+        for (std::size_t k = 0; k < index.dimension(); ++k)
+            nodes[i][k] = index.bins.quantizer().at(k, index.nodes[i].at[k]);
     });
     return CellTree(index.cell_count(), [&](std::size_t cell) {
         CellBox box;

@@ -74,17 +74,12 @@ public:
         for (std::size_t l = 0, boxes = count; l < level_.size(); ++l, boxes = (boxes + 7) / 8) {
             BoxGroup* const to = groups_.data() + level_[l];
             const BoxGroup* const below = l == 0 ? nullptr : groups_.data() + level_[l - 1];
-            base::parallel_for(std::max<std::size_t>((boxes + 7) / 8, 1), 1024,
-                               [&](std::size_t begin, std::size_t end) {
-                                   for (std::size_t i = 8 * begin; i < 8 * end; ++i)
-                                       to[i / 8].set(i % 8, i >= boxes         ? CellBox{}
-                                                            : below == nullptr ? box_at(i)
-                                                                               : below[i].box_of_all());
-                               });
+            base::parallel_for_each(8 * std::max<std::size_t>((boxes + 7) / 8, 1), 8192, [&](std::size_t i) {
+                to[i / 8].set(i % 8, i >= boxes ? CellBox{} : below == nullptr ? box_at(i) : below[i].box_of_all());
+            });
         }
     }
 
-    std::size_t count() const { return count_; }
     std::size_t levels() const { return level_.size(); }
     /// By level from the boxes up; box i of a level stands in group i / 8 at i % 8.
     const BoxGroup* level(std::size_t l) const { return groups_.data() + level_[l]; }

@@ -48,11 +48,6 @@ bool in_triangle(const std::array<Point, 3>& t, Point p) {
     return min * max >= 0;  // not both signs
 }
 
-bool segment_meets_triangle_in_plane(Point p, Point q, const std::array<Point, 3>& t) {
-    return in_triangle(t, p) || in_triangle(t, q) || segments_meet(p, q, t[0], t[1]) ||
-           segments_meet(p, q, t[1], t[2]) || segments_meet(p, q, t[2], t[0]);
-}
-
 // In space. Coplanar points are judged in a projection to an axis plane in which the triangle keeps an area: then the
 // projection of its plane is one to one.
 
@@ -94,7 +89,9 @@ bool coplanar_segment_meets_triangle(Point p, Point q, const std::array<Point, 3
     const int axis = projection_of(t);
     const auto [a, b, c] = project(t, axis);
     const Projected u = project(p, axis), v = project(q, axis);
-    return segment_meets_triangle_in_plane(u.at, v.at, {a.at, b.at, c.at});
+    const std::array<Point, 3> flat{a.at, b.at, c.at};
+    return in_triangle(flat, u.at) || in_triangle(flat, v.at) || segments_meet(u.at, v.at, a.at, b.at) ||
+           segments_meet(u.at, v.at, b.at, c.at) || segments_meet(u.at, v.at, c.at, a.at);
 }
 
 /// Closed segment pq and closed triangle have a point in common.
@@ -141,8 +138,7 @@ bool strangers_meet(const std::array<Point, 3>& f, const std::array<Point, 3>& g
 }
 
 /// In the projection, a side of f through v has f on one side, without v's other neighbour on it, and g on the other,
-/// without all of g but v: then f and g meet in v alone. It spares coplanar triangles, of which a boundary is full, the
-/// exact zeros of the general way.
+/// without all of g but v: then f and g meet in v alone. It spares what projections_apart does.
 bool side_separates(const std::array<Projected, 3>& f, const std::array<Projected, 3>& g) {
     for (std::size_t i = 1; i < 3; ++i) {
         const int inner = orient(f[0].at, f[i].at, f[3 - i].at);
@@ -169,8 +165,7 @@ bool meet_beyond_edge(Point a, Point b, Point c, Point d) {
     const auto [pa, pb, pc] = project({a, b, c}, axis);
     const Projected pd = project(d, axis);
     const int side = orient(pa.at, pb.at, pd.at);
-    if (orient(pa.at, pb.at, pc.at) != side) return false;
-    return orient(a, b, c, d) == 0;
+    return orient(pa.at, pb.at, pc.at) == side && orient(a, b, c, d) == 0;
 }
 
 /// Segments va and vb: they share more than v only if they lie on one line, on one side of v.

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <utility>
 
 #include "barycert/base/arena.hpp"
 
@@ -132,9 +133,6 @@ constexpr std::size_t block_size = std::size_t{1} << 13;
 
 /// What blocks leave open is linked in parts, by hash.
 constexpr std::size_t parts = 64;
-std::size_t part_of(std::uint32_t tag) {
-    return tag % parts;
-}
 
 struct Block {
     std::array<std::vector<HashedFacet>, parts> open;
@@ -180,7 +178,7 @@ void link_block(CellIndex& index, std::size_t first, std::size_t last, Memory<d>
         facet.start = static_cast<std::uint32_t>(tag / parts);  // all of a part have the same remainder
         facet.tag = tag;
         facet.side = side;
-        block.open[part_of(tag)].push_back(facet);
+        block.open[tag % parts].push_back(facet);
     });
 }
 
@@ -221,9 +219,7 @@ FacetLinks link(CellIndex& index) {
             }
         }
     }
-    std::sort(links.open.begin(), links.open.end(), [](const CellFacet& a, const CellFacet& b) {
-        return a.cell != b.cell ? a.cell < b.cell : a.corner < b.corner;
-    });
+    std::ranges::sort(links.open, {}, [](const CellFacet& f) { return std::pair(f.cell, f.corner); });
     return links;
 }
 

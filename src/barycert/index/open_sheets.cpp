@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <span>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
@@ -87,10 +86,8 @@ private:
 }  // namespace
 
 Item item_of(const PlacedFacet& facet, int d) {
-    Item item{.count = d};
-    std::copy(facet.nodes.begin(), facet.nodes.end(), item.nodes.begin());
-    std::copy(facet.at.begin(), facet.at.end(), item.at.begin());
-    return item;
+    const auto& [nodes, at] = facet;
+    return {d, {nodes[0], nodes[1], nodes[2], -1}, {at[0], at[1], at[2], nullptr}};
 }
 
 PlacedFacet placed(const CellIndex& index, const CellFacet& facet) {

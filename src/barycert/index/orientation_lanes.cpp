@@ -38,13 +38,9 @@ HWY_INLINE V determinant(D tag, const V (&v)[4][4], V& bound, hn::Mask<D>& valid
     }
 }
 
-/// In bits: which of the cells are certainly positive, certainly negative.
-struct SignBits {
-    std::uint8_t positive, negative;
-};
-
+/// Of a vector of cells: 1 or -1 for each that is certainly positive or negative, else 0.
 template <Simplex s, class D>
-HWY_INLINE SignBits signs_of_cells(D tag, const CellRecord* cells, const NodeRecord* nodes) {
+HWY_INLINE void find_signs(D tag, const CellRecord* cells, const NodeRecord* nodes, std::int8_t* out) {
     using V = hn::Vec<D>;
     V v[4][4], bound;
     hn::Mask<D> valid;
@@ -56,7 +52,8 @@ HWY_INLINE SignBits signs_of_cells(D tag, const CellRecord* cells, const NodeRec
     std::uint8_t positive[8] = {}, negative[8] = {};
     hn::StoreMaskBits(tag, hn::And(valid, hn::Gt(value, bound)), positive);
     hn::StoreMaskBits(tag, hn::And(valid, hn::Lt(value, hn::Neg(bound))), negative);
-    return {positive[0], negative[0]};
+    for (std::size_t l = 0; l < hn::MaxLanes(D()); ++l)
+        out[l] = static_cast<std::int8_t>((positive[0] >> l & 1) - (negative[0] >> l & 1));
 }
 
 template <Simplex s>
@@ -64,11 +61,7 @@ void filter_cells(const CellRecord* cells, const NodeRecord* nodes, std::size_t 
     std::size_t at = 0;
     const auto run = [&](auto tag) HWY_ATTR {
         constexpr std::size_t width = hn::MaxLanes(decltype(tag)());
-        for (; at + width <= count; at += width) {
-            const SignBits bits = signs_of_cells<s>(tag, cells + at, nodes);
-            for (std::size_t l = 0; l < width; ++l)
-                out[at + l] = static_cast<std::int8_t>((bits.positive >> l & 1) - (bits.negative >> l & 1));
-        }
+        for (; at + width <= count; at += width) find_signs<s>(tag, cells + at, nodes, out + at);
     };
     run(hn::ScalableTag<double>());
     run(hn::CappedTag<double, 1>());
@@ -92,9 +85,7 @@ void find_orientations(const CellIndex& index, std::size_t first, std::size_t co
     HWY_DYNAMIC_DISPATCH(filter_orientations)(index, first, count, out);
     for (std::size_t i = 0; i < count; ++i) {
         if (out[i] != 0) continue;
-        const double* at[4];
-        const CellRecord& record = index.cells[first + i];
-        for (std::size_t c = 0; c < 4; ++c) at[c] = index.nodes[static_cast<std::size_t>(record.node[c])].at.data();
+        const auto at = index.corner_points(static_cast<Place>(first + i));
         out[i] = static_cast<std::int8_t>(index.simplex == Simplex::triangle ? orient2d(at[0], at[1], at[2])
                                                                              : orient3d(at[0], at[1], at[2], at[3]));
     }

@@ -63,11 +63,11 @@ bool has(std::span<const Place> ascending, Place cell) {
 
 bool overlapped(const CellIndex& index, Place cell, std::span<const Place> degenerate, const CellTree& tree) {
     const auto d = static_cast<int>(index.dimension());
-    const Corners at = item_of(index, cell).at;
+    const Corners at = index.corner_points(cell);
     bool found = false;
     tree.for_each_meeting(box_of(index, cell), [&](std::size_t i) {
         const auto other = static_cast<Place>(i);
-        if (other != cell && !has(degenerate, other)) found = interiors_meet(d, at, item_of(index, other).at);
+        if (other != cell && !has(degenerate, other)) found = interiors_meet(d, at, index.corner_points(other));
         return !found;
     });
     return found;
@@ -91,12 +91,8 @@ bool interiors_meet(int d, const Corners& a, const Corners& b) {
 }
 
 Item item_of(const CellIndex& index, Place cell) {
-    const auto& node = index.cells[static_cast<std::size_t>(cell)].node;
-    Item item{.count = static_cast<int>(index.corners())};
-    for (std::size_t i = 0; i < index.corners(); ++i) {
-        item.nodes[i] = node[i];
-        item.at[i] = index.nodes[static_cast<std::size_t>(node[i])].at.data();
-    }
+    Item item{.count = static_cast<int>(index.corners()), .at = index.corner_points(cell)};
+    std::copy_n(index.cells[static_cast<std::size_t>(cell)].node.begin(), index.corners(), item.nodes.begin());
     return item;
 }
 
@@ -126,19 +122,17 @@ std::vector<std::uint8_t> find_overlapped(const CellIndex& index, std::span<cons
     std::vector<Item> items(asked.size());
     for (std::size_t i = 0; i < asked.size(); ++i) items[i] = item_of(index, asked[i]);
     const Candidates candidates(d, items, crowd);
-    base::parallel_for(index.cell_count(), 1 << 10, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-            const auto cell = static_cast<Place>(c);
-            if (has(degenerate, cell)) continue;
-            const Item item = item_of(index, cell);
-            candidates.for_each(item, [&](std::uint32_t i) {
-                const std::atomic_ref<std::uint8_t> flag(out[i]);
-                if (asked[i] != cell && flag.load(std::memory_order_relaxed) == 0 &&
-                    interiors_meet(d, items[i].at, item.at))
-                    flag.store(1, std::memory_order_relaxed);
-                return true;
-            });
-        }
+    base::parallel_for_each(index.cell_count(), 1 << 10, [&](std::size_t c) {
+        const auto cell = static_cast<Place>(c);
+        if (has(degenerate, cell)) return;
+        const Item item = item_of(index, cell);
+        candidates.for_each(item, [&](std::uint32_t i) {
+            const std::atomic_ref<std::uint8_t> flag(out[i]);
+            if (asked[i] != cell && flag.load(std::memory_order_relaxed) == 0 &&
+                interiors_meet(d, items[i].at, item.at))
+                flag.store(1, std::memory_order_relaxed);
+            return true;
+        });
     });
     return out;
 }

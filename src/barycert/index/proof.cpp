@@ -30,20 +30,7 @@ struct Plane {
 
 /// All that are not common lie strictly on the given side.
 bool all_on_side(const Plane& plane, std::span<const Corner> corners, Sign side) {
-    for (const Corner& c : corners) {
-        if (!c.common && plane.side(c.at) != side) return false;
-    }
-    return true;
-}
-
-/// All that are not common lie strictly on one side.
-bool all_on_one_side(const Plane& plane, std::span<const Corner> corners) {
-    for (const Corner& c : corners) {
-        if (c.common) continue;
-        const Sign side = plane.side(c.at);
-        return side != Sign::zero && all_on_side(plane, corners, side);
-    }
-    return false;
+    return std::ranges::all_of(corners, [&](const Corner& c) { return c.common || plane.side(c.at) == side; });
 }
 
 /// False if the facet certainly meets the cell in a common face (of the same nodes) or not at all, and is not a linked
@@ -69,7 +56,9 @@ bool may_cross(const CellIndex& index, Place cell, const PlacedFacet& facet) {
     }
     if (common == n) return record.next[apex] >= 0;
     const std::span<const Corner> cell_corners(of_cell.data(), n + 1), facet_corners(of_facet.data(), n);
-    if (all_on_one_side({d, facet.at}, cell_corners)) return false;
+    const Plane of_all{d, facet.at};
+    const Sign apex_side = of_all.side(of_cell[apex].at);
+    if (apex_side != Sign::zero && all_on_side(of_all, cell_corners, apex_side)) return false;
     for (std::size_t i = 0; i <= n; ++i) {
         if (of_cell[i].common) continue;  // the plane of the facet opposite to it would miss it
         Plane plane{d, {}};
@@ -78,8 +67,7 @@ bool may_cross(const CellIndex& index, Place cell, const PlacedFacet& facet) {
         }
         const Sign inner = plane.side(of_cell[i].at);
         if (inner == Sign::zero) return true;  // degenerate
-        const Sign outer = inner == Sign::positive ? Sign::negative : Sign::positive;
-        if (all_on_side(plane, facet_corners, outer)) return false;
+        if (all_on_side(plane, facet_corners, -inner)) return false;
     }
     return true;
 }
@@ -88,9 +76,8 @@ class Prover {
 public:
     Prover(const CellIndex& index, const FacetLinks& links, const std::function<const CellTree&()>& tree)
         : index_(index), links_(links), tree_(tree), facets_(links.open.size()) {
-        base::parallel_for(facets_.size(), 1024, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t f = begin; f != end; ++f) facets_[f] = placed(index_, links_.open[f]);
-        });
+        base::parallel_for_each(facets_.size(), 1024,
+                                [&](std::size_t f) { facets_[f] = placed(index_, links_.open[f]); });
     }
 
     bool is_partition() const { return links_.degenerate.empty() && bad_facets().empty(); }
@@ -170,19 +157,17 @@ private:
         std::vector<std::array<Mesh::Index, 3>> nodes(bad.size());
         for (std::size_t f = 0; f < bad.size(); ++f) nodes[f] = bad[f].nodes;
         std::sort(nodes.begin(), nodes.end());
-        base::parallel_for(index_.cell_count(), 1 << 10, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t c = begin; c < end; ++c) {
-                const auto cell = static_cast<Place>(c);
-                candidates.for_each(item_of(index_, cell), [&](std::uint32_t f) {
-                    ask(cell, bad[f]);
-                    return !contested(cell);
-                });
-                // A facet of the cell's own nodes meets it in a common face, so it is no candidate.
-                for (std::size_t i = 0; i < index_.corners(); ++i) {
-                    if (index_.cells[c].next[i] < 0) continue;
-                    const auto own = placed(index_, {cell, static_cast<std::int32_t>(i)}).nodes;
-                    if (std::binary_search(nodes.begin(), nodes.end(), own)) contest(cell);
-                }
+        base::parallel_for_each(index_.cell_count(), 1 << 10, [&](std::size_t c) {
+            const auto cell = static_cast<Place>(c);
+            candidates.for_each(item_of(index_, cell), [&](std::uint32_t f) {
+                ask(cell, bad[f]);
+                return !contested(cell);
+            });
+            // A facet of the cell's own nodes meets it in a common face, so it is no candidate.
+            for (std::size_t i = 0; i < index_.corners(); ++i) {
+                if (index_.cells[c].next[i] < 0) continue;
+                const auto own = placed(index_, {cell, static_cast<std::int32_t>(i)}).nodes;
+                if (std::binary_search(nodes.begin(), nodes.end(), own)) contest(cell);
             }
         });
     }
@@ -198,17 +183,14 @@ private:
             }
         }
         std::vector<std::uint32_t> size(index_.cell_count(), 0);
-        std::vector<Place> roots;
+        std::vector<Place> asked;  // the first cell of each
         for (std::size_t c = 0; c < index_.cell_count(); ++c) {
             if (contested(static_cast<Place>(c))) continue;
             const std::uint32_t root = sets.find(c);
-            if (root == c) roots.push_back(static_cast<Place>(c));
+            if (root == c) asked.push_back(static_cast<Place>(c));
             ++size[root];
         }
-        std::vector<Place> asked;
-        for (const Place root : roots) {
-            if (size[static_cast<std::size_t>(root)] >= smallest) asked.push_back(root);
-        }
+        std::erase_if(asked, [&](Place root) { return size[static_cast<std::size_t>(root)] < smallest; });
         const std::vector<std::uint8_t> overlapped = find_overlapped(index_, asked, links_.degenerate, tree_);
         std::vector<std::uint8_t> good(index_.cell_count(), 0);  // of roots
         for (std::size_t i = 0; i < asked.size(); ++i) good[static_cast<std::size_t>(asked[i])] = 1 - overlapped[i];

@@ -24,14 +24,12 @@ template <class Facet>
 std::vector<Ridge> ridges_of(int d, const std::vector<Facet>& facets) {
     const auto n = static_cast<std::size_t>(d);
     std::vector<Ridge> ridges(facets.size() * n);
-    base::parallel_for(facets.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f != end; ++f) {
-            const auto node = [&](std::size_t i) { return static_cast<std::uint64_t>(facets[f].nodes[i]); };
-            for (std::size_t i = 0; i < n; ++i) {
-                const std::uint64_t x = node(d == 2 ? 1 - i : (i + 1) % 3), y = d == 2 ? 0 : node((i + 2) % 3);
-                ridges[n * f + i] = {d == 2 ? x : std::min(x, y) << 32 | std::max(x, y), static_cast<std::uint32_t>(f),
-                                     static_cast<std::uint32_t>(i)};
-            }
+    base::parallel_for_each(facets.size(), 1024, [&](std::size_t f) {
+        const auto node = [&](std::size_t i) { return static_cast<std::uint64_t>(facets[f].nodes[i]); };
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::uint64_t x = node(d == 2 ? 1 - i : (i + 1) % 3), y = d == 2 ? 0 : node((i + 2) % 3);
+            ridges[n * f + i] = {d == 2 ? x : std::min(x, y) << 32 | std::max(x, y), static_cast<std::uint32_t>(f),
+                                 static_cast<std::uint32_t>(i)};
         }
     });
     tbb::parallel_sort(ridges.begin(), ridges.end(), [](const Ridge& a, const Ridge& b) {

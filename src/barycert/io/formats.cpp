@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <limits>
@@ -18,6 +17,8 @@
 
 namespace barycert::io {
 namespace {
+
+namespace fs = std::filesystem;
 
 bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes) {
     return std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view one) { return has_suffix(path, one); });
@@ -56,22 +57,27 @@ void cut_fields(std::string_view line, std::string_view blanks, std::string_view
     if (separated) fields.push_back(line.substr(line.size()));
 }
 
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return out;
+}
+
+bool exists(const std::string& path) {
+    std::error_code ignored;
+    return fs::exists(path, ignored);
+}
+
 std::string_view without_gz(std::string_view path) {
     return path.ends_with(".gz") ? path.substr(0, path.size() - 3) : path;
 }
 
 std::string plain_or_packed(const std::string& path) {
-    std::error_code ignored;
-    const std::string packed = path + ".gz";
-    return !std::filesystem::exists(path, ignored) && std::filesystem::exists(packed, ignored) ? packed : path;
+    return !exists(path) && exists(path + ".gz") ? path + ".gz" : path;
 }
 
 bool has_suffix(std::string_view path, std::string_view suffix) {
-    path = without_gz(path);
-    if (path.size() < suffix.size()) return false;
-    return std::equal(
-        suffix.begin(), suffix.end(), path.end() - static_cast<std::ptrdiff_t>(suffix.size()),
-        [](char a, char b) { return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b))); });
+    return lower(without_gz(path)).ends_with(suffix);
 }
 
 std::string suffix_of(const std::string& path) {
@@ -108,13 +114,13 @@ Result<FileFormat> format_of_points(const std::string& path) {
     Result<FileFormat> by_suffix = format_of(path);
     if (by_suffix && *by_suffix != FileFormat::vtu) return by_suffix;
     std::error_code ignored;
-    const auto type = std::filesystem::status(path, ignored).type();
-    using std::filesystem::file_type;
+    const fs::file_type type = fs::status(path, ignored).type();
     // What is opened here cannot be read again.
-    if (type == file_type::fifo || type == file_type::character || type == file_type::socket) return FileFormat::csv;
+    if (type == fs::file_type::fifo || type == fs::file_type::character || type == fs::file_type::socket)
+        return FileFormat::csv;
     const std::size_t name = path.find_last_of('/') + 1;
-    const bool stem = std::filesystem::exists(path + ".node", ignored);
-    if (type != file_type::regular || stem || path.find('.', name) != std::string::npos) return by_suffix;
+    if (type != fs::file_type::regular || exists(path + ".node") || path.find('.', name) != std::string::npos)
+        return by_suffix;
     const Result<std::string> head = base::InputFile::head(path, 1024);
     if (!head) return head.error();
     if (head->starts_with("\x93NUMPY")) return FileFormat::npy;
@@ -125,15 +131,8 @@ Result<FileFormat> format_of_points(const std::string& path) {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 bool is_tetgen_file(const std::string& path) {
     return tetgen_stem(path) != path;
-}
-
-bool exists(const std::string& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored);
 }
 
 /// By the name alone.
@@ -161,12 +160,6 @@ std::string with_another_suffix(const std::string& path) {
         if (exists(path + suffix)) return path + suffix;
     }
     return {};
-}
-
-Error folder_error(const std::string& path) {
-    if (exists(path + "/constant/polyMesh")) return other_format_error(*other_format_by_suffix("case.foam"), path);
-    return file_error(path, "this is a folder", formats_read, {},
-                      "name the file of the mesh in it, or the stem of TetGen's files");
 }
 
 Error missing(const std::string& path) {
@@ -218,6 +211,11 @@ Result<MeshFormat> format_of_file(const std::string& path) {
                      "in the program that they are of"};
 }
 
+template <class Read>
+Result<Mesh> on_threads(int threads, const Read& read) {
+    return threads <= 0 ? read() : base::in_arena(threads, std::numeric_limits<std::size_t>::max(), read);
+}
+
 }  // namespace
 
 Result<MeshFormat> mesh_format(const std::string& path) {
@@ -227,7 +225,11 @@ Result<MeshFormat> mesh_format(const std::string& path) {
         return file_error(path, "cannot read the file", {}, "permission denied", "check the permissions of its folder");
     const bool stem = !is_tetgen_file(path) && exists(plain_or_packed(path + ".node"));
     if (stem && (!format_by_suffix(path) || !fs::exists(status))) return MeshFormat::tetgen;
-    if (fs::is_directory(status)) return folder_error(path);
+    if (fs::is_directory(status) && exists(path + "/constant/polyMesh"))
+        return other_format_error(*other_format_by_suffix("case.foam"), path);
+    if (fs::is_directory(status))
+        return file_error(path, "this is a folder", formats_read, {},
+                          "name the file of the mesh in it, or the stem of TetGen's files");
     if (fs::exists(status)) return format_of_file(path);
     // One of TetGen's files may be missing where others are there: their reader knows which.
     if (is_tetgen_file(path) && exists(plain_or_packed(tetgen_stem(path) + ".node"))) return MeshFormat::tetgen;
@@ -287,14 +289,6 @@ void note_lost_names(const std::vector<std::string>& columns, const char* file, 
 }  // namespace barycert::io
 
 namespace barycert {
-namespace {
-
-template <class Read>
-Result<Mesh> on_threads(int threads, const Read& read) {
-    return threads <= 0 ? read() : base::in_arena(threads, std::numeric_limits<std::size_t>::max(), read);
-}
-
-}  // namespace
 
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
     const Result<io::MeshFormat> format = io::mesh_format(path);
@@ -304,9 +298,9 @@ Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
         case io::MeshFormat::gmsh:
             return read_gmsh(path, {.step = {}, .threads = options.threads});
         case io::MeshFormat::vtk:
-            return on_threads(options.threads, [&] { return read_vtk(path, options.step); });
+            return io::on_threads(options.threads, [&] { return read_vtk(path, options.step); });
         case io::MeshFormat::medit:
-            return on_threads(options.threads, [&] { return io::read_medit(path, options); });
+            return io::on_threads(options.threads, [&] { return io::read_medit(path, options); });
         case io::MeshFormat::by_meshio:
             return io::read_converted(path, io::meshio_format(path));
         default:

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -29,13 +32,7 @@ Result<FileFormat> format_of(const std::string& path);
 /// told by its first bytes.
 Result<FileFormat> format_of_points(const std::string& path);
 
-/// file_error of a line.
-inline Error line_error(std::string file, std::size_t line, std::string what, std::string expected = {},
-                        std::string found = {}, std::string remedy = {}) {
-    return {std::move(what), std::move(file), line, std::move(expected), std::move(found), std::move(remedy)};
-}
-
-/// These, thrown as Exceptions.
+/// Throws an Exception.
 [[noreturn]] void refuse_file(std::string file, std::string what, std::string expected = {}, std::string found = {},
                               std::string remedy = {});
 [[noreturn]] void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
@@ -70,10 +67,25 @@ Status status_of(const F& f) {
 void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
                 std::vector<std::string_view>& fields);
 
+/// The integer that is all of the text, without a plus; nothing if it is none of that type.
+template <class Integer>
+std::optional<Integer> whole_number(std::string_view text, int base = 10) {
+    Integer value = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, value, base);
+    return error == std::errc{} && end == last ? std::optional(value) : std::nullopt;
+}
+
 /// The line of a text in which `at` lies, from 1.
 inline std::size_t line_of(std::string_view text, const char* at) {
     return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;
 }
+
+/// In lower case.
+std::string lower(std::string_view text);
+
+/// Whether there is something of that name, as far as one may see.
+bool exists(const std::string& path);
 
 /// The path without .gz at its end: readers unpack such files, and no writer makes one.
 std::string_view without_gz(std::string_view path);
@@ -160,9 +172,9 @@ Error other_format_error(const OtherFormat& format, const std::string& path);
 /// How to cut the cells of a file into simplices.
 std::string to_simplices(const std::string& path);
 
-/// Whether all points x, y, z lie in the plane z = 0; and what to do where they do not. `path`: of a file of linear
+/// Whether all points x, y, z lie in that plane; and what to do where they do not in z = 0. `path`: of a file of linear
 /// triangles; else empty.
-bool in_plane(std::span<const double> points);
+bool in_plane(std::span<const double> points, double z = 0);
 std::string plane_remedy(std::span<const double> points, const std::string& path);
 
 /// What to do about a .ply file in binary form.

@@ -1,9 +1,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -69,13 +70,6 @@ constexpr OtherFormat binary_ply{"", "a surface in binary form, not a mesh", "{t
 constexpr OtherFormat flat_poly{"", "a PLC in the plane, not a mesh",
                                 "mesh it with Triangle, whose .node and .ele are read"};
 
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-    return out;
-}
-
 /// A count and the dimension 2.
 bool is_flat_poly(std::string_view head) {
     const std::string_view count = first_word(head, '#');
@@ -86,14 +80,11 @@ bool is_flat_poly(std::string_view head) {
 
 /// Three counts on the first line.
 bool is_freefem(std::string_view head) {
-    const std::string_view line = head.substr(0, head.find('\n'));
-    std::size_t words = 0;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == ' ' || line[i] == '\r') continue;
-        if (std::isdigit(static_cast<unsigned char>(line[i])) == 0) return false;
-        if (i == 0 || line[i - 1] == ' ') ++words;
-    }
-    return words == 3;
+    std::vector<std::string_view> words;
+    cut_fields(head.substr(0, head.find('\n')), " \r", "", words);
+    return words.size() == 3 && std::ranges::all_of(words, [](std::string_view word) {
+               return word.find_first_not_of("0123456789") == std::string_view::npos;
+           });
 }
 
 /// HDF5, NetCDF and ZIP hold many formats: which, is told by the suffix, if that is one of these.
@@ -107,12 +98,6 @@ using base::shell_word;
 
 std::string stem_of(const std::string& path) {
     return path.substr(0, path.size() - suffix_of(path).size());
-}
-
-bool is_level(std::span<const double> points, double z) {
-    bool level = true;
-    for (std::size_t i = 2; i < points.size(); i += 3) level = level && points[i] == z;
-    return level;
 }
 
 /// x.vtu of x.vtu.xz; plain-x.vtu of x.vtu.
@@ -167,17 +152,13 @@ const OtherFormat* other_format_by_suffix(std::string_view path) {
 
 const OtherFormat* packed_format(std::string_view head) {
     using std::string_view_literals::operator""sv;
-    struct Magic {
-        std::string_view bytes, suffix;
-    };
-    constexpr std::array magics{Magic{"BZh"sv, ".bz2"},
-                                Magic{"\xfd"
-                                      "7zXZ\0"sv,
-                                      ".xz"},
-                                Magic{"\x28\xb5\x2f\xfd"sv, ".zst"}, Magic{"PK\x03\x04"sv, ".zip"},
-                                Magic{"\x93NUMPY"sv, ".npy"}};
-    for (const Magic& magic : magics) {
-        if (head.starts_with(magic.bytes)) return by_suffix(magic.suffix);
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> magics{{{"BZh", ".bz2"},
+                                                                                   {"\3757zXZ\0"sv, ".xz"},
+                                                                                   {"\x28\xb5\x2f\xfd", ".zst"},
+                                                                                   {"PK\x03\x04", ".zip"},
+                                                                                   {"\x93NUMPY", ".npy"}}};
+    for (const auto& [bytes, suffix] : magics) {
+        if (head.starts_with(bytes)) return by_suffix(suffix);
     }
     return nullptr;
 }
@@ -224,8 +205,10 @@ std::string to_simplices(const std::string& path) {
            "` and " + paraview_command(stem + "-all.vtu", stem);
 }
 
-bool in_plane(std::span<const double> points) {
-    return is_level(points, 0);
+bool in_plane(std::span<const double> points, double z) {
+    bool level = true;
+    for (std::size_t i = 2; i < points.size(); i += 3) level = level && points[i] == z;
+    return level;
 }
 
 std::string text_ply_remedy(const std::string& path) {
@@ -235,7 +218,7 @@ std::string text_ply_remedy(const std::string& path) {
 }
 
 std::string plane_remedy(std::span<const double> points, const std::string& path) {
-    if (const double z = points.size() < 3 ? 0 : points[2]; z != 0 && is_level(points, z))
+    if (const double z = points.size() < 3 ? 0 : points[2]; z != 0 && in_plane(points, z))
         return "the mesh lies in the plane z = " + base::shortest(z) + ": give its nodes z = 0";
     if (path.empty()) return "only what lies in the plane z = 0 is taken";
     const std::string stl = shell_word(stem_of(path) + ".stl");

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <set>
 #include <utility>
 
@@ -18,17 +16,6 @@ constexpr std::array<std::array<std::string_view, 3>, 3> coordinate_names{
     {{"x", "y", "z"}, {"points:0", "points:1", "points:2"}, {"points_0", "points_1", "points_2"}}};
 
 constexpr std::size_t most_listed = 8;
-
-bool same_but_for_case(std::string_view name, std::string_view lower) {
-    return std::equal(name.begin(), name.end(), lower.begin(), lower.end(), [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b);
-    });
-}
-
-std::string listed_names(int dimension) {
-    return dimension == 2 ? "columns x, y (or Points:0, Points:1)"
-                          : "columns x, y, z (or Points:0, Points:1, Points:2)";
-}
 
 /// An example of columns: the names, or the places from `first` on.
 std::string example(const TableColumns& all, int dimension, std::size_t first) {
@@ -82,7 +69,10 @@ std::vector<std::size_t> axes_asked_for(const TableColumns& all, int dimension, 
     const auto count = static_cast<std::size_t>(dimension);
     const std::string d = std::to_string(dimension);
     if (all.named)
-        refuse(all, "the header does not name the coordinates", listed_names(dimension), listed(all.names),
+        refuse(all, "the header does not name the coordinates",
+               dimension == 2 ? "columns x, y (or Points:0, Points:1)"
+                              : "columns x, y, z (or Points:0, Points:1, Points:2)",
+               listed(all.names),
                all.names.size() >= count
                    ? "say which they are, such as " + example(all, dimension, 0) + ", or use these names"
                    : "use these column names, or start the file with numbers");
@@ -180,21 +170,17 @@ std::vector<std::string> parts_of(const std::vector<std::string>& texts, std::si
     if (texts.size() == count) return texts;
     std::vector<std::string> parts;
     for (const std::string& text : texts) {
-        for (std::size_t begin = 0;;) {
-            const std::size_t comma = text.find(',', begin);
-            parts.push_back(text.substr(begin, comma - begin));
-            if (comma == std::string::npos) break;
-            begin = comma + 1;
-        }
+        std::vector<std::string_view> fields;
+        cut_fields(text, "", ",", fields);
+        if (text.empty()) fields.emplace_back();
+        parts.insert(parts.end(), fields.begin(), fields.end());
     }
     return parts;
 }
 
 std::optional<std::size_t> place_of(std::string_view column) {
-    std::size_t place = 0;
-    const char* const last = column.data() + column.size();
-    const auto [end, error] = std::from_chars(column.data(), last, place);
-    return error == std::errc{} && end == last && place != 0 ? std::optional(place) : std::nullopt;
+    const std::optional<std::size_t> place = whole_number<std::size_t>(column);
+    return place == std::size_t{0} ? std::nullopt : place;
 }
 
 bool are_places(const std::vector<std::string>& columns) {
@@ -206,7 +192,7 @@ std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimens
         std::array<std::optional<std::size_t>, 3> at{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (std::size_t i = 0; i < all.names.size(); ++i) {
-                if (!same_but_for_case(all.names[i], names[axis])) continue;
+                if (lower(all.names[i]) != names[axis]) continue;
                 if (at[axis])
                     refuse(all, "two columns have the same name", "one column " + std::string(names[axis]),
                            base::quoted(all.names[*at[axis]]) + " and " + base::quoted(all.names[i]),
@@ -248,8 +234,12 @@ PointColumns choose_columns(const TableColumns& all, int dimension, const PointO
 }
 
 Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
-    return line_error(file, line, "a point off the plane z = 0" + (row.empty() ? row : ": " + row),
-                      "z = 0, for the mesh is 2D", found, "options.columns x,y leaves z out of account");
+    return {.what = "a point off the plane z = 0" + (row.empty() ? row : ": " + row),
+            .file = file,
+            .line = line,
+            .expected = "z = 0, for the mesh is 2D",
+            .found = found,
+            .remedy = "options.columns x,y leaves z out of account"};
 }
 
 }  // namespace barycert::io

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "barycert/base/finite.hpp"
@@ -48,94 +46,6 @@ struct Place {
     bool label = false;
 };
 
-class Choice {
-public:
-    Choice(PointTable& table, const std::string& file)
-        : table_(table), size_(static_cast<std::size_t>(table.dimension)) {
-        all_.file = file;
-        all_.coordinates = size_;
-        for (std::size_t axis = 0; axis < size_; ++axis) add(std::string(1, "xyz"[axis]), {nullptr, axis});
-        for (const Field& field : table.fields) {
-            const std::vector<std::string> names = column_names({{field.name, field.components}});
-            for (std::size_t c = 0; c < names.size(); ++c) add(names[c], {&field, c});
-        }
-        for (std::size_t i = 0; i < table.labels.size(); ++i) add(table.labels[i].name, {nullptr, i, true});
-        for (const std::string& name : table.unread) add(name, {});
-    }
-
-    Source source(int dimension, const PointOptions& options) {
-        PointColumns chosen = choose_columns(all_, dimension, options);
-        const std::size_t count = table_.points.size() / size_, d = chosen.axes.size();
-        std::vector<double> points(d * count);
-        for (std::size_t axis = 0; axis < d; ++axis) {
-            const Place& place = places_[chosen.axes[axis]];
-            if (place.label) refuse_label(chosen.axes[axis]);
-            for (std::size_t i = 0; i < count; ++i) {
-                points[d * i + axis] = number(place, i);
-                if (options.nonfinite_points == NonfinitePoints::error && !std::isfinite(points[d * i + axis]))
-                    refuse_point(chosen.axes[axis], i);
-            }
-        }
-        for (std::size_t i = 0; chosen.zero && i < count; ++i) {
-            const double z = number(places_[*chosen.zero], i);
-            if (z != 0 && base::all_finite({&points[d * i], d}))
-                throw Exception(off_plane(
-                    all_.file, 0, (table_.of_nodes ? "node " : "point ") + std::to_string(i) + ", counted from 0",
-                    base::shortest(z)));
-        }
-        std::vector<Column> columns;
-        for (PointColumns::Kept& kept : chosen.kept) columns.push_back(column(places_[kept.column], kept.name, count));
-        Notes notes = std::move(table_.notes);
-        notes.insert(notes.end(), chosen.notes.begin(), chosen.notes.end());
-        return std::make_unique<TableSource>(std::move(points), dimension, std::move(columns), std::move(notes));
-    }
-
-private:
-    void add(std::string name, Place place) {
-        all_.names.push_back(std::move(name));
-        places_.push_back(place);
-    }
-    double number(const Place& place, std::size_t i) const {
-        if (place.field == nullptr) return table_.points[size_ * i + place.component];
-        return place.field->data[static_cast<std::size_t>(place.field->components) * i + place.component];
-    }
-    Column column(const Place& place, std::string name, std::size_t count) {
-        if (place.label) {
-            Column out = std::move(table_.labels[place.component]);
-            out.name = std::move(name);
-            return out;
-        }
-        std::vector<double> values(count);
-        for (std::size_t i = 0; i < count; ++i) values[i] = number(place, i);
-        return {std::move(name), std::move(values)};
-    }
-    [[noreturn]] void refuse_label(std::size_t column) const {
-        refuse_file(all_.file,
-                    table_.of_nodes ? "a marker cannot be a coordinate"
-                                    : "a column of texts or large integers cannot be a coordinate",
-                    {}, base::quoted(all_.names[column]), "name a column of numbers in options.columns");
-    }
-    [[noreturn]] void refuse_point(std::size_t column, std::size_t point) const {
-        refuse_file(all_.file, "a point that is not finite", "finite coordinates",
-                    base::shortest(number(places_[column], point)) + " in " + base::quoted(all_.names[column]) +
-                        " of point " + std::to_string(point) + ", counted from 0",
-                    std::string("remove the point, give it coordinates") + or_nan_for_it);
-    }
-
-    PointTable& table_;
-    std::size_t size_;
-    TableColumns all_;
-    std::vector<Place> places_;
-};
-
-/// True if a file that a mesh may be in is there.
-bool names_a_mesh(const std::string& path) {
-    const std::vector<std::string> files = mesh_files(path);
-    std::error_code ignored;
-    return std::any_of(files.begin(), files.end(),
-                       [&](const std::string& file) { return std::filesystem::exists(file, ignored); });
-}
-
 /// The nodes of a mesh.
 PointTable nodes_of(Mesh mesh) {
     PointTable table;
@@ -161,7 +71,8 @@ Source open_any(const std::string& path, int dimension, const PointOptions& opti
                 : *format == FileFormat::npy ? open_npy_source
                                              : open_node_source)(path, dimension, options);
     // A stem, or the file of a mesh; what is neither is told as a file of points that is not known.
-    if (names_a_mesh(path)) return source_of(nodes_of(read_mesh(path, {.faces = false, .neighbours = false}).value()));
+    if (std::ranges::any_of(mesh_files(path), exists))
+        return source_of(nodes_of(read_mesh(path, {.faces = false, .neighbours = false}).value()));
     Error unknown = format.error();
     unknown.expected = "points (.csv .txt .npy .node .vtu .vtp .vtk .vti .vtr .vts, - for CSV from stdin) or a mesh";
     throw Exception(unknown);
@@ -170,7 +81,65 @@ Source open_any(const std::string& path, int dimension, const PointOptions& opti
 }  // namespace
 
 Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options) {
-    return Choice(table, file).source(dimension, options);
+    const auto size = static_cast<std::size_t>(table.dimension);
+    TableColumns all{.names = {}, .file = file, .coordinates = size};
+    std::vector<Place> places;
+    const auto add = [&](std::string name, const Place& place) {
+        all.names.push_back(std::move(name));
+        places.push_back(place);
+    };
+    for (std::size_t axis = 0; axis < size; ++axis) add(std::string(1, "xyz"[axis]), {nullptr, axis});
+    for (const Field& field : table.fields) {
+        const std::vector<std::string> names = column_names({{field.name, field.components}});
+        for (std::size_t c = 0; c < names.size(); ++c) add(names[c], {&field, c});
+    }
+    for (std::size_t i = 0; i < table.labels.size(); ++i) add(table.labels[i].name, {nullptr, i, true});
+    for (const std::string& name : table.unread) add(name, {});
+
+    PointColumns chosen = choose_columns(all, dimension, options);
+    const auto number = [&](const Place& place, std::size_t i) {
+        if (place.field == nullptr) return table.points[size * i + place.component];
+        return place.field->data[static_cast<std::size_t>(place.field->components) * i + place.component];
+    };
+    const std::size_t count = table.points.size() / size, d = chosen.axes.size();
+    std::vector<double> points(d * count);
+    for (std::size_t axis = 0; axis < d; ++axis) {
+        const std::size_t column = chosen.axes[axis];
+        if (places[column].label)
+            refuse_file(file,
+                        table.of_nodes ? "a marker cannot be a coordinate"
+                                       : "a column of texts or large integers cannot be a coordinate",
+                        {}, base::quoted(all.names[column]), "name a column of numbers in options.columns");
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = points[d * i + axis] = number(places[column], i);
+            if (options.nonfinite_points == NonfinitePoints::error && !std::isfinite(x))
+                refuse_file(file, "a point that is not finite", "finite coordinates",
+                            base::shortest(x) + " in " + base::quoted(all.names[column]) + " of point " +
+                                std::to_string(i) + ", counted from 0",
+                            std::string("remove the point, give it coordinates") + or_nan_for_it);
+        }
+    }
+    for (std::size_t i = 0; chosen.zero && i < count; ++i) {
+        const double z = number(places[*chosen.zero], i);
+        if (z != 0 && base::all_finite({&points[d * i], d}))
+            throw Exception(off_plane(file, 0,
+                                      (table.of_nodes ? "node " : "point ") + std::to_string(i) + ", counted from 0",
+                                      base::shortest(z)));
+    }
+    std::vector<Column> columns;
+    for (PointColumns::Kept& kept : chosen.kept) {
+        const Place& place = places[kept.column];
+        if (place.label) {
+            columns.push_back({std::move(kept.name), std::move(table.labels[place.component].values)});
+            continue;
+        }
+        std::vector<double> values(count);
+        for (std::size_t i = 0; i < count; ++i) values[i] = number(place, i);
+        columns.push_back({std::move(kept.name), std::move(values)});
+    }
+    Notes notes = std::move(table.notes);
+    notes.insert(notes.end(), chosen.notes.begin(), chosen.notes.end());
+    return std::make_unique<TableSource>(std::move(points), dimension, std::move(columns), std::move(notes));
 }
 
 }  // namespace barycert::io

@@ -93,11 +93,10 @@ void Blocks::run(const Stage& work, const Stage& write) {
         }
         OnTheWay& b = ring[taken++ % ring.size()];
         b.fault = nullptr;
-        if (first_) {
+        if (first_)
             b.block = *std::exchange(first_, std::nullopt);
-        } else {
+        else
             b.run([&](Block& block) { read(block); });
-        }
         ended = !b.goes_on();
         return &b;
     };

@@ -34,8 +34,7 @@ void check_job(const CheckJob& job) {
     if (copy == "-")
         refuse("", member_of_copy(job) + " cannot write to stdout", "", "",
                "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
-    std::vector<base::NamedFile> plc, outputs;
-    outputs.push_back({"job.measures", job.measures});
+    std::vector<base::NamedFile> plc, outputs{{"job.measures", job.measures}};
     if (!copy.empty()) {
         const std::vector<std::string> written = written_mesh_files(copy).value();
         for (const std::string& path : written) outputs.push_back({member_of_copy(job), path});
@@ -66,8 +65,7 @@ void check_nothing_in_the_way(const CheckJob& job, const Mesh& mesh) {
 /// The mesh with the measures of its cells as fields, and their numbers in the file where those are others.
 Status write_measures(const CheckJob& job, const CheckReport& report, Mesh mesh) {
     if (!mesh.cell_numbers.empty()) {
-        const bool taken = std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
-                                       [](const Field& field) { return field.name == "cell"; });
+        const bool taken = std::ranges::find(mesh.cell_fields, "cell", &Field::name) != mesh.cell_fields.end();
         mesh.cell_fields.push_back(
             {taken ? "cell in file" : "cell", 1, {mesh.cell_numbers.begin(), mesh.cell_numbers.end()}});
     }
@@ -122,8 +120,8 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     checked.name = tetgen_stem(job.mesh);
     const std::vector<std::string> files = mesh_files(job.mesh);
     std::error_code ignored;
-    const auto there = std::find_if(files.begin(), files.end(),
-                                    [&](const std::string& path) { return std::filesystem::exists(path, ignored); });
+    const auto is_there = [&](const std::string& path) { return std::filesystem::exists(path, ignored); };
+    const auto there = std::ranges::find_if(files, is_there);
     checked.artifact = there == files.end() ? job.mesh : *there;
     checked.report = check_mesh(mesh, options);
     try {

@@ -66,12 +66,10 @@ std::string chosen(const std::string& asked, const std::string& usual, const std
     return has(there, usual) ? usual : "";
 }
 
-/// As doubles; NaN for an empty text. Of a mask the bytes 0 and 1 are these numbers, as vtkDelimitedTextWriter writes
-/// them.
+/// As doubles; NaN for an empty text. Of a mask also the bytes 0 and 1, as vtkDelimitedTextWriter writes them.
 std::vector<double> numbers_of(const std::vector<Column>& columns, const std::string& name, const VerifyJob& job,
                                std::uint64_t first_row, bool mask = false) {
-    const Column& column =
-        *std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == name; });
+    const Column& column = *std::ranges::find(columns, name, &Column::name);
     if (const auto* const numbers = std::get_if<std::vector<double>>(&column.values)) return *numbers;
     std::vector<double> out;
     out.reserve(column.size());

@@ -6,25 +6,28 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/base/vectors.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
-#include "barycert/jobs/pictures.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert {
 namespace {
 
-using base::shortest;
+using base::cross, base::dot, base::shortest;
 using jobs::refuse;
 using jobs::Stopwatch;
 using jobs::tell_stage;
+using Vector = std::array<double, 3>;
 
 bool is_picture(const ContourJob& job) {
     return io::has_suffix(job.output, ".png");
@@ -54,10 +57,9 @@ void check_job(const ContourJob& job) {
 /// Sets low and high to those of at(node) over the nodes of cells.
 template <class At>
 void set_range(const Mesh& mesh, At at, ContourReport& report) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     using Range = std::pair<double, double>;
     const Range range = base::parallel_reduce(
-        mesh.cells.size(), std::size_t{1} << 15, Range{infinity, -infinity},
+        mesh.cells.size(), std::size_t{1} << 15, Range{HUGE_VAL, -HUGE_VAL},
         [&](std::size_t begin, std::size_t end, Range& so_far) {
             const ExactEnvironment environment;  // threads that were there before have theirs
             for (std::size_t i = begin; i != end; ++i) {
@@ -72,6 +74,79 @@ void set_range(const Mesh& mesh, At at, ContourReport& report) {
     // A zero may come with either sign, as threads come.
     report.low = none ? std::numeric_limits<double>::quiet_NaN() : range.first + 0.0;
     report.high = none ? std::numeric_limits<double>::quiet_NaN() : range.second + 0.0;
+}
+
+constexpr std::int64_t max_pixels = std::int64_t{1} << 27;
+
+double largest(const Vector& a) {
+    return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+}
+
+Vector times(double s, const Vector& a) {
+    return {s * a[0], s * a[1], s * a[2]};
+}
+
+/// Of length 1 up to rounding. Precondition: not zero. Scaled first, so that squares neither over- nor underflow.
+Vector normalised(const Vector& a) {
+    const double max = largest(a);
+    const Vector b{a[0] / max, a[1] / max, a[2] / max};
+    return times(1 / std::sqrt(dot(b, b)), b);
+}
+
+/// Axes of the picture, to the right and up, and the point of the plane nearest to the origin.
+struct Frame {
+    Vector right, up, foot;
+
+    explicit Frame(const Plane& plane) {
+        const Vector n = normalised(plane.normal);
+        const bool level = n[0] == 0 && n[1] == 0;
+        const Vector vertical = level ? Vector{0, 1, 0} : Vector{0, 0, 1};
+        const double along = dot(vertical, n);
+        up = normalised({vertical[0] - along * n[0], vertical[1] - along * n[1], vertical[2] - along * n[2]});
+        right = cross(up, n);
+        // offset / |normal|, without squares of the normal as it is.
+        const double max = largest(plane.normal);
+        const Vector scaled = times(1 / max, plane.normal);
+        foot = times(plane.offset / max / std::sqrt(dot(scaled, scaled)), n);
+        for (Vector* const v : {&right, &up, &foot}) {
+            for (double& x : *v) x += 0.0;  // no -0
+        }
+    }
+};
+
+/// Pixels over the box of these points (3 coordinates each) of a section. Error: it has no area, or too many pixels.
+Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& points, std::int64_t width) {
+    const Frame frame(plane);
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+        const Vector x{points[i] - frame.foot[0], points[i + 1] - frame.foot[1], points[i + 2] - frame.foot[2]};
+        const double at[2] = {dot(x, frame.right), dot(x, frame.up)};
+        for (int a = 0; a < 2; ++a) {
+            low[a] = std::min(low[a], at[a]);
+            high[a] = std::max(high[a], at[a]);
+        }
+    }
+    const double across = high[0] - low[0], tall = high[1] - low[1];
+    if (!(across > 0) || !(tall > 0) || !std::isfinite(across) || !std::isfinite(tall))
+        return file_error("", "the section has no area", "a plane that goes through the mesh",
+                          points.empty() ? "no cell on both sides of it" : "a point or a line",
+                          "choose another offset");
+    PixelGrid grid;
+    grid.width = width;
+    grid.pixel = across / static_cast<double>(width);
+    const double lines = std::max(1.0, std::round(tall / grid.pixel));
+    if (!(lines * static_cast<double>(width) <= static_cast<double>(max_pixels)) || !(grid.pixel > 0))
+        return file_error("", "the picture would be too large", "at most " + std::to_string(max_pixels) + " pixels",
+                          std::to_string(width) + " by " + base::shortest(lines), "choose a smaller job.width");
+    grid.height = static_cast<std::int64_t>(lines);
+    // Lines are centred in the box.
+    const double first[2] = {low[0] + 0.5 * grid.pixel, low[1] + 0.5 * (tall - (lines - 1) * grid.pixel)};
+    for (std::size_t k = 0; k < 3; ++k) {
+        grid.origin[k] = frame.foot[k] + first[0] * frame.right[k] + first[1] * frame.up[k];
+        grid.step_right[k] = grid.pixel * frame.right[k];
+        grid.step_up[k] = grid.pixel * frame.up[k];
+    }
+    return grid;
 }
 
 class Contour {
@@ -92,24 +167,22 @@ public:
                    "draw a mesh of triangles by `" + job_.program + " resample --grid`");
         if (picture && job_.value && mesh_.dimension == 2)
             refuse(job_.output, "iso-lines cannot be written as a picture", ".vtp or .ply", "", "choose another name");
-        Cut cut = picture && job_.plane ? cut_plane({}) : cut_with_fields();
+        Cut cut = picture && job_.plane ? cut_plane({.threads = job_.threads}) : cut_with_fields();
         report_.counts = cut.counts;
         report_.points = cut.surface.point_count();
         report_.parts = cut.surface.cell_count();
         report_.seconds.build = watch.lap();
-        if (!picture) {
+        if (!picture)
             write(cut.surface);
-        } else {
+        else
             job_.plane ? draw(cut.surface) : draw_view(cut.surface);
-        }
         report_.seconds.total = whole.lap();
         return std::move(report_);
     }
 
 private:
-    Cut cut_plane(CutOptions options) {
+    Cut cut_plane(const CutOptions& options) {
         tell_stage(job_, "cutting");
-        options.threads = job_.threads;
         const std::array<double, 3>& n = job_.plane->normal;
         const auto height = [&](std::size_t i) {
             const double* const x = mesh_.points.data() + 3 * i;
@@ -120,8 +193,7 @@ private:
     }
 
     Cut cut_with_fields() {
-        CutOptions options;
-        options.threads = job_.threads;
+        CutOptions options{.threads = job_.threads};
         const auto carry = [&](const FieldChoice& c, const std::string& name) {
             (c.of_cells ? options.cell_fields : options.point_fields).push_back(c.field);
             report_.fields.push_back(name);
@@ -137,7 +209,7 @@ private:
         } else if (!job_.colours.empty()) {
             carry(jobs::field_of_numbers(mesh_, job_.colours, made_, report_.notes), job_.colours);
         }
-        if (job_.plane) return cut_plane(std::move(options));
+        if (job_.plane) return cut_plane(options);
         const FieldChoice column = jobs::field_of_numbers(mesh_, job_.field, made_, report_.notes);
         const Field& field = *column.field;
         if (column.of_cells)
@@ -190,7 +262,7 @@ private:
     void draw(const Surface& section) {
         Stopwatch watch;
         const FieldChoice column = sample::number_named(mesh_, job_.field).value();
-        const Result<PixelGrid> over = jobs::pixels_over(*job_.plane, section.points, job_.width);
+        const Result<PixelGrid> over = pixels_over(*job_.plane, section.points, job_.width);
         if (!over) refuse_section(section, over.error());
         const PixelGrid& pixels = report_.pixels.emplace(*over);
         const auto count = static_cast<std::uint64_t>(pixels.width * pixels.height);
@@ -239,8 +311,7 @@ private:
     void sample(const PixelGrid& pixels, const Sampler& sampler, std::vector<double>& values,
                 std::vector<std::uint8_t>& valid) {
         const std::int64_t lines = std::max<std::int64_t>(1, (std::int64_t{1} << 18) / pixels.width);
-        SampleOptions options;
-        options.threads = job_.threads;
+        const SampleOptions options{.threads = job_.threads};
         std::vector<double> points;
         Table rows;
         std::size_t at = 0;
@@ -270,6 +341,15 @@ private:
 };
 
 }  // namespace
+
+std::array<double, 3> PixelGrid::middle(std::int64_t i, std::int64_t j) const {
+    const ExactEnvironment environment;
+    std::array<double, 3> at{};
+    for (std::size_t k = 0; k < 3; ++k)
+        at[k] = base::held((base::held(origin[k]) + static_cast<double>(i) * base::held(step_right[k])) +
+                           static_cast<double>(j) * base::held(step_up[k]));
+    return at;
+}
 
 Result<ContourReport> contour_files(const ContourJob& job) try {
     const ExactEnvironment environment;

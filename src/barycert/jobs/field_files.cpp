@@ -51,11 +51,9 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
     mesh.points = std::move(table->points);
     mesh.dimension = dimension;
     if (dimension == 2) {
-        std::size_t to = 0;
-        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-            if (i % 3 != 2) mesh.points[to++] = mesh.points[i];
-        }
-        mesh.points.resize(to);
+        const std::size_t count = mesh.points.size() / 3;
+        for (std::size_t i = 1; i < count; ++i) std::copy_n(&mesh.points[3 * i], 2, &mesh.points[2 * i]);
+        mesh.points.resize(2 * count);
     }
     mesh.point_fields = std::move(table->fields);
     for (const Column& label : table->labels) {
@@ -115,14 +113,15 @@ Field read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
     return field;
 }
 
+bool has_field(const Mesh& mesh, std::string_view name) {
+    return sample::field_named(mesh.point_fields, name) != nullptr ||
+           sample::field_named(mesh.cell_fields, name) != nullptr;
+}
+
 /// A field of that name, with or without cell:, goes before.
 const Column* label_named(const Mesh& mesh, std::string_view name) {
     const auto full = [](std::string_view of) { return std::string(cell_prefix) + std::string(of); };
-    for (const std::string& field : {std::string(name), full(name)}) {
-        if (sample::field_named(mesh.point_fields, field) != nullptr ||
-            sample::field_named(mesh.cell_fields, field) != nullptr)
-            return nullptr;
-    }
+    if (has_field(mesh, name) || has_field(mesh, full(name))) return nullptr;
     for (int part = 0; part < 2; ++part) {
         for (const Column& label : mesh.cell_labels) {
             if (label.name == name || label.name == full(name)) return &label;
@@ -186,13 +185,10 @@ void give_each_a_name(Mesh& mesh) {
     const auto rename = [](std::string& name, std::string_view of, bool taken) {
         if (taken || is_name_of_rows(name)) name = std::string(of) + name;
     };
-    const auto there = [](const std::vector<Field>& fields, const std::string& name) {
-        return sample::field_named(fields, name) != nullptr;
-    };
     for (Field& field : mesh.point_fields) rename(field.name, point_prefix, false);
-    for (Field& field : mesh.cell_fields) rename(field.name, cell_prefix, there(mesh.point_fields, field.name));
-    for (Column& label : mesh.cell_labels)
-        rename(label.name, cell_prefix, there(mesh.point_fields, label.name) || there(mesh.cell_fields, label.name));
+    for (Field& field : mesh.cell_fields)
+        rename(field.name, cell_prefix, sample::field_named(mesh.point_fields, field.name) != nullptr);
+    for (Column& label : mesh.cell_labels) rename(label.name, cell_prefix, has_field(mesh, label.name));
 }
 
 void add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {

@@ -1,5 +1,4 @@
-/// Fields from files, among those of the mesh; and labels of its cells (Mesh::cell_labels), among the fields that a job
-/// names.
+/// Fields from files, among those of the mesh; and labels of its cells, among the fields that a job names.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +14,7 @@
 
 namespace barycert::jobs {
 
-/// True for the names that rows, grids and meshes have besides fields: x, y, z, cell, feature, distance,
-/// vtkValidPointMask.
+/// True for names that outputs have besides fields: x, y, z, cell, feature, distance, vtkValidPointMask.
 bool is_name_of_rows(const std::string& name);
 
 /// Whether fields are read from such a file as arrays of a mesh: by its suffix, else by what it is. Files that end as
@@ -39,8 +37,7 @@ Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes);
 FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace);
 
 /// So that columns have one name each, a field of cells that has the name of one of nodes is called cell:NAME from then
-/// on, and a field with a name that rows have themselves (x, y, z, cell, feature, distance, vtkValidPointMask)
-/// point:NAME or cell:NAME.
+/// on, and a field with a name that rows have themselves point:NAME or cell:NAME.
 void give_each_a_name(Mesh& mesh);
 
 /// Adds the fields of all files, and gives each a name.
@@ -55,8 +52,8 @@ using OtherNames = std::function<std::optional<std::vector<std::string>>(const s
 std::vector<std::string> with_other_names(const std::vector<std::string>& names, const OtherNames& other);
 
 /// The labels that are named, in their order; they are removed from `names`. A field goes before a label of its name;
-/// cell:NAME may stand for NAME. Refused: a label that is named twice; one that does not fit the mesh; integers among
-/// which is the one that stands for "outside".
+/// cell:NAME may stand for NAME. Refused: one named twice; one that does not fit the mesh, or has the integer
+/// "outside".
 std::vector<const Column*> take_labels(const Mesh& mesh, std::vector<std::string>& names);
 
 }  // namespace barycert::jobs

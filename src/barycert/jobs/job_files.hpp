@@ -33,15 +33,11 @@ private:
 };
 
 /// While it lives, no more threads than these; 0: as many as the machine has.
-class ThreadLimit {
-public:
+struct ThreadLimit {
     explicit ThreadLimit(int threads) {
-        if (threads > 0)
-            limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+        if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     }
-
-private:
-    std::optional<tbb::global_control> limit_;
+    std::optional<tbb::global_control> limit;
 };
 
 /// Throws a file_error of these parts: in the order of the message; empty ones are left out.
@@ -94,8 +90,7 @@ void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& input
 void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
                  const std::vector<base::NamedFile>& unread = {});
 
-/// The same of a job of sampling. Outputs that are called job.output are one for each step, where they have a place for
-/// it. Refused also: more steps than can be columns.
+/// The same of sampling, where job.output may be a file for each step. Refused also: more steps than can be columns.
 void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::vector<base::NamedFile> more_inputs,
                  std::vector<base::NamedFile> outputs);
 
@@ -107,5 +102,8 @@ bool has_suffix_of(const std::string& path, std::initializer_list<std::string_vi
 
 /// Refuses an output whose suffix is none of those `expected`.
 [[noreturn]] void refuse_output(const std::string& path, const std::string& expected);
+
+/// A surface in the colours of its first field, if it has one. It must stay.
+SurfaceView view_of(const Surface& surface);
 
 }  // namespace barycert::jobs

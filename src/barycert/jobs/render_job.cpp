@@ -10,7 +10,6 @@
 #include "barycert/environment.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
-#include "barycert/jobs/pictures.hpp"
 #include "barycert/raster.hpp"
 
 namespace barycert {
@@ -160,8 +159,7 @@ Scene small_picture(const RenderJob& job) {
     return scene;
 }
 
-/// The cells of a mesh in the plane, or the boundary of one in space, in the colours of the field; what is told of them
-/// goes into the report.
+/// The cells of a mesh in the plane, or the boundary of one in space, in the colours of the field.
 Image image_of(const RenderJob& job, const Mesh& mesh, RenderReport& report) {
     CutOptions options{.threads = job.threads};
     std::deque<Field> made;

@@ -205,8 +205,8 @@ Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, No
     if (!format.carried.empty())
         refuse(path, "a mesh has no labels of nodes", "fields", "label " + base::quoted(format.carried.front().name),
                "leave labels out of job.fields, or write rows: .csv or .npy");
-    const Result<io::MeshFormat> kind = io::mesh_output_format(path);
-    if (kind && *kind == io::MeshFormat::tetgen) io::note_lost_names(format.columns(), "a .node", notes);
+    const io::MeshFormat kind = io::mesh_output_format(path).value();
+    if (kind == io::MeshFormat::tetgen) io::note_lost_names(format.columns(), "a .node", notes);
     mesh.point_fields.clear();
     for (const TableField& f : format.fields) mesh.point_fields.push_back({f.name, f.components, {}});
     const auto of = std::make_shared<SampledNodes>();
@@ -221,13 +221,11 @@ Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, No
         return Done{};
     };
     return sink_of(write, [of, path, kind, data = format.vtk_data]() -> Status {
-        if (!kind) return kind.error();
-        if (*kind == io::MeshFormat::tetgen) return write_tetgen_files(of->mesh, path);
-        // Where there is room for what else is known of each node. In Gmsh each field is a picture of its own: `cell`
-        // tells what the mask does, too.
+        if (kind == io::MeshFormat::tetgen) return write_tetgen_files(of->mesh, path);
+        // Where there is room for what else is known of nodes. In Gmsh each field is a picture: `cell` tells the mask.
         std::vector<Field>& fields = of->mesh.point_fields;
         if (!of->distance.data.empty()) fields.push_back(std::move(of->distance));
-        if (*kind == io::MeshFormat::vtk) fields.push_back(std::move(of->mask));
+        if (kind == io::MeshFormat::vtk) fields.push_back(std::move(of->mask));
         fields.push_back(std::move(of->cell));
         return write_mesh(of->mesh, path, {.comment = {}, .data = data});
     });

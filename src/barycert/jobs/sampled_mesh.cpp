@@ -181,11 +181,8 @@ void SampledMesh::read_fields(const Step& step) {
 
 void SampledMesh::tell_once(Notes notes) {
     for (Note& note : notes) {
-        Notes& told = report.notes;
-        const bool known = std::any_of(told.begin(), told.end(), [&](const Note& other) {
-            return other.kind == note.kind && other.text == note.text;
-        });
-        if (!known) told.push_back(std::move(note));
+        const auto same = [&](const Note& told) { return told.kind == note.kind && told.text == note.text; };
+        if (std::ranges::none_of(report.notes, same)) report.notes.push_back(std::move(note));
     }
 }
 
@@ -262,9 +259,8 @@ std::vector<FieldChoice> SampledMesh::fields_of_part() {
 
 void SampledMesh::prepare(std::span<const double> all_points) {
     if (locator_) return;
-    std::vector<Mesh::Index> near;
-    if (find_cells_near(all_points, near)) {
-        part_ = mesh::part_of(mesh_, std::move(near));
+    if (auto near = cells_near(all_points)) {
+        part_ = mesh::part_of(mesh_, std::move(*near));
         report.method = FoundBy::pass;
         report.reason = fmt::format("no index for {}: {} of {} may hold some",
                                     counted(all_points.size() / static_cast<std::size_t>(mesh_.dimension), "point"),
@@ -280,8 +276,8 @@ void SampledMesh::prepare(std::span<const double> all_points) {
     report.reason = reason_of(*locator_, locator_->degenerate_cells(), report.curved.cells != 0, job.program);
 }
 
-/// True if points are few, and in `near` the cells that may hold some of them.
-bool SampledMesh::find_cells_near(std::span<const double> points, std::vector<Mesh::Index>& near) {
+/// If points are few, the cells that may hold some of them.
+std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const double> points) {
     const ExactEnvironment environment;
     const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
     const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {
@@ -290,7 +286,7 @@ bool SampledMesh::find_cells_near(std::span<const double> points, std::vector<Me
     });
     // What is wrong with fields or points is told by the usual way.
     if (gives_distances(job.options.outside) || !needs_no_index(count, cells) || !fit || !base::all_finite(points))
-        return false;
+        return std::nullopt;
     // If more cells may hold a point, an index is made all the same.
     const std::size_t most = cells / 8;
     Stopwatch watch;
@@ -298,8 +294,7 @@ bool SampledMesh::find_cells_near(std::span<const double> points, std::vector<Me
     auto found =
         base::in_arena(job.options.threads, cells, [&] { return locate::cells_at_points(mesh_, points, most); });
     report.seconds.build += watch.lap();
-    if (found) near = std::move(*found);
-    return found.has_value();
+    return found;
 }
 
 void SampledMesh::let_go_of_mesh() {

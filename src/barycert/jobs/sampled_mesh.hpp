@@ -22,8 +22,7 @@ constexpr bool needs_no_index(std::size_t points, std::size_t cells) {
     return points != 0 && cells >= 20'000 && points <= cells / 100;
 }
 
-/// Writes what it does into the report of the job. The job must stay, and so must this: sampler and locator refer to
-/// the mesh.
+/// Writes what it does into the job's report. The job must stay, and so must this: sampler and locator use the mesh.
 class SampledMesh {
 public:
     /// `steps`: of the series of the job. `command`: of the report.
@@ -79,8 +78,7 @@ public:
         }
     }
 
-    /// Reads the meshes of all steps. Refused: one is another than the first, and `member`, the output `path`, is of
-    /// one.
+    /// Reads the meshes of all steps. Refused: one is not the first, and `member`, the output `path`, is of one.
     void check_one_mesh(const std::string& path, const char* member);
 
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their
@@ -114,7 +112,7 @@ private:
     void choose_fields();
     std::vector<std::string> names_of_fields() const;
     std::vector<FieldChoice> fields_of_part();
-    bool find_cells_near(std::span<const double> points, std::vector<Mesh::Index>& near);
+    std::optional<std::vector<Mesh::Index>> cells_near(std::span<const double> points);
     void build_sampler(const std::vector<FieldChoice>& fields);
     void build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove);
 

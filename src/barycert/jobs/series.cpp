@@ -74,8 +74,7 @@ std::vector<Step> steps_of_file(const FieldFile& series) {
     std::vector<Step> found;
     for (const SeriesStep& step : steps) {
         const std::string label = base::shortest(step.time);
-        const bool twice =
-            std::any_of(found.begin(), found.end(), [&](const Step& other) { return other.label == label; });
+        const bool twice = std::ranges::find(found, label, &Step::label) != found.end();
         if (step.files.size() != 1 || twice)
             refuse(series.path, "step " + label + " of the series \"" + series.name + '"', "one file",
                    twice ? "another one of the same time" : std::to_string(step.files.size()) + " files",
@@ -119,8 +118,7 @@ std::vector<Step> matches_of(const FieldFile& series) {
     if (found.empty() || failed)
         refuse(pattern, "no file of the series \"" + series.name + '"', "at least one file for the pattern",
                failed ? failed.message() : "none", "check the folder and the pattern");
-    std::sort(found.begin(), found.end(),
-              [](const auto& a, const auto& b) { return naturally_before(a.label, b.label); });
+    std::ranges::sort(found, naturally_before, &Step::label);
     return found;
 }
 

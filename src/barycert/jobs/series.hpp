@@ -14,8 +14,7 @@ namespace barycert::jobs {
 /// At most so many steps stand side by side as columns: they are all in memory.
 inline constexpr std::size_t most_steps_of_columns = 256;
 
-/// One step: what the * of its files stands for, or its time in a .pvd file; and the file of each series, in their
-/// order. Or a step of the mesh: its number.
+/// What the * of its files stands for, or its time in a .pvd file, and the file of each series; or a step of the mesh.
 struct Step {
     std::string label;
     std::vector<FieldFile> files = {};
@@ -26,8 +25,7 @@ struct Step {
 /// The steps of all series of fields of a job in natural order (2 before 10), or that of a .pvd file; where it has
 /// none, the steps of its mesh that are to have outputs of their own. A path may end in :COLUMN; of a mesh file the
 /// array of the field's name is read without it. Refused: a pattern without exactly one *, or that no file matches;
-/// what read_series refuses; a step that not all series have; all steps are asked for, and there are none, or no name
-/// for an output of each.
+/// what read_series refuses; a step that not all series have; all steps asked for, and no step, or no name for each.
 std::vector<Step> find_steps(const SamplingJob& job);
 
 /// Whether each step has outputs of its own.

@@ -73,13 +73,12 @@ private:
         Table& rows = block.rows;
         if (source_.located) look_outside(block);
         if (source_.located && block.outside) return;
-        if (source_.located) {
+        if (source_.located)
             mesh_.sampler().evaluate(rows.points, options_, rows, block.first).value();
-        } else if (mesh_.report.all) {
+        else if (mesh_.report.all)
             sample_all(rows);
-        } else {
+        else
             mesh_.sampler().sample(rows.points, options_, rows, block.first).value();
-        }
         if (block.locations) rows.counts.locations = *block.locations;
         if (targets_.known != nullptr) block.located = rows.cells;
         if (weights_) block.weights = mesh_.weights_of(rows.view());
@@ -109,10 +108,8 @@ private:
         const Table& rows = block.rows;
         const auto& begin = rows.point_begin;
         const std::size_t row = *block.outside, d = static_cast<std::size_t>(rows.dimension);
-        const std::size_t point =
-            begin.empty()
-                ? row
-                : static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), row) - begin.begin()) - 1;
+        std::size_t point = row;
+        if (!begin.empty()) point = static_cast<std::size_t>(std::ranges::upper_bound(begin, row) - begin.begin()) - 1;
         return outside_error((source_.located ? "row " : "point ") + std::to_string(block.first + point),
                              std::span(rows.points).subspan(d * row, d), mesh_.report.points);
     }
@@ -221,8 +218,6 @@ std::uint64_t count_nan(const TableView& rows) {
     return count;
 }
 
-// Rows as users know them.
-
 Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
                     const OpenFormat& open) {
     const std::vector<std::string> columns = format.columns();
@@ -252,14 +247,13 @@ Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<Col
                    "name the columns to keep, with another name for this one: job.keep OTHER=" + name);
         }
     }
-    if (left_out.empty()) {
+    if (left_out.empty())
         kept.clear();
-    } else {
+    else
         mesh.tell_once({{Note::Kind::left_out,
                          "columns " + left_out + ": the rows have columns of these names; job.keep OTHER=" + first +
                              " carries one through under another name",
                          mesh.report.points}});
-    }
     Sink sink = open(format);
     // A sink of its own only where users see something else.
     if (!sink || (kept.empty() && mesh.labels().empty() && mesh.mesh().cell_numbers.empty())) return sink;

@@ -46,9 +46,8 @@ RowSource rows_of_points(std::unique_ptr<PointSource>& points);
 /// Whether the file is standard input, a pipe, or else no regular file.
 bool is_read_once(const std::string& path);
 
-/// The rows of a source, which must stay, in blocks: few enough that all of `threads` threads (0: as many as the
-/// machine has) have some, and enough points that sorting them brings near ones together. `seconds` gets those of
-/// reading and work.
+/// The rows of a source, which must stay, in blocks: few enough that all `threads` (0: as many as the machine has) have
+/// some, and enough points that sorting them brings near ones together. `seconds` gets those of reading and work.
 class Blocks {
 public:
     using Stage = std::function<void(Block& block)>;
@@ -89,8 +88,7 @@ using OpenRows = std::function<Sink(const TableFormat& format, const std::string
 
 /// All rows of the source into the output, and into a map and a matrix of weights where these are named; of a job that
 /// goes step by step, those of all steps, each into an output of its own. Rows come in the order of the points. Adds to
-/// the report. Refused besides what its parts refuse: the policy is `error`, and a point is outside; the message names
-/// the point and the file.
+/// the report. Refused besides what its parts refuse: a point outside, by the policy `error`; named with its file.
 void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& open, const std::string& map = {});
 
 // Rows as users know them.
@@ -98,25 +96,21 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
 using OpenFormat = std::function<Sink(const TableFormat& format)>;
 
 /// Opens an output by open(format of its rows) and returns what takes rows whose cells are those of the mesh, and gives
-/// it what users are to see: cells by the numbers that they have in their file, labels that the job asked for, and
-/// `carried` columns of the points. The report gets the names of these. The mesh must stay. A carried column that has
-/// the name of another one is refused; with `all`, one that rows have anyway, as rows that another run wrote, is left
-/// out, and noted.
+/// it what users are to see: cells by their numbers in the file, labels that the job asked for, and `carried` columns
+/// of the points. The report gets the names of these. The mesh must stay. A carried column that has the name of another
+/// one is refused; with `all`, one that rows have anyway, as those of another run, is left out, and noted.
 Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
                     const OpenFormat& open);
 
 /// A sink of two functions.
 template <class Write, class Commit>
 Sink sink_of(Write write, Commit commit) {
-    class Functions final : public TableSink {
-    public:
-        Functions(Write w, Commit c) : write_(std::move(w)), commit_(std::move(c)) {}
-        Status write(const TableView& rows) override { return write_(rows); }
-        Status commit() override { return commit_(); }
-
-    private:
-        Write write_;
-        Commit commit_;
+    struct Functions final : TableSink {
+        Functions(Write w, Commit c) : write_rows(std::move(w)), commit_all(std::move(c)) {}
+        Status write(const TableView& rows) override { return write_rows(rows); }
+        Status commit() override { return commit_all(); }
+        Write write_rows;
+        Commit commit_all;
     };
     return std::make_unique<Functions>(std::move(write), std::move(commit));
 }

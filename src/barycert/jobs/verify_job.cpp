@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -253,9 +252,8 @@ bool VerifyReport::compared(RowVerdict verdict) const {
 }
 
 std::vector<VerifyLimit> VerifyReport::exceeded() const {
-    std::vector<VerifyLimit> all;
-    std::copy_if(limits.begin(), limits.end(), std::back_inserter(all),
-                 [&](const VerifyLimit& l) { return verdicts.of(l.verdict) > l.most; });
+    std::vector<VerifyLimit> all = limits;
+    std::erase_if(all, [&](const VerifyLimit& l) { return verdicts.of(l.verdict) <= l.most; });
     return all;
 }
 

@@ -92,10 +92,8 @@ void on_fault(int signal, siginfo_t* info, void*) {
 }
 
 void set_signals() {
-    // The program's own handlers are not for this process.
-    for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_DFL);
-    // Nor is what the terminal sends: an end by Ctrl-C is no crash of the kernel's.
-    for (const int signal : {SIGINT, SIGQUIT, SIGHUP}) std::signal(signal, SIG_IGN);
+    // The server, of which this process is a copy, has done away with the program's handlers, and ignores what the
+    // terminal sends: an end by Ctrl-C is no crash of the kernel's.
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);

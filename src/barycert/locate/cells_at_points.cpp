@@ -6,7 +6,6 @@
 #include <bit>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/index/box_tree.hpp"
 #include "barycert/index/buffer.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -125,19 +124,41 @@ namespace {
 constexpr std::size_t few = 1024;
 
 constexpr std::size_t nodes_at_once = std::size_t{1} << 14;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::uint32_t place_of(std::uint32_t code, std::size_t axis) {
     return code >> (8 * axis) & 0xFFU;
 }
 
+Box box_of_nodes(const Mesh& mesh) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    return base::parallel_reduce(
+        mesh.point_count(), nodes_at_once, empty_box,
+        [&](std::size_t begin, std::size_t end, Box& box) {
+            for (std::size_t i = begin; i != end; ++i) {
+                std::array<double, 3> node{};
+                std::copy_n(mesh.points.data() + d * i, d, node.begin());
+                box.add({node, node});
+            }
+        },
+        [](Box& all, const Box& part) { all.add(part); });
+}
+
+/// Those in the box of the nodes: no cell holds another, and one far away would make the bins large.
+std::vector<double> points_in_box(const Mesh& mesh, std::span<const double> points) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    const Box box = box_of_nodes(mesh);
+    std::vector<double> inside;
+    for (std::size_t i = 0; i + d <= points.size(); i += d) {
+        bool in = true;
+        for (std::size_t k = 0; k < d; ++k) in = in && points[i + k] >= box.low[k] && points[i + k] <= box.high[k];
+        if (in) inside.insert(inside.end(), points.data() + i, points.data() + i + d);
+    }
+    return inside;
+}
+
 }  // namespace
 
 PointBins::PointBins(std::size_t d, std::span<const double> points) : d_(d), bits_(points.size() / d <= few ? 6 : 7) {
-    for (std::size_t k = 0; k < d; ++k) {
-        low_[k] = infinity;
-        high_[k] = -infinity;
-    }
     for (std::size_t i = 0; i < points.size(); ++i) {
         low_[i % d] = std::min(low_[i % d], points[i]);
         high_[i % d] = std::max(high_[i % d], points[i]);
@@ -189,37 +210,6 @@ bool PointBins::some_in(std::uint32_t low, std::uint32_t high) const {
     return false;
 }
 
-namespace {
-
-Box box_of_nodes(const Mesh& mesh) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    return base::parallel_reduce(
-        mesh.point_count(), nodes_at_once, empty_box,
-        [&](std::size_t begin, std::size_t end, Box& box) {
-            for (std::size_t i = begin; i != end; ++i) {
-                std::array<double, 3> node{};
-                std::copy_n(mesh.points.data() + d * i, d, node.begin());
-                box.add({node, node});
-            }
-        },
-        [](Box& all, const Box& part) { all.add(part); });
-}
-
-/// Those in the box of the nodes: no cell holds another, and one far away would make the bins large.
-std::vector<double> points_in_box(const Mesh& mesh, std::span<const double> points) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    const Box box = box_of_nodes(mesh);
-    std::vector<double> inside;
-    for (std::size_t i = 0; i + d <= points.size(); i += d) {
-        bool in = true;
-        for (std::size_t k = 0; k < d; ++k) in = in && points[i + k] >= box.low[k] && points[i + k] <= box.high[k];
-        if (in) inside.insert(inside.end(), points.data() + i, points.data() + i + d);
-    }
-    return inside;
-}
-
-}  // namespace
-
 std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::span<const double> all_points,
                                                         std::size_t max) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
@@ -227,9 +217,8 @@ std::optional<std::vector<Mesh::Index>> cells_at_points(const Mesh& mesh, std::s
     if (points.empty()) return std::vector<Mesh::Index>();
     const PointBins bins(d, points);
     Buffer<std::int32_t> codes(mesh.point_count());
-    base::parallel_for(codes.size(), nodes_at_once, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i != end; ++i)
-            codes[i] = static_cast<std::int32_t>(bins.code(mesh.points.data() + d * i));
+    base::parallel_for_each(codes.size(), nodes_at_once, [&](std::size_t i) {
+        codes[i] = static_cast<std::int32_t>(bins.code(mesh.points.data() + d * i));
     });
     constexpr std::size_t block = std::size_t{1} << 15;
     const std::size_t cells = mesh.cell_count(), blocks = (cells + block - 1) / block;

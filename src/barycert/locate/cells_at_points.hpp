@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "barycert/index/bins.hpp"
+#include "barycert/index/box_tree.hpp"
 #include "barycert/locate/names.hpp"
 #include "barycert/mesh.hpp"
 
@@ -56,7 +57,7 @@ private:
 
     std::size_t d_;
     int bits_;  ///< bins on an axis: 2^bits_
-    std::array<double, 3> low_{}, high_{};
+    std::array<double, 3> low_ = empty_box.low, high_ = empty_box.high;
     Quantizer quantizer_;
     std::array<std::vector<std::int32_t>, levels> near_;
     std::vector<std::uint64_t> rows_;  ///< a bit for each bin, x fastest

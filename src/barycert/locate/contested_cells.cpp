@@ -45,8 +45,8 @@ ContestedCells::Lists ContestedCells::make_lists() const {
             const auto original = [&](std::size_t c) { return index_.original[static_cast<std::size_t>(cells_[c])]; };
             if (original(i) < original(j)) std::swap(i, j);
             ++pairs;
-            if (may_overlap(static_cast<int>(index_.dimension()), item_of(index_, cells_[i]).at,
-                            item_of(index_, cells_[j]).at))
+            if (may_overlap(static_cast<int>(index_.dimension()), index_.corner_points(cells_[i]),
+                            index_.corner_points(cells_[j])))
                 found[g].push_back({static_cast<std::uint32_t>(i), cells_[j]});
         });
         count.fetch_add(pairs, std::memory_order_relaxed);

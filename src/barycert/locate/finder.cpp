@@ -6,12 +6,6 @@
 #include "barycert/base/random.hpp"
 
 namespace barycert::locate {
-namespace {
-
-/// A walk in floating point can go round in circles, in cells that are almost flat or not Delaunay.
-constexpr int max_rounds = 128;
-
-}  // namespace
 
 void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature,
                   LocationCounts& counts) {
@@ -81,6 +75,8 @@ void Finder::begin() {
 }
 
 void Finder::walk(const PointRecord* points, Place* owner, Feature* feature, LocationCounts& counts) {
+    // A walk in floating point can go round in circles, in cells that are almost flat or not Delaunay.
+    constexpr int max_rounds = 128;
     TierCounts& tests = counts.tests;
     stuck_.count = 0;
     for (int round = 0; walking_.count > 0 && round < max_rounds; ++round)

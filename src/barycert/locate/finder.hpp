@@ -29,7 +29,7 @@ public:
     /// walks they are those of the last begin(). Precondition: finite points in the box of the cells.
     void find(const PointRecord* points, std::size_t count, Place* owner, Feature* feature, LocationCounts& counts);
 
-    /// The same for one point whose walk ended in doubt: `stuck` is what step_walks says.
+    /// The same for one point whose walk ended in doubt: `stuck` is what step_walks says, or -1 if it did not walk.
     void settle(const PointRecord& point, Place stuck, Place& owner, Feature& feature);
 
     /// found(point, cell of the mesh, feature) for every cell that holds each of the points, in no order. Precondition:

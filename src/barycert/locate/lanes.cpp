@@ -20,15 +20,6 @@ using index::HWY_NAMESPACE::load_records;
 
 // Bins of points.
 
-template <class D, std::size_t d, class V = hn::Vec<D>>
-HWY_INLINE void load_points(D tag, const double* from, V (&x)[d]) {
-    if constexpr (d == 3) {
-        hn::LoadInterleaved3(tag, from, x[0], x[1], x[2]);
-    } else {
-        hn::LoadInterleaved2(tag, from, x[0], x[1]);
-    }
-}
-
 /// Points one vector at a time. The arithmetic is the quantizer's, operation for operation.
 template <std::size_t d, class D>
 class BinsOfPoints {
@@ -43,7 +34,11 @@ public:
         const D tag;
         const I integers;
         V x[d];
-        load_points(tag, from, x);
+        if constexpr (d == 3) {
+            hn::LoadInterleaved3(tag, from, x[0], x[1], x[2]);
+        } else {
+            hn::LoadInterleaved2(tag, from, x[0], x[1]);
+        }
         auto in_box = hn::MaskFromVec(hn::Zero(tag));
         for (std::size_t k = 0; k < d; ++k) {
             const V zero = x[k] - x[k];  // of finite numbers alone
@@ -96,7 +91,6 @@ private:
 template <std::size_t d>
 bool find_bins_of(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points,
                   std::uint32_t* bin) {
-    const hn::CappedTag<double, 8> tag;
     constexpr std::size_t width = hn::MaxLanes(hn::CappedTag<double, 8>());
     BinsOfPoints<d, hn::CappedTag<double, 8>> bins(index, occupancy);
     const std::size_t count = points.size() / d;
@@ -109,7 +103,6 @@ bool find_bins_of(const CellIndex& index, const Occupancy* occupancy, std::span<
         bins.find(rest, found);
         std::copy(found, found + (count - at), bin + at);
     }
-    static_cast<void>(tag);
     return bins.all_finite();
 }
 
@@ -186,7 +179,6 @@ template <Simplex s, bool fetch, class D>
 HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, const PointRecord* points,
                      const Walk* walks, StepTargets& to) {
     using V = hn::Vec<D>;
-    constexpr std::size_t width = hn::MaxLanes(D());
     constexpr int n = vertex_count(s), d = space_dimension(s);
     const hn::RebindToUnsigned<D> bits;
     const auto walk = hn::LoadU(bits, reinterpret_cast<const std::uint64_t*>(walks));
@@ -242,7 +234,6 @@ HWY_INLINE void step(D tag, const CellRecord* cells, const NodeRecord* nodes, co
         const auto outside = hn::IfThenElseZero(beyond, hn::Set(bits, 0xffffffff00000000U));
         append(bits, hn::Xor(walk, outside), others, *to.stuck);
     }
-    static_cast<void>(width);
 }
 
 /// How many vectors ahead the nodes of cells are asked for.

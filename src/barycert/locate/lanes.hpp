@@ -1,7 +1,6 @@
 /// Many points at once, on SIMD lanes: their bins, the cells whose boxes hold them, steps of their walks.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

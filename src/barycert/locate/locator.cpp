@@ -78,7 +78,6 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
     LocationCounts all;
     struct Worker {
         const locate::CellIndex& index;
-        const locate::Pool<std::vector<Location>>& pool;
         std::unique_ptr<std::vector<Location>> found;
 
         void operator()(const locate::PointRecord* records, std::size_t n, const locate::Place* owner,
@@ -89,7 +88,7 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
         }
     };
     const auto make = [&](std::size_t, std::size_t size) {
-        Worker worker{data_->index, data_->locations, data_->locations.take()};
+        Worker worker{data_->index, data_->locations.take()};
         worker.found->resize(std::max(worker.found->size(), size + 1));
         return worker;
     };  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): a unique_ptr owns it
@@ -160,9 +159,7 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
                                 });
             }
             parts[b].ways.no_cell_near += sorted.left_out();
-            std::sort(found[b].begin(), found[b].end(), [](const Found& x, const Found& y) {
-                return std::pair(x.point, x.cell) < std::pair(y.point, y.cell);
-            });
+            std::ranges::sort(found[b], {}, [](const Found& f) { return std::pair(f.point, f.cell); });
         });
     });
     Table table;

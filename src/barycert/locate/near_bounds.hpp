@@ -20,25 +20,18 @@
 #include <cstddef>
 #include <limits>
 
+#include "barycert/base/vectors.hpp"
 #include "barycert/locate/near_feature.hpp"
 
 namespace barycert::locate {
 
 using Real = long double;
-using Real3 = std::array<Real, 3>;
+using Real3 = base::Vector3<Real>;
+using base::dot;
 
 inline Real3 minus(const Point3& x, const Point3& y) {
     return {static_cast<Real>(x[0]) - y[0], static_cast<Real>(x[1]) - y[1], static_cast<Real>(x[2]) - y[2]};
 }
-inline Real dot(const Real3& x, const Real3& y) {
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-
-struct Estimate {
-    Real value = 0, error = 0;
-    Real low() const { return value - error; }
-    Real high() const { return value + error; }
-};
 
 inline constexpr Real roundings = 16 * 0x1p-52L;
 /// More than what vanishes in a few products. Not the least subnormal, with which processors are a hundred times
@@ -46,16 +39,15 @@ inline constexpr Real roundings = 16 * 0x1p-52L;
 inline constexpr Real min = std::numeric_limits<Real>::min();
 
 /// A sum of products of two factors an axis, each with its size.
-class Products {
-public:
-    void add(Real x, Real size_x, Real y, Real size_y) {
-        sum_.value += x * y;
-        if (size_x > 0) sum_.error += size_x * size_y * roundings + min;
-    }
-    Estimate sum() const { return sum_; }
+struct Estimate {
+    Real value = 0, error = 0;
 
-private:
-    Estimate sum_;
+    void add(Real x, Real size_x, Real y, Real size_y) {
+        value += x * y;
+        if (size_x > 0) error += size_x * size_y * roundings + min;
+    }
+    Real low() const { return value - error; }
+    Real high() const { return value + error; }
 };
 
 constexpr Real magnitude(Real x) {
@@ -82,13 +74,13 @@ struct NearPlace {
 /// |p - x|^2 - |p - o|^2, of the places as they are: corner plus offset, exactly. Zero without error if they are the
 /// same corner.
 inline Estimate farther(const NearPlace& x, const NearPlace& o) {
-    Products sum;
+    Estimate sum;
     for (std::size_t k = 0; k < 3; ++k) {
         const Real d = static_cast<Real>(x.corner[k]) - o.corner[k];
         sum.add(d + (x.offset[k] - o.offset[k]), magnitude(d) + magnitude(x.offset[k]) + magnitude(o.offset[k]),
                 x.away[k] + o.away[k], x.reach[k] + o.reach[k]);
     }
-    return sum.sum();
+    return sum;
 }
 
 /// A place near the projection of p on a feature, and how far the two squares of distances can differ.
@@ -191,13 +183,13 @@ inline NearGuess guess_nearest(const NearCell& cell, const Point3& p) {
     const Guess found(cell, p);
     NearGuess guess{found.mask, NearPlace(p, cell.at[found.corner], found.offset), 0};
     for (std::size_t i = 0; i < static_cast<std::size_t>(cell.count); ++i) {
-        Products sum;  // y.(x - place)
+        Estimate sum;  // y.(x - place)
         for (std::size_t k = 0; k < 3; ++k) {
             const Real d = static_cast<Real>(cell.at[i][k]) - guess.place.corner[k];
             sum.add(guess.place.offset[k] - d, magnitude(d) + magnitude(guess.place.offset[k]), guess.place.away[k],
                     guess.place.reach[k]);
         }
-        const Real max = sum.sum().high();
+        const Real max = sum.high();
         if (!(max <= 0)) guess.gap = std::max(guess.gap, 2 * max);
         if (std::isnan(max)) guess.gap = max;
     }

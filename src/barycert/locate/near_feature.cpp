@@ -5,9 +5,9 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/exact_tier.hpp"
@@ -200,11 +200,7 @@ double distance_to(const Point3& p, const NearFeature& f) {
     // floor(numerator 4^shift / denominator) has 124 to 126 bits, its root 62 or 63. What was cut off, of either, is
     // one more bit at the end that is not zero: it decides ties, and nothing else.
     const int excess = bits_of(s.numerator) - bits_of(s.denominator), shift = (125 - excess) >> 1;
-    if (shift >= 0) {
-        s.numerator <<= static_cast<unsigned>(2 * shift);
-    } else {
-        s.denominator <<= static_cast<unsigned>(-2 * shift);
-    }
+    (shift >= 0 ? s.numerator : s.denominator) <<= static_cast<unsigned>(2 * std::abs(shift));
     Number quotient, rest;
     divide_qr(s.numerator, s.denominator, quotient, rest);
     const auto low = static_cast<std::uint64_t>(quotient & ~std::uint64_t{0});

@@ -21,12 +21,7 @@ namespace locate {
 namespace {
 
 Box box_of_cell(const CellIndex& index, std::size_t cell) {
-    Box box = empty_box;
-    for (std::size_t i = 0; i < index.corners(); ++i) {
-        const auto& at = index.nodes[static_cast<std::size_t>(index.cells[cell].node[i])].at;
-        box.add({at, at});
-    }
-    return box;
+    return box_of(3, index.corner_points(static_cast<Place>(cell)).data(), static_cast<int>(index.corners()));
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

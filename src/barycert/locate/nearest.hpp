@@ -1,7 +1,6 @@
 /// The nearest point of a mesh: boxes of cells to find it from anywhere, and the search, with its work counted.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

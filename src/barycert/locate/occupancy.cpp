@@ -130,12 +130,12 @@ public:
         : index_(index),
           with_facets_(with_facets),
           words_(words),
-          words_a_row_(std::size_t{1} << (bits[0] - Occupancy::word_bits)) {
+          words_a_row_(std::size_t{1} << (bits[0] - Occupancy::word_bits)),
+          bits_(bits) {
         for (std::size_t k = 0; k < d; ++k) {
             unit_[k] = std::ldexp(1.0, bits[k] - Quantizer::bits);
             bins_[k] = 1 << bits[k];
         }
-        bits_ = bits;
     }
 
     void add(std::size_t place) {
@@ -198,17 +198,14 @@ void mark(const CellIndex& index, const std::array<int, 3>& bits, bool with_face
 /// The share of the box that a cell fills.
 template <std::size_t d>
 double share(const CellIndex& index, std::size_t place) {
-    std::array<std::array<double, d>, d + 1> v;
-    for (std::size_t i = 0; i <= d; ++i) {
+    const auto coordinate = [&](std::size_t i, std::size_t k) {
         const auto& at = index.nodes[static_cast<std::size_t>(index.cells[place].node[i])].at;
-        for (std::size_t k = 0; k < d; ++k)
-            v[i][k] = index.bins.quantizer().before_rounding(k, at[k]) / static_cast<double>(Quantizer::max);
-    }
-    for (std::size_t i = 1; i <= d; ++i) {
-        for (std::size_t k = 0; k < d; ++k) v[i][k] -= v[0][k];
-    }
+        return index.bins.quantizer().before_rounding(k, at[k]) / static_cast<double>(Quantizer::max);
+    };
     double edges[d][d];
-    for (std::size_t i = 0; i < d; ++i) std::copy(v[i + 1].begin(), v[i + 1].end(), edges[i]);
+    for (std::size_t i = 0; i < d; ++i) {
+        for (std::size_t k = 0; k < d; ++k) edges[i][k] = coordinate(i + 1, k) - coordinate(0, k);
+    }
     return std::abs(formulas::determinant(edges)) / (d == 2 ? 2 : 6);
 }
 

@@ -1,6 +1,5 @@
 // One point: a walk without the buffers of many.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -138,7 +137,7 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     };
     locate::PointRecord record{};
     for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
-    locate::Place stuck = 0;
+    locate::Place stuck = -1;
     if (data.method == Method::walk) {
         const locate::End end = d == 2 ? locate::walk_and_note<Simplex::triangle>(data, point, hint)
                                        : locate::walk_and_note<Simplex::tetrahedron>(data, point, hint);
@@ -158,12 +157,7 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     locate::Finder finder(data, index.nodes.data(), 1);
     locate::Place owner = -1;
     Feature feature = Feature::outside;
-    LocationCounts ignored;
-    if (data.method == Method::walk) {
-        finder.settle(record, stuck, owner, feature);
-    } else {
-        finder.find(&record, 1, &owner, &feature, ignored);
-    }
+    finder.settle(record, stuck, owner, feature);
     return location(owner, feature);
 }
 

@@ -4,11 +4,6 @@
 #include <utility>
 
 namespace barycert::locate {
-namespace {
-
-constexpr int max_bits = 12;
-
-}  // namespace
 
 bool SortedPoints::sort(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points) {
     points_ = points;
@@ -18,6 +13,7 @@ bool SortedPoints::sort(const CellIndex& index, const Occupancy* occupancy, std:
         place_ = Buffer<std::uint32_t>(count_);
         order_ = Buffer<Entry>(count_ + 1);
     }
+    constexpr int max_bits = 12;
     const int shift = std::max(0, index.bins.bits() - max_bits);
     // The last one is for points that are left out.
     const auto last = static_cast<std::uint32_t>(index.bins.count() >> shift);

@@ -35,10 +35,8 @@ struct SortedCell {
 /// f(cell, its corners sorted) for every cell that is asked for, on all threads.
 template <class F>
 void for_each_cell(const Mesh& mesh, std::span<const std::uint8_t> use, F&& f) {
-    base::parallel_for(mesh.cell_count(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t cell = begin; cell != end; ++cell) {
-            if (use.empty() || use[cell] != 0) f(cell, SortedCell(&mesh.cells[cell * mesh.corners()], mesh.corners()));
-        }
+    base::parallel_for_each(mesh.cell_count(), 4096, [&](std::size_t cell) {
+        if (use.empty() || use[cell] != 0) f(cell, SortedCell(&mesh.cells[cell * mesh.corners()], mesh.corners()));
     });
 }
 
@@ -77,13 +75,9 @@ FacetTable::FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use) {
             *at_second = {n[2], n[3], index, corner[0]};
         }
     });
-    base::parallel_for(node_count(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t node = begin; node != end; ++node) {
-            std::sort(facets_.data() + begin_[node], facets_.data() + begin_[node + 1],
-                      [](const CellFacet& a, const CellFacet& b) {
-                          return std::tuple(a.key(), a.cell, a.corner) < std::tuple(b.key(), b.cell, b.corner);
-                      });
-        }
+    base::parallel_for_each(node_count(), 1024, [&](std::size_t node) {
+        const std::span list(facets_.data() + begin_[node], facets_.data() + begin_[node + 1]);
+        std::ranges::sort(list, {}, [](const CellFacet& f) { return std::tuple(f.key(), f.cell, f.corner); });
     });
 }
 

@@ -33,22 +33,6 @@ const char* fault_of_fields(const std::vector<Field>& fields, std::size_t rows, 
     return nullptr;
 }
 
-const char* fault_of_cells(const Mesh& mesh) {
-    if (mesh.cells.size() % mesh.corners() != 0)
-        return "the number of vertex indices is not a multiple of the vertices of a cell";
-    if (!all_within(mesh.cells, 0, mesh.point_count())) return "a vertex of a cell is not a node";
-    if (!fits(mesh.neighbours, mesh.cells.size())) return "the neighbours do not match the cells";
-    if (!all_within(mesh.neighbours, -1, mesh.cell_count())) return "a neighbour is not a cell";
-    return nullptr;
-}
-
-const char* fault_of_faces(const Mesh& mesh) {
-    if (mesh.dimension == 2 && !mesh.faces.empty()) return faces_of_triangles;
-    if (mesh.faces.size() % 3 != 0) return "the number of face indices is not a multiple of 3";
-    if (!all_within(mesh.faces, 0, mesh.point_count())) return "a vertex of a face is not a node";
-    return nullptr;
-}
-
 }  // namespace
 
 const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
@@ -73,8 +57,14 @@ const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values) {
     if (std::max(mesh.point_count(), mesh.cell_count()) > INT32_MAX)
         return "it has more than 2147483647 nodes or cells";
     if (!base::all_finite(mesh.points)) return "a coordinate is not finite";
-    if (const char* fault = fault_of_cells(mesh); fault != nullptr) return fault;
-    if (const char* fault = fault_of_faces(mesh); fault != nullptr) return fault;
+    if (mesh.cells.size() % mesh.corners() != 0)
+        return "the number of vertex indices is not a multiple of the vertices of a cell";
+    if (!all_within(mesh.cells, 0, mesh.point_count())) return "a vertex of a cell is not a node";
+    if (!fits(mesh.neighbours, mesh.cells.size())) return "the neighbours do not match the cells";
+    if (!all_within(mesh.neighbours, -1, mesh.cell_count())) return "a neighbour is not a cell";
+    if (mesh.dimension == 2 && !mesh.faces.empty()) return faces_of_triangles;
+    if (mesh.faces.size() % 3 != 0) return "the number of face indices is not a multiple of 3";
+    if (!all_within(mesh.faces, 0, mesh.point_count())) return "a vertex of a face is not a node";
     return inconsistency_of_extras(mesh, values);
 }
 

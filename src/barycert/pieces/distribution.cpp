@@ -4,18 +4,42 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <utility>
-
-#include "barycert/base/finite.hpp"
 
 namespace barycert::pieces {
 
-static constexpr std::size_t fine = 64;  ///< boxes of a piece that is asked much
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ArrayKind, name, named, type, type_name, components, role, component_names)
+
+namespace {
+
+constexpr std::size_t fine = 64;  ///< boxes of a piece that is asked much
+
+const ArrayKind* find(const std::vector<ArrayKind>& kinds, const ArrayKind& like) {
+    for (const ArrayKind& kind : kinds)
+        if (kind.named == like.named && (kind.named ? kind.name == like.name : kind.role == like.role)) return &kind;
+    return nullptr;
+}
+
+// What differs; empty if nothing does.
+std::string difference(const std::vector<ArrayKind>& mine, const std::vector<ArrayKind>& theirs) {
+    for (const ArrayKind& kind : theirs) {
+        const ArrayKind* const own = find(mine, kind);
+        if (own == nullptr) return kind.text() + " is missing here";
+        if (own->type != kind.type || own->components != kind.components)
+            return kind.text() + " is here " + own->text();
+    }
+    for (const ArrayKind& kind : mine)
+        if (find(theirs, kind) == nullptr) return kind.text() + " is here only";
+    return {};
+}
+
+}  // namespace
 
 Box Distribution::box_at(std::size_t point) const {
     std::array<double, 3> x{};
     points_.at(point, x.data());
-    return base::all_finite(x) ? Box{x, x} : empty_box;
+    return all_finite(x) ? Box{x, x} : empty_box;
 }
 
 Status Distribution::gather() {
@@ -118,7 +142,6 @@ Status Distribution::ask() {
     Parcels<double> coordinates;
     Status room = exchange_.everywhere([&] { choose_points(coordinates); });
     if (!room) return room;
-    sent_ = coordinates.values.size() / 3;
     return exchange_.swap(coordinates, received_);
 }
 
@@ -174,6 +197,31 @@ void Distribution::merge(Tuples& tuples, char* valid) {
             bytes = tuples.take(asked[i], bytes + sizeof its.first, better);
         }
     }
+}
+
+std::string ArrayKind::text() const {
+    return (named ? "the array " + name : std::string("an array without a name")) + " of " +
+           std::to_string(components) + (components == 1 ? " " : " times ") + type_name;
+}
+
+Status agree_on_arrays(Exchange& exchange, bool has_cells, std::vector<ArrayKind>& kinds) {
+    double lowest = has_cells ? exchange.rank() : exchange.size();
+    exchange.least({&lowest, 1});
+    const int from = lowest < exchange.size() ? static_cast<int>(lowest) : 0;
+    std::vector<unsigned char> bytes;
+    Status read = exchange.everywhere([&] {
+        if (exchange.rank() == from) bytes = nlohmann::json::to_cbor(kinds);
+    });
+    if (!read) return read;
+    if (Status done = exchange.broadcast(bytes, from); !done) return done;
+    return exchange.everywhere([&]() -> Status {
+        auto theirs = exchange.size() == 1 ? kinds : nlohmann::json::from_cbor(bytes).get<std::vector<ArrayKind>>();
+        if (std::string differs = has_cells ? difference(kinds, theirs) : std::string(); !differs.empty())
+            return Error{.what =
+                             "the source has other arrays than that of rank " + std::to_string(from) + ": " + differs};
+        kinds = std::move(theirs);
+        return Done{};
+    });
 }
 
 }  // namespace barycert::pieces

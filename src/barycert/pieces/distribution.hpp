@@ -18,8 +18,7 @@ struct Points {
     std::function<void(std::size_t, double*)> at;  ///< sets the three coordinates of a point; they need not be finite
 };
 
-/// What an engine has of each point, as bytes: those of this rank's points first, then those of the points that it is
-/// asked for.
+/// What an engine has of each point, as bytes: of this rank's points first, then of those that it is asked for.
 class Tuples {
 public:
     virtual ~Tuples() = default;
@@ -52,7 +51,7 @@ public:
     void merge(Tuples& tuples, char* valid);
 
     int ranks_with_cells() const { return ranks_with_cells_; }
-    std::uint64_t points_sent() const { return sent_; }
+    std::uint64_t points_sent() const { return asked_.values.size(); }
     std::uint64_t points_received() const { return received_.begin.back() / 3; }
 
 private:
@@ -84,7 +83,6 @@ private:
     Parcels<double> received_;
     Parcels<char> answered_;
     std::vector<Owner> best_;  ///< of each of this rank's points
-    std::uint64_t sent_ = 0;
 };
 
 // The arrays that ranks have at points, and what all of them have.

@@ -50,19 +50,6 @@ void Exchange::set_partners(std::vector<int> ranks) {
     std::sort(partners_.begin(), partners_.end(), [this](int a, int b) { return (a ^ rank()) < (b ^ rank()); });
 }
 
-Status Exchange::swap_sizes(std::span<const std::size_t> begin, std::vector<std::uint64_t>& sizes) {
-    std::vector<std::uint64_t> mine;
-    std::vector<std::size_t> each;
-    Status room = everywhere([&] {
-        sizes.resize(partners_.size());
-        for (std::size_t k = 0; k <= partners_.size(); ++k) each.push_back(k);
-        for (std::size_t k = 0; k < partners_.size(); ++k) mine.push_back(begin[k + 1] - begin[k]);
-    });
-    if (!room) return room;
-    return agree(swap_bytes(std::as_bytes(std::span(mine)), each, std::as_writable_bytes(std::span(sizes)), each,
-                            sizeof(std::uint64_t)));
-}
-
 Status Exchange::swap_bytes(std::span<const std::byte> out, std::span<const std::size_t> out_begin,
                             std::span<std::byte> in, std::span<const std::size_t> in_begin, std::size_t width) {
     bool went_well = true;

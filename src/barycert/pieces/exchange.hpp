@@ -104,11 +104,20 @@ public:
     template <class T>
     Status swap(const Parcels<T>& out, Parcels<T>& in, bool sizes_known = false) {
         if (!sizes_known) {
-            std::vector<std::uint64_t> sizes;
-            if (Status done = swap_sizes(out.begin, sizes); !done) return done;
+            Parcels<std::uint64_t> mine{{}, {}}, theirs{{}, {}};  // memory is taken in `everywhere` alone
             Status room = everywhere([&] {
+                mine.close();
+                for (std::size_t k = 0; k < partners_.size(); ++k) {
+                    mine.values.push_back(out.size(k));
+                    mine.close();
+                }
+                theirs = mine;
+            });
+            if (!room) return room;
+            if (Status done = swap(mine, theirs, true); !done) return done;
+            room = everywhere([&] {
                 in.begin.assign(1, 0);
-                for (const std::uint64_t size : sizes) in.begin.push_back(in.begin.back() + size);
+                for (const std::uint64_t size : theirs.values) in.begin.push_back(in.begin.back() + size);
                 in.values.resize(in.begin.back());
             });
             if (!room) return room;
@@ -122,7 +131,6 @@ public:
     std::uint64_t gathered() const { return gathered_; }
 
 private:
-    Status swap_sizes(std::span<const std::size_t> begin, std::vector<std::uint64_t>& sizes);
     Status swap_bytes(std::span<const std::byte> out, std::span<const std::size_t> out_begin, std::span<std::byte> in,
                       std::span<const std::size_t> in_begin, std::size_t width);
 

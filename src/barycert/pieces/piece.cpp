@@ -8,14 +8,11 @@
 #include <span>
 #include <utility>
 
-#include "barycert/base/finite.hpp"
-#include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::pieces {
-
 namespace {
 
 constexpr std::size_t side = 16;  ///< of the cube of bins
@@ -61,6 +58,42 @@ void halve(std::vector<Box>::iterator begin, std::vector<Box>::iterator end, std
                      [&](const Box& a, const Box& b) { return middle(a, widest) < middle(b, widest); });
     halve(begin, between, left, all);
     halve(between, end, most - left, all);
+}
+
+std::span<const Mesh::Index> corners_of(const IndexedPiece& piece, Mesh::Index cell) {
+    const std::size_t n = piece.mesh.corners();
+    return {piece.mesh.cells.data() + n * static_cast<std::size_t>(cell), n};
+}
+
+// Sets point and weights from the nodes whose hull has the nearest point in it.
+void project_on(const IndexedPiece& piece, const Nearest& nearest, const double* x, Closest& found) {
+    std::array<double, 9> vertices{};
+    int count = 0;
+    for (; count < 3 && nearest.nodes[static_cast<std::size_t>(count)] >= 0; ++count)
+        piece.place(piece.node(nearest.nodes[static_cast<std::size_t>(count)]), vertices.data() + 3 * count);
+    std::array<double, 4> weights{1};
+    std::copy_n(vertices.begin(), 3, found.point.begin());
+    if (count > 1) {
+        const Simplex simplex = count == 2 ? Simplex::segment : Simplex::triangle3d;
+        if (const Result<Weights> w = barycentric_weights(simplex, vertices.data(), x)) weights = w->weights;
+        std::array<double, 3> point{};
+        if (point_from_weights(simplex, vertices.data(), weights.data(), point.data())) found.point = point;
+    }
+    const std::span<const Mesh::Index> corners = corners_of(piece, found.cell);
+    for (int k = 0; k < count; ++k) {
+        const auto at = std::find(corners.begin(), corners.end(), nearest.nodes[static_cast<std::size_t>(k)]);
+        if (at != corners.end())
+            found.weights[static_cast<std::size_t>(at - corners.begin())] = weights[static_cast<std::size_t>(k)];
+    }
+}
+
+// The edge of a square or cube that would hold about 8 cells if they were spread over the box of the mesh.
+double size_of_some_cells(const Mesh& mesh) {
+    const Bounds3 box = bounds_of_cells(mesh);
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    double size = 8 / static_cast<double>(mesh.cell_count());
+    for (std::size_t a = 0; a < d; ++a) size *= box.high[a] - box.low[a];
+    return std::pow(size, 1.0 / mesh.dimension);
 }
 
 }  // namespace
@@ -132,15 +165,11 @@ Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine) {
     // Greatest is least with the other sign.
     const auto lacks_numbers = [&](int d) { return mine.dimension == d && !mine.numbered ? -1.0 : 0.0; };
     const auto& [low, high] = mine.triangles;
-    std::array<double, 9> facts{static_cast<double>(-mine.dimension),
-                                lacks_numbers(2),
-                                lacks_numbers(3),
-                                low[0],
-                                low[1],
-                                low[2],
-                                -high[0],
-                                -high[1],
-                                -high[2]};
+    std::array<double, 9> facts{static_cast<double>(-mine.dimension), lacks_numbers(2), lacks_numbers(3)};
+    for (std::size_t a = 0; a < 3; ++a) {
+        facts[3 + a] = low[a];
+        facts[6 + a] = -high[a];
+    }
     exchange.least(facts);
     const int highest = -static_cast<int>(facts[0]);
     if (highest == 0 || highest == 1) return Error{.what = "it has neither tetrahedra nor triangles"};
@@ -154,46 +183,6 @@ Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine) {
     return shape;
 }
 
-namespace {
-
-std::span<const Mesh::Index> corners_of(const IndexedPiece& piece, Mesh::Index cell) {
-    const std::size_t n = piece.mesh.corners();
-    return {piece.mesh.cells.data() + n * static_cast<std::size_t>(cell), n};
-}
-
-// Sets point and weights from the nodes whose hull has the nearest point in it.
-void project_on(const IndexedPiece& piece, const Nearest& nearest, const double* x, Closest& found) {
-    std::array<double, 9> vertices{};
-    int count = 0;
-    for (; count < 3 && nearest.nodes[static_cast<std::size_t>(count)] >= 0; ++count)
-        piece.place(piece.node(nearest.nodes[static_cast<std::size_t>(count)]), vertices.data() + 3 * count);
-    std::array<double, 4> weights{1};
-    std::copy_n(vertices.begin(), 3, found.point.begin());
-    if (count > 1) {
-        const Simplex simplex = count == 2 ? Simplex::segment : Simplex::triangle3d;
-        if (const Result<Weights> w = barycentric_weights(simplex, vertices.data(), x)) weights = w->weights;
-        std::array<double, 3> point{};
-        if (point_from_weights(simplex, vertices.data(), weights.data(), point.data())) found.point = point;
-    }
-    const std::span<const Mesh::Index> corners = corners_of(piece, found.cell);
-    for (int k = 0; k < count; ++k) {
-        const auto at = std::find(corners.begin(), corners.end(), nearest.nodes[static_cast<std::size_t>(k)]);
-        if (at != corners.end())
-            found.weights[static_cast<std::size_t>(at - corners.begin())] = weights[static_cast<std::size_t>(k)];
-    }
-}
-
-// The edge of a square or cube that would hold about 8 cells if they were spread over the box of the mesh.
-double size_of_some_cells(const Mesh& mesh) {
-    const Bounds3 box = bounds_of_cells(mesh);
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    double size = 8 / static_cast<double>(mesh.cell_count());
-    for (std::size_t a = 0; a < d; ++a) size *= box.high[a] - box.low[a];
-    return std::pow(size, 1.0 / mesh.dimension);
-}
-
-}  // namespace
-
 Status IndexedPiece::build() {
     Result<Locator> made = Locator::build(mesh);
     if (!made) return made.error();
@@ -204,7 +193,7 @@ Status IndexedPiece::build() {
 
 Mesh::Index IndexedPiece::owner(const double* x) const {
     std::array<double, 3> point{};
-    if (!locator || !base::all_finite({x, 3}) || !project(x, point.data())) return -1;
+    if (!locator || !all_finite({x, 3}) || !project(x, point.data())) return -1;
     // Where points come one near the other, the last cell saves most of the search; elsewhere it lengthens it. The
     // answer does not depend on it.
     struct Last {
@@ -233,14 +222,14 @@ std::array<double, 4> IndexedPiece::weights(Mesh::Index cell, const double* poin
 Closest IndexedPiece::closest(const double* x, double limit) const {
     const ExactEnvironment environment;
     Closest found;
-    if (!locator || !base::all_finite({x, 3})) return found;
+    if (!locator || !all_finite({x, 3})) return found;
     std::array<double, 3> point{};
     const bool flat = mesh.dimension == 2;
     const bool in_plane = project(x, point.data());
     const Result<Nearest> nearest =
         locator->nearest(point.data(), flat ? std::numeric_limits<double>::infinity() : limit);
     if (!nearest || nearest->cell < 0) return found;
-    const double distance = in_plane ? nearest->distance : std::hypot(nearest->distance, base::held(x[normal]) - plane);
+    const double distance = in_plane ? nearest->distance : std::hypot(nearest->distance, held(x[normal]) - plane);
     if (!(distance <= limit)) return found;
     found.cell = nearest->cell;
     found.distance = distance;

@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "barycert/base/finite.hpp"
+#include "barycert/base/strict_math.hpp"
 #include "barycert/index/box_tree.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
@@ -15,6 +17,8 @@
 
 namespace barycert::pieces {
 
+using base::all_finite;
+using base::held;
 using index::Box;
 using index::empty_box;
 
@@ -77,8 +81,7 @@ struct IndexedPiece : Piece {
     Simplex simplex() const { return mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron; }
     /// The owner of a point in space; -1: outside, or a coordinate is not finite.
     Mesh::Index owner(const double* x) const;
-    /// Correctly rounded weights, in a cell that is not degenerate, of a point on the axes of the mesh. Requires finite
-    /// coordinates.
+    /// Correctly rounded weights, in a cell that is not degenerate, of a finite point on the axes of the mesh.
     std::array<double, 4> weights(Mesh::Index cell, const double* point) const;
     /// The point of the cells that is nearest to one in space; none if a coordinate is not finite.
     Closest closest(const double* x, double limit) const;

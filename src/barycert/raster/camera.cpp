@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 
 #include "barycert/base/finite.hpp"
@@ -22,8 +23,10 @@ Error no_camera(const std::string& what, const std::string& expected, const std:
     return {.what = what, .expected = expected, .found = found, .remedy = "choose other numbers"};
 }
 
-std::string text_of(const Vector3& v) {
-    return base::shortest(v[0]) + ", " + base::shortest(v[1]) + ", " + base::shortest(v[2]);
+std::string text_of(std::span<const double> numbers) {
+    std::string text;
+    for (const double x : numbers) text += (text.empty() ? "" : ", ") + base::shortest(x);
+    return text;
 }
 
 /// The direction of v with length 1, whatever its length was; nothing if it is zero or not finite.
@@ -115,11 +118,8 @@ Result<Matrix4> perspective(double fovy, double aspect, double near, double far)
 Result<Matrix4> orthographic(double left, double right, double bottom, double top, double near, double far) {
     const ExactEnvironment environment;
     const std::array<double, 6> all{left, right, bottom, top, near, far};
-    if (!base::all_finite(all) || left == right || bottom == top || near == far) {
-        std::string found;
-        for (const double x : all) found += (found.empty() ? "" : ", ") + base::shortest(x);
-        return no_camera("the box of sight", "three pairs of different finite numbers", found);
-    }
+    if (!base::all_finite(all) || left == right || bottom == top || near == far)
+        return no_camera("the box of sight", "three pairs of different finite numbers", text_of(all));
     const double width = right - left, height = top - bottom, depth = far - near;
     Matrix4 m;
     m.m = {2 / width, 0, 0,          -(right + left) / width, 0, 2 / height, 0, -(top + bottom) / height,

@@ -37,44 +37,37 @@ Status check(const Segment& s) {
 }
 
 /// What is left of a segment, exactly: each end is as given, or where a form is zero.
-class SegmentClipper {
-public:
-    explicit SegmentClipper(const Segment& s) : segment_(s) {}
+struct SegmentClipper {
+    using End = std::optional<ExactPoint>;
+
+    const Segment& segment;
+    End a = {}, b = {};
+    bool empty = false;
 
     /// Takes off what lies where the form is negative.
     void clip(const Form& form) {
-        if (empty_) return;
-        const int at_a = sign(a_, 0, form), at_b = sign(b_, 1, form);
-        empty_ = at_a < 0 && at_b < 0;
-        if (empty_ || (at_a >= 0 && at_b >= 0)) return;
-        (at_a < 0 ? a_ : b_) = zero_on_segment(form);
+        if (empty) return;
+        const auto sign = [&](const End& end, std::size_t i) { return end ? sign_at(form, *end) : form[i].sign(); };
+        const int at_a = sign(a, 0), at_b = sign(b, 1);
+        empty = at_a < 0 && at_b < 0;
+        if (empty || (at_a >= 0 && at_b >= 0)) return;
+        (at_a < 0 ? a : b) = zero_on_segment(form);
     }
 
     ClippedSegment result() const {
-        if (empty_) return {};
-        return {false, a_.has_value(), b_.has_value(), row(a_, segment_.a), row(b_, segment_.b)};
-    }
-
-private:
-    using End = std::optional<ExactPoint>;
-
-    static int sign(const End& end, std::size_t original, const Form& form) {
-        return end ? sign_at(form, *end, 2) : form[original].sign();
+        if (empty) return {};
+        return {false, a.has_value(), b.has_value(), row(a, segment.a), row(b, segment.b)};
     }
 
     std::vector<double> row(const End& end, std::span<const double> original) const {
         std::vector<double> numbers(original.begin(), original.end());
         if (!end) return numbers;
         for (std::size_t k = 0; k < numbers.size(); ++k) {
-            const double ends[2] = {segment_.a[k], segment_.b[k]};
+            const double ends[2] = {segment.a[k], segment.b[k]};
             numbers[k] = value_at(*end, ends, 1, 2);
         }
         return numbers;
     }
-
-    const Segment& segment_;
-    End a_, b_;
-    bool empty_ = false;
 };
 
 /// normal . x + offset at both ends, in one unit.
@@ -108,27 +101,24 @@ Error bad_bound(const std::string& what, const std::string& expected, double fou
 
 namespace barycert {
 
-using raster::Segment;
-using raster::SegmentClipper;
-
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound) {
-    const Segment segment{dimension, a, b};
+    const raster::Segment segment{dimension, a, b};
     if (Status good = raster::check(segment); !good) return good.error();
     for (std::size_t k = 0; k <= static_cast<std::size_t>(dimension); ++k) {
         const double x = k < static_cast<std::size_t>(dimension) ? bound.normal[k] : bound.offset;
         if (!std::isfinite(x)) return raster::bad_bound("the half-space", "finite numbers", x);
     }
-    SegmentClipper clipper(segment);
+    raster::SegmentClipper clipper{segment};
     clipper.clip(raster::distance_form(segment, bound));
     return clipper.result();
 }
 
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const ClipBox& box) {
-    const Segment segment{dimension, a, b};
+    const raster::Segment segment{dimension, a, b};
     if (Status good = raster::check(segment); !good) return good.error();
-    SegmentClipper clipper(segment);
+    raster::SegmentClipper clipper{segment};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
         for (const double x : {box.min[k], box.max[k]}) {
             if (std::isnan(x)) return raster::bad_bound("a bound of the box", "a number", x);

@@ -35,7 +35,7 @@ public:
         const Form form = form_of(3 + bound);
         std::vector<int> signs;
         for (const Corner& c : polygon_)
-            signs.push_back(c.vertex < 3 ? side(vertex(c.vertex), bound) : sign_at(form, made(c.vertex), 3));
+            signs.push_back(c.vertex < 3 ? side(vertex(c.vertex), bound) : sign_at(form, made(c.vertex)));
         std::vector<Corner> left;
         // Where the sign changes strictly along an edge, its form and that of the bound differ by more than a factor,
         // so that they have one zero in common.
@@ -117,12 +117,6 @@ Result<Clip> clip_triangle(std::span<const double> vertices, std::vector<double>
     const ExactEnvironment environment;  // for comparisons of subnormal numbers
     if (Status good = check_rows(vertices); !good) return good.error();
     const std::size_t row = vertices.size() / 3;
-    const auto w_is_zero = [&](const std::vector<double>& rows) {
-        for (std::size_t i = 3; i < rows.size(); i += row) {
-            if (rows[i] == 0) return true;
-        }
-        return false;
-    };
     unsigned any = 0, all = (1U << bounds) - 1;
     for (std::size_t i = 0; i < 3; ++i) {
         const unsigned mask = beyond(vertices.data() + row * i);
@@ -141,7 +135,8 @@ Result<Clip> clip_triangle(std::span<const double> vertices, std::vector<double>
         }
         clipper.append_to(polygon);
     }
-    if (w_is_zero(polygon)) {
+    for (std::size_t i = 3; i < polygon.size(); i += row) {
+        if (polygon[i] != 0) continue;
         polygon.clear();
         return Clip::at_eye;
     }

@@ -56,45 +56,6 @@ void divide_by_scale(double* numbers, std::size_t attributes, std::size_t count)
     }
 }
 
-/// The same, each number the exact function of the vertices' window coordinates, w and attributes, rounded once.
-class CorrectAttributes {
-public:
-    CorrectAttributes(const WindowTriangle& t, const Shading& s) : triangle_(t), shading_(s) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            vertices_[3 * i] = t.window[2 * i];
-            vertices_[3 * i + 1] = t.window[2 * i + 1];
-            vertices_[3 * i + 2] = t.w[i];
-        }
-    }
-
-    void operator()(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& out) {
-        const std::size_t n = shading_.components(), count = static_cast<std::size_t>(last - first);
-        depths_.resize(count);
-        depth_.fill(j, first, last, depths_.data());
-        values_.resize(n * count);
-        if (n != 0 && shading_.interpolation == Interpolation::affine) {
-            linear_.fill(j, first, last, values_.data());
-        } else if (n != 0) {
-            // No error can occur: sizes fit, coordinates are finite, w > 0.
-            set_centres(j, first, last, points_);
-            (void)perspective_values(vertices_.data(), points_, triangle_.attributes, static_cast<int>(n), values_);
-        }
-        out.clear();
-        for (std::size_t i = 0; i < count; ++i) {
-            out.push_back(depths_[i]);
-            out.insert(out.end(), values_.data() + n * i, values_.data() + n * (i + 1));
-        }
-    }
-
-private:
-    const WindowTriangle& triangle_;
-    const Shading& shading_;
-    CorrectRows depth_{triangle_.window.data(), triangle_.z, 1};
-    CorrectRows linear_{triangle_.window.data(), triangle_.attributes, static_cast<int>(shading_.components())};
-    std::array<double, 9> vertices_;
-    std::vector<double> points_, depths_, values_;
-};
-
 /// fill(j, first, last, numbers): the depth and the attributes of these pixels of row j, 1 + components numbers each.
 template <class Fill>
 PixelCounts draw_rows(Canvas& canvas, const SortedTriangle& sorted, Fill fill) {
@@ -122,6 +83,39 @@ PixelCounts draw_rows(Canvas& canvas, const SortedTriangle& sorted, Fill fill) {
     return counts;
 }
 
+/// With depths and attributes that are each the exact function of the vertices' window coordinates, w and attributes,
+/// rounded once.
+PixelCounts draw_correct(Canvas& canvas, const SortedTriangle& sorted, const WindowTriangle& t) {
+    const auto components = static_cast<int>(canvas.shading.components());
+    const bool affine = canvas.shading.interpolation == Interpolation::affine;
+    std::array<double, 9> vertices;
+    for (std::size_t i = 0; i < 3; ++i) {
+        vertices[3 * i] = t.window[2 * i];
+        vertices[3 * i + 1] = t.window[2 * i + 1];
+        vertices[3 * i + 2] = t.w[i];
+    }
+    CorrectRows depth{t.window, t.z, 1}, linear{t.window, t.attributes, components};
+    std::vector<double> points, depths, values;
+    return draw_rows(canvas, sorted, [&](std::int32_t j, std::int32_t first, std::int32_t last, auto& out) {
+        const auto n = static_cast<std::size_t>(components), count = static_cast<std::size_t>(last - first);
+        depths.resize(count);
+        depth.fill(j, first, last, depths.data());
+        values.resize(n * count);
+        if (n != 0 && affine) {
+            linear.fill(j, first, last, values.data());
+        } else if (n != 0) {
+            // No error can occur: sizes fit, coordinates are finite, w > 0.
+            set_centres(j, first, last, points);
+            (void)perspective_values(vertices.data(), points, t.attributes, components, values);
+        }
+        out.clear();
+        for (std::size_t i = 0; i < count; ++i) {
+            out.push_back(depths[i]);
+            out.insert(out.end(), values.data() + n * i, values.data() + n * (i + 1));
+        }
+    });
+}
+
 }  // namespace
 
 Rgba Shading::colour(const double* attributes) const {
@@ -138,7 +132,7 @@ Rgba Shading::colour(const double* attributes) const {
 PixelCounts draw_triangle(Canvas& canvas, const WindowTriangle& t) {
     const Shading& s = canvas.shading;
     const SortedTriangle sorted(t.window.data(), canvas.image.height);
-    if (s.rounding == Rounding::correct) return draw_rows(canvas, sorted, CorrectAttributes(t, s));
+    if (s.rounding == Rounding::correct) return draw_correct(canvas, sorted, t);
     const std::vector<double> values = linear_values(t, s);
     const std::size_t linear = values.size() / 3;
     const auto draw = [&](auto rows) {

@@ -21,9 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <span>
-
-#include "barycert/predicates.hpp"
+#include <utility>
 
 namespace barycert::raster {
 
@@ -35,12 +33,9 @@ inline std::int32_t first_centre_above(double x, std::int32_t limit) {
 }
 
 struct Edge {
-    const double* lower = nullptr;
-    const double* upper = nullptr;
-    double slope = 0;
-    double error = 0;  ///< the filter's bound; infinite: always undecided
+    const double *lower, *upper;
+    double slope, error;  ///< error: the filter's bound; infinite: always undecided
 
-    Edge() = default;
     Edge(const double* a, const double* b) : lower(a), upper(b) {
         const double extent =
             std::max(std::max(std::fabs(a[0]), std::fabs(b[0])), std::max(std::fabs(a[1]), std::fabs(b[1])));
@@ -51,12 +46,6 @@ struct Edge {
     /// x(y) - 0.5, up to `error`.
     double position(double y) const { return (lower[0] + (y - lower[1]) * slope) - 0.5; }
 };
-
-/// An Error unless there are three vertices of two finite coordinates each.
-Status check_vertices(std::span<const double> vertices);
-
-/// Whether the centre of pixel (i, j) is not left of the side, exactly.
-bool not_left_of(const Edge& edge, std::int32_t i, std::int32_t j);
 
 /// The crossing where the filter is undecided, by exact signs. `s`: edge.position(j + 0.5).
 std::int32_t exact_crossing(const Edge& edge, std::int32_t j, std::int32_t width, double s);

@@ -17,7 +17,7 @@
 
 namespace barycert::raster {
 
-using Form = std::array<core::Integer, 3>;  ///< of a segment, the first two
+using Form = std::array<core::Integer, 3>;  ///< of a segment, the first two; the third is zero
 
 /// Weight i is numerator[i] / denominator.
 struct ExactPoint {
@@ -34,17 +34,14 @@ Form difference_form(int count, X x, Y y) {
         unit.add(core::scaled(y(i)));
     }
     Form form;
-    for (int i = 0; i < count; ++i) {
-        form[static_cast<std::size_t>(i)] =
-            unit.multiple<core::Integer>(core::scaled(x(i))) - unit.multiple<core::Integer>(core::scaled(y(i)));
-    }
+    const auto multiple = [&](double number) { return unit.multiple<core::Integer>(core::scaled(number)); };
+    for (int i = 0; i < count; ++i) form[static_cast<std::size_t>(i)] = multiple(x(i)) - multiple(y(i));
     return form;
 }
 
-/// Weights in the ratio of these numbers, of `count` vertices.
-inline ExactPoint exact_point(const Form& n, int count) {
-    ExactPoint p{n, n[0] + n[1]};
-    if (count == 3) p.denominator = p.denominator + n[2];
+/// Weights in the ratio of these numbers.
+inline ExactPoint exact_point(const Form& n) {
+    ExactPoint p{n, n[0] + n[1] + n[2]};
     if (p.denominator.sign() >= 0) return p;
     for (core::Integer& x : p.numerator) x = core::Integer() - x;
     p.denominator = core::Integer() - p.denominator;
@@ -54,19 +51,17 @@ inline ExactPoint exact_point(const Form& n, int count) {
 /// The point where h is zero on the segment: h_a W_a + h_b W_b = 0 for W_a : W_b = h_b : -h_a. Precondition: h differs
 /// at its ends.
 inline ExactPoint zero_on_segment(const Form& h) {
-    return exact_point({h[1], core::Integer() - h[0], core::Integer()}, 2);
+    return exact_point({h[1], core::Integer() - h[0], core::Integer()});
 }
 
 /// The point where g and h are zero in the triangle. Precondition: there is exactly one.
 inline ExactPoint zero_in_triangle(const Form& g, const Form& h) {
-    return exact_point({g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0]}, 3);
+    return exact_point({g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0]});
 }
 
 /// The sign of h at the point: -1, 0 or 1.
-inline int sign_at(const Form& h, const ExactPoint& p, int count) {
-    core::Integer sum = h[0] * p.numerator[0] + h[1] * p.numerator[1];
-    if (count == 3) sum = sum + h[2] * p.numerator[2];
-    return sum.sign();
+inline int sign_at(const Form& h, const ExactPoint& p) {
+    return (h[0] * p.numerator[0] + h[1] * p.numerator[1] + h[2] * p.numerator[2]).sign();
 }
 
 /// The number at the point, correctly rounded, of which each vertex has one.

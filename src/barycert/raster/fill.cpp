@@ -10,39 +10,30 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/predicates.hpp"
 #include "barycert/raster/edge.hpp"
 #include "barycert/raster/fill_rows.hpp"
 
 namespace barycert {
 namespace raster {
 
-Status check_vertices(std::span<const double> vertices) {
-    if (vertices.size() != 6)
-        return Error{
-            .what = "number of coordinates of a triangle", .expected = "6", .found = std::to_string(vertices.size())};
-    const std::size_t i = base::first_not_finite(vertices);
-    if (i == vertices.size()) return Done{};
-    return base::not_finite("coordinate " + std::to_string(i % 2) + " of vertex " + std::to_string(i / 2), vertices[i]);
-}
-
-bool not_left_of(const Edge& edge, std::int32_t i, std::int32_t j) {
-    const double centre[2] = {i + 0.5, j + 0.5};
-    return orient2d(edge.lower, edge.upper, centre) != Sign::positive;
-}
-
 std::int32_t exact_crossing(const Edge& edge, std::int32_t j, std::int32_t width, double s) {
+    const auto not_left = [&](std::int32_t i) {
+        const double centre[2] = {i + 0.5, j + 0.5};
+        return orient2d(edge.lower, edge.upper, centre) != Sign::positive;
+    };
     if (edge.error < 0.25) {
         // x(y) - 0.5 is within 0.5 of the integer k: its ceiling is k or k + 1.
         const double k = std::round(s);
         if (k < 0) return 0;
         if (k >= width) return width;
         const auto i = static_cast<std::int32_t>(k);
-        return not_left_of(edge, i, j) ? i : i + 1;
+        return not_left(i) ? i : i + 1;
     }
     std::int32_t low = 0, high = width;  // all columns before `low` are left of the side; `high` is width, or not left
     while (low < high) {
         const std::int32_t middle = low + (high - low) / 2;
-        if (not_left_of(edge, middle, j))
+        if (not_left(middle))
             high = middle;
         else
             low = middle + 1;
@@ -53,6 +44,15 @@ std::int32_t exact_crossing(const Edge& edge, std::int32_t j, std::int32_t width
 namespace {
 
 constexpr std::uint64_t max_bytes = std::uint64_t{8} << 30;
+
+Status check_vertices(std::span<const double> vertices) {
+    if (vertices.size() != 6)
+        return Error{
+            .what = "number of coordinates of a triangle", .expected = "6", .found = std::to_string(vertices.size())};
+    const std::size_t i = base::first_not_finite(vertices);
+    if (i == vertices.size()) return Done{};
+    return base::not_finite("coordinate " + std::to_string(i % 2) + " of vertex " + std::to_string(i / 2), vertices[i]);
+}
 
 Status check_fill(std::span<const double> vertices, std::span<const double> values, const PixelValues& out,
                   const FillOptions& options) {

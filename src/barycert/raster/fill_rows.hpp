@@ -15,82 +15,67 @@
 namespace barycert::raster {
 
 /// Weights at each centre by signed areas: lambda_i = (v_{i+1} - p) x (v_{i+2} - p) / D, D twice the triangle's area.
-class BarycentricRows {
-public:
-    BarycentricRows(const double* vertices, std::span<const double> values, int components)
-        : v_(vertices), values_(values), components_(static_cast<std::size_t>(components)) {
-        area_ = (v_[2] - v_[0]) * (v_[5] - v_[1]) - (v_[4] - v_[0]) * (v_[3] - v_[1]);
-    }
+struct BarycentricRows {
+    const double* v;
+    std::span<const double> values;
+    std::size_t components;
+    double area = (v[2] - v[0]) * (v[5] - v[1]) - (v[4] - v[0]) * (v[3] - v[1]);
 
     void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) const {
-        const double y0 = v_[1] - (j + 0.5), y1 = v_[3] - (j + 0.5), y2 = v_[5] - (j + 0.5);
+        const double y0 = v[1] - (j + 0.5), y1 = v[3] - (j + 0.5), y2 = v[5] - (j + 0.5);
         for (std::int32_t i = first; i < last; ++i) {
-            const double x0 = v_[0] - (i + 0.5), x1 = v_[2] - (i + 0.5), x2 = v_[4] - (i + 0.5);
-            const double w0 = (x1 * y2 - x2 * y1) / area_;
-            const double w1 = (x2 * y0 - x0 * y2) / area_;
-            const double w2 = (x0 * y1 - x1 * y0) / area_;
-            for (std::size_t c = 0; c < components_; ++c)
-                *out++ = w0 * values_[c] + w1 * values_[components_ + c] + w2 * values_[2 * components_ + c];
+            const double x0 = v[0] - (i + 0.5), x1 = v[2] - (i + 0.5), x2 = v[4] - (i + 0.5);
+            const double w0 = (x1 * y2 - x2 * y1) / area;
+            const double w1 = (x2 * y0 - x0 * y2) / area;
+            const double w2 = (x0 * y1 - x1 * y0) / area;
+            for (std::size_t c = 0; c < components; ++c)
+                *out++ = w0 * values[c] + w1 * values[components + c] + w2 * values[2 * components + c];
         }
     }
-
-private:
-    const double* v_;
-    std::span<const double> values_;
-    std::size_t components_;
-    double area_;
 };
 
 /// A side of the triangle with the values at its ends, lower end first.
 struct ValuedEdge {
-    const double *a = nullptr, *b = nullptr;    ///< coordinates
-    const double *fa = nullptr, *fb = nullptr;  ///< values, as many as there are components
+    const double *a, *b;    ///< coordinates
+    const double *fa, *fb;  ///< values, as many as there are components
 };
 
 /// The long side and the two short ones.
 struct ValuedEdges {
     ValuedEdge whole, lower, upper;
-
-    ValuedEdges(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components) {
-        const auto edge = [&](int i, int k) {
-            const double *const a = t.vertex[i], *const b = t.vertex[k];
-            const auto values_of = [&](const double* v) { return values.data() + (v - vertices) / 2 * components; };
-            return ValuedEdge{a, b, values_of(a), values_of(b)};
-        };
-        whole = edge(0, 2);
-        lower = edge(0, 1);
-        upper = edge(1, 2);
-    }
 };
+
+inline ValuedEdges valued_edges(const SortedTriangle& t, const double* vertices, std::span<const double> values,
+                                int components) {
+    const auto edge = [&](int i, int k) {
+        const double *const a = t.vertex[i], *const b = t.vertex[k];
+        const auto values_of = [&](const double* v) { return values.data() + (v - vertices) / 2 * components; };
+        return ValuedEdge{a, b, values_of(a), values_of(b)};
+    };
+    return {edge(0, 2), edge(0, 1), edge(1, 2)};
+}
 
 /// Values on the two sides that the line of the row meets; then along the line, with one division a row. That a centre
 /// lies between the sides is known exactly, so a parameter that rounding has put outside [0, 1] is set to its end.
-class BilinearRows {
-public:
-    BilinearRows(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components)
-        : edges_(t, vertices, values, components),
-          middle_(t.middle),
-          components_(static_cast<std::size_t>(components)) {}
+struct BilinearRows {
+    ValuedEdges edges;
+    std::int32_t middle;  ///< the first row that meets the upper short side
+    std::size_t components;
 
     void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) const {
         const double y = j + 0.5;
-        const ValuedEdge &p = edges_.whole, &q = j < middle_ ? edges_.lower : edges_.upper;
+        const ValuedEdge &p = edges.whole, &q = j < middle ? edges.lower : edges.upper;
         const double tp = (y - p.a[1]) / (p.b[1] - p.a[1]), tq = (y - q.a[1]) / (q.b[1] - q.a[1]);
         const double xp = p.a[0] + tp * (p.b[0] - p.a[0]), xq = q.a[0] + tq * (q.b[0] - q.a[0]);
         const double inverse = xp == xq ? 0 : 1 / (xq - xp);
         for (std::int32_t i = first; i < last; ++i) {
             const double r = (i + 0.5 - xp) * inverse, s = r > 0 ? std::min(r, 1.0) : 0;  // 0 for NaN too
-            for (std::size_t c = 0; c < components_; ++c) {
+            for (std::size_t c = 0; c < components; ++c) {
                 const double fp = p.fa[c] + tp * (p.fb[c] - p.fa[c]), fq = q.fa[c] + tq * (q.fb[c] - q.fa[c]);
                 *out++ = fp + s * (fq - fp);
             }
         }
     }
-
-private:
-    ValuedEdges edges_;
-    std::int32_t middle_;  ///< the first row that meets the upper short side
-    std::size_t components_;
 };
 
 /// Steps alone: from row to row along the long side, from pixel to pixel along the row by the triangle's d/dx.
@@ -98,7 +83,7 @@ class ScanlineRows {
 public:
     ScanlineRows(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components)
         : row_(t.begin), components_(static_cast<std::size_t>(components)) {
-        const ValuedEdges edges(t, vertices, values, components);
+        const ValuedEdges edges = valued_edges(t, vertices, values, components);
         const ValuedEdge &p = edges.whole, &q = edges.lower;
         const double x1 = q.b[0] - q.a[0], y1 = q.b[1] - q.a[1], x2 = p.b[0] - p.a[0], y2 = p.b[1] - p.a[1];
         const double area = x1 * y2 - x2 * y1, start = (row_ + 0.5) - p.a[1];
@@ -142,36 +127,33 @@ inline void set_centres(std::int32_t j, std::int32_t first, std::int32_t last, s
 }
 
 /// Each value the exact one at the centre, rounded once, by weights.hpp.
-class CorrectRows {
-public:
-    CorrectRows(const double* vertices, std::span<const double> values, int components)
-        : vertices_(vertices, 6), values_(values), components_(components) {}
+struct CorrectRows {
+    std::span<const double> vertices, values;
+    int components;
+    std::vector<double> points = {};
+    std::vector<std::int32_t> cells = {};
 
     void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) {
         constexpr std::array<std::int32_t, 3> corners{0, 1, 2};
-        const auto count = static_cast<std::size_t>(last - first), all = count * static_cast<std::size_t>(components_);
-        cells_.assign(count, 0);
-        set_centres(j, first, last, points_);
+        const auto count = static_cast<std::size_t>(last - first), all = count * static_cast<std::size_t>(components);
+        cells.assign(count, 0);
+        set_centres(j, first, last, points);
         // No error can occur: sizes fit, and coordinates are finite.
-        (void)interpolate(MeshQueries{Simplex::triangle, vertices_, corners, cells_, points_},
-                          NodalValues<double>{values_, components_}, {out, all});
+        (void)interpolate(MeshQueries{Simplex::triangle, vertices, corners, cells, points},
+                          NodalValues<double>{values, components}, {out, all});
     }
-
-private:
-    std::span<const double> vertices_, values_;
-    int components_;
-    std::vector<double> points_;
-    std::vector<std::int32_t> cells_;
 };
 
 /// use(rows) with the way that is asked for. With Rounding::correct there is one for all methods.
 template <class Use>
 auto with_rows(const SortedTriangle& t, const double* vertices, std::span<const double> values, int components,
                FillMethod method, Rounding rounding, Use use) {
-    if (rounding == Rounding::correct) return use(CorrectRows(vertices, values, components));
+    const auto n = static_cast<std::size_t>(components);
+    if (rounding == Rounding::correct) return use(CorrectRows{{vertices, 6}, values, components});
     if (method == FillMethod::scanline) return use(ScanlineRows(t, vertices, values, components));
-    if (method == FillMethod::bilinear) return use(BilinearRows(t, vertices, values, components));
-    return use(BarycentricRows(vertices, values, components));
+    if (method == FillMethod::bilinear)
+        return use(BilinearRows{valued_edges(t, vertices, values, components), t.middle, n});
+    return use(BarycentricRows{vertices, values, n});
 }
 
 }  // namespace barycert::raster

@@ -63,26 +63,23 @@ Result<Image> read_png(const std::string& path) {
 }
 
 Status write_png(const std::string& path, const Image& image) {
-    Status good = check_image(image);
-    if (good && std::max<std::size_t>(static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height)) >
-                    io::longest_png_side) {
-        good = Error{.what = "the image is too long for a PNG file",
-                     .expected = "at most " + std::to_string(io::longest_png_side) + " pixels a side",
-                     .found = by(image.width, image.height),
-                     .remedy = "choose a smaller size"};
-    }
-    if (!good) {
+    if (Status good = check_image(image); !good) {
         Error error = good.error();
         error.file = path;
         return error;
     }
+    const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+    if (std::max(width, height) > io::longest_png_side)
+        return Error{.what = "the image is too long for a PNG file",
+                     .file = path,
+                     .expected = "at most " + std::to_string(io::longest_png_side) + " pixels a side",
+                     .found = by(image.width, image.height),
+                     .remedy = "choose a smaller size"};
     const std::size_t row = image.offset(0, 1);
     const auto copy_row = [&](std::size_t r, std::uint8_t* pixels) {
-        const std::size_t upwards = static_cast<std::size_t>(image.height) - 1 - r;
-        std::copy_n(image.data.data() + upwards * row, row, pixels);
+        std::copy_n(image.data.data() + (height - 1 - r) * row, row, pixels);
     };
-    return io::write_png_rows(path, static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height),
-                              copy_row, io::PngContent::shades);
+    return io::write_png_rows(path, width, height, copy_row, io::PngContent::shades);
 }
 
 namespace {
@@ -169,11 +166,10 @@ Result<Image> checkerboard(std::int32_t cells, std::int32_t texels) {
                      .found = std::to_string(cells) + " and " + std::to_string(texels),
                      .remedy = "choose larger numbers"};
     if (Status good = check_sides(side, side); !good) return good.error();
-    Result<Image> image = blank_image(static_cast<std::int32_t>(side), static_cast<std::int32_t>(side), dark);
-    if (!image) return image.error();
-    for (std::int32_t j = 0; j < image->height; ++j) {
-        for (std::int32_t i = 0; i < image->width; ++i) {
-            if ((i / texels + j / texels) % 2 != 0) image->set_pixel(i, j, light);
+    Image image = blank_image(static_cast<std::int32_t>(side), static_cast<std::int32_t>(side), dark).value();
+    for (std::int32_t j = 0; j < image.height; ++j) {
+        for (std::int32_t i = 0; i < image.width; ++i) {
+            if ((i / texels + j / texels) % 2 != 0) image.set_pixel(i, j, light);
         }
     }
     return image;

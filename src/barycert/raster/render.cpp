@@ -19,15 +19,7 @@ Error misfit(const std::string& what, const std::string& expected, const std::st
     return {.what = what, .expected = expected, .found = found, .remedy = "correct the scene"};
 }
 
-Status check_finite(const std::vector<double>& numbers, std::size_t per_vertex, const std::string& what) {
-    const std::size_t i = base::first_not_finite(numbers);
-    if (i == numbers.size()) return Done{};
-    return base::not_finite(
-        "number " + std::to_string(i % per_vertex) + " of the " + what + " of vertex " + std::to_string(i / per_vertex),
-        numbers[i], "correct the scene");
-}
-
-/// An array has what it should for each of `vertices`, or nothing.
+/// An array has finite numbers for each of `vertices`, or none.
 Status check_array(const std::vector<double>& numbers, std::size_t per_vertex, std::size_t vertices,
                    const std::string& what) {
     if (numbers.empty()) return Done{};
@@ -35,7 +27,11 @@ Status check_array(const std::vector<double>& numbers, std::size_t per_vertex, s
         return misfit("the " + what + "s of the scene",
                       std::to_string(per_vertex) + " numbers for each of " + std::to_string(vertices) + " vertices",
                       std::to_string(numbers.size()) + " numbers");
-    return check_finite(numbers, per_vertex, what);
+    const std::size_t i = base::first_not_finite(numbers);
+    if (i == numbers.size()) return Done{};
+    return base::not_finite(
+        "number " + std::to_string(i % per_vertex) + " of the " + what + " of vertex " + std::to_string(i / per_vertex),
+        numbers[i], "correct the scene");
 }
 
 Status check_choices(const Scene& s) {
@@ -61,7 +57,7 @@ Status check(const Scene& s) {
         return misfit("the positions of the scene", "x, y, z, w of each vertex",
                       std::to_string(s.positions.size()) + " numbers");
     const std::size_t vertices = s.positions.size() / 4;
-    if (Status good = check_finite(s.positions, 4, "position"); !good) return good;
+    if (Status good = check_array(s.positions, 4, vertices, "position"); !good) return good;
     if (Status good = check_array(s.colours, 3, vertices, "colour"); !good) return good;
     if (Status good = check_array(s.texture_coordinates, 2, vertices, "texture coordinate"); !good) return good;
     if (s.triangles.size() % 3 != 0)
@@ -183,10 +179,8 @@ Result<Image> render(const Scene& scene, RenderCounts* counts, PixelValues* attr
     if (Status good = raster::check(scene); !good) return good.error();
     Result<std::vector<double>> clip = raster::clip_positions(scene);
     if (!clip) return clip.error();
-    Result<Image> blank = blank_image(scene.size.width, scene.size.height, scene.background);
-    if (!blank) return blank.error();
     raster::Canvas canvas;
-    canvas.image = std::move(*blank);
+    canvas.image = blank_image(scene.size.width, scene.size.height, scene.background).value();  // its size is checked
     canvas.depth.assign(canvas.image.data.size() / 4, HUGE_VAL);
     canvas.shading = {!scene.colours.empty(),
                       !scene.texture_coordinates.empty(),

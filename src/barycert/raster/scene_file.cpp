@@ -1,15 +1,22 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/raster/draw.hpp"
-#include "barycert/raster/scene_json.hpp"
 #include "barycert/scene.hpp"
 
 namespace barycert {
@@ -17,6 +24,128 @@ namespace raster {
 namespace {
 
 using Json = nlohmann::json;
+
+// The members of a scene file, each read with its place: a JSON pointer such as /camera/eye/1 (RFC 6901).
+
+/// What stands there, in a few words.
+std::string brief(const Json& value) {
+    if (value.is_object()) return "an object";
+    if (value.is_array()) return "an array of " + std::to_string(value.size());
+    const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return text.size() <= 40 ? text : text.substr(0, 40) + "...";
+}
+
+/// As a part of a JSON pointer.
+std::string escaped(const std::string& name) {
+    std::string out;
+    for (const char c : name) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+    return out;
+}
+
+/// A value of the file and where it stands. Functions that find something else than they ask for throw Exception.
+class SceneValue {
+public:
+    SceneValue(const Json& value, std::string place, const std::string& path)
+        : value_(value), place_(std::move(place)), path_(path) {}
+
+    /// Every member is one of these.
+    void allow_only(std::initializer_list<const char*> names) const {
+        if (!value_.is_object()) fail("an object");
+        for (const auto& [name, value] : value_.items()) {
+            if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+            std::string all;
+            for (const char* known : names) all += (all.empty() ? "" : ", ") + std::string(known);
+            refuse(place_ + '/' + escaped(name), "one of the members " + all, base::quoted(name));
+        }
+    }
+
+    bool has(const char* name) const { return value_.contains(name); }
+    SceneValue member(const char* name) const {
+        if (!has(name)) refuse(place(), std::string("a member \"") + name + '"', "none");
+        return {value_.at(name), place_ + '/' + name, path_};
+    }
+    SceneValue entry(std::size_t i) const { return {value_.at(i), place_ + '/' + std::to_string(i), path_}; }
+
+    /// Of an array: the number of entries.
+    std::size_t size() const {
+        if (!value_.is_array()) fail("an array");
+        return value_.size();
+    }
+    bool is_array() const { return value_.is_array(); }
+
+    /// A finite number; also as text, in decimal or hexadecimal.
+    double number() const {
+        const std::optional<double> x = value_.is_string()   ? base::parse_double(value_.get<std::string>())
+                                        : value_.is_number() ? std::optional<double>(value_.get<double>())
+                                                             : std::nullopt;
+        if (!x || !std::isfinite(*x)) fail("a finite number");
+        return *x;
+    }
+    std::int64_t integer(std::int64_t low, std::int64_t high) const {
+        if (value_.is_number_integer()) {  // with or without a sign
+            const bool fits = !value_.is_number_unsigned() || std::in_range<std::int64_t>(value_.get<std::uint64_t>());
+            const auto number = value_.get<std::int64_t>();
+            if (fits && number >= low && number <= high) return number;
+        }
+        fail("an integer from " + std::to_string(low) + " to " + std::to_string(high));
+    }
+    std::string text() const {
+        if (!value_.is_string()) fail("text");
+        return value_.get<std::string>();
+    }
+
+    /// An array of `count` numbers.
+    std::vector<double> numbers(std::size_t count) const {
+        if (!value_.is_array() || value_.size() != count) fail("an array of " + std::to_string(count) + " numbers");
+        std::vector<double> all;
+        for (std::size_t i = 0; i < count; ++i) all.push_back(entry(i).number());
+        return all;
+    }
+
+    /// One of a few words.
+    template <class T>
+    T choice(const std::map<std::string, T>& words) const {
+        if (value_.is_string()) {
+            const auto word = words.find(value_.get<std::string>());
+            if (word != words.end()) return word->second;
+        }
+        std::string all;
+        for (const auto& [word, meaning] : words) all += (all.empty() ? "\"" : ", \"") + word + '"';
+        fail("one of " + all);
+    }
+
+    /// The same of a member, into `to`, if there is that member.
+    template <class T>
+    void choose(const char* name, const std::map<std::string, T>& words, T& to) const {
+        if (has(name)) to = member(name).choice(words);
+    }
+
+    [[noreturn]] void fail(const std::string& expected) const { refuse(place(), expected, brief(value_)); }
+
+    /// An Error of what was made of this value.
+    [[noreturn]] void fail(const Error& error) const {
+        Error told = error;
+        if (told.file.empty()) {
+            told.file = path_;
+            told.what = place_ + ": " + told.what;
+        }
+        throw Exception(told);
+    }
+
+private:
+    std::string place() const { return place_.empty() ? "the scene" : place_; }
+
+    [[noreturn]] void refuse(std::string what, std::string expected, std::string found) const {
+        throw Exception({std::move(what), path_, 0, std::move(expected), std::move(found),
+                         "doc/rendering.md describes scene files"});
+    }
+
+    const Json& value_;
+    std::string place_;
+    const std::string& path_;
+};
+
+// The scene.
 
 /// What a scene file may have at most: read, it takes some ten times as much memory.
 constexpr std::uint64_t longest_file = std::uint64_t{64} << 20;
@@ -70,9 +199,10 @@ std::array<double, n> array(const SceneValue& value) {
     return numbers;
 }
 
-Matrix4 checked(const SceneValue& value, const Result<Matrix4>& m) {
-    if (!m) value.fail(m.error());
-    return *m;
+template <class T>
+T checked(const SceneValue& value, Result<T> made) {
+    if (!made) value.fail(made.error());
+    return std::move(*made);
 }
 
 Matrix4 camera(const SceneValue& value, RasterSize size) {
@@ -100,23 +230,18 @@ Matrix4 camera(const SceneValue& value, RasterSize size) {
 Image picture(const SceneValue& value, const std::filesystem::path& folder) {
     if (value.has("image") == value.has("pattern")) value.fail("either \"image\" or \"pattern\"");
     if (value.has("image")) {
-        Result<Image> image = read_png((folder / value.member("image").text()).string());
-        if (!image) value.member("image").fail(image.error());
-        return std::move(*image);
+        const SceneValue image = value.member("image");
+        return checked(image, read_png((folder / image.text()).string()));
     }
-    enum class Pattern { four_colours, checkerboard };
-    const auto pattern = value.member("pattern").choice<Pattern>(
-        {{"four-colours", Pattern::four_colours}, {"checkerboard", Pattern::checkerboard}});
-    if (pattern == Pattern::four_colours) {
+    const bool squares = value.member("pattern").choice<bool>({{"four-colours", false}, {"checkerboard", true}});
+    if (!squares) {
         value.allow_only({"pattern", "wrap", "filter"});
         return four_colours();
     }
     const auto count = [&](const char* name) {
         return value.has(name) ? static_cast<std::int32_t>(value.member(name).integer(1, 8192)) : 8;
     };
-    Result<Image> board = checkerboard(count("cells"), count("texels"));
-    if (!board) value.fail(board.error());
-    return std::move(*board);
+    return checked(value, checkerboard(count("cells"), count("texels")));
 }
 
 Texture texture(const SceneValue& value, const std::filesystem::path& folder) {
@@ -226,10 +351,8 @@ Scene scene_of(const SceneValue& file, const std::filesystem::path& folder) {
 
 Result<Scene> read_scene(const std::string& path) {
     const ExactEnvironment environment;
-    const Result<std::string> text = raster::text_of_file(path);
-    if (!text) return text.error();
     try {
-        const raster::Json json = raster::parse(*text, path);
+        const raster::Json json = raster::parse(raster::text_of_file(path).value(), path);
         return raster::scene_of({json, "", path}, std::filesystem::path(path).parent_path());
     } catch (const Exception& e) {
         return e.error();

@@ -14,28 +14,98 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 
 #include "barycert/environment.hpp"
+#include "barycert/raster/edge.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/raster/textured_lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/lane_loop-inl.hpp"
-#include "barycert/raster/row_blocks-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::raster {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using Doubles = hn::ScalableTag<double>;
 using Floats = hn::ScalableTag<float>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
 using IntLanes = hn::Vec<Ints>;
 using FloatLanes = hn::Vec<Floats>;
 using core::HWY_NAMESPACE::store_some;
+
+// Spans: the crossings of several rows at once, by the filter of edge.hpp; a row that it leaves undecided is asked
+// exactly.
+
+/// Rows that are prepared together.
+struct RowBlock {
+    static constexpr std::int32_t capacity = 16;
+    std::int32_t first[capacity], last[capacity];  ///< pixels first, ..., last - 1
+};
+
+/// draw(row, block, size): the rows row, ..., row + size - 1 of the triangle, from the bottom. Precondition: it has
+/// one.
+template <class Draw>
+HWY_INLINE void for_row_blocks(const SortedTriangle& t, std::int32_t width, Draw draw) {
+    const Doubles tag;
+    const hn::Rebind<std::int32_t, Doubles> itag;
+    using V = hn::Vec<Doubles>;
+    const auto n = static_cast<std::int32_t>(hn::Lanes(tag));
+    const Edge whole(t.vertex[0], t.vertex[2]);
+    // A short side that meets no row may be horizontal: the other one stands for it.
+    const auto side = [&](int i) { return Edge(t.vertex[i], t.vertex[i + 1]); };
+    const Edge lower = side(t.begin == t.middle ? 1 : 0), upper = side(t.middle == t.end ? 0 : 1);
+    const auto half = hn::Set(tag, 0.5), zero = hn::Zero(tag), one = hn::Set(tag, 1);
+    const auto limit = hn::Set(tag, static_cast<double>(width));
+    RowBlock block;
+    for (std::int32_t j = t.begin; j < t.end;) {
+        const std::int32_t size = std::min(RowBlock::capacity, t.end - j);
+        for (std::int32_t r = 0; r < size; r += n) {
+            const auto row = hn::Add(hn::Set(tag, static_cast<double>(j + r)), hn::Iota(tag, 0));
+            const auto y = hn::Add(row, half);
+            const auto is_lower = hn::Lt(row, hn::Set(tag, static_cast<double>(t.middle)));
+            const auto pick = [&](double p, double q)
+                                  HWY_ATTR { return hn::IfThenElse(is_lower, hn::Set(tag, p), hn::Set(tag, q)); };
+            const auto position = [&](V x0, V y0, V slope)
+                                      HWY_ATTR { return hn::Sub(hn::Add(x0, hn::Mul(hn::Sub(y, y0), slope)), half); };
+            const V s = position(hn::Set(tag, whole.lower[0]), hn::Set(tag, whole.lower[1]), hn::Set(tag, whole.slope));
+            const V q = position(pick(lower.lower[0], upper.lower[0]), pick(lower.lower[1], upper.lower[1]),
+                                 pick(lower.slope, upper.slope));
+            const V s_up = hn::Ceil(s), q_up = hn::Ceil(q);
+            const V s_error = hn::Set(tag, whole.error), q_error = pick(lower.error, upper.error);
+            const auto far = [&](V x, V up, V error) HWY_ATTR {
+                return hn::And(hn::Gt(hn::Sub(up, x), error), hn::Gt(hn::Sub(x, hn::Sub(up, one)), error));
+            };
+            V s_at = hn::Min(hn::Max(s_up, zero), limit), q_at = hn::Min(hn::Max(q_up, zero), limit);
+            const auto decided = hn::And(far(s, s_up, s_error), far(q, q_up, q_error));
+            const std::int32_t used = std::min(n, size - r);
+            if (!hn::AllTrue(tag, hn::Or(decided, hn::Not(hn::FirstN(tag, static_cast<std::size_t>(used)))))) {
+                HWY_ALIGN double s_fixed[hn::MaxLanes(Doubles())], q_fixed[hn::MaxLanes(Doubles())];
+                hn::Store(s_at, tag, s_fixed);
+                hn::Store(q_at, tag, q_fixed);
+                for (std::int32_t l = 0; l < used; ++l) {
+                    const std::int32_t at = j + r + l;
+                    s_fixed[l] = crossing(whole, at, width);
+                    q_fixed[l] = crossing(at < t.middle ? lower : upper, at, width);
+                }
+                s_at = hn::Load(tag, s_fixed);
+                q_at = hn::Load(tag, q_fixed);
+            }
+            const V first = hn::Min(s_at, q_at);
+            hn::StoreU(hn::DemoteTo(itag, first), itag, block.first + r);
+            hn::StoreU(hn::DemoteTo(itag, hn::Max(s_at, q_at)), itag, block.last + r);
+        }
+        draw(j, block, size);
+        j += size;
+    }
+}
+
+// Texture coordinates.
 
 /// value + x * along + y * up, x and y from corner 0 of the triangle.
 struct Plane {
@@ -46,12 +116,10 @@ struct Plane {
 
 /// The edges of a triangle from its corner 0.
 struct Basis {
-    double x1, y1, x2, y2, inverse_area;
+    double x1, y1, x2, y2, inverse_area = 1 / (x1 * y2 - x2 * y1);
 
     explicit Basis(const TexturedVertex* c)
-        : x1(c[1].x - c[0].x), y1(c[1].y - c[0].y), x2(c[2].x - c[0].x), y2(c[2].y - c[0].y) {
-        inverse_area = 1 / (x1 * y2 - x2 * y1);
-    }
+        : x1(c[1].x - c[0].x), y1(c[1].y - c[0].y), x2(c[2].x - c[0].x), y2(c[2].y - c[0].y) {}
     Plane plane(double f0, double f1, double f2) const {
         const double g1 = f1 - f0, g2 = f2 - f0;
         return {f0, (g1 * y2 - g2 * y1) * inverse_area, (g2 * x1 - g1 * x2) * inverse_area};

@@ -20,6 +20,8 @@ namespace barycert {
 namespace raster {
 namespace {
 
+using base::dot;
+
 constexpr double ambient = 0.35;
 constexpr std::uint8_t grey = 190;  ///< of what has no value
 
@@ -139,10 +141,6 @@ struct ViewAxes {
     Vector3 right, up, towards;
 };
 
-double dot(const Vector3& a, const double* b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 ViewAxes view_axes(double azimuth, double elevation) {
     constexpr double degree = std::numbers::pi / 180;
     const double a = std::fmod(azimuth, 360) * degree, e = std::fmod(elevation, 360) * degree;
@@ -152,44 +150,41 @@ ViewAxes view_axes(double azimuth, double elevation) {
 
 /// The corners of triangles moved and scaled so that the middle of their box is the origin and its longest side 2, with
 /// three coordinates each.
-std::vector<double> normalised_corners(const SurfaceView& s) {
+std::vector<Vector3> normalised_corners(const SurfaceView& s) {
     const auto d = static_cast<std::size_t>(s.dimension);
-    std::vector<double> points;
-    points.reserve(s.triangles.size() * d);
-    for (const std::int32_t i : s.triangles) {
-        const double* const p = s.points.data() + d * static_cast<std::size_t>(i);
-        points.insert(points.end(), p, p + d);
-    }
+    const auto coordinate = [&](std::size_t corner, std::size_t k) {
+        return s.points[d * static_cast<std::size_t>(s.triangles[corner]) + k];
+    };
+    std::vector<Vector3> corners(s.triangles.size());
     Range box[3];
-    for (std::size_t i = 0; i < points.size(); ++i) box[i % d].add(points[i]);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        for (std::size_t k = 0; k < d; ++k) box[k].add(coordinate(c, k));
+    }
     double half = 0;
     for (std::size_t k = 0; k < d; ++k) half = std::max(half, box[k].half());
     if (!(half > 0)) half = 1;  // no points, or one
-    std::vector<double> result;
-    result.reserve(points.size() / d * 3);
-    for (std::size_t i = 0; i < points.size(); i += d) {
+    for (std::size_t c = 0; c < corners.size(); ++c) {
         // Halves, for the difference of two coordinates may be too large a number.
-        for (std::size_t k = 0; k < 3; ++k)
-            result.push_back(k < d ? 2 * ((0.5 * points[i + k] - 0.5 * box[k].middle()) / half) : 0);
+        for (std::size_t k = 0; k < d; ++k)
+            corners[c][k] = 2 * ((0.5 * coordinate(c, k) - 0.5 * box[k].middle()) / half);
     }
-    return result;
+    return corners;
 }
 
 /// Where points lie along an axis.
-Range along(const Vector3& axis, std::span<const double> points) {
+Range along(const Vector3& axis, std::span<const Vector3> points) {
     Range range;
-    for (std::size_t i = 0; i < points.size(); i += 3) range.add(dot(axis, points.data() + i));
+    for (const Vector3& p : points) range.add(dot(axis, p));
     return points.empty() ? Range{0, 0} : range;
 }
 
 /// The camera that sees all normalised points, in perspective, as near as the window allows.
-Result<Matrix4> fitting_camera(std::span<const double> points, const ViewAxes& axes, double aspect) {
+Result<Matrix4> fitting_camera(std::span<const Vector3> points, const ViewAxes& axes, double aspect) {
     const Range x = along(axes.right, points), y = along(axes.up, points), z = along(axes.towards, points);
     const double tangent = part * std::tan(0.5 * fovy * (std::numbers::pi / 180));
     // A point is in sight if its distance across is at most its distance along times the tangent.
     double distance = z.high + 0.1;
-    for (std::size_t i = 0; i < points.size(); i += 3) {
-        const double* const p = points.data() + i;
+    for (const Vector3& p : points) {
         const double across =
             std::max(std::abs(dot(axes.right, p) - x.middle()) / aspect, std::abs(dot(axes.up, p) - y.middle()));
         distance = std::max(distance, dot(axes.towards, p) + across / tangent);
@@ -210,7 +205,7 @@ Result<Matrix4> fitting_camera(std::span<const double> points, const ViewAxes& a
 }
 
 /// The same from above, without perspective.
-Result<Matrix4> fitting_map(std::span<const double> points, double aspect) {
+Result<Matrix4> fitting_map(std::span<const Vector3> points, double aspect) {
     const Range x = along({1, 0, 0}, points), y = along({0, 1, 0}, points);
     double half = std::max(x.half() / aspect, y.half()) / part;
     if (!(half > 0)) half = 1;
@@ -219,19 +214,18 @@ Result<Matrix4> fitting_map(std::span<const double> points, double aspect) {
 }
 
 /// How bright a triangle is: two-sided, from 0.35 to 1.
-double brightness(const double* a, const double* b, const double* c, const Vector3& light) {
-    const auto from_a = [&](const double* p) { return Vector3{p[0] - a[0], p[1] - a[1], p[2] - a[2]}; };
-    const Vector3 n = base::cross(from_a(b), from_a(c));
-    const double length = std::sqrt(dot(n, n.data()));
+double brightness(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& light) {
+    const Vector3 n = base::cross(base::minus(b, a), base::minus(c, a));
+    const double length = std::sqrt(dot(n, n));
     if (!(length > 0)) return 1;
-    return ambient + (1 - ambient) * std::min(1.0, std::abs(dot(n, light.data())) / length);
+    return ambient + (1 - ambient) * std::min(1.0, std::abs(dot(n, light)) / length);
 }
 
 /// From the upper left behind the viewer.
 Vector3 light_of(const ViewAxes& axes) {
     Vector3 light;
     for (std::size_t k = 0; k < 3; ++k) light[k] = axes.towards[k] + 0.5 * axes.up[k] - 0.4 * axes.right[k];
-    const double length = std::sqrt(dot(light, light.data()));
+    const double length = std::sqrt(dot(light, light));
     for (double& x : light) x /= length;
     return light;
 }
@@ -253,7 +247,7 @@ Result<Scene> scene_of(const SurfaceView& s, const ViewOptions& o, std::int32_t 
     scene.method = o.method;
     scene.rounding = o.rounding;
     // Three vertices of its own for each triangle, for each has its own light.
-    const std::vector<double> points = normalised_corners(s);
+    const std::vector<Vector3> points = normalised_corners(s);
     const ViewAxes axes = view_axes(o.azimuth, o.elevation);
     const double aspect = 1.0 * width / o.size.height;
     const Result<Matrix4> camera =
@@ -264,13 +258,13 @@ Result<Scene> scene_of(const SurfaceView& s, const ViewOptions& o, std::int32_t 
     const bool values = has_values(s);
     if (values) scene.texture = colour_texture();
     for (std::size_t t = 0; t < s.triangles.size(); t += 3) {
-        const double* const p = points.data() + 3 * t;
-        const double shade = s.dimension == 2 ? 1 : brightness(p, p + 3, p + 6, light);
+        const double shade = s.dimension == 2 ? 1 : brightness(points[t], points[t + 1], points[t + 2], light);
         const bool finite = values && std::isfinite(value_at(s, t)) && std::isfinite(value_at(s, t + 1)) &&
                             std::isfinite(value_at(s, t + 2));
         without_value += static_cast<std::uint64_t>(values && !finite);
         for (std::size_t c = 0; c < 3; ++c) {
-            scene.positions.insert(scene.positions.end(), {p[3 * c], p[3 * c + 1], p[3 * c + 2], 1});
+            const Vector3& p = points[t + c];
+            scene.positions.insert(scene.positions.end(), {p[0], p[1], p[2], 1});
             scene.triangles.push_back(static_cast<std::int32_t>(t + c));
             const double level = values ? shade : shade * (grey / 255.0);
             scene.colours.insert(scene.colours.end(), {level, level, level});

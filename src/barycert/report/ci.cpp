@@ -1,4 +1,3 @@
-
 #include <algorithm>
 
 #include "barycert/base/json_text.hpp"

@@ -65,10 +65,9 @@ std::string steps_text(const SampleReport& s) {
     std::string text = fmt::format("{}: {} to {}", s.steps.size(), s.steps.front(), s.steps.back());
     if (!s.times.empty())
         text += fmt::format(", times {} to {}", base::shortest(s.times.front()), base::shortest(s.times.back()));
-    return s.meshes <= 1
-               ? text
-               : text + fmt::format("; on {} meshes, in each of which the points were located, and counted above",
-                                    s.meshes);
+    if (s.meshes > 1)
+        text += fmt::format("; on {} meshes, in each of which the points were located, and counted above", s.meshes);
+    return text;
 }
 
 void tell_picture(Document& d, const SliceCounts& n) {

@@ -114,8 +114,7 @@ void tell_verdict(Document& d, const VerifyReport& s) {
                                percent(kinds[k].count, v.rows) + " %",
                                kinds[k].what}});
     }
-    d.part();
-    d.add(std::move(table));
+    d.table(std::move(table));
 }
 
 void tell_values(Document& d, const VerifyReport& s) {

@@ -32,15 +32,13 @@ void write_facets(const Mesh& mesh, const std::vector<std::size_t>& facets, Surf
     const std::size_t n = mesh.corners();
     base::resize_large(surface.cells, (n - 1) * facets.size());
     base::resize_large(surface.mesh_cells, facets.size());
-    base::parallel_for(facets.size(), grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f != end; ++f) {
-            const Index* const corners = mesh.cells.data() + facets[f] / n * n;
-            const auto facet = mesh::outward_corners(mesh.dimension, facets[f] % n);
-            Index* const to = surface.cells.data() + (n - 1) * f;
-            for (std::size_t i = 0; i < n - 1; ++i) to[i] = corners[facet[i]];
-            if (orientation(mesh, corners) == Sign::negative) std::swap(to[n - 3], to[n - 2]);
-            surface.mesh_cells[f] = static_cast<Index>(facets[f] / n);
-        }
+    base::parallel_for_each(facets.size(), grain, [&](std::size_t f) {
+        const Index* const corners = mesh.cells.data() + facets[f] / n * n;
+        const auto facet = mesh::outward_corners(mesh.dimension, facets[f] % n);
+        Index* const to = surface.cells.data() + (n - 1) * f;
+        for (std::size_t i = 0; i < n - 1; ++i) to[i] = corners[facet[i]];
+        if (orientation(mesh, corners) == Sign::negative) std::swap(to[n - 3], to[n - 2]);
+        surface.mesh_cells[f] = static_cast<Index>(facets[f] / n);
     });
 }
 

@@ -21,7 +21,7 @@
 // most 2^-1070, of l itself 2^-1075 S, and so on: below 20 * 2^-1070 against u^2 S >= 2^-906. In n.x, where S <= 1.01
 // (M_a + M_b), three products an end lose 2^-1070 each against 0.5 u^2 (M_a + M_b). An infinite or NaN difference makes
 // S_high infinite or NaN; an infinite M makes e infinite. Comparisons with NaN are false: undecided.
-#include "barycert/surface/crossing_lanes.hpp"
+#include "barycert/surface/parts.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/surface/crossing_lanes.cpp"

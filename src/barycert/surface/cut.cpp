@@ -18,7 +18,6 @@
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/surface.hpp"
 #include "barycert/surface/cell_cases.hpp"
-#include "barycert/surface/crossing_lanes.hpp"
 #include "barycert/surface/parts.hpp"
 
 namespace barycert::surface {
@@ -248,9 +247,7 @@ TierCounts place_points(const Mesh& mesh, const Level& level, const CutOptions& 
 template <class Level>
 Result<Cut> cut_at(const Mesh& mesh, const Level& level, const CutOptions& options) {
     std::vector<std::uint8_t> states(mesh.point_count());
-    base::parallel_for(states.size(), grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i != end; ++i) states[i] = level.state(i);
-    });
+    base::parallel_for_each(states.size(), grain, [&](std::size_t i) { states[i] = level.state(i); });
     Cut cut;
     if (Status done = cut_cells(mesh, states, cut.surface, cut.counts); !done) return done.error();
     cut.counts.tiers = place_points(mesh, level, options, cut.surface);

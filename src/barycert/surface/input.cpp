@@ -47,10 +47,9 @@ std::vector<double> take_rows(const std::vector<double>& from, std::size_t colum
                               const std::vector<Mesh::Index>& rows, std::size_t stride) {
     std::vector<double> to;
     base::resize_large(to, columns * (rows.size() / stride));
-    base::parallel_for(rows.size() / stride, grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i != end; ++i)
-            std::copy_n(from.data() + columns * static_cast<std::size_t>(rows[stride * i]), columns,
-                        to.data() + columns * i);
+    base::parallel_for_each(rows.size() / stride, grain, [&](std::size_t i) {
+        std::copy_n(from.data() + columns * static_cast<std::size_t>(rows[stride * i]), columns,
+                    to.data() + columns * i);
     });
     return to;
 }

@@ -1,4 +1,5 @@
-/// What cuts and boundaries share: threads, what they require of their input, orientations, cells cut, fields of cells.
+/// What cuts and boundaries share: threads, what they require of their input, orientations, cells cut, crossings,
+/// fields of cells.
 #pragma once
 
 #include <algorithm>
@@ -65,5 +66,23 @@ inline Sign orientation(const Mesh& mesh, const Mesh::Index* corners) {
 /// node. On all threads of the calling arena. Error: a corner of a cell that is no node; more points or triangles than
 /// indices can number.
 Status cut_cells(const Mesh& mesh, const std::vector<std::uint8_t>& states, Surface& surface, CutCounts& counts);
+
+// The middle tier of crossings, on SIMD lanes, dispatched at run time as those of core/lanes.hpp.
+
+/// Crossings of edges: values[2 c + i][j] is number c at the end of edge j that is in the set (i = 0), or that is not
+/// (i = 1). out[components * j + c] is number c where g is zero, correctly rounded where that is certain. Each returns
+/// how many edges are undecided, their numbers, ascending, in undecided[0 ...], which has room for `count`.
+struct EdgeBlock {
+    const double* const* values;
+    int components;
+    std::size_t count;  ///< any; below 2^32
+};
+
+/// g = f - value; f[i][j] is the field at end i of edge j.
+std::size_t level_lanes(double value, const double* const* f, const EdgeBlock& edges, double* out,
+                        std::uint32_t* undecided);
+
+/// g = offset - normal.x; the first three numbers are the coordinates.
+std::size_t plane_lanes(const Plane& plane, const EdgeBlock& edges, double* out, std::uint32_t* undecided);
 
 }  // namespace barycert::surface

@@ -227,13 +227,11 @@ private:
             high_[std::atomic_ref(next[e.low]).fetch_add(1, std::memory_order_relaxed)] = e.high;
         });
         first_.assign(nodes + 1, 0);
-        base::parallel_for(nodes, grain, [&](std::size_t from, std::size_t to) {
-            for (std::size_t i = from; i < to; ++i) {
-                Index* const list = high_.data() + begin_[i];
-                Index* const end = high_.data() + begin_[i + 1];
-                std::sort(list, end);
-                first_[i + 1] = static_cast<std::size_t>(std::unique(list, end) - list);
-            }
+        base::parallel_for_each(nodes, grain, [&](std::size_t i) {
+            Index* const list = high_.data() + begin_[i];
+            Index* const end = high_.data() + begin_[i + 1];
+            std::sort(list, end);
+            first_[i + 1] = static_cast<std::size_t>(std::unique(list, end) - list);
         });
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
     }

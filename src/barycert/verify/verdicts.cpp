@@ -22,9 +22,7 @@ public:
         const std::size_t rows = claimed_.points.size() / d_;
         found_.rows = rows;
         found_.columns.resize(ranges_.size());
-        SampleOptions exact;
-        exact.threads = 1;
-        exact.nonfinite_points = options_.nonfinite_points;
+        const SampleOptions exact{.threads = 1, .nonfinite_points = options_.nonfinite_points};
         if (Status done = sampler_.sample(claimed_.points, exact, table_, claimed_.first_row); !done)
             return done.error();
         for (std::size_t row = 0; row < rows; ++row) look_at(row);
@@ -79,7 +77,7 @@ private:
         } else if (inside && !said) {
             ++found_.missed;
             found_.missed_on_boundary += boundary ? 1 : 0;
-            keep(row, RowVerdict::missed, boundary ? 0 : 1);
+            found_.examples.push_back(wrong_row(row, RowVerdict::missed, boundary ? 0 : 1));
         } else if (!inside) {
             invent(row);
         } else if (over(row, values(row)) && (boundary || !sampler_.locator().certified())) {
@@ -121,7 +119,7 @@ private:
            : verdict == RowVerdict::wrong_value ? found_.wrong_value
                                                 : found_.right);
         if (verdict == RowVerdict::right) return;
-        WrongRow& kept = keep(row, verdict, worst.relative);
+        WrongRow& kept = found_.examples.emplace_back(wrong_row(row, verdict, worst.relative));
         kept.cells = cells;
         if (columns() == 0) return;
         kept.column = column;
@@ -140,10 +138,8 @@ private:
         Result<Table> all = sampler_.locator().locate_all(points, 1);
         if (!all) return all.error();
         const std::vector<std::size_t> begin = all->point_begin;
-        SampleOptions options;
-        options.threads = 1;
         points = all->points;
-        if (Status done = sampler_.evaluate(points, options, *all); !done) return done.error();
+        if (Status done = sampler_.evaluate(points, {.threads = 1}, *all); !done) return done.error();
         for (std::size_t i = 0; i < again_.size(); ++i) {
             double least = std::numeric_limits<double>::infinity();
             std::size_t choice = begin[i];  // the owner, unless another one is nearer
@@ -161,10 +157,6 @@ private:
             found_.by_other_cell += choice != begin[i] && found_.right != right ? 1 : 0;
         }
         return Done{};
-    }
-
-    WrongRow& keep(std::size_t row, RowVerdict verdict, double severity) {
-        return found_.examples.emplace_back(wrong_row(row, verdict, severity));
     }
 
     WrongRow wrong_row(std::size_t row, RowVerdict verdict, double severity) const {

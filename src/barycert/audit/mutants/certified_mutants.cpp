@@ -159,13 +159,11 @@ template <Simplex s>
 void add_certified(std::vector<Mutant>& list) {
     const Kernel sound = catalogued((std::string(name(s)) + ".exact").c_str());
     list.push_back(mutant_of(sound, "forced-closure", "the first weight is 1 less the others", exact_but_closed<s>));
-    Mutant twice = mutant_of(sound, "rounded-twice", "values come from rounded weights", sound.weights);
-    twice.kernel.interpolate = value_rounded_twice<s>;
-    list.push_back(twice);
-    Mutant away =
-        mutant_of(sound, "ties-away", "a value midway between two doubles goes away from zero", sound.weights);
-    away.kernel.interpolate = value_ties_away<s>;
-    list.push_back(away);
+    list.push_back(mutant_of(sound, "rounded-twice", "values come from rounded weights", sound.weights));
+    list.back().kernel.interpolate = value_rounded_twice<s>;
+    list.push_back(
+        mutant_of(sound, "ties-away", "a value midway between two doubles goes away from zero", sound.weights));
+    list.back().kernel.interpolate = value_ties_away<s>;
 }
 
 }  // namespace

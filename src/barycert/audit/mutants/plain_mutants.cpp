@@ -1,6 +1,5 @@
 // Faults seeded into the catalogue's formulas.
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "barycert/audit/mutants/mutants.hpp"

@@ -42,19 +42,13 @@ double moved_by_ulps(const Case& c, int k, std::int64_t ulps) {
 void redraw_significand(Case& c, base::Random& random) {
     double& x = coordinate(c, pick(random, coordinate_count(c)));
     if (x == 0) return;
-    const int exponent = exponent_of(x);
+    const int exponent = std::ilogb(x);
     if (exponent < -1022) return;
-    switch (pick(random, 3)) {
-        case 0:
-            x = std::copysign(drawn(random, exponent, 53), x);
-            break;
-        case 1:
-            x = std::copysign(drawn(random, exponent, 1 + pick(random, 53)), x);
-            break;
-        default: {  // the last bits alone
-            const auto span = static_cast<double>(std::int64_t{1} << pick(random, 40));
-            x = places_above(x, static_cast<std::int64_t>(random.uniform(-span, span)));
-        }
+    if (const int kind = pick(random, 3); kind < 2) {
+        x = std::copysign(drawn(random, exponent, kind == 0 ? 53 : 1 + pick(random, 53)), x);
+    } else {  // the last bits alone
+        const auto span = static_cast<double>(std::int64_t{1} << pick(random, 40));
+        x = places_above(x, static_cast<std::int64_t>(random.uniform(-span, span)));
     }
 }
 
@@ -101,18 +95,13 @@ void point_between(Case& c, base::Random& random) {
 }  // namespace
 
 Case patterned_case(Simplex simplex, bool perspective, const ExponentRange& range, base::Random& random) {
-    Case c;
-    c.simplex = simplex;
-    c.perspective = perspective;
+    Case c{.simplex = simplex, .perspective = perspective};
     const int count = coordinate_count(c);
-    const int low = std::max(range.min, -1022);  // significands are drawn with all their bits
+    const int low = std::clamp(-1022, range.min, range.max);  // significands are drawn with all their bits
     // Ordinary sizes half of the time, else anywhere.
-    int middle = random.coin() ? 0 : random.integer(std::min(low, range.max), range.max);
-    middle = std::clamp(middle, std::min(low, range.max), range.max);
+    const int middle = std::clamp(random.coin() ? 0 : random.integer(low, range.max), low, range.max);
     const int width = static_cast<int>(small_power(random, 10)) - 1;
-    const auto exponent = [&] {
-        return std::clamp(random.integer(middle - width, middle + width), std::min(low, range.max), range.max);
-    };
+    const auto exponent = [&] { return std::clamp(random.integer(middle - width, middle + width), low, range.max); };
     const int kind = pick(random, 4);
     const int bits = random.coin() ? 53 : 1 + pick(random, 53);
     std::array<int, 5> shared{};
@@ -128,9 +117,8 @@ Case patterned_case(Simplex simplex, bool perspective, const ExponentRange& rang
         const double signed_x = with_sign(random, x);
         coordinate(c, k) = is_depth(c, k) ? x : zero ? 0 : signed_x;
     }
-    const bool between = random.coin();
     const std::array<double, 3> drawn_point = c.point;
-    if (between) point_between(c, random);
+    if (random.coin()) point_between(c, random);
     if (!admissible(c, range)) c.point = drawn_point;
     random_values(c, random);
     return c;
@@ -145,25 +133,16 @@ void wander(Case& c, base::Random& random, bool values) {
     }
     const int changes = static_cast<int>(small_power(random, 2));
     for (int i = 0; i < changes; ++i) {
-        switch (pick(random, 8)) {
-            case 0:
-                redraw_significand(c, random);
-                break;
-            case 1:
-                shift_exponents(c, random);
-                break;
-            case 2:
-                take_from_another(c, random);
-                break;
-            case 3:
-                if (pick(random, 4) == 0) point_between(c, random);
-                [[fallthrough]];
-            default: {
-                const int k = pick(random, coordinate_count(c));
-                const std::int64_t by = small_power(random, 12);
-                coordinate(c, k) = moved_by_ulps(c, k, random.coin() ? by : -by);
-            }
+        constexpr std::array steps{redraw_significand, shift_exponents, take_from_another};
+        const auto kind = static_cast<std::size_t>(pick(random, 8));
+        if (kind < steps.size()) {
+            steps[kind](c, random);
+            continue;
         }
+        if (kind == steps.size() && pick(random, 4) == 0) point_between(c, random);
+        const int k = pick(random, coordinate_count(c));
+        const std::int64_t by = small_power(random, 12);
+        coordinate(c, k) = moved_by_ulps(c, k, random.coin() ? by : -by);
     }
 }
 

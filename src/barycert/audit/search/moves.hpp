@@ -40,16 +40,11 @@ inline bool is_depth(const Case& c, int k) {
     return c.perspective && k < vertex_numbers(c) && axis_of(c, k) == 2;
 }
 
-/// floor(log2 |x|). Precondition: finite, not zero.
-inline int exponent_of(double x) {
-    return std::ilogb(x);
-}
-
 inline bool admissible(const Case& c, const ExponentRange& range) {
     for (int k = 0; k < coordinate_count(c); ++k) {
         const double x = coordinate(c, k);
         if (!std::isfinite(x) || (is_depth(c, k) && !(x > 0))) return false;
-        if (x != 0 && (exponent_of(x) < range.min || exponent_of(x) > range.max)) return false;
+        if (x != 0 && (std::ilogb(x) < range.min || std::ilogb(x) > range.max)) return false;
     }
     for (const double f : c.values) {
         if (!std::isfinite(f)) return false;
@@ -79,7 +74,7 @@ inline int significant_bits(double x) {
 /// How much there is to write down: bits, then the size of exponents, then signs.
 inline int plain_cost(double x) {
     if (x == 0) return std::signbit(x) ? 1 : 0;
-    const auto exponent = static_cast<unsigned>(std::abs(exponent_of(x)));
+    const auto exponent = static_cast<unsigned>(std::abs(std::ilogb(x)));
     return 8 * significant_bits(x) + 2 * static_cast<int>(std::bit_width(exponent)) + (x < 0 ? 1 : 0);
 }
 

@@ -97,7 +97,7 @@ private:
         for (int k = 0; k < coordinate_count(c); ++k) {
             const double x = coordinate(c, k);
             if (x == 0 || (axis >= 0 && axis_of(c, k) != axis)) continue;
-            const int e = exponent_of(x);
+            const int e = std::ilogb(x);
             extreme = !any ? e : largest ? std::max(extreme, e) : std::min(extreme, e);
             any = true;
         }
@@ -128,10 +128,10 @@ private:
             const double x = coordinate(best_, k);
             if (set(k, rounded_to(x, bits)) || set(k, rounded_to(x, bits, 1)) || set(k, rounded_to(x, bits, -1))) break;
         }
-        for (int e = exponent_of(coordinate(best_, k)); e != 0;) {
+        for (int e = std::ilogb(coordinate(best_, k)); e != 0;) {
             e /= 2;
             const double x = coordinate(best_, k);
-            if (set(k, std::ldexp(x, e - exponent_of(x)))) break;
+            if (set(k, std::ldexp(x, e - std::ilogb(x)))) break;
         }
         set(k, -coordinate(best_, k));
     }

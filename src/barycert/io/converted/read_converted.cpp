@@ -15,10 +15,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -138,16 +136,6 @@ struct Process {
     }
 };
 
-Error not_installed(const std::string& path, const std::string& tried) {
-    return {.what = "this file is read by way of meshio, which is not installed",
-            .file = path,
-            .expected = "a Python with the module meshio",
-            .found = tried,
-            .remedy =
-                "install it: `apt install python3-meshio`, or `python3 -m pip install 'meshio[all]'`; "
-                "BARYCERT_MESHIO names the Python to use"};
-}
-
 /// Of formats in HDF5 and NetCDF the first bytes tell.
 base::Text beginning_of(const base::InputFile& file, const std::string& path, const std::string& format) {
     std::array<char, 4> magic{};
@@ -157,17 +145,12 @@ base::Text beginning_of(const base::InputFile& file, const std::string& path, co
     return format == "ansys" ? base::Text::head : base::Text::all;
 }
 
-std::string half_of_memory() {
-    return std::to_string(static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) / 2 *
-                          static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
-}
-
 /// A file that meshio has read.
 struct MeshioFile {
-    std::shared_ptr<base::Descriptor> descriptor = {};  ///< of the mesh as a .vtu file without a name
-    std::string vtu = {};                               ///< its path
-    std::string answer = {};                            ///< what was read, JSON
-    std::string messages = {};                          ///< what meshio printed, cut off where it is long
+    base::Descriptor descriptor;  ///< of the mesh as a .vtu file without a name
+    std::string vtu = {};         ///< its path
+    std::string answer = {};      ///< what was read, JSON
+    std::string messages = {};    ///< what meshio printed, cut off where it is long
 };
 
 /// Has `path` read as what meshio calls `format`, by the Python of BARYCERT_MESHIO, else python3 or /usr/bin/python3.
@@ -190,17 +173,17 @@ MeshioFile run_meshio(const std::string& path, const std::string& format) {
     input.check(beginning_of(input, path, format), path, keyword).value();
     std::vector<std::string> pythons{"python3", "/usr/bin/python3"};
     if (named != nullptr) pythons = {named};
-    const std::string memory = half_of_memory();
+    const std::string memory = std::to_string(static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) / 2 *
+                                              static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)));
     const bool packed = path.ends_with(".gz");  // formats that name files beside them are not packed
     const std::vector<std::string> arguments{"-c",   meshio_script, packed ? "/dev/fd/4" : path,      format,
                                              memory, memory,        std::to_string(most_time.count())};
     std::string tried;
     for (const std::string& python : pythons) {
-        MeshioFile file{.descriptor =
-                            std::make_shared<base::Descriptor>(::memfd_create("barycert-meshio", MFD_CLOEXEC))};
-        if (file.descriptor->number < 0) throw Exception(base::read_failure(path, errno));
-        file.vtu = "/proc/self/fd/" + std::to_string(file.descriptor->number);
-        Process process(python, arguments, file.descriptor->number, input.descriptor());
+        MeshioFile file{.descriptor = base::Descriptor(::memfd_create("barycert-meshio", MFD_CLOEXEC))};
+        if (!file.descriptor) throw Exception(base::read_failure(path, errno));
+        file.vtu = "/proc/self/fd/" + std::to_string(file.descriptor.number);
+        Process process(python, arguments, file.descriptor.number, input.descriptor());
         const bool ended = process.failure != 0 || process.listen(file.answer, file.messages);
         const int status = process.end();
         tried += (tried.empty() ? "" : ", ") + python + ": ";
@@ -220,7 +203,10 @@ MeshioFile run_meshio(const std::string& path, const std::string& format) {
                 "convert the file to .vtu with the program that it is of");
         }
     }
-    throw Exception(not_installed(path, tried));
+    refuse_file(path, "this file is read by way of meshio, which is not installed", "a Python with the module meshio",
+                tried,
+                "install it: `apt install python3-meshio`, or `python3 -m pip install 'meshio[all]'`; "
+                "BARYCERT_MESHIO names the Python to use");
 }
 
 using Json = nlohmann::json;
@@ -284,17 +270,10 @@ void tell_messages(const std::string& messages, const std::string& path, Notes& 
     }
 }
 
-/// What meshio has opened beside the file is read by this run, too.
-void record(const Json& files) {
-    for (const Json& file : files) {
-        const std::string path = file.get<std::string>();
-        if (const Result<base::InputFile> input = base::InputFile::open(path); input)
-            base::record_input(input->descriptor(), path);
-    }
-}
-
 Mesh checked(const Json& answer, const MeshioFile& file, const std::string& path, const std::string& format) {
-    record(answer.value("files", Json::array()));
+    // What meshio has opened beside the file is read by this run, too: what is opened is recorded.
+    for (const Json& beside : answer.value("files", Json::array()))
+        static_cast<void>(base::InputFile::open(beside.get<std::string>()));
     if (answer.contains("error")) throw Exception(not_read(answer, file.messages, path, format));
     Result<Mesh> read = read_vtk(file.vtu);
     if (!read) {
@@ -336,10 +315,9 @@ Result<Mesh> read_converted(const std::string& path, const std::string& format) 
 std::vector<std::string> converted_files(const std::string& path) {
     std::vector<std::string> files{path};
     std::filesystem::path beside(path);
-    std::error_code ignored;
     for (const char* suffix : {".h5", ".bin"}) {
         beside.replace_extension(suffix);
-        if (beside != path && std::filesystem::exists(beside, ignored)) files.push_back(beside.string());
+        if (beside != path && exists(beside.string())) files.push_back(beside.string());
     }
     return files;
 }

@@ -49,12 +49,27 @@ std::size_t empty_at_the_end(const TableColumns& all, int dimension) {
     return empty ? static_cast<std::size_t>(all.names.end() - first) : 0;
 }
 
-void note_the_guesses(const TableColumns& all, CsvLayout& layout) {
-    if (layout.separator != ',')
-        layout.notes.push_back(
-            {Note::Kind::guessed, "columns are separated by " + separator_name(layout.separator), all.file});
-    if (!layout.header)
-        layout.notes.push_back({Note::Kind::guessed, "there is no header: the first line is a point", all.file});
+/// True if the text is a decimal number that no double holds: `value`, the nearest one, is another number when it is
+/// written with as many digits.
+bool is_rounded(std::string_view text, double value) {
+    // A double holds 15 digits, unless it is subnormal, and has 767 at most.
+    constexpr std::size_t held = 15, most = 767;
+    const bool normal = std::fabs(value) >= std::numeric_limits<double>::min();
+    if (normal && text.size() <= held) return false;
+    const auto digits_of = [](std::string_view number) {
+        number = number.substr(0, number.find_first_of("eE"));
+        std::string digits;
+        std::copy_if(number.begin(), number.end(), std::back_inserter(digits), is_digit);
+        digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+        return digits.substr(0, digits.find_last_not_of('0') + 1);
+    };
+    const std::string digits = digits_of(text);
+    if (digits.empty() || (normal && digits.size() <= held)) return false;
+    if (digits.size() > most) return true;
+    std::array<char, 800> nearest{};
+    const auto [end, error] = std::to_chars(nearest.data(), nearest.data() + nearest.size(), value,
+                                            std::chars_format::scientific, static_cast<int>(digits.size()) - 1);
+    return digits_of({nearest.data(), static_cast<std::size_t>(end - nearest.data())}) != digits;
 }
 
 }  // namespace
@@ -118,7 +133,11 @@ CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOpt
         layout.kept.push_back({std::move(kept.name), Column::Type::text});
         layout.plain = false;
     }
-    note_the_guesses(all, layout);
+    if (layout.separator != ',')
+        layout.notes.push_back(
+            {Note::Kind::guessed, "columns are separated by " + separator_name(layout.separator), all.file});
+    if (!layout.header)
+        layout.notes.push_back({Note::Kind::guessed, "there is no header: the first line is a point", all.file});
     layout.notes.insert(layout.notes.end(), columns.notes.begin(), columns.notes.end());
     return layout;
 }
@@ -126,11 +145,7 @@ CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOpt
 std::optional<std::int64_t> integer_of(std::string_view field) {
     const std::string_view digits = field.substr(field.starts_with('-') ? 1 : 0);
     if (digits.empty() || (digits.front() == '0' && field.size() != 1)) return std::nullopt;
-    std::int64_t value = 0;
-    const char* const last = field.data() + field.size();
-    const auto [end, error] = std::from_chars(field.data(), last, value);
-    if (error != std::errc{} || end != last) return std::nullopt;
-    return value;
+    return whole_number<std::int64_t>(field);
 }
 
 std::optional<double> number_of(std::string_view field) {
@@ -153,33 +168,6 @@ bool is_inexact(std::string_view text, double value) {
         std::to_chars(digits.data(), digits.data() + digits.size(), std::fabs(value), std::chars_format::fixed, 0);
     return std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())) != text;
 }
-
-namespace {
-
-/// True if the text is a decimal number that no double holds: `value`, the nearest one, is another number when it is
-/// written with as many digits.
-bool is_rounded(std::string_view text, double value) {
-    // A double holds 15 digits, unless it is subnormal, and has 767 at most.
-    constexpr std::size_t held = 15, most = 767;
-    const bool normal = std::fabs(value) >= std::numeric_limits<double>::min();
-    if (normal && text.size() <= held) return false;
-    const auto digits_of = [](std::string_view number) {
-        number = number.substr(0, number.find_first_of("eE"));
-        std::string digits;
-        std::copy_if(number.begin(), number.end(), std::back_inserter(digits), is_digit);
-        digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
-        return digits.substr(0, digits.find_last_not_of('0') + 1);
-    };
-    const std::string digits = digits_of(text);
-    if (digits.empty() || (normal && digits.size() <= held)) return false;
-    if (digits.size() > most) return true;
-    std::array<char, 800> nearest{};
-    const auto [end, error] = std::to_chars(nearest.data(), nearest.data() + nearest.size(), value,
-                                            std::chars_format::scientific, static_cast<int>(digits.size()) - 1);
-    return digits_of({nearest.data(), static_cast<std::size_t>(end - nearest.data())}) != digits;
-}
-
-}  // namespace
 
 void TypeOfTexts::see(std::string_view text) {
     if (text.empty()) {

@@ -1,7 +1,6 @@
 // Rows of CSV: what they say, and why they are refused, in words.
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "barycert/base/text.hpp"
@@ -111,8 +110,7 @@ std::string separator_name(char separator) {
 
 Error csv_row_error(const CsvFault& fault, const CsvLayout& layout, const LinePlace& place) {
     const auto refused = [&](std::string what, std::string expected, std::string found, std::string remedy) {
-        return line_error(place.file, place.line, std::move(what), std::move(expected), std::move(found),
-                          std::move(remedy));
+        return Error{std::move(what), place.file, place.line, std::move(expected), std::move(found), std::move(remedy)};
     };
     const std::string found = base::quoted(fault.text);
     const std::size_t fields = layout.role_of.size();

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-#include <utility>
+#include <string_view>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
@@ -26,9 +26,7 @@ char* put(char* at, double x) {
 /// Whether a name or text would not be read as it is: readers settle the separator by the header, and pass over blanks
 /// around fields.
 bool needs_quotes(std::string_view text) {
-    const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
-    return text.find_first_of(",;\"\r\n\t") != std::string_view::npos ||
-           (!text.empty() && (is_blank(text.front()) || is_blank(text.back())));
+    return text.find_first_of(",;\"\r\n\t") != std::string_view::npos || text.starts_with(' ') || text.ends_with(' ');
 }
 
 /// A name or text as a field of CSV takes this much at most.

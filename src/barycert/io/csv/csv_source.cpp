@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
@@ -24,15 +23,86 @@ public:
     /// Reads up to the header or over the first point. `kept`: the formats of the carried columns, where they are
     /// known.
     CsvSource(const std::string& path, int dimension, const PointOptions& options,
-              const std::vector<ColumnFormat>* kept = nullptr);
+              const std::vector<ColumnFormat>* kept = nullptr)
+        : ColumnSource(dimension), lines_(path) {
+        for (std::string_view line; lines_.next(line);) {
+            if (!holds_fields(line, ' ')) continue;
+            layout_ = settle_csv_layout(line, dimension, options, place());
+            if (kept != nullptr && kept->size() == layout_.kept.size()) layout_.kept = *kept;
+            formats_ = layout_.kept;
+            notes_ = layout_.notes;
+            if (layout_.header) return;
+            // The first point; it is given like all others.
+            const std::string text = std::string(line) + (lines_.line_ended() ? "\n" : "");
+            pieces_.resize(1);
+            parse_csv(text, layout_, dimension, pieces_.front());
+            if (pieces_.front().fault) throw Exception(row_error(pieces_.front()));
+            piece_count_ = 1;
+            return;
+        }
+        refuse_file(lines_.name(), "the file is empty", "a header line or a point",
+                    lines_.number() == 0 ? "nothing" : "blank lines and comments",
+                    "write the file again; a file with a header only is a file without points");
+    }
 
     std::optional<std::uint64_t> count() const override { return std::nullopt; }
     void add_notes(const Notes& more) { notes_.insert(notes_.end(), more.begin(), more.end()); }
 
 private:
-    std::size_t next(std::size_t max, std::vector<double>& out) override;
-    bool parse_more();
-    Error row_error(const CsvPiece& piece) const;
+    std::size_t next(std::size_t max, std::vector<double>& out) override {
+        const std::size_t size = dimension_;
+        std::size_t taken = 0;
+        while (taken != max) {
+            if (piece_ == piece_count_) {
+                if (!pending_.what.empty()) throw Exception(pending_);
+                if (!parse_more()) break;
+                continue;
+            }
+            const std::vector<double>& points = pieces_[piece_].points;
+            const std::size_t count = std::min(max - taken, points.size() / size - given_);
+            out.insert(out.end(), points.data() + given_ * size, points.data() + (given_ + count) * size);
+            for (std::size_t k = 0; k < carried_.size(); ++k)
+                mesh::move_values(pieces_[piece_].carried[k], given_, count, carried_[k]);
+            taken += count;
+            given_ += count;
+            if (given_ * size != points.size()) continue;
+            ++piece_;
+            given_ = 0;
+        }
+        return taken;
+    }
+
+    /// Parses the next pieces; false at the end of the file. The error of a line is kept. Precondition: all pieces have
+    /// been given.
+    bool parse_more() {
+        piece_ = piece_count_ = given_ = 0;
+        std::string_view text;
+        if (!lines_.next_lines(text)) return false;
+        texts_.clear();
+        while (!text.empty()) {
+            std::size_t size = text.size();
+            if (size > text_a_piece) size = std::min(text.find('\n', text_a_piece - 1), text.size() - 1) + 1;
+            texts_.push_back(text.substr(0, size));
+            text.remove_prefix(size);
+        }
+        piece_count_ = texts_.size();
+        if (pieces_.size() < piece_count_) pieces_.resize(piece_count_);
+        in_parallel(piece_count_, [&](std::size_t i) { parse_csv(texts_[i], layout_, dimension(), pieces_[i]); });
+        for (std::size_t i = 0; i < piece_count_; ++i) {
+            lines_.count(pieces_[i].lines);
+            if (!pieces_[i].fault) continue;
+            pending_ = row_error(pieces_[i]);
+            piece_count_ = i + 1;
+        }
+        return true;
+    }
+
+    /// The bad line has been counted.
+    Error row_error(const CsvPiece& piece) const {
+        if (const Status same = lines_.unchanged(); !same) return same.error();
+        return csv_row_error(piece.fault, layout_, place());
+    }
+
     LinePlace place() const { return {lines_.name(), lines_.number()}; }
 
     LineReader lines_;
@@ -42,83 +112,6 @@ private:
     std::size_t piece_ = 0, piece_count_ = 0, given_ = 0;
     Error pending_;  // behind the points that are left
 };
-
-CsvSource::CsvSource(const std::string& path, int dimension, const PointOptions& options,
-                     const std::vector<ColumnFormat>* kept)
-    : ColumnSource(dimension), lines_(path) {
-    for (std::string_view line; lines_.next(line);) {
-        if (!holds_fields(line, ' ')) continue;
-        layout_ = settle_csv_layout(line, dimension, options, place());
-        if (kept != nullptr && kept->size() == layout_.kept.size()) layout_.kept = *kept;
-        formats_ = layout_.kept;
-        notes_ = layout_.notes;
-        if (layout_.header) return;
-        // The first point; it is given like all others.
-        const std::string text = std::string(line) + (lines_.line_ended() ? "\n" : "");
-        pieces_.resize(1);
-        parse_csv(text, layout_, dimension, pieces_.front());
-        if (pieces_.front().fault) throw Exception(row_error(pieces_.front()));
-        piece_count_ = 1;
-        return;
-    }
-    refuse_file(lines_.name(), "the file is empty", "a header line or a point",
-                lines_.number() == 0 ? "nothing" : "blank lines and comments",
-                "write the file again; a file with a header only is a file without points");
-}
-
-/// The bad line has been counted.
-Error CsvSource::row_error(const CsvPiece& piece) const {
-    if (const Status same = lines_.unchanged(); !same) return same.error();
-    return csv_row_error(piece.fault, layout_, place());
-}
-
-/// Parses the next pieces; false at the end of the file. The error of a line is kept. Precondition: all pieces have
-/// been given.
-bool CsvSource::parse_more() {
-    piece_ = piece_count_ = given_ = 0;
-    std::string_view text;
-    if (!lines_.next_lines(text)) return false;
-    texts_.clear();
-    while (!text.empty()) {
-        std::size_t size = text.size();
-        if (size > text_a_piece) size = std::min(text.find('\n', text_a_piece - 1), text.size() - 1) + 1;
-        texts_.push_back(text.substr(0, size));
-        text.remove_prefix(size);
-    }
-    piece_count_ = texts_.size();
-    if (pieces_.size() < piece_count_) pieces_.resize(piece_count_);
-    in_parallel(piece_count_, [&](std::size_t i) { parse_csv(texts_[i], layout_, dimension(), pieces_[i]); });
-    for (std::size_t i = 0; i < piece_count_; ++i) {
-        lines_.count(pieces_[i].lines);
-        if (!pieces_[i].fault) continue;
-        pending_ = row_error(pieces_[i]);
-        piece_count_ = i + 1;
-    }
-    return true;
-}
-
-std::size_t CsvSource::next(std::size_t max, std::vector<double>& out) {
-    const std::size_t size = dimension_;
-    std::size_t taken = 0;
-    while (taken != max) {
-        if (piece_ == piece_count_) {
-            if (!pending_.what.empty()) throw Exception(pending_);
-            if (!parse_more()) break;
-            continue;
-        }
-        const std::vector<double>& points = pieces_[piece_].points;
-        const std::size_t count = std::min(max - taken, points.size() / size - given_);
-        out.insert(out.end(), points.data() + given_ * size, points.data() + (given_ + count) * size);
-        for (std::size_t k = 0; k < carried_.size(); ++k)
-            mesh::move_values(pieces_[piece_].carried[k], given_, count, carried_[k]);
-        taken += count;
-        given_ += count;
-        if (given_ * size != points.size()) continue;
-        ++piece_;
-        given_ = 0;
-    }
-    return taken;
-}
 
 /// The formats of the carried columns, from all their values: a first pass over the file.
 std::vector<ColumnFormat> formats_of_all(CsvSource source, const std::string& path, Notes& notes) {

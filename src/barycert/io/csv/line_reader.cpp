@@ -75,11 +75,6 @@ void LineReader::refill() {
     ended_ = got == 0;
 }
 
-bool LineReader::more_is_there() const {
-    pollfd asked{.fd = descriptor_, .events = POLLIN, .revents = 0};
-    return ::poll(&asked, 1, 0) == 1;
-}
-
 bool LineReader::next(std::string_view& line) {
     if (lines_.empty() && !take_lines()) return false;
     line = lines_.substr(0, lines_.find('\n'));
@@ -101,8 +96,12 @@ bool LineReader::take_lines() {
     // As much as there is room for: a pipe gives little at a time. But a line is not kept waiting for others that may
     // be long in coming.
     const auto held = [&] { return std::string_view(buffer_.data() + begin_, end_ - begin_); };
+    const auto would_wait = [&] {
+        pollfd asked{.fd = descriptor_, .events = POLLIN, .revents = 0};
+        return ::poll(&asked, 1, 0) != 1;
+    };
     while (!ended_ && (begin_ != 0 || end_ != longest_line)) {
-        if (held().rfind('\n') != std::string_view::npos && !more_is_there()) break;
+        if (held().rfind('\n') != std::string_view::npos && would_wait()) break;
         refill();
     }
     std::size_t size = held().size();

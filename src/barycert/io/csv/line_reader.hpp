@@ -50,8 +50,6 @@ private:
     bool take_lines();
     void refill();
     void skip_mark();
-    /// Reading would not wait.
-    bool more_is_there() const;
 
     std::string name_;
     int descriptor_ = -1;

@@ -8,6 +8,7 @@
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
 namespace {
@@ -72,7 +73,6 @@ const ElementType& choose(const MshFile& file, const TypeCounts& counts) {
         dimension = type.dimension();
         kinds.push_back(&type);
     }
-    const auto any = [&](auto is_one) { return std::any_of(kinds.begin(), kinds.end(), is_one); };
     const auto refuse = [&](const char* what, const char* expected, const std::string& remedy) {
         const std::string found = counted_types(counts, dimension, dimension);
         refuse_file(file.path(), what, expected, found.empty() ? "no elements" : found, remedy);
@@ -83,12 +83,12 @@ const ElementType& choose(const MshFile& file, const TypeCounts& counts) {
                "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the volume one, or "
                "add -save_all");
     const char* const expected = solid ? "tetrahedra of order 1 or 2" : "triangles of order 1 or 2";
-    if (any([](const ElementType* type) {
+    if (std::ranges::any_of(kinds, [](const ElementType* type) {
             return type->family != ElementFamily::tetrahedron && type->family != ElementFamily::triangle;
         }))
         refuse(solid ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
                to_simplices(file.path()));
-    if (any([](const ElementType* type) { return type->order > 2; }))
+    if (std::ranges::any_of(kinds, [](const ElementType* type) { return type->order > 2; }))
         refuse("cells of a higher order", expected, order_remedy(file));
     if (kinds.size() > 1) refuse("cells of both orders in one mesh", "cells of one order", order_remedy(file));
     return *kinds.front();
@@ -186,37 +186,29 @@ void read_chosen(const Target& to, std::span<const Run> runs) {
 /// In 2.x Gmsh writes an element of several groups once for each, one after the other. All but the first go.
 void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
     const std::size_t count = cells.tags.size();
-    const auto same_nodes = [&](std::size_t i) {
-        const Mesh::Index* const c = &cells.mesh.cells[i * corners];
-        return std::equal(c, c + corners, c - corners);
-    };
     const auto repeats = [&](std::size_t i) {
-        return same_nodes(i) && cells.geometrical[i] == cells.geometrical[i - 1] &&
+        const Mesh::Index* const c = &cells.mesh.cells[i * corners];
+        return std::equal(c, c + corners, c - corners) && cells.geometrical[i] == cells.geometrical[i - 1] &&
                cells.physical[i] != cells.physical[i - 1];
     };
     std::size_t first = 1;
     while (first < count && !repeats(first)) ++first;
     if (first >= count) return;
-    std::vector<std::size_t> kept;
+    std::vector<Mesh::Index> kept;
     for (std::size_t i = 0; i < count; ++i) {
-        if (i == 0 || !repeats(i)) kept.push_back(i);
+        if (i == 0 || !repeats(i)) kept.push_back(static_cast<Mesh::Index>(i));
     }
-    const auto keep = [&](auto& values, std::size_t width) {
-        const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i * width); };
-        for (std::size_t to = 0; to < kept.size(); ++to) std::copy_n(at(kept[to]), width, at(to));
-        values.resize(kept.size() * width);
-    };
     if (cells.mesh.cell_numbers.empty()) {
-        for (const std::size_t i : kept) cells.mesh.cell_numbers.push_back(static_cast<Mesh::Index>(i));
+        cells.mesh.cell_numbers = kept;
     } else {
-        keep(cells.mesh.cell_numbers, 1);
+        keep_rows(cells.mesh.cell_numbers, 1, kept);
     }
     cells.repeated = count - kept.size();
-    keep(cells.mesh.cells, corners);
-    keep(cells.mesh.mid_nodes, mids);
-    keep(cells.tags, 1);
-    keep(cells.physical, 1);
-    keep(cells.geometrical, 1);
+    keep_rows(cells.mesh.cells, corners, kept);
+    keep_rows(cells.mesh.mid_nodes, mids, kept);
+    keep_rows(cells.tags, 1, kept);
+    keep_rows(cells.physical, 1, kept);
+    keep_rows(cells.geometrical, 1, kept);
 }
 
 /// Marks the nodes of cells; counts the others.

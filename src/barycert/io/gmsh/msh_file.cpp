@@ -18,9 +18,34 @@ bool is_space(char c) {
 }
 
 std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-    return text;
+    text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+    return text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+}
+
+/// Fits in a core's own cache, which has it for the second look.
+constexpr std::size_t text_piece = std::size_t{1} << 18;
+
+bool in_word(char c) {
+    return static_cast<unsigned char>(c) > ' ';
+}
+
+/// How many words begin in [at, end); the byte before is read. 64 bytes at a time: sums of bytes, which compilers make
+/// vectors of, overflow after 255 rounds.
+std::size_t count_words(const char* at, const char* end) {
+    std::size_t total = 0;
+    while (end - at >= 64) {
+        std::array<std::uint8_t, 64> sums{};
+        for (int round = 0; round < 255 && end - at >= 64; ++round, at += 64) {
+            for (std::size_t i = 0; i < 64; ++i) {
+                const auto begins = static_cast<std::uint8_t>(static_cast<std::uint8_t>(at[i]) > ' ') &
+                                    static_cast<std::uint8_t>(static_cast<std::uint8_t>((at - 1)[i]) <= ' ');
+                sums[i] = static_cast<std::uint8_t>(sums[i] + begins);
+            }
+        }
+        for (const std::uint8_t sum : sums) total += sum;
+    }
+    for (; at < end; ++at) total += in_word(at[0]) && !in_word(at[-1]) ? 1 : 0;
+    return total;
 }
 
 }  // namespace
@@ -148,13 +173,11 @@ void MshFile::check_sections() const {
     const std::set<std::string_view> once{"MeshFormat", "PhysicalNames",   "Entities", "PartitionedEntities",
                                           "Nodes",      "ParametricNodes", "Elements"};
     std::set<std::string_view> found;
-    const MshSection* second = nullptr;
-    for (const MshSection& section : sections_) {
-        if (second == nullptr && once.contains(section.name) && !found.insert(section.name).second) second = &section;
+    for (const auto& [name, body] : sections_) {
+        if (once.contains(name) && !found.insert(name).second)
+            refuse(name.data(), "a second section $" + std::string(name), "one of each kind", "two",
+                   "keep one mesh a file");
     }
-    if (second != nullptr)
-        refuse(second->name.data(), "a second section $" + std::string(second->name), "one of each kind", "two",
-               "keep one mesh a file");
 }
 
 MshFile::MshFile(const std::string& path, int threads) : path_(path), threads_(threads) {
@@ -177,40 +200,9 @@ MshFile::MshFile(const std::string& path, int threads) : path_(path), threads_(t
 }
 
 const MshSection* MshFile::find(std::string_view name) const {
-    const auto found =
-        std::find_if(sections_.begin(), sections_.end(), [&](const MshSection& s) { return s.name == name; });
+    const auto found = std::ranges::find(sections_, name, &MshSection::name);
     return found == sections_.end() ? nullptr : &*found;
 }
-
-namespace {
-
-/// Fits in a core's own cache, which has it for the second look.
-constexpr std::size_t text_piece = std::size_t{1} << 18;
-
-bool in_word(char c) {
-    return static_cast<unsigned char>(c) > ' ';
-}
-
-/// How many words begin in [at, end); the byte before is read. 64 bytes at a time: sums of bytes, which compilers make
-/// vectors of, overflow after 255 rounds.
-std::size_t count_words(const char* at, const char* end) {
-    std::size_t total = 0;
-    while (end - at >= 64) {
-        std::array<std::uint8_t, 64> sums{};
-        for (int round = 0; round < 255 && end - at >= 64; ++round, at += 64) {
-            for (std::size_t i = 0; i < 64; ++i) {
-                const auto begins = static_cast<std::uint8_t>(static_cast<std::uint8_t>(at[i]) > ' ') &
-                                    static_cast<std::uint8_t>(static_cast<std::uint8_t>((at - 1)[i]) <= ' ');
-                sums[i] = static_cast<std::uint8_t>(sums[i] + begins);
-            }
-        }
-        for (const std::uint8_t sum : sums) total += sum;
-    }
-    for (; at < end; ++at) total += in_word(at[0]) && !in_word(at[-1]) ? 1 : 0;
-    return total;
-}
-
-}  // namespace
 
 WordIndex::WordIndex(std::string_view text, int threads) : text_(text) {
     const std::size_t pieces = (text.size() + text_piece - 1) / text_piece;

@@ -134,30 +134,8 @@ struct MshCells {
 /// orders, an element that names a node that there is not.
 MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes);
 
-/// An entity or a physical group: its dimension and its tag.
-using GmshKey = std::pair<std::int64_t, std::int64_t>;
-
-struct MshEntity {
-    std::vector<std::int64_t> physical;  ///< tags of groups, as in the file: negative where turned around
-    std::int64_t whole = 0;              ///< the entity that it is a part of, or itself
-};
-
-/// $PhysicalNames, $Entities and $PartitionedEntities: what entities belong to.
-struct MshGroups {
-    std::map<GmshKey, std::string> names;   ///< of physical groups
-    std::map<GmshKey, MshEntity> entities;  ///< 4.x; those that are in a group or a part of another
-    bool partitioned = false;               ///< there are parts of entities
-};
-
-MshGroups read_msh_groups(const MshFile& file);
-
 /// Tells which elements are not among the cells, and which nodes are of no cell. `partitioned`: entities are.
 void note_cells(MshCells& cells, bool partitioned, const std::string& path);
-
-/// Appends the fields "gmsh:physical" and "gmsh:geometrical", and the labels "gmsh:tag" and "gmsh:physical_name". A
-/// cell field of one of these names that is there already stays: the writer makes such where groups cannot say the
-/// same.
-void label_cells(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells);
 
 /// The header of a section $NodeData, $ElementData or $ElementNodeData: a field, or a step in time of it.
 struct MshView : GmshStep {

@@ -170,8 +170,7 @@ std::optional<std::int64_t> choose_step(const std::vector<const MshView*>& views
     const std::string has = base::quoted(views.front()->field) + " has " + std::to_string(steps.size()) + " steps, " +
                             std::to_string(*steps.begin()) + " to " + std::to_string(*steps.rbegin());
     if (!wanted) {
-        const auto* const first = *std::find_if(views.begin(), views.end(),
-                                                [&](const MshView* view) { return view->step == *steps.begin(); });
+        const MshView* const first = *std::ranges::min_element(views, {}, &MshView::step);
         notes.push_back({Note::Kind::left_out, has + ": all but " + step_text(*first) + ", which is read", path, true});
         return *steps.begin();
     }

@@ -75,26 +75,24 @@ std::int64_t Walk::count_line(const char* name) {
 void Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name) {
     const auto count = static_cast<std::uint64_t>(rows);
     const auto room = static_cast<std::uint64_t>(end_ - at_);
-    bool good = count <= room;  // in any layout a row has a byte or more, so that products do not overflow below
+    // In any layout a row has a byte or more: with no more rows than bytes products do not overflow.
+    if (!text_ && count <= room && count * bytes <= room) return move_to(at_ + count * bytes);
     std::string found = "fewer";
-    if (good && !text_) {
-        good = count * bytes <= room;
-        if (good) at_ += count * bytes;
-    } else if (good) {
+    if (text_ && count <= room) {
         // The last of many words is found by its number.
-        const std::size_t wanted = count * numbers,
-                          words = wanted <= few_words ? wanted : std::min(wanted, words_left());
+        const WordIndex& index = file_->words();
+        const std::size_t wanted = count * numbers;
+        const std::size_t words =
+            wanted <= few_words ? wanted : std::min(wanted, index.before(end_) - index.before(at_));
         const std::size_t passed = words <= few_words ? 0 : words - 1;
         std::size_t rest = words - passed;
-        const char* const from = passed == 0 ? at_ : file_->words().find(file_->words().before(at_) + passed);
+        const char* const from = passed == 0 ? at_ : index.find(index.before(at_) + passed);
         const char* const after = skip_words(from, end_, rest);
-        good = passed + rest == wanted;
-        if (good) at_ = after;
-        if (!good) found = std::to_string((passed + rest) / numbers);
+        if (passed + rest == wanted) return move_to(after);
+        found = std::to_string((passed + rest) / numbers);
     }
-    if (!good)
-        refuse("the section ends too early", std::to_string(rows) + " " + name, found,
-               "the file may be cut short: write it again, or mend the number");
+    refuse("the section ends too early", std::to_string(rows) + " " + name, found,
+           "the file may be cut short: write it again, or mend the number");
 }
 
 void Walk::need_end() {

@@ -4,7 +4,6 @@
 ///     [&](auto& row, std::size_t i) { return row.tag(tags[i], "a node's tag"); }
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -159,8 +158,6 @@ public:
     bool text() const { return text_; }
     const char* at() const { return at_; }
     const char* end() const { return end_; }
-    /// How many words of text are left.
-    std::size_t words_left() const { return file_->words().before(end_) - file_->words().before(at_); }
     /// Moves over rows: so many numbers or bytes each.
     void skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name);
     /// White space and nothing else is left.

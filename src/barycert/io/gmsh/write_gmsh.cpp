@@ -170,18 +170,10 @@ private:
     void integer(std::int64_t value) {  // int
         out_.binary() ? out_.number(static_cast<std::int32_t>(value)) : out_.number(value);
     }
-    void wide(std::uint64_t value) { out_.number(value); }  // size_t
-    /// A row of these, of their own types.
+    /// A row of these, of their own types: int or size_t.
     template <class... Numbers>
     void row(Numbers... numbers) {
-        const auto put = [&](auto number) {
-            if constexpr (sizeof(number) == 8) {
-                wide(number);
-            } else {
-                integer(number);
-            }
-        };
-        (put(numbers), ...);
+        (out_.number(numbers), ...);
         out_.end_row();
     }
     /// "$EndName", after binary data on a line of its own.
@@ -222,14 +214,14 @@ private:
             }
         }
         out_.text("$Entities\n");
-        for (int d = 0; d < 4; ++d) wide(d == mesh_.dimension ? groups_.physical_of.size() : 0);
+        for (int d = 0; d < 4; ++d) out_.number(d == mesh_.dimension ? groups_.physical_of.size() : 0);
         out_.end_row();
         for (const auto& [entity, physical] : groups_.physical_of) {
             integer(entity);
             for (const auto& corner : boxes[entity]) out_.numbers<double>(corner);
-            wide(physical != 0 ? 1 : 0);
+            out_.number(std::size_t{physical != 0});
             if (physical != 0) integer(physical);
-            wide(0);
+            out_.number(std::size_t{0});
             out_.end_row();
         }
         end_section("Entities");
@@ -285,8 +277,8 @@ private:
             const std::size_t last = b + 1 < starts.size() ? starts[b + 1] : count;
             row(mesh_.dimension, groups_.entity_of(starts[b]), type(), last - starts[b]);
             for (std::size_t cell = starts[b]; cell < last; ++cell) {
-                wide(static_cast<std::uint64_t>(groups_.tags[cell]));
-                put_nodes(cell, [&](std::int64_t tag) { wide(static_cast<std::uint64_t>(tag)); });
+                out_.number(groups_.tags[cell]);
+                put_nodes(cell, [&](std::int64_t tag) { out_.number(tag); });
                 out_.end_row();
             }
         }

@@ -126,7 +126,6 @@ void make_rows(std::size_t count, MeditRows& rows) {
 }  // namespace
 
 bool is_medit(std::string_view head) {
-    if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
     if (same_word(first_word(head, '#').substr(0, 11), "MeshVersion")) return true;
     if (head.size() < 12) return false;
     const bool swapped = head[0] == 0;

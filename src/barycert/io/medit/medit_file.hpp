@@ -93,7 +93,7 @@ private:
     std::vector<MeditSection> sections_;
 };
 
-/// By the first bytes of a file.
+/// By the first bytes of a file, behind a byte-order mark.
 bool is_medit(std::string_view head);
 
 /// Reads .mesh and .meshb of version 1 to 4.

@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "barycert/base/finite.hpp"
@@ -241,8 +240,7 @@ private:
     void note_solution_beside() {
         for (const char* suffix : {".sol", ".solb"}) {
             const std::string path = std::filesystem::path(file_.path()).replace_extension(suffix).string();
-            std::error_code ignored;
-            if (std::filesystem::exists(path, ignored))
+            if (exists(path))
                 note(Note::Kind::left_out, std::string("the fields of ")
                                                .append(path)
                                                .append(", unless it is named: --field NAME=")

@@ -34,17 +34,6 @@ struct NpyType {
 /// Of a simple type such as <f8. Nothing where the size of an item is not known, or an item is a Python object.
 std::optional<NpyType> npy_type(std::string_view descr);
 
-/// The numbers of `count` items, each `step` bytes behind the one before, to out[0], out[stride], ..., up to the first
-/// that is none of that type (an integer that is no double, or beyond int64); how many there were. Precondition:
-/// is_number(), and for integers is_integer().
-template <class To>  // double, std::int64_t
-std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, To* out,
-                        std::size_t stride);
-
-/// The text at `at`, in UTF-8 if it is of characters, without the zeros at its end; nothing if one is no character.
-/// Precondition: is_text().
-std::optional<std::string> npy_text(const char* at, const NpyType& type);
-
 /// False if it is no code of Unicode, or a surrogate.
 bool append_utf8(std::string& text, std::uint32_t code);
 

@@ -41,11 +41,9 @@ bool take_escape(std::string_view& rest, std::string& value) {
     }
     const std::size_t digits = c == 'x' ? 2 : c == 'u' ? 4 : c == 'U' ? 8 : 0;
     if (digits == 0 || rest.size() < digits) return false;
-    std::uint32_t code = 0;
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + digits, code, 16);
-    if (error != std::errc{} || end != rest.data() + digits) return false;
+    const std::optional<std::uint32_t> code = whole_number<std::uint32_t>(rest.substr(0, digits), 16);
     rest.remove_prefix(digits);
-    return append_utf8(value, code);
+    return code && append_utf8(value, *code);
 }
 
 /// Takes a literal off the text. Python 2 wrote numbers as 5L.

@@ -12,17 +12,10 @@
 
 namespace barycert::io {
 
-/// STEM.node, where the nodes of STEM.poly and STEM.smesh may be.
-std::string node_path_of(const std::string& path);
-
-/// The whole file; throws Exception if it cannot be read.
-std::string read_whole_file(const std::string& path);
-
 class PlcText {
 public:
     /// Both texts must outlive the object. Words are parted by blanks and commas; `#` starts a comment. `size`: of the
-    /// file, where the text is its beginning.
-    PlcText(const std::string& path, std::string_view text) : PlcText(path, text, text.size()) {}
+    /// file, of which the text may be the beginning.
     PlcText(const std::string& path, std::string_view text, std::size_t size)
         : path_(path), rest_(text), end_(text.data() + text.size()), size_(size) {}
 
@@ -65,10 +58,6 @@ private:
     std::size_t at_ = 0;
 };
 
-/// Appends nodes: their header and then their rows. False: the header tells that they stand in a file of their own.
-bool read_nodes(PlcText& in, Plc& plc);
-
-Plc read_poly(PlcText& in, bool one_polygon_a_facet);
 Plc read_off(PlcText& in);
 Plc read_stl(PlcText& in);
 /// Throws Exception if the file is an .stl neither as text nor, by its size, in binary form.

@@ -6,7 +6,6 @@
 #include <csetjmp>
 #include <cstdio>
 #include <new>
-#include <string_view>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/output_file.hpp"

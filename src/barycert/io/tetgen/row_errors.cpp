@@ -1,7 +1,6 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "barycert/base/text.hpp"
@@ -125,8 +124,7 @@ Complaint about_real(std::string_view field, const std::string& finite, const st
         return {"a number that a double can hold", "check the number: the largest double is near 1.8e308"};
     if (looks_like_number(body, ".,eE+-") && body.find(',') != std::string_view::npos)
         return {"a number", "write it with a decimal point, not a comma"};
-    std::string word(body.substr(0, 3));
-    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string word = lower(body.substr(0, 3));
     if (word == "nan" || word == "inf") return {"a finite number", finite};
     if (field.find('\r') != std::string_view::npos)
         return {"a number", "end the lines with LF or CR LF, not with CR alone"};

@@ -14,12 +14,9 @@
 //
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
 #include <array>
-#include <filesystem>
 #include <initializer_list>
-#include <iterator>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "barycert/base/arena.hpp"
@@ -32,6 +29,9 @@
 namespace barycert {
 namespace io {
 namespace {
+
+constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".neigh"};
+constexpr std::array node_header{"nodes", "dimensions", "attributes", "markers"};
 
 /// The numbers of a header, in quotes.
 std::string header_text(std::initializer_list<std::int64_t> numbers) {
@@ -53,8 +53,8 @@ public:
     Mesh read() {
         prepare_nodes();
         prepare_cells();
-        if (options_.faces && exists(".face")) prepare_faces();
-        if (options_.neighbours && exists(".neigh")) prepare_neighbours();
+        if (options_.faces && has(".face")) prepare_faces();
+        if (options_.neighbours && has(".neigh")) prepare_neighbours();
         std::vector<TextTable*> tables{&nodes_, &cells_};
         if (faces_) tables.push_back(&*faces_);
         if (neighbours_) tables.push_back(&*neighbours_);
@@ -64,24 +64,119 @@ public:
     }
 
 private:
-    bool exists(const char* suffix) const {
-        std::error_code ignored;
-        return std::filesystem::exists(plain_or_packed(stem_ + suffix), ignored);
-    }
+    bool has(const char* suffix) const { return exists(plain_or_packed(stem_ + suffix)); }
 
-    /// `apart`: beside the nodes, which have told the base.
-    TextTable open(const char* suffix, std::span<const char* const> header_names, bool apart = true) const {
+    /// Beside the nodes, which have told the base.
+    TextTable open(const char* suffix, std::span<const char* const> header_names) const {
         TextTable table = open_table(stem_ + suffix, header_names, options_.threads);
         table.base = mesh_.index_base;
-        table.base_is_given = apart;
+        table.base_is_given = true;
         return table;
     }
 
-    void prepare_nodes();
-    void prepare_cells();
-    void prepare_faces();
-    void prepare_neighbours();
-    void settle_mid_edge_order();
+    void prepare_nodes() {
+        TextTable& table = nodes_ = open_table(stem_ + ".node", node_header, options_.threads);
+
+        const std::int64_t dimension = table.header_field(1, 3);
+        if (dimension != 2 && dimension != 3)
+            refuse_meaning(table, "bad dimension", "2 or 3", dimension,
+                           "the header is: nodes, dimension, attributes, markers");
+        const std::int64_t count = table.header[0], attributes = table.header_field(2, 0),
+                           markers = table.header_field(3, 0);
+        const std::string more = header_text({count, dimension, attributes + 1, markers});
+        table.surplus_remedy = markers == 0 ? "if the last column is a marker, make the header " +
+                                                  header_text({count, dimension, attributes, 1}) +
+                                                  "; if it is an attribute, " + more
+                                            : "if there is one attribute more, make the header " + more;
+        mesh_.dimension = static_cast<int>(dimension);
+        settle_node_columns(table, dimension, mesh_.points, mesh_.point_fields, mesh_.point_markers);
+        mesh_.index_base = table.base;
+    }
+
+    void prepare_cells() {
+        constexpr std::array names{"cells", "corners", "attributes"};
+        if (!has(".ele"))
+            refuse_file(stem_ + ".ele", "there are nodes but no cells", "an .ele file beside " + nodes_.file,
+                        "no such file", "mesh the nodes first, or put the .ele file there");
+        TextTable& table = cells_ = open(".ele", names);
+
+        const bool flat = mesh_.dimension == 2;
+        const std::int64_t corners = table.header_field(1, flat ? 3 : 4);
+        const std::int64_t attributes = table.header_field(2, 0);
+        if (flat ? corners != 3 && corners != 6 : corners != 4 && corners != 10)
+            refuse_meaning(
+                table, "bad number of corners",
+                flat ? "3 or 6, for the .node file has 2 dimensions" : "4 or 10, for the .node file has 3 dimensions",
+                corners, "check that the files belong together and hold triangles (2D) or tetrahedra (3D)");
+        table.columns = {{ColumnKind::id, 1, "id"},
+                         {ColumnKind::index, static_cast<std::size_t>(corners), "corner", nodes_.limit(), "nodes",
+                          &mesh_.cells, &mesh_.mid_nodes, mesh_.corners()},
+                         {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"}};
+        table.columns[2].fields = &mesh_.cell_fields;
+        table.surplus_remedy = "if there is one attribute more, make the header " +
+                               header_text({table.header[0], corners, attributes + 1});
+        make_room(table);
+    }
+
+    void prepare_faces() {
+        constexpr std::array names{"faces", "markers"};
+        TextTable& table = faces_.emplace(open(".face", names));
+        if (mesh_.dimension == 2)
+            refuse_header(table, "a mesh of triangles has no faces", {}, {},
+                          "remove the .face file or do not ask for faces");
+        const std::int64_t markers = table.header_field(1, 0);
+        if (markers > 1) refuse_meaning(table, "bad number of markers", "0 or 1", markers, {});
+        const auto marker_columns = static_cast<std::size_t>(markers);
+        const std::size_t found = table.first_row().size();
+        const std::size_t linear = 4 + marker_columns;  // id, corners, marker
+        const bool mids = found == linear + 3 || found == linear + 5;
+        const bool adjacent = found == linear + 2 || found == linear + 5;  // checked, and told again by the neighbours
+        table.columns = {{ColumnKind::id, 1, "id"},
+                         {ColumnKind::index, mids ? 6U : 3U, "corner", nodes_.limit(), "nodes", &mesh_.faces,
+                          &mesh_.face_mid_nodes, 3},
+                         {ColumnKind::integer, marker_columns, "marker"},
+                         {ColumnKind::neighbour, adjacent ? 2U : 0U, "cell", cells_.limit(), "cells"}};
+        table.columns[2].integers = &mesh_.face_markers;
+        table.surplus_remedy =
+            markers == 0 ? "if the last column is a marker, make the header " + header_text({table.header[0], 1})
+                         : "let all rows have as many columns as the first";
+        make_room(table);
+    }
+
+    void prepare_neighbours() {
+        constexpr std::array names{"cells", "neighbours"};
+        TextTable& table = neighbours_.emplace(open(".neigh", names));
+        const std::size_t sides = mesh_.corners();
+        const char* const remedy = "check that the files belong together, or remove the .neigh file";
+        if (table.rows != cells_.rows)
+            refuse_header(table, "the number of cells differs from that of the .ele file", std::to_string(cells_.rows),
+                          std::to_string(table.rows), remedy);
+        const std::int64_t declared = table.header_field(1, static_cast<std::int64_t>(sides));
+        if (declared != static_cast<std::int64_t>(sides))
+            refuse_meaning(table, "bad number of neighbours", std::to_string(sides), declared, remedy);
+        table.columns = {{ColumnKind::id, 1, "id"},
+                         {ColumnKind::neighbour, sides, "neighbour", cells_.limit(), "cells", &mesh_.neighbours}};
+        table.surplus_remedy = "let each row have an id and " + std::to_string(sides) + " neighbours";
+        make_room(table);
+    }
+
+    void settle_mid_edge_order() {
+        if (mesh_.mid_nodes.empty()) return;
+        const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
+        if (!vote)
+            refuse_header(cells_, "the order of the mid-edge nodes is unknown",
+                          "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
+                          "another order in most cells",
+                          "check that the files belong together, or write the mesh again as " +
+                              std::to_string(mesh_.corners()) + "-node cells");
+        mesh_.mid_edge_order = vote->order;
+        if (vote->guessed)
+            mesh_.notes.push_back({Note::Kind::guessed,
+                                   std::string("mid-edge nodes in the order of ") +
+                                       (mesh_.dimension == 2 ? "Triangle" : "TetGen") + ", as no cell tells another",
+                                   stem_ + ".ele", true});
+        mesh::normalise_mid_nodes(mesh_);
+    }
 
     std::string stem_;
     ReadOptions options_;
@@ -90,115 +185,11 @@ private:
     std::optional<TextTable> faces_, neighbours_;  // where there is such a file
 };
 
-void TetgenReader::prepare_nodes() {
-    constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
-    TextTable& table = nodes_ = open(".node", names, false);
-
-    const std::int64_t dimension = table.header_field(1, 3);
-    if (dimension != 2 && dimension != 3)
-        refuse_meaning(table, "bad dimension", "2 or 3", dimension,
-                       "the header is: nodes, dimension, attributes, markers");
-    const std::int64_t count = table.header[0], attributes = table.header_field(2, 0),
-                       markers = table.header_field(3, 0);
-    const std::string more = header_text({count, dimension, attributes + 1, markers});
-    table.surplus_remedy = markers == 0
-                               ? "if the last column is a marker, make the header " +
-                                     header_text({count, dimension, attributes, 1}) + "; if it is an attribute, " + more
-                               : "if there is one attribute more, make the header " + more;
-    mesh_.dimension = static_cast<int>(dimension);
-    settle_node_columns(table, dimension, mesh_.points, mesh_.point_fields, mesh_.point_markers);
-    mesh_.index_base = table.base;
-}
-
-void TetgenReader::prepare_cells() {
-    constexpr std::array names{"cells", "corners", "attributes"};
-    if (!exists(".ele"))
-        refuse_file(stem_ + ".ele", "there are nodes but no cells", "an .ele file beside " + nodes_.file,
-                    "no such file", "mesh the nodes first, or put the .ele file there");
-    TextTable& table = cells_ = open(".ele", names);
-
-    const bool flat = mesh_.dimension == 2;
-    const std::int64_t corners = table.header_field(1, flat ? 3 : 4);
-    const std::int64_t attributes = table.header_field(2, 0);
-    if (flat ? corners != 3 && corners != 6 : corners != 4 && corners != 10)
-        refuse_meaning(
-            table, "bad number of corners",
-            flat ? "3 or 6, for the .node file has 2 dimensions" : "4 or 10, for the .node file has 3 dimensions",
-            corners, "check that the files belong together and hold triangles (2D) or tetrahedra (3D)");
-    table.columns = {{ColumnKind::id, 1, "id"},
-                     {ColumnKind::index, static_cast<std::size_t>(corners), "corner", nodes_.limit(), "nodes",
-                      &mesh_.cells, &mesh_.mid_nodes, mesh_.corners()},
-                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute", 0, {}, &mesh_.cell_fields}};
-    table.surplus_remedy =
-        "if there is one attribute more, make the header " + header_text({table.header[0], corners, attributes + 1});
-    make_room(table);
-}
-
-void TetgenReader::prepare_faces() {
-    constexpr std::array names{"faces", "markers"};
-    TextTable& table = faces_.emplace(open(".face", names));
-    if (mesh_.dimension == 2)
-        refuse_header(table, "a mesh of triangles has no faces", {}, {},
-                      "remove the .face file or do not ask for faces");
-    const std::int64_t markers = table.header_field(1, 0);
-    if (markers > 1) refuse_meaning(table, "bad number of markers", "0 or 1", markers, {});
-    const auto marker_columns = static_cast<std::size_t>(markers);
-    const std::size_t found = table.first_row().size();
-    const std::size_t linear = 4 + marker_columns;  // id, corners, marker
-    const bool mids = found == linear + 3 || found == linear + 5;
-    const bool adjacent = found == linear + 2 || found == linear + 5;  // checked, and told again by the neighbours
-    table.columns = {
-        {ColumnKind::id, 1, "id"},
-        {ColumnKind::index, mids ? 6U : 3U, "corner", nodes_.limit(), "nodes", &mesh_.faces, &mesh_.face_mid_nodes, 3},
-        {ColumnKind::integer, marker_columns, "marker", 0, {}, &mesh_.face_markers},
-        {ColumnKind::neighbour, adjacent ? 2U : 0U, "cell", cells_.limit(), "cells"}};
-    table.surplus_remedy = markers == 0
-                               ? "if the last column is a marker, make the header " + header_text({table.header[0], 1})
-                               : "let all rows have as many columns as the first";
-    make_room(table);
-}
-
-void TetgenReader::prepare_neighbours() {
-    constexpr std::array names{"cells", "neighbours"};
-    TextTable& table = neighbours_.emplace(open(".neigh", names));
-    const std::size_t sides = mesh_.corners();
-    const char* const remedy = "check that the files belong together, or remove the .neigh file";
-    if (table.rows != cells_.rows)
-        refuse_header(table, "the number of cells differs from that of the .ele file", std::to_string(cells_.rows),
-                      std::to_string(table.rows), remedy);
-    const std::int64_t declared = table.header_field(1, static_cast<std::int64_t>(sides));
-    if (declared != static_cast<std::int64_t>(sides))
-        refuse_meaning(table, "bad number of neighbours", std::to_string(sides), declared, remedy);
-    table.columns = {{ColumnKind::id, 1, "id"},
-                     {ColumnKind::neighbour, sides, "neighbour", cells_.limit(), "cells", &mesh_.neighbours}};
-    table.surplus_remedy = "let each row have an id and " + std::to_string(sides) + " neighbours";
-    make_room(table);
-}
-
-void TetgenReader::settle_mid_edge_order() {
-    if (mesh_.mid_nodes.empty()) return;
-    const std::optional<mesh::MidEdgeVote> vote = mesh::detect_mid_edge_order(mesh_);
-    if (!vote)
-        refuse_header(cells_, "the order of the mid-edge nodes is unknown",
-                      "each near the middle of its edge, in the order of TetGen, Triangle, VTK or Gmsh",
-                      "another order in most cells",
-                      "check that the files belong together, or write the mesh again as " +
-                          std::to_string(mesh_.corners()) + "-node cells");
-    mesh_.mid_edge_order = vote->order;
-    if (vote->guessed)
-        mesh_.notes.push_back({Note::Kind::guessed,
-                               std::string("mid-edge nodes in the order of ") +
-                                   (mesh_.dimension == 2 ? "Triangle" : "TetGen") + ", as no cell tells another",
-                               stem_ + ".ele", true});
-    mesh::normalise_mid_nodes(mesh_);
-}
-
 }  // namespace
 
 Source open_node_source(const std::string& path, int dimension, const PointOptions& options) {
-    constexpr std::array names{"nodes", "dimensions", "attributes", "markers"};
     const int threads = base::arena_threads();
-    TextTable table = open_table(path, names, threads);
+    TextTable table = open_table(path, node_header, threads);
     const std::int64_t found = table.header_field(1, 3);
     // Points in space may lie in the plane of a mesh.
     if ((found < dimension && options.columns.empty()) || found < 2 || found > 3) {
@@ -221,15 +212,9 @@ Source open_node_source(const std::string& path, int dimension, const PointOptio
 
 }  // namespace io
 
-namespace {
-
-constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".neigh"};
-
-}  // namespace
-
 std::string tetgen_stem(const std::string& path) {
     const std::string_view plain = io::without_gz(path);
-    for (const std::string_view suffix : suffixes) {
+    for (const std::string_view suffix : io::suffixes) {
         if (plain.ends_with(suffix)) return path.substr(0, plain.size() - suffix.size());
     }
     return path;
@@ -237,8 +222,8 @@ std::string tetgen_stem(const std::string& path) {
 
 std::vector<std::string> tetgen_files(const std::string& path) {
     std::vector<std::string> files;
-    files.reserve(std::size(suffixes));
-    for (const std::string_view suffix : suffixes)
+    files.reserve(io::suffixes.size());
+    for (const std::string_view suffix : io::suffixes)
         files.push_back(io::plain_or_packed(tetgen_stem(path) + std::string(suffix)));
     return files;
 }

@@ -1,5 +1,3 @@
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
 #include <initializer_list>
@@ -9,6 +7,7 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -111,8 +110,7 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
     std::vector<std::unique_ptr<RowOutput>> files;
     for (const Part& part : parts) {
         const std::string target = stem + part.suffix;
-        struct stat old {};
-        if (!part.present && ::stat(target.c_str(), &old) == 0)
+        if (!part.present && io::exists(target))
             return file_error(target, "a file of another mesh exists",
                               "no such file: the mesh to be written has no data for it", {},
                               "remove it, or choose another name");

@@ -55,11 +55,12 @@ bool parse_plain_cell(const TextTable& table, Scanner& scanner, std::size_t row)
     const char* const after = scan_plain_row(scanner.at, values);
     const auto base = static_cast<std::uint32_t>(table.base);
     if (after == nullptr || values[0] != row + base) return false;
+    Mesh::Index* const to = table.columns[1].indices->data() + row * Corners;
     bool good = true;
     for (std::size_t i = 0; i < Corners; ++i) {
         const std::uint32_t index = values[i + 1] - base;
         good = good && index < static_cast<std::uint64_t>(table.columns[1].limit);
-        table.columns[1].indices[row * Corners + i] = static_cast<Mesh::Index>(index);
+        to[i] = static_cast<Mesh::Index>(index);
     }
     if (good) scanner.at = after;
     return good;
@@ -81,14 +82,14 @@ bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row) {
             if (c.kind == ColumnKind::real) {
                 double value = 0;
                 if (!scanner.real(value) && !(table.any_real && scanner.nonfinite(value))) return false;
-                if (c.fields != nullptr) c.fields[k].data[row] = value;
-                if (c.reals != nullptr) c.reals[row * c.step + k] = value;
+                if (c.fields != nullptr) (*c.fields)[k].data[row] = value;
+                if (c.reals != nullptr) (*c.reals)[row * c.step + k] = value;
                 continue;
             }
             std::int64_t value = 0;
             if (!scanner.integer(value)) return false;
             if (c.kind == ColumnKind::integer) {
-                if (c.integers != nullptr) c.integers[row * c.step + k] = value;
+                if (c.integers != nullptr) (*c.integers)[row * c.step + k] = value;
                 continue;
             }
             const bool none = c.kind == ColumnKind::neighbour && value == -1;
@@ -100,7 +101,7 @@ bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row) {
             if (!none && static_cast<std::uint64_t>(value) >= static_cast<std::uint64_t>(c.limit)) return false;
             if (c.indices == nullptr) continue;
             Mesh::Index& to =
-                k < c.step ? c.indices[row * c.step + k] : c.more_indices[row * (c.count - c.step) + k - c.step];
+                k < c.step ? (*c.indices)[row * c.step + k] : (*c.more_indices)[row * (c.count - c.step) + k - c.step];
             to = static_cast<Mesh::Index>(value);
         }
     }
@@ -171,9 +172,12 @@ void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<d
         refuse_header(table, "bad number of markers in the header", "0 or 1", std::to_string(markers),
                       "declare further columns as attributes");
     table.columns = {{ColumnKind::id, 1, "id"},
-                     {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate", 0, {}, &points},
-                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute", 0, {}, &fields},
-                     {ColumnKind::integer, static_cast<std::size_t>(markers), "marker", 0, {}, &markers_of_nodes}};
+                     {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate"},
+                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
+                     {ColumnKind::integer, static_cast<std::size_t>(markers), "marker"}};
+    table.columns[1].reals = &points;
+    table.columns[2].fields = &fields;
+    table.columns[3].integers = &markers_of_nodes;
     const std::vector<std::string_view> first = table.first_row();
     std::int64_t id = 0;
     table.base = !first.empty() && scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
@@ -213,27 +217,24 @@ void make_room(TextTable& table) {
     // Each field takes a character and something that ends it. Without that room rows are missing, or one is too short,
     // or the last has no line end: the first of these is told.
     const auto bytes = static_cast<std::size_t>(table.end() - table.body);
-    if (table.rows * 2 * table.column_count() > bytes) parse_in_order(table);
+    if (table.rows * 2 * table.column_count() > bytes) {
+        for (Columns& c : table.columns) c = {c.kind, c.count, c.name, c.limit, c.refers_to};  // there is no place yet
+        parse_in_order(table);
+    }
     for (Columns& c : table.columns) {
         if (c.step == 0) c.step = c.count;
         const auto room = [&](auto* values, std::size_t width) {
-            base::resize_large(*values, table.rows * width);
-            return values->data();
+            if (values != nullptr) base::resize_large(*values, table.rows * width);
         };
-        if (auto* const* const reals = std::get_if<std::vector<double>*>(&c.to)) c.reals = room(*reals, c.step);
-        if (auto* const* const integers = std::get_if<std::vector<std::int64_t>*>(&c.to))
-            c.integers = room(*integers, c.step);
-        if (auto* const* const indices = std::get_if<std::vector<Mesh::Index>*>(&c.to))
-            c.indices = room(*indices, c.step);
-        if (c.more_to != nullptr) c.more_indices = room(c.more_to, c.count - c.step);
-        auto* const* const fields = std::get_if<std::vector<Field>*>(&c.to);
-        if (fields == nullptr) continue;
+        room(c.indices, c.step);
+        room(c.more_indices, c.count - c.step);
+        room(c.integers, c.step);
+        room(c.reals, c.step);
+        if (c.fields == nullptr) continue;
         if (table.rows == 0) c.count = 0;  // a count that no row bears out may be anything
-        (*fields)->resize(c.count);
-        c.fields = (*fields)->data();
         for (std::size_t k = 0; k < c.count; ++k) {
-            c.fields[k].name = "attribute" + std::to_string(k);
-            room(&c.fields[k].data, 1);
+            c.fields->push_back({"attribute" + std::to_string(k), 1, {}});
+            room(&c.fields->back().data, 1);
         }
     }
 }

@@ -12,7 +12,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "barycert/base/input_file.hpp"
@@ -33,11 +32,8 @@ enum class ColumnKind : std::uint8_t {
     real,
 };
 
-/// Where the values of some columns go: those of a row one behind the other, or to a field of each column.
-using ValuesTo = std::variant<std::monostate, std::vector<double>*, std::vector<std::int64_t>*,
-                              std::vector<Mesh::Index>*, std::vector<Field>*>;
-
-/// Some columns alike. Without a place for their values they are checked alone.
+/// Some columns alike. Their values go to one of these vectors, those of a row one behind the other, or to a field of
+/// each column. Without a place for them they are checked alone.
 struct Columns {
     ColumnKind kind = ColumnKind::id;
     std::size_t count = 0;
@@ -45,15 +41,12 @@ struct Columns {
     std::int64_t limit = 0;   ///< of an index
     std::string refers_to{};  ///< of an index: what it counts
 
-    ValuesTo to{};
-    std::vector<Mesh::Index>* more_to = nullptr;  ///< indices of the columns from number `step` on
-    std::size_t step = 0;                         ///< values of a row that go to `to`; 0: all
-
-    // Where make_room() has made room; value k of row r stands at r * step + k.
-    double* reals = nullptr;
-    Field* fields = nullptr;
-    std::int64_t* integers = nullptr;
-    Mesh::Index *indices = nullptr, *more_indices = nullptr;
+    std::vector<Mesh::Index>* indices = nullptr;
+    std::vector<Mesh::Index>* more_indices = nullptr;  ///< of the columns from number `step` on
+    std::size_t step = 0;                              ///< columns before these; 0, until make_room(): all
+    std::vector<std::int64_t>* integers = nullptr;
+    std::vector<double>* reals = nullptr;
+    std::vector<Field>* fields = nullptr;
 };
 
 struct TextTable {

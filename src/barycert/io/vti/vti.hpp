@@ -1,5 +1,4 @@
-/// VTK's VTI files (XML, image data): arrays at the points of a regular grid, written block by block. VTK is not
-/// needed.
+/// VTK's VTI files (XML, image data): arrays at the points of a regular grid, written block by block, without VTK.
 #pragma once
 
 #include <array>
@@ -33,8 +32,7 @@ struct VtiGrid {
 ///
 /// The file appears whole on commit(), or not at all. Arrays that take turns go to their places in the file, block by
 /// block: blocks below some 64 KiB cost a system call each. On a pipe or device only one array after the other can be
-/// written. Data that are not raw are kept in files without names up to the commit, and then compressed or written as
-/// text.
+/// written. Data that are not raw are kept in nameless files up to the commit, then compressed or written as text.
 class VtiWriter {
 public:
     /// Error: counts, origin or spacing that are none; more than 2^63 bytes; a name that is empty, twice there, or that

@@ -31,10 +31,9 @@ std::string fault_of_mesh(const Mesh& mesh) {
 
 /// The nodes of all cells: corners, then mid-edge nodes, whose order in the mesh is VTK's.
 struct CellNodes {
-    explicit CellNodes(const Mesh& m)
-        : mesh(m),
-          corners(m.corners()),
-          nodes(corners + (m.mid_nodes.empty() ? 0 : mesh::edges_of(m.dimension).size())) {}
+    const Mesh& mesh;
+    std::size_t corners = mesh.corners();  ///< of a cell, and all of its nodes
+    std::size_t nodes = corners + (mesh.mid_nodes.empty() ? 0 : mesh::edges_of(mesh.dimension).size());
 
     Mesh::Index operator()(std::size_t i) const {
         const std::size_t cell = i / nodes, k = i % nodes;
@@ -44,12 +43,8 @@ struct CellNodes {
         if (mesh.dimension == 2) return nodes == corners ? vtk_triangle : vtk_quadratic_triangle;
         return nodes == corners ? vtk_tetra : vtk_quadratic_tetra;
     }
-
-    const Mesh& mesh;
-    std::size_t corners, nodes;  ///< a cell
 };
 
-/// Arrays of points: fields and markers.
 std::vector<OutArray> point_arrays_of(const Mesh& mesh) {
     std::vector<OutArray> arrays;
     for (const Field& field : mesh.point_fields) arrays.push_back(array_of_field(field));
@@ -129,8 +124,7 @@ public:
     Status commit() { return file_.commit(); }
 
 private:
-    /// In a binary file the length of each text stands before it, in 1, 2, 4 or 8 bytes, which its two highest bits
-    /// tell: 3, 2, 1 or 0.
+    /// In a binary file each text follows its length, of 1, 2, 4 or 8 bytes, whose two highest bits are 3, 2, 1 or 0.
     void write_texts(std::string_view all) {
         for (std::size_t end = all.find('\0'); end != std::string_view::npos; end = all.find('\0')) {
             const std::string_view text = all.substr(0, end);
@@ -200,7 +194,7 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
         std::string fault = fault_of_mesh(mesh);
         if (!fault.empty()) return cannot_write("the mesh", fault, path);
         std::vector<std::string> room;
-        const CellNodes node(mesh);
+        const CellNodes node{mesh};
         const std::size_t cells = mesh.cell_count();
         OutGrid grid{.point_arrays = point_arrays_of(mesh),
                      .cell_arrays = cell_arrays_of(mesh, room),

@@ -64,22 +64,19 @@ NumberFault append_bits(std::string_view bytes, std::size_t count, std::vector<T
     return {};
 }
 
-struct TypeNames {
-    std::string_view xml, legacy;
-};
-/// In the order of NumberType. vtkIdType is written with 32 bits; long has 64 where this library runs.
-constexpr std::array<TypeNames, 12> type_names{{{"Bit", "BIT"},
-                                                {"Int8", "CHAR SIGNED_CHAR"},
-                                                {"UInt8", "UNSIGNED_CHAR"},
-                                                {"Int16", "SHORT"},
-                                                {"UInt16", "UNSIGNED_SHORT"},
-                                                {"Int32", "VTKIDTYPE INT"},
-                                                {"UInt32", "UNSIGNED_INT"},
-                                                {"Int64", "LONG VTKTYPEINT64 LONG_LONG __INT64"},
-                                                {"UInt64", "UNSIGNED_LONG VTKTYPEUINT64 UNSIGNED_LONG_LONG"},
-                                                {"Float32", "FLOAT"},
-                                                {"Float64", "DOUBLE"},
-                                                {"String", "STRING UTF8_STRING VARIANT"}}};
+/// In the order of NumberType: XML's name, then those of legacy files, where vtkIdType has 32 bits. A long has 64 here.
+constexpr std::array<std::string_view, 12> type_names{"Bit BIT",
+                                                      "Int8 CHAR SIGNED_CHAR",
+                                                      "UInt8 UNSIGNED_CHAR",
+                                                      "Int16 SHORT",
+                                                      "UInt16 UNSIGNED_SHORT",
+                                                      "Int32 VTKIDTYPE INT",
+                                                      "UInt32 UNSIGNED_INT",
+                                                      "Int64 LONG VTKTYPEINT64 LONG_LONG __INT64",
+                                                      "UInt64 UNSIGNED_LONG VTKTYPEUINT64 UNSIGNED_LONG_LONG",
+                                                      "Float32 FLOAT",
+                                                      "Float64 DOUBLE",
+                                                      "String STRING UTF8_STRING VARIANT"};
 
 // Numbers as text, on all threads: parts that begin and end between words are read into values of their own, which are
 // put together in the order of the file.
@@ -207,9 +204,8 @@ NumberFault read_words(std::string_view& text, NumberType type, std::size_t coun
             TextPart<To>& part = read[i];
             const std::size_t wanted = count - done;
             const bool no_number = part.fault.kind == NumberFault::Kind::no_number;
-            if (part.values.size() > wanted || (part.values.size() == wanted && no_number)) {
+            if (part.values.size() > wanted || (part.values.size() == wanted && no_number))
                 read_part(part, parts[i], wanted);  // what follows are other words
-            }
             if (part.fault && (!fault || part.fault.kind == NumberFault::Kind::no_number)) {
                 fault = part.fault;
                 fault.index += done;
@@ -233,12 +229,13 @@ NumberFault read_words(std::string_view& text, NumberType type, std::size_t coun
 }  // namespace
 
 std::string_view xml_name(NumberType type) {
-    return type_names[static_cast<std::size_t>(type)].xml;
+    std::string_view names = type_names[static_cast<std::size_t>(type)];
+    return next_word(names);
 }
 
 std::optional<NumberType> type_of_name(std::string_view name) {
     for (std::size_t i = 0; i < type_names.size(); ++i) {
-        if (name == type_names[i].xml || has_word(type_names[i].legacy, name)) return static_cast<NumberType>(i);
+        if (has_word(type_names[i], name)) return static_cast<NumberType>(i);
     }
     return std::nullopt;
 }

@@ -19,14 +19,7 @@ namespace {
 /// what is carried through (Int64, Float64 or String).
 class VtuSink final : public TableSink {
 public:
-    VtuSink(const std::string& path, const TableFormat& format)
-        : path_(path),
-          format_(format),
-          points_(path),
-          cells_(add("cell", 1, NumberType::int64)),
-          features_(add("feature", 1, NumberType::uint8)),
-          inside_(add("vtkValidPointMask", 1, NumberType::int8)) {
-        if (format.distances) distances_ = &add("distance", 1, NumberType::float64);
+    VtuSink(const std::string& path, const TableFormat& format) : path_(path), format_(format) {
         for (const TableField& field : format.fields) {
             fields_.push_back(&add(field.name, field.components, NumberType::float64));
             numbers_.push_back({field.name, field.components, {}});
@@ -110,8 +103,12 @@ private:
 
     std::string path_;
     TableFormat format_;
+    base::Spool points_{path_};
     std::deque<std::pair<ArrayFormat, base::Spool>> arrays_;  ///< in the order of the file; the members below are of it
-    base::Spool points_, &cells_, &features_, &inside_, *distances_ = nullptr;
+    base::Spool& cells_ = add("cell", 1, NumberType::int64);
+    base::Spool& features_ = add("feature", 1, NumberType::uint8);
+    base::Spool& inside_ = add("vtkValidPointMask", 1, NumberType::int8);
+    base::Spool* distances_ = format_.distances ? &add("distance", 1, NumberType::float64) : nullptr;
     std::vector<base::Spool*> fields_, carried_;
     std::vector<Field> numbers_;  ///< of the last rows, each field for itself
     std::size_t count_ = 0;

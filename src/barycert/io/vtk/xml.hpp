@@ -1,5 +1,4 @@
-/// VTK's XML files: their elements (through expat), the numbers in them, the data sets that they are. Errors are thrown
-/// as Exceptions.
+/// VTK's XML files: elements (through expat), numbers in them, the data sets that they are. Errors are Exceptions.
 #pragma once
 
 #include <cstddef>
@@ -67,8 +66,7 @@ public:
     /// The type of the numbers; nothing if they are none (strings).
     static std::optional<NumberType> type_of(const XmlElement& array);
 
-    /// Appends the numbers of the array, exactly `count`, to `values`. `what` names it in errors. `inexact` as in
-    /// FileText::check.
+    /// Appends the numbers of the array, exactly `count`. `what` names it in errors. `inexact` as in FileText::check.
     void read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
               NumberFault* inexact = nullptr) const;
 

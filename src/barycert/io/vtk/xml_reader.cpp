@@ -127,8 +127,7 @@ private:
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::int64_t count = (*extent)[2 * axis + 1] - (*extent)[2 * axis] + 1;
             counts[axis] = count > 0 ? static_cast<std::size_t>(count) : 0;
-            if (__builtin_mul_overflow(points, counts[axis], &points)) points = max_entities + 1;
-            points = std::min(points, max_entities + 1);
+            points = std::min(points * counts[axis], max_entities + 1);  // at most 2^31 times 2^32
         }
         if (points > max_entities)
             tree_.refuse_at(piece, "the points of the grid", "at most " + std::to_string(max_entities),
@@ -252,7 +251,6 @@ private:
         grid.append(std::move(cells), section);
     }
 
-    /// Those of PointData or CellData.
     void read_arrays(const XmlElement& data, std::size_t count, bool& has_steps, std::vector<RawArray>& arrays) const {
         if (count == 0) return;
         std::set<std::string> seen;

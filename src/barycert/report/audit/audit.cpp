@@ -1,7 +1,6 @@
 // What an audit found, for people.
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "barycert/report/audit/audit_words.hpp"
@@ -161,8 +160,7 @@ void tell_families(Document& d, const AuditReport& r) {
                                share_cell({worst, line.cases}),
                                worst == 0 && line.cases != 0 ? "-" : wrong.front().second + more}});
     }
-    d.part("Families of cases");
-    d.add(std::move(table));
+    d.table(std::move(table), "Families of cases");
     d.say("clean: kernels without a finding / all kernels. median, worst: share of wrong cases, over the kernels.",
           Tone::soft);
 }
@@ -209,8 +207,7 @@ void tell_kernel(Document& d, const AuditReport& r, const TerminalStyle& style) 
     for (const FamilyResult& f : k.families)
         families.push_back({r.families[f.family].name, r.families[f.family].tests, &f.statistics});
     std::ranges::stable_sort(families, std::greater<>(), [](const Known& f) { return f.statistics->wrong_cases; });
-    d.part("Families of cases");
-    d.add(statistics_table(families, false));
+    d.table(statistics_table(families, false), "Families of cases");
     if (!style.wide) tell_legend(d, false);
     d.section(k.kernel.raised != nullptr ? "Worst case of each finding:"
                                          : "Worst case of each finding, and the command that replays it:");
@@ -223,8 +220,7 @@ void tell_kernels(Document& d, const AuditReport& r) {
     std::vector<Known> kernels;
     for (const KernelResult& k : r.kernels)
         kernels.push_back({k.kernel.name, "", &k.total, worst_on_meshes(r, k), k.ns});
-    d.part("Kernels, worst first");
-    d.add(statistics_table(kernels, true));
+    d.table(statistics_table(kernels, true), "Kernels, worst first");
     tell_legend(d, true);
 }
 
@@ -255,9 +251,8 @@ void tell_all_counts(Document& d, const AuditReport& r) {
              {Finding::opposite_sign, Finding::false_zero, Finding::false_nonzero, Finding::not_finite,
               Finding::false_inside, Finding::false_outside, Finding::false_declaration, Finding::missed_degenerate})
             row.cells.emplace_back(brief_count(count_of(s, f)));
-        for (const std::string& figure :
-             {brief(s.p999_weight_ulp()), brief(s.weight_ulp.value), brief(s.p999_value_ulp()), brief_time(k.ns)})
-            row.cells.emplace_back(figure);
+        row.cells.insert(row.cells.end(), {brief(s.p999_weight_ulp()), brief(s.weight_ulp.value),
+                                           brief(s.p999_value_ulp()), brief_time(k.ns)});
         if (const std::string beside = incidents(s); !beside.empty()) row.below.push_back(beside);
         if (const std::uint64_t broken = count_of(s, Finding::false_certificate); broken != 0)
             row.below.push_back(fmt::format("certifies its answers, and {} of them are wrong", broken));

@@ -20,10 +20,7 @@ void put_statistics(Json& j, const KernelStatistics& s) {
         const auto& [name, value] = audit::figures()[f];
         if (f == audit::first_error)
             put(j, "worst_error", magnitude(s.errors.worst.value), "by_error", s.errors.counts);
-        if (f < audit::first_error)
-            put(j, name, static_cast<std::uint64_t>(value(s)));
-        else
-            put(j, name, magnitude(value(s)));
+        put(j, name, f < audit::first_error ? Json(static_cast<std::uint64_t>(value(s))) : magnitude(value(s)));
     }
     Json& confusion = j["confusion"];
     for (const Region exact : all_regions) {

@@ -176,21 +176,20 @@ std::string figure_of_signs(const SameSigns& group) {
 }
 
 /// Colours by the power of ten of an error, the darker the larger; and those without.
-class MapScale {
-public:
+struct MapScale {
     static constexpr std::uint8_t beside = 0, right = 1, unanswered = 2, first = 3;
 
     explicit MapScale(const MeshMap& map) {
         for (const MeshMap::OfKernel& k : map.kernels) {
             for (const double e : k.errors) {
                 if (!(e > 0) || std::isinf(e)) continue;
-                low_ = std::min(low_, decade(e));
-                high_ = std::max(high_, decade(e));
+                low = std::min(low, decade(e));
+                high = std::max(high, decade(e));
             }
         }
-        for (int d = low_; d <= high_; ++d) {
-            const int span = std::max(high_ - low_, 1);
-            colours_.push_back(io::colour(io::colour_count - 1 - (io::colour_count - 1) * (d - low_) / span));
+        for (int d = low; d <= high; ++d) {
+            const int span = std::max(high - low, 1);
+            colours.push_back(io::colour(io::colour_count - 1 - (io::colour_count - 1) * (d - low) / span));
         }
     }
 
@@ -198,31 +197,28 @@ public:
         if (error < 0) return beside;
         if (error == 0) return right;
         if (std::isinf(error)) return unanswered;
-        return static_cast<std::uint8_t>(first + decade(error) - low_);
+        return static_cast<std::uint8_t>(first + decade(error) - low);
     }
-
-    const std::vector<io::Colour>& colours() const { return colours_; }
 
     /// A swatch for each colour of errors.
     std::string key() const {
-        std::string out = swatch(colours_[right], "no error");
-        for (int d = low_; d <= high_; ++d)
-            out += swatch(colours_[static_cast<std::size_t>(first + d - low_)], fmt::format("&lt; 1e{}", d + 1));
-        return out + swatch(colours_[unanswered], "no finite answer");
+        std::string out = swatch(colours[right], "no error");
+        for (int d = low; d <= high; ++d)
+            out += swatch(colours[static_cast<std::size_t>(first + d - low)], fmt::format("&lt; 1e{}", d + 1));
+        return out + swatch(colours[unanswered], "no finite answer");
     }
 
-private:
     /// The power of ten at or below it: as many as fit the colours of a picture, from far below an ulp of 1 on.
     static int decade(double error) { return std::clamp(static_cast<int>(std::floor(std::log10(error))), -40, 60); }
-    std::vector<io::Colour> colours_{{0xc4, 0xcb, 0xd1}, {0xff, 0xff, 0xff}, {0xc8, 0x10, 0x2e}};
-    int low_ = std::numeric_limits<int>::max(), high_ = std::numeric_limits<int>::min();
+    std::vector<io::Colour> colours{{0xc4, 0xcb, 0xd1}, {0xff, 0xff, 0xff}, {0xc8, 0x10, 0x2e}};
+    int low = std::numeric_limits<int>::max(), high = std::numeric_limits<int>::min();
 };
 
 std::string map_figure(const MeshMap& map, const MeshMap::OfKernel& k, const MapScale& scale) {
     std::vector<std::uint8_t> pixels;
     for (const std::int32_t p : map.pixels)
         pixels.push_back(p < 0 ? MapScale::beside : scale.index_of(k.errors[static_cast<std::size_t>(p)]));
-    const std::string png = io::indexed_png(map.width, pixels, scale.colours()).value();
+    const std::string png = io::indexed_png(map.width, pixels, scale.colours).value();
     const auto worst = static_cast<std::size_t>(std::max_element(k.errors.begin(), k.errors.end()) - k.errors.begin());
     const double largest = k.errors[worst];
     const std::string name = html_escaped(base::printable(k.kernel));

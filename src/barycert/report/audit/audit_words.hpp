@@ -10,7 +10,6 @@ inline std::uint64_t count_of(const KernelStatistics& s, Finding f) {
     return s.counts[static_cast<std::size_t>(f)];
 }
 
-/// A share: how many of how many.
 struct Share {
     std::uint64_t part = 0, whole = 0;
 };
@@ -20,8 +19,7 @@ std::string percent(const Share& share);  ///< "-" if there are none
 Cell share_cell(const Share& share, bool red = false);
 Cell number_cell(double x);
 
-/// Points exactly inside or on the boundary that the kernel calls outside, and points outside that it calls inside or
-/// on the boundary.
+/// Points exactly in the closed cell that the kernel calls outside; points outside that it says are in the closed cell.
 Share inside_called_outside(const KernelStatistics& s);
 Share outside_called_inside(const KernelStatistics& s);
 /// Cases without a finite answer, of those whose simplex is not degenerate.
@@ -46,7 +44,6 @@ std::string incidents(const KernelStatistics& s);
 std::string finding_sentence(const KernelResult& k, const Witness& w);
 /// Where a witness comes from: family, case, cell of a mesh.
 std::string place_of(const Witness& w);
-/// What a witness shows.
 std::string shows(const Witness& w);
 /// The command that shows the witnesses of style.witness_path with that kernel and reason.
 std::string replay_from_file(const std::string& kernel, const std::string& reason, const TerminalStyle& style);

@@ -26,8 +26,7 @@ void tell_table(Document& d, const GapsReport& r) {
                                brief_count(c.inside), n(ClaimFault::gap), n(ClaimFault::several), n(ClaimFault::wrong),
                                n(ClaimFault::wrong_first), brief_count(c.outside), n(ClaimFault::outside_claimed)}});
     }
-    d.part();
-    d.add(std::move(table));
+    d.table(std::move(table));
     d.notes(
         {fmt::format(
              "rule: a cell claims a point if all weights are > 0 (strict), >= 0 (exact), >= -{} (tolerant), or by the",
@@ -78,11 +77,9 @@ Json claims_json(const ClaimResult& r, int dimension) {
     }
     put(j, "witnesses", list(r.witnesses, [&](const auto& of) {
             const ClaimWitness& w = of.second;
-            Json point = Json::array();
-            for (int axis = 0; axis < dimension; ++axis)
-                point.push_back(base::hexadecimal(w.point[static_cast<std::size_t>(axis)]));
-            return record("fault", name(of.first), MEMBERS(w, feature, index, nodes), "point", point,
-                          MEMBERS(w, holders, claimants));
+            const auto point = std::span(w.point).first(static_cast<std::size_t>(dimension));
+            return record("fault", name(of.first), MEMBERS(w, feature, index, nodes), "point",
+                          list(point, base::hexadecimal), MEMBERS(w, holders, claimants));
         }));
     return j;
 }
@@ -138,8 +135,7 @@ Document drift_document(const DriftReport& r) {
         row.cells.emplace_back(not_finite == 0 ? "" : fmt::format("and {} cases without a finite value", not_finite));
         table.rows.push_back(std::move(row));
     }
-    d.part();
-    d.add(std::move(table));
+    d.table(std::move(table));
     d.data = record("schema", audit_schema, "environment", measure_environment(), MEMBERS(r, seed, count), "kernels",
                     list(r.curves, [](const DriftCurve& curve) {
                         return record("name", curve.kernel.name, "sizes", list(curve.points, [](const DriftPoint& p) {

@@ -154,8 +154,7 @@ namespace {
 std::vector<std::size_t> columns_of(const FlagsMatrix& m, bool change) {
     std::vector<std::size_t> some;
     for (std::size_t c = 0; c < m.columns.size(); ++c) {
-        if (change ==
-            std::any_of(m.rows.begin(), m.rows.end(), [&](const auto& row) { return row.cells[c].changed != 0; }))
+        if (change == std::ranges::any_of(m.rows, [&](const auto& row) { return row.cells[c].changed != 0; }))
             some.push_back(c);
     }
     return some;

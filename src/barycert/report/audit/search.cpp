@@ -41,8 +41,7 @@ void tell_finds(Document& d, const SearchReport& r, const TerminalStyle& style) 
         table.rows.push_back(
             {{f.reason, brief_count(f.cases), brief(f.relative_error), brief(f.weight_ulp),
               brief(f.plain_relative_error), brief(f.plain_weight_ulp), std::to_string(f.plain_bits)}});
-    d.part();
-    d.add(std::move(table));
+    d.table(std::move(table));
     d.notes(
         {"relative: error of a weight over the largest exact weight. plainest: the same fault on coordinates of the",
          "fewest significant bits (of an error: at least 1/1024 of it); bits: of all its coordinates together."});
@@ -97,9 +96,8 @@ void tell_mutants(Document& d, const MutantReport& r) {
             row.tone = Tone::bad;
         } else {
             const MutantCatch& c = m.catches.front();
-            for (const std::string& text :
-                 {c.family, c.figure, figure_text(c.figure, c.sound), figure_text(c.figure, c.mutant)})
-                row.cells.emplace_back(text);
+            row.cells.insert(row.cells.end(),
+                             {c.family, c.figure, figure_text(c.figure, c.sound), figure_text(c.figure, c.mutant)});
         }
         table.rows.push_back(std::move(row));
     }
@@ -125,8 +123,7 @@ void tell_catches(Document& d, const MutantReport& r) {
         if (!alone.empty()) alone.insert(0, "alone: ");
         table.rows.push_back({{family, std::to_string(caught.size()), alone}});
     }
-    d.part();
-    d.add(std::move(table));
+    d.table(std::move(table));
 }
 
 Document mutants_document(const MutantReport& r) {

@@ -92,8 +92,7 @@ std::vector<KernelAnswer> answers_to_show(const Replay& replay, bool all) {
     return list;
 }
 
-/// Interpolating along auxiliary lines is barycentric interpolation, and ray casting the perspective-correct one, in
-/// exact arithmetic.
+/// In exact arithmetic interpolation along auxiliary lines is barycentric, and ray casting perspective-correct.
 void tell_identity(Document& d, const Replay& r) {
     if (r.identity == IdentityVerdict::undefined) return;
     const Case& c = r.witness.c;

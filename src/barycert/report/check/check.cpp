@@ -58,8 +58,7 @@ void tell_conditions(Document& d, const CheckReport& r, const Mesh& mesh) {
                               : what == "ok" ? Tone::good
                                              : Tone::plain});
     }
-    d.part("What was checked");
-    d.add(std::move(table));
+    d.table(std::move(table), "What was checked");
     if (std::any_of(r.defects.begin(), r.defects.end(), leaves_cells_out))
         d.say("P2 to P5 leave out cells with an invalid index, a non-finite coordinate or a repeated node.");
 }
@@ -104,8 +103,7 @@ void tell_defects(Document& d, const CheckReport& r, bool breaking, const std::s
     }
 }
 
-/// A fraction of at most 80 characters, or its ends and its length: they grow with the widths of coordinates, up to
-/// thousands of digits.
+/// A fraction of at most 80 characters, or its ends and its length: of wide coordinates it has thousands of digits.
 std::string shortened(const std::string& fraction, bool& cut) {
     constexpr std::size_t longest = 80, end = 24;
     if (fraction.size() <= longest) return fraction;
@@ -182,8 +180,7 @@ void tell_measures(Document& d, const CheckReport& r) {
                                  : Row{{m.name, rounded(x.min), rounded(x.median), rounded(x.max),
                                         std::to_string(r.cell_number(m.max_is_worst ? x.max_cell : x.min_cell))}});
     }
-    d.part("Shapes and sizes of the cells");
-    d.add(std::move(table));
+    d.table(std::move(table), "Shapes and sizes of the cells");
     d.say("Bits: log2 of the condition number; of the 53 bits of a double, plain weights may lose so many.",
           Tone::soft);
 }

@@ -179,8 +179,7 @@ std::string facts(const CheckReport& r, const Mesh& mesh, Mesh::Index cell, std:
     return out;
 }
 
-/// The cell from two sides, at the same scale, with the numbers of its nodes; what is known of it. `number` is the one
-/// it has in the map.
+/// The cell from two sides at one scale, with the numbers of its nodes; what is known of it. `number`: in the map.
 std::string exhibit_card(const CheckReport& r, const Mesh& mesh, const Exhibit& e, std::size_t number) {
     const Scene scene = scene_of(mesh, e);
     const std::vector<Shown> views = views_of(mesh, scene);

@@ -81,6 +81,7 @@ std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, st
         if (worst.size() > max) worst.erase(std::prev(worst.end()));
     }
     std::vector<Exhibit> exhibits;
+    exhibits.reserve(worst.size());
     const char* const kind = mesh.dimension == 2 ? "" : "dihedral ";
     for (const auto& [angle, cell] : worst)
         exhibits.push_back({.cells = {cell, -1}, .what = fmt::format("smallest {}angle {:.4g}°", kind, angle)});

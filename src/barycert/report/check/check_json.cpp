@@ -1,6 +1,7 @@
 // The report on a mesh as programs read it, and what systems that run checks are told.
 
 #include <algorithm>
+#include <span>
 
 #include "barycert/base/json_text.hpp"
 #include "barycert/report/check/check_words.hpp"
@@ -66,14 +67,12 @@ Json defects_json(const CheckReport& r) {
 }
 
 Json contact_json(const CheckReport& r, const CellContact& c) {
-    Json decimal = Json::array(), hex = decimal, fraction = decimal;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(r.dimension); ++k) {
-        decimal.push_back(base::shortest(c.common.point[k]));
-        hex.push_back(base::hexadecimal(c.common.point[k]));
-        fraction.push_back(c.common.fraction[k]);
-    }
+    const auto point = std::span(c.common.point).first(static_cast<std::size_t>(r.dimension));
+    const std::vector fraction(c.common.fraction.begin(), c.common.fraction.begin() + r.dimension);
     return record("cells", indices(r.cell_number(c.cells)), "overlap", c.overlap, "dimension", std::max(c.dimension, 0),
-                  "witness", record("exact", c.common.exact, "decimal", decimal, "hex", hex, "fraction", fraction));
+                  "witness",
+                  record("exact", c.common.exact, "decimal", list(point, base::shortest), "hex",
+                         list(point, base::hexadecimal), "fraction", fraction));
 }
 
 Json measures_json(const CheckReport& r) {

@@ -5,8 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/report/check/check_pictures.hpp"
@@ -123,41 +121,41 @@ Outline outline_of(const Mesh& mesh, const Normalised& normalised, const View& v
     return out;
 }
 
-class Map {
-public:
-    Map(const Mesh& mesh, const Eigen::AlignedBox3d& box)
-        : mesh_(mesh),
-          normalised_(mesh.dimension, {box.min().data(), box.max().data()}),
-          view_(mesh.dimension == 2 ? View{} : oblique()) {
+struct Map {
+    const Mesh& mesh;
+    Normalised normalised;
+    View view;
+    double scale = 1, height = 0;
+
+    Map(const Mesh& of, const Eigen::AlignedBox3d& box)
+        : mesh(of),
+          normalised(of.dimension, {box.min().data(), box.max().data()}),
+          view(of.dimension == 2 ? View{} : oblique()) {
         double x = 0, y = 0;  // half of what the box takes
         for (const Vector& p : corners()) {
-            x = std::max(x, std::fabs(view_(p)[0]));
-            y = std::max(y, std::fabs(view_(p)[1]));
+            x = std::max(x, std::fabs(view(p)[0]));
+            y = std::max(y, std::fabs(view(p)[1]));
         }
-        if (x > 0) scale_ = (map_width / 2 - map_margin) / x;
-        if (y > 0) scale_ = std::min(scale_, (tallest / 2 - map_margin) / y);
-        height_ = 2 * (scale_ * y + map_margin);
+        if (x > 0) scale = (map_width / 2 - map_margin) / x;
+        if (y > 0) scale = std::min(scale, (tallest / 2 - map_margin) / y);
+        height = 2 * (scale * y + map_margin);
     }
-
-    double height() const { return height_; }
-    const Normalised& normalised() const { return normalised_; }
-    const View& view() const { return view_; }
 
     /// All corners of the box; bit k of the index is the side along axis k.
     std::vector<Vector> corners() const {
         std::vector<Vector> list;
         for (unsigned i = 0; i < 8; ++i) {
             Vector& v = list.emplace_back();
-            for (unsigned k = 0; k < 3; ++k) v[k] = normalised_.points()[(i >> k) & 1U][k];
+            for (unsigned k = 0; k < 3; ++k) v[k] = normalised.points()[(i >> k) & 1U][k];
         }
         return list;
     }
 
     Pixel at(const Vector& v) const {
-        const Vector q = view_(v);
-        return {map_width / 2 + scale_ * q[0], height_ / 2 - scale_ * q[1]};
+        const Vector q = view(v);
+        return {map_width / 2 + scale * q[0], height / 2 - scale * q[1]};
     }
-    Pixel node(Mesh::Index i) const { return at(normalised_.place(node_at(mesh_, i))); }
+    Pixel node(Mesh::Index i) const { return at(normalised.place(node_at(mesh, i))); }
 
     template <class Nodes>
     Pixel middle(const Nodes& nodes) const {
@@ -168,13 +166,7 @@ public:
         }
         return p;
     }
-    Pixel cell(Mesh::Index c) const { return middle(nodes_of(mesh_, static_cast<std::size_t>(c))); }
-
-private:
-    const Mesh& mesh_;
-    Normalised normalised_;
-    View view_;
-    double scale_ = 1, height_ = 0;
+    Pixel cell(Mesh::Index c) const { return middle(nodes_of(mesh, static_cast<std::size_t>(c))); }
 };
 
 void draw_box(Picture& svg, const Map& map, int d) {
@@ -272,9 +264,9 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     const Map map(mesh, box);
     Outline outline;
     tbb::task_arena arena(r.threads > 0 ? r.threads : tbb::task_arena::automatic);
-    arena.execute([&] { outline = outline_of(proper ? mesh : proper_cells(mesh), map.normalised(), map.view()); });
+    arena.execute([&] { outline = outline_of(proper ? mesh : proper_cells(mesh), map.normalised, map.view); });
 
-    Picture svg(map_width, map.height(), "the boundary of the mesh, and where the cells below are");
+    Picture svg(map_width, map.height, "the boundary of the mesh, and where the cells below are");
     draw_box(svg, map, mesh.dimension);
     draw_outline(svg, map, outline, mesh.dimension);
     const std::vector<Pixel> problems = problem_marks(r, mesh, map);

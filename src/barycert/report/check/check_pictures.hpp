@@ -23,8 +23,7 @@ struct Exhibit {
 /// The cells of smallest (dihedral) angle, smallest first, that are not degenerate and can be drawn; ties by index.
 std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, std::size_t max);
 
-/// Cells with defects, each problem in turn, so that a few of one kind leave room for the others. Contacts and places
-/// of defects that name cells which can be drawn.
+/// Cells with defects that can be drawn, each problem in turn, so that a few of one kind leave room for the others.
 std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t max);
 
 /// Where in the mesh they are: its boundary, thinned out to at most 3000 marks, and the exhibits by their numbers.
@@ -45,8 +44,7 @@ inline const double* node_at(const Mesh& mesh, Mesh::Index node) {
 /// True if all corners are nodes and have finite coordinates.
 bool drawable(const Mesh& mesh, std::size_t cell);
 
-/// Points in a box of edge 2 around the origin, whatever their coordinates: their differences, rounded, as large as
-/// they go. In 2D z = 0.
+/// Points in a box of edge 2 around the origin: their differences, rounded, as large as they go. In 2D z = 0.
 class Normalised {
 public:
     /// Of `d` coordinates each.
@@ -87,8 +85,7 @@ Vector unit(const Vector& a);
 
 /// Where bins lie. `given`: as many of `width` from `low` on as make `high`; values beyond (rounding) go to the outer
 /// ones. Else bins of a round width between the least and the greatest finite value, 20 to 50 of them: as they are if
-/// `linear`, and then [low, high] is always shown; in log10 if `logarithmic`; `chosen` is logarithmic if the greatest
-/// value is more than 20 times the least.
+/// `linear`, and then [low, high] is always shown; in log10 if `logarithmic`, or if `chosen` and max > 20 min.
 struct BinRule {
     enum class Kind : std::uint8_t { given, linear, logarithmic, chosen } kind = Kind::linear;
     double low = 0, high = 0, width = 0;
@@ -122,8 +119,8 @@ struct Measure {
 /// Those of the report as people see them: |volume|, the bits of accuracy that shape may cost, ratios, angles.
 std::vector<Measure> measures_of(const CheckReport& report);
 
-/// A figure a measure: bars, what was counted apart. Counts are on a logarithmic axis if the smallest bar would else be
-/// lower than 1 % of the tallest one.
+/// A figure a measure: bars, what was counted apart. Counts are logarithmic if the smallest is below 1 % of the
+/// largest.
 std::string histograms(const CheckReport& report);
 
 /// What these add to the style of pages. Two pictures stand side by side where there is room.

@@ -34,8 +34,7 @@ std::string curved_text(const Defect& defect);
 std::string domain_text(const CheckReport& report);
 /// The outcome, then the worst violation if there is one. Requires the report's `delaunay`.
 std::vector<std::string> delaunay_sentences(const CheckReport& report);
-/// The outcome, then distances, missing nodes and violated facets where there are some, of these at most as many as fit
-/// in `room` characters. Requires the report's `conformity`.
+/// The outcome, distances, missing nodes, and as many violated facets as fit in `room`. Requires `conformity`.
 std::vector<std::string> conformity_sentences(const CheckReport& report, std::size_t room);
 
 /// What was done to a mesh, a line each.

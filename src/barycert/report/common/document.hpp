@@ -1,5 +1,4 @@
-/// A report, filled once by its job: what people read, as blocks in the order of reading, and what programs read. The
-/// writers below know no job.
+/// A report, filled once by its job: what people read, block by block, and what programs read. Writers know no job.
 ///
 /// Text is plain text as it came, from wherever: the writer for a terminal makes it printable, that for a page escapes
 /// it. Pages ask for nothing from anywhere, and their head forbids it.
@@ -36,8 +35,8 @@ struct Section {
     bool on_terminal = true;
 };
 
-/// How a sentence longer than a terminal's line is broken: not; at blanks; or behind commas, since names of files may
-/// hold blanks.
+/// How a sentence longer than a terminal's line is broken: not; at blanks; behind commas, as names of files have
+/// blanks.
 enum class Breaks : std::uint8_t { none, words, commas };
 
 struct Paragraph {
@@ -169,9 +168,14 @@ public:
     void say(std::string text, Tone tone = Tone::plain, For whom = For::all, Breaks wrap = Breaks::none) {
         add(Paragraph{std::move(text), tone, wrap}, whom);
     }
+    /// With a heading on a page alone.
+    void table(Listing listing, std::string title = {}) {
+        part(std::move(title));
+        add(std::move(listing));
+    }
     /// Below a table, what its words mean; already broken into lines.
-    void notes(std::initializer_list<std::string> lines, For whom = For::all) {
-        for (const std::string& line : lines) say(line, Tone::soft, whom);
+    void notes(std::initializer_list<std::string> lines) {
+        for (const std::string& line : lines) say(line, Tone::soft);
     }
     void name(std::string name, std::string text, Tone tone = Tone::plain) {
         add(Named{std::move(name), {std::move(text)}, tone});

@@ -43,20 +43,18 @@ void put(Json& record, const Members& members, const Rest&... rest) {
     put(record, rest...);
 }
 
-/// Adds keys and their values to a record, in turn: doubles as figure() has them, enumerators by their names, null for
-/// an optional without a value.
+/// Adds keys and their values in turn: doubles as figure() has them, enumerators by name, null for an empty optional.
 template <class Value, class... Rest>
 void put(Json& record, std::string_view key, const Value& value, const Rest&... rest) {
     Json& member = record[std::string(key)];
-    if constexpr (std::is_same_v<Value, double>) {
+    if constexpr (std::is_same_v<Value, double>)
         member = figure(value);
-    } else if constexpr (std::is_enum_v<Value>) {
+    else if constexpr (std::is_enum_v<Value>)
         member = name(value);
-    } else if constexpr (requires { value.has_value(); }) {
+    else if constexpr (requires { value.has_value(); })
         member = value.has_value() ? Json(*value) : Json(nullptr);
-    } else {
+    else
         member = value;
-    }
     put(record, rest...);
 }
 

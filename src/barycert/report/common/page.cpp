@@ -55,8 +55,7 @@ std::string data_uri(std::string_view type, std::string_view bytes) {
 
 namespace {
 
-/// One column, wide screens and phones, light and dark, screen and paper; in Okabe and Ito's colours, told apart by
-/// most eyes.
+/// One column for wide screens, phones and paper, light and dark; in Okabe and Ito's colours, told apart by most eyes.
 constexpr std::string_view page_style = R"(
 :root{color-scheme:light dark;--ink:#1d2227;--soft:#59636c;--paper:#fff;--line:#dde2e6;--panel:#f5f7f8;--ground:var(--paper);
  --good:#00694c;--good-bg:#eaf6f1;--bad:#a50d26;--bad-bg:#fdeeee;--bar:#0072b2;--bar-bad:#c8102e;--second:#c67f00}

@@ -1,8 +1,7 @@
 /// Pictures as SVG, in HTML pages or files of their own: lines, bars, marks, text, axes, and labels that keep clear of
 /// each other. Looks are classes of a style sheet: the page's, or the file's.
 ///
-/// Coordinates are pixels, y downwards, written with one decimal, so that the same data give the same bytes. All text
-/// that comes in is escaped.
+/// Coordinates are pixels, y downwards, with one decimal, so that the same data give the same bytes. Text is escaped.
 #pragma once
 
 #include "barycert/report/common/terminal_text.hpp"
@@ -11,8 +10,7 @@ namespace barycert::report {
 
 // Text and bytes in HTML and XML.
 
-/// As an XML reader takes it back; control characters, which no XML may hold, become spaces, and bytes that are no
-/// UTF-8 (a file's name may be anything) U+FFFD.
+/// As an XML reader takes it back; control characters, which no XML may hold, become spaces, bytes not UTF-8 U+FFFD.
 std::string html_escaped(std::string_view text);
 
 /// A name of words and dots: escaped, and where lines are short broken behind dots, not within words.

@@ -72,20 +72,20 @@ void fill_cells(const FillSource& source, std::span<const locate::Place> cells, 
 
 // After that: points as they are left.
 
-/// One by one: returns true if the point is one of the others.
-HWY_INLINE bool finish_point(const FillTarget& target, std::size_t point, const double* outside, FinishedPoints& out) {
+/// One by one.
+HWY_INLINE void finish_point(const FillTarget& target, std::size_t point, const double* outside, FinishedPoints& out) {
     Feature& feature = target.feature[point];
-    if (target.owner[point] < 0) {
-        if (outside == nullptr) return true;
+    const bool owned = target.owner[point] >= 0;
+    if (owned && feature == Feature::outside) feature = Feature::interior;
+    if (owned ? lacks_value(feature) : outside == nullptr) {
+        out.others.push_back(static_cast<std::uint32_t>(point));
+    } else if (owned) {
+        out.locations.add(feature);
+        ++out.with_value;
+    } else {
         ++out.outside;
         std::fill_n(target.values + target.stride * point, target.stride, *outside);
-        return false;
     }
-    if (feature == Feature::outside) feature = Feature::interior;
-    if (lacks_value(feature)) return true;
-    out.locations.add(feature);
-    ++out.with_value;
-    return false;
 }
 
 void finish_points(const FillTarget& target, std::size_t first, std::size_t last, const double* outside,
@@ -109,17 +109,12 @@ void finish_points(const FillTarget& target, std::size_t first, std::size_t last
             std::fill_n(target.values + target.stride * point, target.stride * width, *outside);
             out.outside += width;
         } else {
-            for (std::size_t i = 0; i < width; ++i) {
-                if (finish_point(target, point + i, outside, out))
-                    out.others.push_back(static_cast<std::uint32_t>(point + i));
-            }
+            for (std::size_t i = 0; i < width; ++i) finish_point(target, point + i, outside, out);
         }
     }
     out.locations.add(Feature::interior, inside);
     out.with_value += inside;
-    for (; point < last; ++point) {
-        if (finish_point(target, point, outside, out)) out.others.push_back(static_cast<std::uint32_t>(point));
-    }
+    for (; point < last; ++point) finish_point(target, point, outside, out);
 }
 
 }  // namespace barycert::sample::HWY_NAMESPACE

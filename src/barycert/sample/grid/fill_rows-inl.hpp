@@ -58,16 +58,13 @@ HWY_INLINE void set_plane(D tag, const Raster& raster, V constant, const V (&s)[
 
 /// Of the cells of a block, the weights along rows.
 template <int d>
-struct RowsBlock {
-    PlaneBlock plane[d + 1];
-};
+using RowsBlock = PlaneBlock[d + 1];
 
 template <int d, class D>
 HWY_INLINE void set_planes(D tag, const Raster& raster, const CellBlock<d>& cell, const CellWeights<d, D>& w,
                            hn::Vec<D> extent, RowsBlock<d>& out) {
     const auto origin = hn::Load(tag, cell.origin[0]);
-    for (int j = 0; j <= d; ++j)
-        set_plane<d>(tag, raster, w.constant[j], w.slope[j], origin, extent, w.error, out.plane[j]);
+    for (int j = 0; j <= d; ++j) set_plane<d>(tag, raster, w.constant[j], w.slope[j], origin, extent, w.error, out[j]);
 }
 
 /// Rows of a cell, for several vectors: what was stored one by one is loaded as a vector only after a while, or the
@@ -95,7 +92,7 @@ HWY_INLINE void find_intervals(D tag, const CellBlock<d>& cell, const RowsBlock<
     if constexpr (d == 3) wz = hn::Load(tag, rows.z + at) - hn::Set(tag, cell.origin[2][l]);
     V low = hn::Set(tag, -8 * far), high = hn::Set(tag, 8 * far), inner_low = low, inner_high = high;
     for (int j = 0; j <= d; ++j) {
-        const PlaneBlock& p = planes.plane[j];
+        const PlaneBlock& p = planes[j];
         V a = hn::Set(tag, p.constant[l]) + hn::Set(tag, p.sy[l]) * wy;
         if constexpr (d == 3) a = a + hn::Set(tag, p.sz[l]) * wz;
         const V lower = hn::Set(tag, p.lower[l]) - a * hn::Set(tag, p.lower_factor[l]);

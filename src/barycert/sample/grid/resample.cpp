@@ -11,7 +11,6 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/locate/batch.hpp"
 #include "barycert/sample/grid/slab_sampler.hpp"
 
 namespace barycert::sample {
@@ -117,7 +116,7 @@ SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::
     base::parallel_for(parts_.size(), [&](std::size_t p) {
         const std::size_t first = p * at_once, count = std::min(at_once, cells - first);
         std::vector<SlabRange> ranges(count);
-        SlabRange all{~std::uint32_t{0}, 0};
+        SlabRange all = no_slab;
         for (std::size_t i = 0; i < count; ++i) {
             __builtin_prefetch(index.cells.data() + std::min(first + i + 64, cells - 1));
             const auto& node = index.cells[first + i].node;

@@ -73,41 +73,30 @@ void SlabSampler::take(locate::Place cell) {
 
 /// The points of a span of which it is not certain whether they are in the cell.
 void SlabSampler::take(const Span& span) {
-    const std::size_t line = target_.columns * target_.line_of(span.row, span.layer);
-    const auto test = [&](std::int32_t column) {
-        const std::size_t point = line + static_cast<std::size_t>(column);
-        const auto feature = tested(span.cell, {column, span.row, span.layer}, point);
-        if (feature) own(point, original(span.cell), without_value(*feature));
-    };
-    for (std::int32_t i = span.first; i < span.inner_first; ++i) test(i);
-    for (std::int32_t i = span.inner_last; i < span.last; ++i) test(i);
+    for (std::int32_t i = span.first; i < span.inner_first; ++i) own(span.cell, {i, span.row, span.layer}, false);
+    for (std::int32_t i = span.inner_last; i < span.last; ++i) own(span.cell, {i, span.row, span.layer}, false);
 }
 
 void SlabSampler::take(const UndecidedPoint& one) {
-    const std::size_t point =
-        target_.columns * target_.line_of(one.row, one.layer) + static_cast<std::size_t>(one.column);
-    const auto feature = tested(one.cell, {one.column, one.row, one.layer}, point);
-    if (!feature) return;
-    own(point, original(one.cell), one.certain ? *feature : without_value(*feature));
-    values_[point] = one.value;
+    const auto point = own(one.cell, {one.column, one.row, one.layer}, one.certain);
+    if (point) values_[*point] = one.value;
 }
 
-/// Where the point lies in the cell, exactly; nothing outside of it, or if a lower cell has the point.
-std::optional<Feature> SlabSampler::tested(locate::Place cell, const std::array<std::int32_t, 3>& places,
-                                           std::size_t point) {
-    if (target_.kept(point, original(cell))) return std::nullopt;
+/// Gives a point to a cell that holds it, exactly, unless a lower one has it, and returns it; else nothing.
+std::optional<std::size_t> SlabSampler::own(locate::Place cell, const std::array<std::int32_t, 3>& places,
+                                            bool with_value) {
+    const Mesh::Index number = original(cell);
+    const std::size_t point =
+        target_.columns * target_.line_of(places[1], places[2]) + static_cast<std::size_t>(places[0]);
+    if (target_.kept(point, number)) return std::nullopt;
     std::array<double, 3> at{};
     for (std::size_t k = 0; k < 3; ++k) at[k] = raster_.at[k][static_cast<std::size_t>(places[k])];
     const WeightSigns signs = locate::cell_signs(data_.index(), cell, at.data(), counts_.locations.tests);
     if (!signs.contains()) return std::nullopt;
-    return signs.feature(data_.index().simplex);
-}
-
-/// Unless a lower cell has the point.
-void SlabSampler::own(std::size_t point, Mesh::Index cell, Feature feature) {
-    if (target_.kept(point, cell)) return;
-    owners_[point] = cell;
-    found_[point] = feature;
+    const Feature feature = signs.feature(data_.index().simplex);
+    owners_[point] = number;
+    found_[point] = with_value ? feature : without_value(feature);
+    return point;
 }
 
 /// Some points at a time, while they are in cache: features and numbers of those outside, then what takes longer.

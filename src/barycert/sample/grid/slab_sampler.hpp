@@ -59,8 +59,7 @@ private:
     void take(locate::Place cell);
     void take(const Span& span);
     void take(const UndecidedPoint& one);
-    std::optional<Feature> tested(locate::Place cell, const std::array<std::int32_t, 3>& places, std::size_t point);
-    void own(std::size_t point, Mesh::Index cell, Feature feature);
+    std::optional<std::size_t> own(locate::Place cell, const std::array<std::int32_t, 3>& places, bool with_value);
     void finish();
     void push(std::size_t point);
     Mesh::Index original(locate::Place cell) const { return data_.index().original[static_cast<std::size_t>(cell)]; }

@@ -78,13 +78,12 @@ private:
     BlockRows rows_;
     SampleCounts counts_;
     std::optional<std::uint32_t> refused_;
-    struct Pending {
+    struct {
         std::array<locate::PointRecord, locate::chunk_size> points;
         std::array<locate::Place, locate::chunk_size> owners;
         std::array<Feature, locate::chunk_size> features;
         std::size_t count = 0;
-    };
-    Pending pending_;
+    } pending_;
     std::array<locate::Walk, locate::chunk_size> inside_;
     std::array<std::uint32_t, locate::chunk_size> undecided_;
     std::vector<Mesh::Index> cells_;

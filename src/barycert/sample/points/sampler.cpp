@@ -48,7 +48,12 @@ public:
 
     void write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
         const std::size_t last = sorted.size(), left_out = sorted.left_out();
-        if (left_out != 0) set_outside(last, left_out, out);
+        if (left_out != 0) {
+            rows_->cells[last] = -1;
+            rows_->features[last] = Feature::outside;
+            std::fill_n(values(last), data_.width, 0);
+            if (out.distances.empty()) sampler_->leave_out(left_out, static_cast<std::uint32_t>(last));
+        }
         const auto ahead = [&](std::size_t place) {
             __builtin_prefetch(&rows_->cells[place]);
             __builtin_prefetch(&rows_->features[place]);
@@ -80,64 +85,49 @@ public:
 private:
     double* values(std::size_t row) const { return rows_->values.data() + data_.width * row; }
 
-    void set_outside(std::size_t row, std::size_t count, const Table& out) {
-        rows_->cells[row] = -1;
-        rows_->features[row] = Feature::outside;
-        std::fill_n(values(row), data_.width, 0);
-        if (out.distances.empty()) sampler_->leave_out(count, static_cast<std::uint32_t>(row));
-    }
-
     const SamplerData& data_;
     std::unique_ptr<FoundRows> rows_;
     std::size_t columns_;
     std::optional<ChunkSampler> sampler_;
 };
 
-/// visit(component among all, node of the mesh, value) for every number of the point fields.
-template <class Visit>
-void for_values(const SamplerData& data, Visit visit) {
-    std::size_t first = 0;
-    for (const Field* field : data.point_fields) {
-        const auto components = static_cast<std::size_t>(field->components);
-        visit(first, components, field->data);
-        first += components;
-    }
+std::size_t components_of(const Field* field) {
+    return static_cast<std::size_t>(field->components);
 }
 
 void arrange_by_place(SamplerData& data) {
     const locate::CellIndex& index = data.index();
     const std::size_t nodes = index.original_node.size();
     data.nodes = locate::Buffer<locate::NodeRecord>(nodes);
-    std::copy_n(index.nodes.begin(), nodes, data.nodes.begin());
+    std::copy_n(index.nodes.data(), nodes, data.nodes.data());
     const std::size_t groups = (data.point_components + 2) / 4;
     data.more = locate::Buffer<ValueRecord>(groups * nodes);
-    std::fill(data.more.begin(), data.more.end(), ValueRecord{});
-    for_values(data, [&](std::size_t first, std::size_t components, const std::vector<double>& values) {
+    std::fill_n(data.more.data(), groups * nodes, ValueRecord{});
+    std::size_t first = 0;
+    for (const Field* field : data.point_fields) {
+        const std::size_t components = components_of(field);
         for (std::size_t place = 0; place < nodes; ++place) {
-            const double* const from =
-                values.data() + components * static_cast<std::size_t>(index.original_node[place]);
+            const double* const from = &field->data[components * static_cast<std::size_t>(index.original_node[place])];
             for (std::size_t i = 0; i < components; ++i) {
                 const std::size_t c = first + i;
                 (c == 0 ? data.nodes[place].value : data.more[(c - 1) / 4 * nodes + place].value[(c - 1) % 4]) =
                     from[i];
             }
         }
-    });
+        first += components;
+    }
 }
 
 void arrange_by_node(SamplerData& data) {
     const std::size_t all = data.point_components, nodes = data.located().mesh->point_count();
     data.values.resize(all * nodes);
-    for_values(data, [&](std::size_t first, std::size_t components, const std::vector<double>& values) {
-        for (std::size_t node = 0; node < nodes; ++node) {
-            for (std::size_t c = 0; c < components; ++c)
-                data.values[all * node + first + c] = values[components * node + c];
-        }
-    });
-}
-
-std::size_t components_of(const Field* field) {
-    return static_cast<std::size_t>(field->components);
+    std::size_t first = 0;
+    for (const Field* field : data.point_fields) {
+        const std::size_t components = components_of(field);
+        for (std::size_t node = 0; node < nodes; ++node)
+            std::copy_n(&field->data[components * node], components, &data.values[all * node + first]);
+        first += components;
+    }
 }
 
 /// What is computed for each point, by what is left of the steps of a choice.
@@ -205,8 +195,7 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     out.cells.resize(rows);
     out.features.resize(rows);
     out.values.resize(rows * data.columns.size());
-    out.distances.clear();
-    if (gives_distances(options.outside)) out.distances.assign(rows, 0);
+    out.distances.assign(gives_distances(options.outside) ? rows : 0, 0);
 }
 
 /// What the policies say of the rows: an Error, or NaN where a point is not finite. `finite`: all points are.
@@ -326,37 +315,36 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     sample::resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
     const locate::CellIndex& index = data_->index();
-    std::vector<double> whole;  // rows with what is hidden
-    if (data_->hidden != 0) whole.resize(data_->width * count);
+    std::vector<double> whole(data_->hidden != 0 ? data_->width * count : 0);  // rows with what is hidden
     const sample::BlockRows rows{out.cells.data(), out.features.data(),
                                  data_->hidden != 0 ? whole.data() : out.values.data(),
                                  out.distances.empty() ? nullptr : out.distances.data()};
-    constexpr std::size_t block = std::size_t{1} << 13;
-    std::vector<SampleCounts> counts((count + block - 1) / block);
-    base::in_arena(options.threads, count, [&] {
-        base::parallel_for((count + block - 1) / block, [&](std::size_t b) {
-            const std::size_t first = b * block, last = std::min(count, first + block);
-            sample::ChunkSampler sampler(*data_, options, rows);
-            for (std::size_t row = first; row < last; ++row) {
-                locate::PointRecord record{};
-                std::copy_n(&points[d * row], d, record.at.begin());
-                record.number = static_cast<std::uint32_t>(row);
-                // Cells come in any order: where they are is asked for ahead, and so are they.
-                constexpr std::size_t ahead = 64;
-                if (row + ahead < last && cells[row + ahead] >= 0)
-                    __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
-                const locate::Place owner = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
-                if (owner >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner)]);
-                sampler.push(record, owner, features[row]);
-            }
-            sampler.flush();
-            counts[b] = sampler.counts();
-        });
+    constexpr std::size_t grain = std::size_t{1} << 13;
+    const auto evaluate_rows = [&](std::size_t first, std::size_t last, SampleCounts& counts) {
+        sample::ChunkSampler sampler(*data_, options, rows);
+        for (std::size_t row = first; row < last; ++row) {
+            locate::PointRecord record{};
+            std::copy_n(&points[d * row], d, record.at.begin());
+            record.number = static_cast<std::uint32_t>(row);
+            // Cells come in any order: where they are is asked for ahead, and so are they.
+            constexpr std::size_t ahead = 64;
+            if (row + ahead < last && cells[row + ahead] >= 0)
+                __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
+            const locate::Place owner = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
+            if (owner >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner)]);
+            sampler.push(record, owner, features[row]);
+        }
+        sampler.flush();
+        counts = sampler.counts();
+    };
+    const SampleCounts counts = base::in_arena(options.threads, count, [&] {
+        return base::parallel_reduce(count, grain, SampleCounts{}, evaluate_rows,
+                                     [](SampleCounts& all, const SampleCounts& part) { all.add(part); });
     });
     if (data_->hidden != 0) sample::leave_out_hidden(*data_, whole.data(), count, out.values.data());
     if (Status status = sample::apply_policies(points, finite.has_value(), options, first_point, out); !status)
         return status;
-    for (const SampleCounts& part : counts) out.counts.add(part);
+    out.counts.add(counts);
     for (const Feature feature : features) out.counts.locations.add(feature);
     return Done{};
 }

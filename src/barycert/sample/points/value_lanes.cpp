@@ -67,23 +67,21 @@ HWY_INLINE hn::Mask<D> evaluate(D tag, const LanePoints& of, std::size_t at, con
     return certain;
 }
 
-template <Simplex s>
-std::size_t evaluate_rounded(const LanePoints& points, Rounding rounding, const ValueTarget& target,
-                             std::uint32_t* undecided) {
-    if (rounding == Rounding::plain)
-        return for_lanes(points.items.size(), undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
-            return evaluate<s, PlainValues>(tag, points, at, target);
-        });
+template <template <Simplex, class, class> class Values, Simplex s>
+std::size_t evaluate_all(const LanePoints& points, const ValueTarget& target, std::uint32_t* undecided) {
     return for_lanes(points.items.size(), undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
-        return evaluate<s, RefinedValues>(tag, points, at, target);
+        return evaluate<s, Values>(tag, points, at, target);
     });
 }
 
 std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, const ValueTarget& target,
                               std::uint32_t* undecided) {
-    return points.simplex == Simplex::triangle
-               ? evaluate_rounded<Simplex::triangle>(points, rounding, target, undecided)
-               : evaluate_rounded<Simplex::tetrahedron>(points, rounding, target, undecided);
+    const bool plain = rounding == Rounding::plain;
+    if (points.simplex == Simplex::triangle)
+        return plain ? evaluate_all<PlainValues, Simplex::triangle>(points, target, undecided)
+                     : evaluate_all<RefinedValues, Simplex::triangle>(points, target, undecided);
+    return plain ? evaluate_all<PlainValues, Simplex::tetrahedron>(points, target, undecided)
+                 : evaluate_all<RefinedValues, Simplex::tetrahedron>(points, target, undecided);
 }
 
 }  // namespace barycert::sample::HWY_NAMESPACE

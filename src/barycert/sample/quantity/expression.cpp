@@ -21,6 +21,40 @@ std::string_view prefix_of(bool cells) {
     return cells ? "cell:" : "point:";
 }
 
+/// True, and the choice made, if there is a field of that name; point:NAME and cell:NAME say where.
+bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen) {
+    const auto choose = [&](bool cells, std::string_view full) {
+        const Field* const field = field_named(fields_of(mesh, cells), full);
+        if (field != nullptr) chosen = {field, cells};
+        return field != nullptr;
+    };
+    for (const bool cells : {false, true}) {
+        if (choose(cells, name) || choose(cells, std::string(prefix_of(cells)) + std::string(name))) return true;
+    }
+    for (const bool cells : {false, true}) {
+        const std::string_view prefix = prefix_of(cells);
+        if (name.starts_with(prefix) && choose(cells, name.substr(prefix.size()))) return true;
+    }
+    return false;
+}
+
+/// That there is no such field, which may be meant, and which there are.
+Error no_such_field(const Mesh& mesh, const std::string& name) {
+    std::string lists[2];
+    for (const bool cells : {false, true}) {
+        std::string& list = lists[cells ? 1 : 0];
+        for (const Field& f : fields_of(mesh, cells)) list += (list.empty() ? "" : ", ") + f.name;
+    }
+    const auto& [points, cells] = lists;
+    std::string remedy = "there are " + points;
+    if (points.empty())
+        remedy = cells.empty() ? "the mesh has none; a field may come from a file of its own" : "there are";
+    if (!cells.empty()) remedy += (points.empty() ? " " : ", and of cells ") + cells;
+    return {.what = "no field of that name",
+            .found = '"' + name + '"',
+            .remedy = base::did_you_mean(name, all_field_names(mesh), remedy)};
+}
+
 /// Deeper ones are no names that anybody means.
 constexpr int deepest_expression = 16;
 
@@ -75,8 +109,7 @@ bool choose_quantity(const Mesh& mesh, std::string_view text, bool cells_first, 
 
 /// A name that two columns have, if one of them is made of a field.
 std::optional<std::string> common_column(const Mesh& mesh, const std::vector<FieldChoice>& chosen) {
-    if (std::all_of(chosen.begin(), chosen.end(), [](const FieldChoice& c) { return c.steps.empty(); }))
-        return std::nullopt;
+    if (std::ranges::all_of(chosen, [](const FieldChoice& c) { return c.steps.empty(); })) return std::nullopt;
     std::vector<TableField> fields;
     fields.reserve(chosen.size());
     for (const FieldChoice& choice : chosen)
@@ -98,44 +131,12 @@ const Field* field_named(const std::vector<Field>& fields, std::string_view name
     return it == fields.end() ? nullptr : &*it;
 }
 
-bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen) {
-    const auto choose = [&](bool cells, std::string_view full) {
-        const Field* const field = field_named(fields_of(mesh, cells), full);
-        if (field != nullptr) chosen = {field, cells};
-        return field != nullptr;
-    };
-    for (const bool cells : {false, true}) {
-        if (choose(cells, name) || choose(cells, std::string(prefix_of(cells)) + std::string(name))) return true;
-    }
-    for (const bool cells : {false, true}) {
-        const std::string_view prefix = prefix_of(cells);
-        if (name.starts_with(prefix) && choose(cells, name.substr(prefix.size()))) return true;
-    }
-    return false;
-}
-
 std::vector<std::string> all_field_names(const Mesh& mesh) {
     std::vector<std::string> names;
     for (const bool cells : {false, true}) {
         for (const Field& field : fields_of(mesh, cells)) names.push_back(field.name);
     }
     return names;
-}
-
-Error no_such_field(const Mesh& mesh, const std::string& name) {
-    std::string lists[2];
-    for (const bool cells : {false, true}) {
-        std::string& list = lists[cells ? 1 : 0];
-        for (const Field& f : fields_of(mesh, cells)) list += (list.empty() ? "" : ", ") + f.name;
-    }
-    const auto& [points, cells] = lists;
-    std::string remedy = "there are " + points;
-    if (points.empty())
-        remedy = cells.empty() ? "the mesh has none; a field may come from a file of its own" : "there are";
-    if (!cells.empty()) remedy += (points.empty() ? " " : ", and of cells ") + cells;
-    return {.what = "no field of that name",
-            .found = '"' + name + '"',
-            .remedy = base::did_you_mean(name, all_field_names(mesh), remedy)};
 }
 
 Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
@@ -212,8 +213,7 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
     if (const auto name = common_column(mesh, chosen))
         return Error{
             .what = "two columns have the same name", .found = '"' + *name + '"', .remedy = "choose one of them"};
-    std::stable_sort(chosen.begin(), chosen.end(),
-                     [&](const FieldChoice& a, const FieldChoice& b) { return rank(a) < rank(b); });
+    std::ranges::stable_sort(chosen, {}, rank);
     return chosen;
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <mutex>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -39,17 +37,14 @@ Result<Field> gradient_field(const Mesh& mesh, const Field& of_nodes) {
     Field field{{}, static_cast<int>(per_cell), std::vector<double>(per_cell * cells)};
     const Simplex simplex = d == 2 ? Simplex::triangle : Simplex::tetrahedron;
     const NodalValues<double> values{of_nodes.data, of_nodes.components};
-    std::mutex mutex;
-    std::optional<Error> error;
-    base::parallel_for(cells, entities_of_task, [&](std::size_t begin, std::size_t end) {
+    const auto work = [&](std::size_t begin, std::size_t end, Status& done) {
         const auto corners = std::span(mesh.cells).subspan(mesh.corners() * begin, mesh.corners() * (end - begin));
         const auto out = std::span(field.data).subspan(per_cell * begin, per_cell * (end - begin));
-        const Status done = gradients(simplex, mesh.points, corners, values, out);
-        if (done) return;
-        const std::lock_guard lock(mutex);
-        error = done.error();
-    });
-    if (error) return *error;
+        done = gradients(simplex, mesh.points, corners, values, out);
+    };
+    const auto join = [](Status& all, const Status& part) { all = part ? all : part; };
+    const Status done = base::parallel_reduce(cells, entities_of_task, Status(Done{}), work, join);
+    if (!done) return done.error();
     return field;
 }
 

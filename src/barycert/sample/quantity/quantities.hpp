@@ -19,14 +19,8 @@ namespace barycert::sample {
 /// The field of that name; nullptr if there is none.
 const Field* field_named(const std::vector<Field>& fields, std::string_view name);
 
-/// True, and the choice made, if there is a field of that name; point:NAME and cell:NAME say where.
-bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen);
-
 /// Those of nodes, then those of cells.
 std::vector<std::string> all_field_names(const Mesh& mesh);
-
-/// That there is no such field, which may be meant, and which there are.
-Error no_such_field(const Mesh& mesh, const std::string& name);
 
 /// Calls visit(name) for each of the names between commas, until it returns false.
 template <class Visit>

@@ -41,7 +41,6 @@ public:
             (i % nodes_ < corners_ ? corner_numbers_ : mid_numbers_).push_back(node);
             for (std::size_t c = 0; c < nodes_; ++c) units_.push_back(i % nodes_ == c ? 1 : 0);
         }
-        out_.begin.push_back(0);
         for (std::size_t first = 0; first < rows_.cells.size(); first += chunk) {
             if (Status done = add(first, std::min(first + chunk, rows_.cells.size())); !done) return done.error();
         }
@@ -152,7 +151,7 @@ private:
     Simplex simplex_ = d_ == 2 ? Simplex::triangle : Simplex::tetrahedron;
     /// Of a cell.
     std::size_t nodes_ = corners_ + (quadratic() ? static_cast<std::size_t>(mid_node_count(simplex_)) : 0);
-    NodeWeights out_;
+    NodeWeights out_{{0}, {}, {}};
     std::vector<Mesh::Index> owners_, cells_, corner_numbers_, mid_numbers_, own_;
     std::vector<double> points_, weights_, places_, units_;
 };
