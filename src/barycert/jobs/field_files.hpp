@@ -52,8 +52,8 @@ using OtherNames = std::function<std::optional<std::vector<std::string>>(const s
 std::vector<std::string> with_other_names(const std::vector<std::string>& names, const OtherNames& other);
 
 /// The labels that are named, in their order; they are removed from `names`. A field goes before a label of its name;
-/// cell:NAME may stand for NAME. Refused: one named twice; one that does not fit the mesh, or has the integer
-/// "outside".
+/// cell:NAME may stand for NAME. Refused: a label named twice; one that does not fit the mesh; one with the
+/// integer that stands for "outside".
 std::vector<const Column*> take_labels(const Mesh& mesh, std::vector<std::string>& names);
 
 }  // namespace barycert::jobs

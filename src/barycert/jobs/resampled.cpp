@@ -222,7 +222,7 @@ Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, No
     };
     return sink_of(write, [of, path, kind, data = format.vtk_data]() -> Status {
         if (kind == io::MeshFormat::tetgen) return write_tetgen_files(of->mesh, path);
-        // Where there is room for what else is known of nodes. In Gmsh each field is a picture: `cell` tells the mask.
+        // Where there is room for what else is known of nodes. Gmsh draws each field: there `cell` stands for the mask.
         std::vector<Field>& fields = of->mesh.point_fields;
         if (!of->distance.data.empty()) fields.push_back(std::move(of->distance));
         if (kind == io::MeshFormat::vtk) fields.push_back(std::move(of->mask));

@@ -78,7 +78,7 @@ public:
         }
     }
 
-    /// Reads the meshes of all steps. Refused: one is not the first, and `member`, the output `path`, is of one.
+    /// Reads the meshes of all steps. Refused: one differs from the first, and `member`, the output `path`, is of one.
     void check_one_mesh(const std::string& path, const char* member);
 
     /// Gives back what of the mesh sampling does not read again: of linear cells, unless points outside ask for their

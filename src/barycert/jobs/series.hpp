@@ -25,7 +25,8 @@ struct Step {
 /// The steps of all series of fields of a job in natural order (2 before 10), or that of a .pvd file; where it has
 /// none, the steps of its mesh that are to have outputs of their own. A path may end in :COLUMN; of a mesh file the
 /// array of the field's name is read without it. Refused: a pattern without exactly one *, or that no file matches;
-/// what read_series refuses; a step that not all series have; all steps asked for, and no step, or no name for each.
+/// what read_series refuses; a step that not all series have; all steps asked for where there are none, or where the
+/// outputs have one name.
 std::vector<Step> find_steps(const SamplingJob& job);
 
 /// Whether each step has outputs of its own.

@@ -247,13 +247,14 @@ Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<Col
                    "name the columns to keep, with another name for this one: job.keep OTHER=" + name);
         }
     }
-    if (left_out.empty())
+    if (left_out.empty()) {
         kept.clear();
-    else
+    } else {
         mesh.tell_once({{Note::Kind::left_out,
                          "columns " + left_out + ": the rows have columns of these names; job.keep OTHER=" + first +
                              " carries one through under another name",
                          mesh.report.points}});
+    }
     Sink sink = open(format);
     // A sink of its own only where users see something else.
     if (!sink || (kept.empty() && mesh.labels().empty() && mesh.mesh().cell_numbers.empty())) return sink;

@@ -88,7 +88,7 @@ using OpenRows = std::function<Sink(const TableFormat& format, const std::string
 
 /// All rows of the source into the output, and into a map and a matrix of weights where these are named; of a job that
 /// goes step by step, those of all steps, each into an output of its own. Rows come in the order of the points. Adds to
-/// the report. Refused besides what its parts refuse: a point outside, by the policy `error`; named with its file.
+/// the report. Refused, besides what its parts refuse: a point outside where the policy is `error`; the error names it.
 void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& open, const std::string& map = {});
 
 // Rows as users know them.

@@ -244,6 +244,18 @@ TEST(BadVtkFiles, NoFiles) {
     EXPECT_FALSE(read_quietly(folder / "m"));
 }
 
+/// Who asks for points alone is not stopped by an array.
+TEST(BadVtkFiles, PointsAreReadBesideABadArray) {
+    const TemporaryFolder folder;
+    put(folder / "m.vtu",
+        "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='1' NumberOfCells='0'>"
+        "<PointData><DataArray type='Float64' Name='bad' format='ascii'>x</DataArray></PointData>"
+        "<Points><DataArray type='Float64' NumberOfComponents='3' format='ascii'>1 2 3</DataArray></Points>"
+        "</Piece></UnstructuredGrid></VTKFile>");
+    EXPECT_EQ(read_vtk_points(folder / "m.vtu", 3).value(), (std::vector<double>{1, 2, 3}));
+    EXPECT_FALSE(read_vtk_point_data(folder / "m.vtu", 3));
+}
+
 /// A compressed array whose header is hostile. VTK's own reader divides by the size of a block.
 TEST(BadVtkFiles, HeadersOfCompressedData) {
     const TemporaryFolder folder;

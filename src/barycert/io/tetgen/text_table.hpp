@@ -32,8 +32,8 @@ enum class ColumnKind : std::uint8_t {
     real,
 };
 
-/// Some columns alike. Their values go to one of these vectors, those of a row one behind the other, or to a field of
-/// each column. Without a place for them they are checked alone.
+/// Some columns alike. Their values go to one of these vectors, value k of row r to r * step + k, or to a field of each
+/// column. Without a place for them they are checked alone.
 struct Columns {
     ColumnKind kind = ColumnKind::id;
     std::size_t count = 0;
@@ -43,7 +43,7 @@ struct Columns {
 
     std::vector<Mesh::Index>* indices = nullptr;
     std::vector<Mesh::Index>* more_indices = nullptr;  ///< of the columns from number `step` on
-    std::size_t step = 0;                              ///< columns before these; 0, until make_room(): all
+    std::size_t step = 0;                              ///< columns whose values go to `indices`; 0: all
     std::vector<std::int64_t>* integers = nullptr;
     std::vector<double>* reals = nullptr;
     std::vector<Field>* fields = nullptr;

@@ -155,7 +155,7 @@ Result<Mesh> read_vtk(const std::string& path, const StepChoice& step) {
 }
 
 Result<std::vector<double>> read_vtk_points(const std::string& path, int dimension) {
-    Result<PointData> data = read_vtk_point_data(path, dimension, {});
+    Result<PointData> data = read_vtk_point_data(path, dimension, std::vector<std::string>());
     if (!data) return data.error();
     return std::move(data->points);
 }

@@ -35,8 +35,8 @@ struct Section {
     bool on_terminal = true;
 };
 
-/// How a sentence longer than a terminal's line is broken: not; at blanks; behind commas, as names of files have
-/// blanks.
+/// How a sentence longer than a terminal's line is broken: not; at blanks; behind commas, as names of files may
+/// have blanks.
 enum class Breaks : std::uint8_t { none, words, commas };
 
 struct Paragraph {
