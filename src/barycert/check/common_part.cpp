@@ -196,7 +196,9 @@ Fraction dyadic(double x) {
 bool lies_in(int d, const Corners& cell, const double* point, bool inside) {
     const Simplex s = d == 2 ? Simplex::triangle : Simplex::tetrahedron;
     double vertices[12];
-    for (int i = 0; i <= d; ++i) std::copy_n(cell[static_cast<std::size_t>(i)], d, vertices + i * d);
+    for (int i = 0; i <= d; ++i) {
+        for (int k = 0; k < d; ++k) vertices[i * d + k] = cell[static_cast<std::size_t>(i)][k];
+    }
     const auto signs = checked_weight_signs(s, vertices, point);
     return signs && (inside ? signs->feature(s) == Feature::interior : signs->contains());
 }
