@@ -27,7 +27,7 @@ CHECK = [
 LOCATE = [
     ("contested_cells.cpp", "if (original(i) < original(j)) std::swap(i, j);", "if (i < j) std::swap(i, j);", "lower by place, not by number"),
     ("contested_cells.cpp", "cells_.size() + 7) / 8", "cells_.size()) / 8", "the last group of cells"),
-    ("near_bounds.hpp", "sum_.error += size_x * size_y * roundings + min;", "", "no bound of the error"),
+    ("near_bounds.hpp", "if (size_x > 0) error += size_x * size_y * roundings + min;", "", "no bound of the error"),
     ("near_bounds.hpp", "slack += off * (2 * place.reach[k] + off) + min;", "", "the rounding of a projection"),
     ("near_bounds.hpp", "if (!(max <= 0)) guess.gap = std::max(guess.gap, 2 * max);", "", "a guess taken for the nearest"),
     ("nearest.cpp", "(excess >= 0 && number > found_.cell)", "(excess >= 0)", "of cells as near, not the lowest"),

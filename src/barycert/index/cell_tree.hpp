@@ -58,6 +58,15 @@ struct alignas(64) BoxGroup {
     }
 };
 
+/// use(i, j) for each bit j that bits[i] has.
+template <class Use>
+void for_each_bit(const std::array<std::uint8_t, 8>& bits, Use use) {
+    for (std::size_t i = 0; i < 8; ++i) {
+        for (unsigned left = bits[i]; left != 0; left &= left - 1)
+            use(i, static_cast<std::size_t>(std::countr_zero(left)));
+    }
+}
+
 /// Boxes in the order of space, eight to a group; groups eight to a group above, up to one.
 class BoxGroups {
 public:
@@ -91,22 +100,33 @@ public:
         descend(0, box, found);
     }
 
-    /// use(i, j) for each pair i < j of boxes that meet, i in the group g of the lowest level.
+    /// use(h, bits) for each group h >= g of the lowest level with boxes that meet some of g's: bits[i] has a bit for
+    /// each box j of h that meets box i of g; for h = g where i < j.
     template <class Use>
-    void for_each_pair(std::size_t g, Use use) const {
+    void for_each_meeting_group(std::size_t g, Use use) const {
         const BoxGroup& mine = level(0)[g];
         const auto with_group = [&](std::size_t h) {
             if (h < g) return true;
-            const BoxGroup& other = level(0)[h];
+            std::array<std::uint8_t, 8> bits{};
+            std::uint32_t any = 0;
             for (std::size_t i = 0; i < 8 && 8 * g + i < count_; ++i) {
-                std::uint32_t bits = other.meeting(mine.box(i));
-                if (h == g) bits &= ~std::uint32_t{1} << i;
-                for (; bits != 0; bits &= bits - 1)
-                    use(8 * g + i, 8 * h + static_cast<std::size_t>(std::countr_zero(bits)));
+                std::uint32_t meeting = level(0)[h].meeting(mine.box(i));
+                if (h == g) meeting &= ~std::uint32_t{1} << i;
+                bits[i] = static_cast<std::uint8_t>(meeting);
+                any |= meeting;
             }
+            if (any != 0) use(h, bits);
             return true;
         };
         levels() == 1 ? void(with_group(0)) : descend(1, mine.box_of_all(), with_group);
+    }
+
+    /// use(i, j) for each pair i < j of boxes that meet, i in the group g of the lowest level.
+    template <class Use>
+    void for_each_pair(std::size_t g, Use use) const {
+        for_each_meeting_group(g, [&](std::size_t h, const std::array<std::uint8_t, 8>& bits) {
+            for_each_bit(bits, [&](std::size_t i, std::size_t j) { use(8 * g + i, 8 * h + j); });
+        });
     }
 
 private:

@@ -1,8 +1,10 @@
 #include "barycert/index/open_sheets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "barycert/base/arena.hpp"
@@ -118,7 +120,15 @@ std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vect
         // Facets are in the order of their cells, which is that of space.
         const BoxGroups boxes(facets.size(),
                               [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
-        base::parallel_for((facets.size() + 7) / 8, [&](std::size_t g) { boxes.for_each_pair(g, ask); });
+        const auto group = [&](std::size_t g) {
+            return std::span(facets).subspan(8 * g, std::min<std::size_t>(8, facets.size() - 8 * g));
+        };
+        base::parallel_for((facets.size() + 7) / 8, [&](std::size_t g) {
+            boxes.for_each_meeting_group(g, [&](std::size_t h, std::array<std::uint8_t, 8>& bits) {
+                if (d == 3) clear_separated(group(g), group(h), bits);
+                for_each_bit(bits, [&](std::size_t i, std::size_t j) { ask(8 * g + i, 8 * h + j); });
+            });
+        });
         return flags;
     }
     std::vector<Item> items(facets.size());

@@ -44,8 +44,7 @@ NumberFault append_numbers(std::string_view bytes, NumberType type, bool swapped
                            std::vector<To>& values) {
     const auto convert = with_number_type(type, []<class From>() { return &convert_run<From, To>; });
     const std::size_t size = number_bytes(type), there = std::min(count, bytes.size() / size), before = values.size();
-    make_room(values, there);
-    values.resize(before + there);
+    grow(values, there);
     const std::size_t exact = first_bad(there, std::size_t{1} << 17, [&](std::size_t first, std::size_t last) {
         return first + convert(bytes.data() + first * size, swapped, last - first, values.data() + before + first);
     });

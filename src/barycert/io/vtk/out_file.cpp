@@ -207,20 +207,26 @@ void write_parts(const OutArray& array, std::size_t part, const Transform& trans
     constexpr std::size_t wave = 64;
     const std::uint64_t number = number_bytes(array.format.type);
     const auto count = static_cast<std::size_t>(array.count);
-    std::vector<std::string> parts(std::min(wave, (count + part - 1) / part));
-    for (std::size_t begin = 0; begin < count; begin += wave * part) {
-        const std::size_t end = std::min(count, begin + wave * part), parts_now = (end - begin + part - 1) / part;
-        in_parallel(parts_now, [&](std::size_t i) {
-            const std::size_t first = begin + i * part, last = std::min(end, first + part);
-            if (array.bytes != nullptr) {
-                parts[i].assign(array.bytes + first * number, (last - first) * number);
-            } else {
-                parts[i].resize((last - first) * number);
-                array.fill(first, last, parts[i].data());
-            }
-            if (transform) transform(first, last, parts[i]);
+    const auto make = [&](std::size_t first, std::string& bytes) {
+        const std::size_t last = std::min(count, first + part);
+        if (array.bytes != nullptr) {
+            bytes.assign(array.bytes + first * number, (last - first) * number);
+        } else {
+            bytes.resize((last - first) * number);
+            array.fill(first, last, bytes.data());
+        }
+        if (transform) transform(first, last, bytes);
+    };
+    // One thread writes a wave while the others make the next.
+    std::vector<std::string> made(std::min(wave, (count + part - 1) / part)), next(made.size());
+    for (std::size_t begin = 0, ready = 0; begin < count || ready != 0; begin += wave * part) {
+        const std::size_t parts = begin < count ? std::min(wave, (count - begin + part - 1) / part) : 0;
+        in_parallel(1 + parts, [&](std::size_t i) {
+            if (i != 0) return make(begin + (i - 1) * part, next[i - 1]);
+            for (std::size_t p = 0; p < ready; ++p) write(made[p]);
         });
-        for (std::size_t i = 0; i < parts_now; ++i) write(parts[i]);
+        ready = parts;
+        std::swap(made, next);
     }
 }
 

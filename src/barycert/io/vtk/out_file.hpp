@@ -75,7 +75,7 @@ inline OutArray array_of_field(const Field& field) {
 using Transform = std::function<void(std::size_t first, std::size_t last, std::string& bytes)>;
 
 /// Writes the array in parts of `part` numbers in their order; they are made, and transformed where `transform` is not
-/// empty, on all threads, some at a time.
+/// empty, on all threads, some at a time, and written on any one.
 void write_parts(const OutArray& array, std::size_t part, const Transform& transform,
                  const std::function<void(std::string_view)>& write);
 

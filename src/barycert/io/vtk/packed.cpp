@@ -50,6 +50,16 @@ bool decode_digits(const char* from, std::size_t quadruples, char* to) {
 
 }  // namespace
 
+char* ByteRoom::of(std::size_t size) {
+    if (size_ < size) {
+        bytes_.reset();
+        bytes_ = std::make_unique_for_overwrite<char[]>(size);
+        base::ask_for_large_pages(bytes_.get(), size);
+        size_ = size;
+    }
+    return bytes_.get();
+}
+
 bool Encoded::next_quadruple() {
     std::uint32_t word = 0;
     int digits = 0, pads = 0;
@@ -89,7 +99,7 @@ std::size_t Encoded::take_quadruples(char* to, std::size_t count) {
     return 3 * good;
 }
 
-std::optional<std::string_view> Encoded::take(std::uint64_t count, std::vector<char>& room) {
+std::optional<std::string_view> Encoded::take(std::uint64_t count, ByteRoom& room) {
     if (count > left()) return std::nullopt;
     const auto size = static_cast<std::size_t>(count);
     if (!base64_) {
@@ -97,25 +107,23 @@ std::optional<std::string_view> Encoded::take(std::uint64_t count, std::vector<c
         left_.remove_prefix(size);
         return taken;
     }
-    room.clear();
-    make_room(room, size);
-    room.resize(size);
+    char* const to = room.of(size);
     bool quick = true;
     for (std::size_t done = 0; done < size;) {
         if (quick && held_ == 0) {
-            const std::size_t got = take_quadruples(room.data() + done, size - done);
+            const std::size_t got = take_quadruples(to + done, size - done);
             quick = got >= 3 * (std::size_t{1} << 14);  // lines of text: one after the other from here on
             done += got;
             if (done == size) break;
         }
         if (held_ == 0 && !next_quadruple()) return std::nullopt;
         const std::size_t step = std::min(size - done, held_);
-        std::copy_n(bytes_ + first_, step, room.data() + done);
+        std::copy_n(bytes_ + first_, step, to + done);
         first_ += step;
         held_ -= step;
         done += step;
     }
-    return std::string_view(room.data(), size);
+    return std::string_view(to, size);
 }
 
 bool unpack(Compressor compressor, std::string_view packed, char* to, std::size_t size) {

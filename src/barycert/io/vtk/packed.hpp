@@ -4,12 +4,23 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace barycert::io {
+
+/// Room for bytes, which hold anything until they are written.
+class ByteRoom {
+public:
+    /// `size` bytes; what stood there is lost.
+    char* of(std::size_t size);
+
+private:
+    std::unique_ptr<char[]> bytes_;
+    std::size_t size_ = 0;
+};
 
 /// Base64 is RFC 4648's, white space passed over. After padding it goes on with the next quadruple: VTK encodes the
 /// head of compressed data apart from the data. It ends at any other character.
@@ -19,7 +30,7 @@ public:
 
     /// The next `count` bytes: of the file itself, or decoded into `room`, which must live as long as the view.
     /// Nothing if there are fewer.
-    std::optional<std::string_view> take(std::uint64_t count, std::vector<char>& room);
+    std::optional<std::string_view> take(std::uint64_t count, ByteRoom& room);
 
     /// That many bytes are left at most.
     std::uint64_t left() const { return base64_ ? left_.size() / 4 * 3 + 3 + held_ : left_.size(); }

@@ -58,4 +58,12 @@ void make_room(std::vector<T>& values, std::size_t count) {
     base::ask_for_large_pages(values.data(), values.capacity() * sizeof(T));
 }
 
+/// `count` more values, for which make_room may have made room.
+template <class T>
+void grow(std::vector<T>& values, std::size_t count) {
+    make_room(values, count);
+    base::touch_large_pages(values.data() + values.size(), count * sizeof(T));
+    values.resize(values.size() + count);
+}
+
 }  // namespace barycert::io

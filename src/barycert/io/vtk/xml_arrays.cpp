@@ -54,7 +54,7 @@ public:
     NumberFault read(NumberType type, std::size_t count, std::vector<To>& values) {
         if (layout_.compressor == Compressor::none) {
             const std::uint64_t there = std::min(from_.left(), size_) / number_bytes(type);  // at most
-            std::vector<char> room;
+            ByteRoom room;
             const std::optional<std::string_view> bytes = from_.take(size_, room);
             if (bytes) return read_binary(*bytes, type, layout_.swap_bytes, count, values);
             return {NumberFault::Kind::too_few, std::min(static_cast<std::size_t>(there), count - 1)};
@@ -75,8 +75,8 @@ public:
                   honest ? count : static_cast<std::size_t>(std::min<std::uint64_t>(count, likely * packed_size_)));
         const bool as_they_stand = type != NumberType::bit && (!layout_.swap_bytes || number == 1) &&
                                    with_number_type(type, []<class From>() { return std::is_same_v<From, To>; });
-        std::vector<char> packed_room;
-        std::unique_ptr<char[]> plain_room;  // not initialised: pages that no data reach take no memory
+        ByteRoom packed_room;
+        ByteRoom plain_room;
         NumberFault fault;
         std::size_t done = 0;
         for (std::size_t first = 0; first < packed_.size(); first += per_wave) {
@@ -84,13 +84,8 @@ public:
             const std::size_t plain = block_at(last) - block_at(first), before = values.size();
             const std::size_t numbers = at_once ? count : plain / number;
             const bool direct = last - first > 1 && as_they_stand;
-            if (direct) {
-                make_room(values, numbers);
-                values.resize(before + numbers);
-            } else if (plain_room == nullptr) {
-                plain_room = std::make_unique_for_overwrite<char[]>(plain);  // the first wave is the largest
-            }
-            char* const to = direct ? reinterpret_cast<char*>(values.data() + before) : plain_room.get();
+            if (direct) grow(values, numbers);
+            char* const to = direct ? reinterpret_cast<char*>(values.data() + before) : plain_room.of(plain);
             if (!unpack_wave(first, last, packed_room, to)) return {NumberFault::Kind::too_few, done};
             if (!direct) {
                 NumberFault found = read_binary({to, plain}, type, layout_.swap_bytes, numbers, values);
@@ -106,7 +101,7 @@ private:
     /// Integers of a header; nothing if the data end before.
     std::optional<std::vector<std::uint64_t>> next_words(std::size_t count) {
         const std::size_t width = layout_.header_bytes;
-        std::vector<char> room;
+        ByteRoom room;
         const std::optional<std::string_view> bytes = from_.take(count * width, room);
         std::vector<std::int64_t> words;
         if (!bytes) return std::nullopt;
@@ -120,7 +115,7 @@ private:
     }
 
     /// Blocks `first` to `last` - 1 one behind the other at `to`.
-    bool unpack_wave(std::size_t first, std::size_t last, std::vector<char>& room, char* to) {
+    bool unpack_wave(std::size_t first, std::size_t last, ByteRoom& room, char* to) {
         std::vector<std::size_t> ends{0};
         for (std::size_t i = first; i < last; ++i) ends.push_back(ends.back() + static_cast<std::size_t>(packed_[i]));
         const std::optional<std::string_view> bytes = from_.take(ends.back(), room);
