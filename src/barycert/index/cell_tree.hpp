@@ -58,15 +58,6 @@ struct alignas(64) BoxGroup {
     }
 };
 
-/// use(i, j) for each bit j that bits[i] has.
-template <class Use>
-void for_each_bit(const std::array<std::uint8_t, 8>& bits, Use use) {
-    for (std::size_t i = 0; i < 8; ++i) {
-        for (unsigned left = bits[i]; left != 0; left &= left - 1)
-            use(i, static_cast<std::size_t>(std::countr_zero(left)));
-    }
-}
-
 /// Boxes in the order of space, eight to a group; groups eight to a group above, up to one.
 class BoxGroups {
 public:
@@ -100,39 +91,37 @@ public:
         descend(0, box, found);
     }
 
-    /// use(h, bits) for each group h >= g of the lowest level with boxes that meet some of g's: bits[i] has a bit for
-    /// each box j of h that meets box i of g; for h = g where i < j.
-    template <class Use>
-    void for_each_meeting_group(std::size_t g, Use use) const {
-        const BoxGroup& mine = level(0)[g];
-        const auto with_group = [&](std::size_t h) {
-            if (h < g) return true;
-            std::array<std::uint8_t, 8> bits{};
-            std::uint32_t any = 0;
-            for (std::size_t i = 0; i < 8 && 8 * g + i < count_; ++i) {
-                std::uint32_t meeting = level(0)[h].meeting(mine.box(i));
-                if (h == g) meeting &= ~std::uint32_t{1} << i;
-                bits[i] = static_cast<std::uint8_t>(meeting);
-                any |= meeting;
-            }
-            if (any != 0) use(h, bits);
-            return true;
-        };
-        levels() == 1 ? void(with_group(0)) : descend(1, mine.box_of_all(), with_group);
-    }
-
     /// use(i, j) for each pair i < j of boxes that meet, i in the group g of the lowest level.
     template <class Use>
     void for_each_pair(std::size_t g, Use use) const {
-        for_each_meeting_group(g, [&](std::size_t h, const std::array<std::uint8_t, 8>& bits) {
-            for_each_bit(bits, [&](std::size_t i, std::size_t j) { use(8 * g + i, 8 * h + j); });
-        });
+        const BoxGroup& mine = level(0)[g];
+        const CellBox all = mine.box_of_all();
+        const auto with_group = [&](std::size_t h) {
+            // Few boxes of another group meet any of this one.
+            const BoxGroup& other = level(0)[h];
+            std::array<std::uint32_t, 8> meeting{};  // by box of the other one: which of this one
+            std::uint32_t met = 0;
+            for (std::uint32_t theirs = other.meeting(all); theirs != 0; theirs &= theirs - 1) {
+                const auto j = static_cast<std::size_t>(std::countr_zero(theirs));
+                meeting[j] = mine.meeting(other.box(j));
+                if (h == g) meeting[j] &= (1U << j) - 1;
+                met |= meeting[j];
+            }
+            for (; met != 0; met &= met - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(met));
+                for (std::size_t j = 0; j < 8; ++j) {
+                    if ((meeting[j] >> i & 1U) != 0) use(8 * g + i, 8 * h + j);
+                }
+            }
+            return true;
+        };
+        levels() == 1 ? void(with_group(0)) : descend(1, all, with_group, g);
     }
 
 private:
-    /// found(i) for each box i of level l that meets `box`, until it returns false.
+    /// found(i) for each box i of level l, from number `first` on, that meets `box`, until it returns false.
     template <class Found>
-    void descend(std::size_t l, const CellBox& box, Found found) const {
+    void descend(std::size_t l, const CellBox& box, Found found, std::size_t first = 0) const {
         struct Open {
             std::size_t level, group;
         };
@@ -143,6 +132,7 @@ private:
             const Open open = stack[--top];
             for (std::uint32_t bits = level(open.level)[open.group].meeting(box); bits != 0; bits &= bits - 1) {
                 const std::size_t i = 8 * open.group + static_cast<std::size_t>(std::countr_zero(bits));
+                if ((i + 1) << 3 * (open.level - l) <= first) continue;
                 if (open.level > l) {
                     stack[top++] = {open.level - 1, i};
                 } else if (!found(i)) {

@@ -23,11 +23,15 @@ bool proper(int d, const PlacedFacet& f);
 /// may be empty, a node or an edge). Preconditions: both proper, not of the same nodes, coordinates finite.
 bool facets_conflict(int d, const PlacedFacet& f, const PlacedFacet& g);
 
-/// Of pairs of triangles (f[i], g[j]), at most eight of each, those whose bit bits[i] >> j & 1 is set: clears the bits
-/// of pairs without a conflict, as far as a plane tells: all corners of one triangle that the other does not have are
-/// certainly on one side of the other's plane, which then has nothing of it but the common face. On SIMD lanes, by
-/// determinants in double with their bounds. Precondition: the points are aligned as those of a NodeRecord.
-void clear_separated(std::span<const PlacedFacet> f, std::span<const PlacedFacet> g, std::array<std::uint8_t, 8>& bits);
+/// Two facets by their numbers.
+struct FacetPair {
+    std::uint32_t first, second;
+};
+
+/// Takes out pairs of triangles without a conflict, as far as a plane tells: all corners of one triangle that the other
+/// does not have are certainly on one side of the other's plane, which then has nothing of it but the common face. On
+/// SIMD lanes, by determinants in double with their bounds. Precondition: the points are aligned as a NodeRecord's.
+std::span<FacetPair> without_separated(std::span<const PlacedFacet> facets, std::span<FacetPair> pairs);
 
 /// The nodes, ascending, of the face of f (all of it, an edge, a node) whose relative interior has the point; all -1
 /// if the point is not on f. Preconditions: f is proper, coordinates finite.

@@ -58,53 +58,68 @@ struct Sides {
     M all_on_one() const { return hn::Or(positive, negative); }
 };
 
-/// With the facets of g from number `first` on, one a lane.
+/// One facet a lane.
 template <class D>
-HWY_INLINE void clear(D tag, std::span<const PlacedFacet> f, std::span<const PlacedFacet> g, std::size_t first,
-                      std::array<std::uint8_t, 8>& bits) {
-    using V = hn::Vec<D>;
-    constexpr std::size_t width = hn::MaxLanes(D());
-    constexpr unsigned lanes = (1U << width) - 1;
-    const hn::RebindToSigned<D> integers;
-    const auto facet = [&](std::size_t l) -> const PlacedFacet& { return g[std::min(first + l, g.size() - 1)]; };
-    V corner[3][4];
-    hn::Vec<decltype(integers)> node[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-        load_records(
-            tag, [&](std::size_t l) HWY_ATTR { return facet(l).at[k]; }, corner[k]);
-        HWY_ALIGN std::int64_t nodes[width];
-        for (std::size_t l = 0; l < width; ++l) nodes[l] = facet(l).nodes[k];
-        node[k] = hn::Load(integers, nodes);
-    }
-    const PlaneOf<V> plane(corner);
-    for (std::size_t i = 0; i < f.size(); ++i) {
-        if ((bits[i] >> first & lanes) == 0) continue;
-        V own[3][3];
-        hn::Mask<D> common[3], own_common[3];
-        for (std::size_t j = 0; j < 3; ++j) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                own[j][k] = hn::Set(tag, f[i].at[j][k]);
-                const auto same = hn::RebindMask(tag, hn::Eq(node[k], hn::Set(integers, f[i].nodes[j])));
-                common[k] = j == 0 ? same : hn::Or(common[k], same);
-                own_common[j] = k == 0 ? same : hn::Or(own_common[j], same);
-            }
-        }
-        const PlaneOf<V> own_plane(own);
-        Sides<D> theirs(tag), ours(tag);
+struct Facets {
+    using Integers = hn::RebindToSigned<D>;
+
+    hn::Vec<D> corner[3][4];
+    hn::Vec<Integers> node[3];
+
+    template <class At>
+    HWY_INLINE Facets(D tag, At at) {
+        HWY_ALIGN std::int64_t nodes[hn::MaxLanes(D())];
         for (std::size_t k = 0; k < 3; ++k) {
-            theirs.add(tag, own_plane, corner[k], common[k]);
-            ours.add(tag, plane, own[k], own_common[k]);
+            load_records(
+                tag, [&](std::size_t l) HWY_ATTR { return at(l).at[k]; }, corner[k]);
+            for (std::size_t l = 0; l < hn::MaxLanes(tag); ++l) nodes[l] = at(l).nodes[k];
+            node[k] = hn::Load(Integers(), nodes);
         }
-        const auto all_common = hn::And(common[0], hn::And(common[1], common[2]));
-        std::uint8_t apart[8] = {};
-        hn::StoreMaskBits(tag, hn::AndNot(all_common, hn::Or(theirs.all_on_one(), ours.all_on_one())), apart);
-        bits[i] = static_cast<std::uint8_t>(bits[i] & ~((apart[0] & lanes) << first));
     }
+};
+
+/// Of as many pairs as there are lanes, a bit for each that a plane tells apart.
+template <class D>
+HWY_INLINE unsigned apart(D tag, const PlacedFacet* facets, const FacetPair* pairs) {
+    const Facets<D> f(
+        tag, [&](std::size_t l) HWY_ATTR -> auto& { return facets[pairs[l].first]; });
+    const Facets<D> g(
+        tag, [&](std::size_t l) HWY_ATTR -> auto& { return facets[pairs[l].second]; });
+    hn::Mask<D> of_f[3], of_g[3];  // the corner is one of the other facet's, too
+    for (std::size_t j = 0; j < 3; ++j) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto same = hn::RebindMask(tag, hn::Eq(f.node[j], g.node[k]));
+            of_f[j] = k == 0 ? same : hn::Or(of_f[j], same);
+            of_g[k] = j == 0 ? same : hn::Or(of_g[k], same);
+        }
+    }
+    const PlaneOf<hn::Vec<D>> plane_of_f(f.corner), plane_of_g(g.corner);
+    Sides<D> sides_of_f(tag), sides_of_g(tag);
+    for (std::size_t k = 0; k < 3; ++k) {
+        sides_of_f.add(tag, plane_of_f, g.corner[k], of_g[k]);
+        sides_of_g.add(tag, plane_of_g, f.corner[k], of_f[k]);
+    }
+    const auto all_common = hn::And(of_f[0], hn::And(of_f[1], of_f[2]));
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, hn::AndNot(all_common, hn::Or(sides_of_f.all_on_one(), sides_of_g.all_on_one())), bits);
+    return bits[0];
 }
 
-void clear_all(std::span<const PlacedFacet> f, std::span<const PlacedFacet> g, std::array<std::uint8_t, 8>& bits) {
+std::size_t keep_doubtful(const PlacedFacet* facets, FacetPair* pairs, std::size_t count) {
     const hn::CappedTag<double, 8> tag;
-    for (std::size_t first = 0; first < g.size(); first += hn::MaxLanes(tag)) clear(tag, f, g, first, bits);
+    constexpr std::size_t width = hn::MaxLanes(tag);
+    std::size_t kept = 0;
+    for (std::size_t first = 0; first < count; first += width) {
+        FacetPair some[width];
+        const std::size_t here = std::min(width, count - first);
+        for (std::size_t l = 0; l < width; ++l) some[l] = pairs[first + std::min(l, here - 1)];
+        const unsigned bits = apart(tag, facets, some);
+        for (std::size_t l = 0; l < here; ++l) {
+            pairs[kept] = some[l];
+            kept += ~bits >> l & 1U;
+        }
+    }
+    return kept;
 }
 
 }  // namespace barycert::index::HWY_NAMESPACE
@@ -113,11 +128,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace barycert::index {
 
-HWY_EXPORT(clear_all);
+HWY_EXPORT(keep_doubtful);
 
-void clear_separated(std::span<const PlacedFacet> f, std::span<const PlacedFacet> g,
-                     std::array<std::uint8_t, 8>& bits) {
-    HWY_DYNAMIC_DISPATCH(clear_all)(f, g, bits);
+std::span<FacetPair> without_separated(std::span<const PlacedFacet> facets, std::span<FacetPair> pairs) {
+    return pairs.first(HWY_DYNAMIC_DISPATCH(keep_doubtful)(facets.data(), pairs.data(), pairs.size()));
 }
 
 }  // namespace barycert::index

@@ -1,6 +1,7 @@
 #include "barycert/index/facet_links.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -219,7 +220,9 @@ FacetLinks link(CellIndex& index) {
             }
         }
     }
-    std::ranges::sort(links.open, {}, [](const CellFacet& f) { return std::pair(f.cell, f.corner); });
+    tbb::parallel_sort(links.open.begin(), links.open.end(), [](const CellFacet& f, const CellFacet& g) {
+        return std::pair(f.cell, f.corner) < std::pair(g.cell, g.corner);
+    });
     return links;
 }
 

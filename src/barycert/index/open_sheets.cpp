@@ -120,14 +120,20 @@ std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vect
         // Facets are in the order of their cells, which is that of space.
         const BoxGroups boxes(facets.size(),
                               [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
-        const auto group = [&](std::size_t g) {
-            return std::span(facets).subspan(8 * g, std::min<std::size_t>(8, facets.size() - 8 * g));
-        };
         base::parallel_for((facets.size() + 7) / 8, [&](std::size_t g) {
-            boxes.for_each_meeting_group(g, [&](std::size_t h, std::array<std::uint8_t, 8>& bits) {
-                if (d == 3) clear_separated(group(g), group(h), bits);
-                for_each_bit(bits, [&](std::size_t i, std::size_t j) { ask(8 * g + i, 8 * h + j); });
+            std::array<FacetPair, 256> pairs;
+            std::size_t count = 0;
+            const auto ask_all = [&] {
+                std::span<FacetPair> left = std::span(pairs).first(count);
+                if (d == 3) left = without_separated(facets, left);
+                for (const FacetPair& pair : left) ask(pair.first, pair.second);
+                count = 0;
+            };
+            boxes.for_each_pair(g, [&](std::size_t i, std::size_t j) {
+                pairs[count++] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)};
+                if (count == pairs.size()) ask_all();
             });
+            ask_all();
         });
         return flags;
     }
