@@ -7,8 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "barycert/base/arena.hpp"
-
 namespace barycert::base {
 
 inline constexpr std::size_t large_page = std::size_t{1} << 21;
@@ -21,22 +19,12 @@ inline void ask_for_large_pages([[maybe_unused]] void* start, [[maybe_unused]] s
 #endif
 }
 
-/// The system clears a page when it is first touched: where it is large, this takes longer than to fill it. Touches
-/// those of memory that holds nothing yet on all threads, before one of them fills it.
-inline void touch_large_pages(void* start, std::size_t bytes) {
-    constexpr std::size_t few = 4;
-    if (bytes < few * large_page || std::align(large_page, large_page, start, bytes) == nullptr) return;
-    auto* const pages = static_cast<volatile char*>(start);
-    isolated([&] { parallel_for(bytes / large_page, [&](std::size_t i) { pages[i * large_page] = 0; }); });
-}
-
 /// values.resize(count) of an empty vector on large pages: half the time of a large read would else go into page
 /// faults.
 template <class T>
 void resize_large(std::vector<T>& values, std::size_t count) {
     values.reserve(count);
     ask_for_large_pages(values.data(), count * sizeof(T));
-    touch_large_pages(values.data(), count * sizeof(T));
     values.resize(count);
 }
 

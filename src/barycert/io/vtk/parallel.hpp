@@ -62,7 +62,6 @@ void make_room(std::vector<T>& values, std::size_t count) {
 template <class T>
 void grow(std::vector<T>& values, std::size_t count) {
     make_room(values, count);
-    base::touch_large_pages(values.data() + values.size(), count * sizeof(T));
     values.resize(values.size() + count);
 }
 
