@@ -98,7 +98,10 @@ inline double badness(std::size_t reason, const Evaluation& e) {
 struct Height {
     double shown = -1;    ///< badness
     double nearness = 0;  ///< if it does not show
-    friend auto operator<=>(const Height&, const Height&) = default;
+    friend bool operator==(const Height&, const Height&) = default;
+    friend bool operator>(const Height& a, const Height& b) {
+        return a.shown != b.shown ? a.shown > b.shown : a.nearness > b.nearness;
+    }
 };
 
 inline Height height(std::size_t reason, const Evaluation& e) {
