@@ -1,8 +1,10 @@
 // What it takes before the first point is asked: time and memory.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
+#include "barycert/base/random.hpp"
 #include "barycert/check.hpp"
 #include "sample_rounds.hpp"
 
@@ -11,8 +13,29 @@ namespace {
 
 using Which = VtkPeer::Which;
 
-void add_all(Round& round, Contest& contest, std::optional<Locator>& locator, std::optional<Sampler>& sampler) {
+/// Each of its cells or not, by a coin: as a process has them where cells are scattered over all.
+Mesh half_of(const Mesh& mesh) {
+    Mesh half;
+    half.dimension = mesh.dimension;
+    half.points = mesh.points;
+    base::Random random(1);
+    for (std::size_t i = 0; i < mesh.cells.size(); i += mesh.corners()) {
+        const auto cell = mesh.cells.begin() + static_cast<std::ptrdiff_t>(i);
+        if (random.coin())
+            half.cells.insert(half.cells.end(), cell, cell + static_cast<std::ptrdiff_t>(mesh.corners()));
+    }
+    return half;
+}
+
+void add_all(Round& round, Contest& contest, std::optional<Locator>& locator, std::optional<Sampler>& sampler,
+             const Mesh& half) {
     const Subject& subject = round.subject;
+    for (const int threads : {1, 2}) {
+        contest.add(
+            "half " + std::to_string(threads),
+            [&, threads] { locator = demand_value(Locator::build(half, {.threads = threads})); },
+            [&] { locator.reset(); });
+    }
     for (const int threads : {1, 2}) {
         contest.add(
             "locator " + std::to_string(threads),
@@ -53,7 +76,9 @@ void run_builds(Round& round, SampleTable& table) {
     Contest contest;
     std::optional<Locator> locator;
     std::optional<Sampler> sampler;
-    add_all(round, contest, locator, sampler);
+    const Mesh half = half_of(round.subject.mesh);
+    require(demand_value(Locator::build(half)).certified(), "half of the cells are not certified");
+    add_all(round, contest, locator, sampler, half);
     contest.run(round.how.repetitions);
 
     const std::string& name = round.subject.name;
@@ -68,6 +93,8 @@ void run_builds(Round& round, SampleTable& table) {
     table.add({.what = name + ": the same, neither linked nor certified",
                .ours = ms("candidates"),
                .ratio = times_as_long(contest, "VTK's tree", "VTK tree", "candidates")});
+    table.add({.what = name + ": locator built of half of the cells, chosen at random",
+               .ours = ms("half 1") + "; 2 threads " + with_unit(1e3 * contest.wall("half 2"), "ms")});
     table.add({.what = name + ": sampler built, one field", .ours = ms("sampler")});
     table.add({.what = name + ": checked (check_mesh)",
                .ours = ms("check 1") + "; 2 threads " + with_unit(1e3 * contest.wall("check 2"), "ms")});
