@@ -38,12 +38,14 @@ int list(Arguments<Chosen>& a) {
 
 Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& paths) {
     std::vector<NamedMesh> meshes;
+    meshes.reserve(paths.size());
     for (const std::string& path : paths) meshes.push_back({path, path});
     if (!meshes.empty()) return meshes;
     const std::string folder = (data_folder() / "meshes").string();
     std::error_code trouble;
     for (const std::string& name : base::names_in_folder(folder, trouble)) {
-        if (name.ends_with(".node")) meshes.push_back({fs::path(name).stem().string(), folder + '/' + name});
+        if (name.ends_with(".node"))
+            meshes.push_back({fs::path(name).stem().string(), (fs::path(folder) / name).string()});
     }
     // Some of them alone would be another audit.
     if (meshes.empty() || trouble)

@@ -140,6 +140,7 @@ void Options::curved(Curved& curved) const {
 
 void Options::vtk_data(std::optional<VtkData>& data) const {
     std::vector<std::pair<std::string, std::optional<VtkData>>> choices;
+    choices.reserve(std::size(vtk_data_names));
     for (const std::string_view word : vtk_data_names) choices.emplace_back(word, vtk_data_named(word));
     choice("--vtk-data", data, choices,
            "Numbers in an output of VTK's formats: raw (default), zlib, lz4, lzma (compressed), ascii (text)");

@@ -128,6 +128,7 @@ public:
     CLI::Option* choice(Text name, Value& value, const std::vector<std::pair<std::string, Value>>& choices,
                         Text help) const {
         std::vector<std::string> words;
+        words.reserve(choices.size());
         for (const auto& choice : choices) words.push_back(choice.first);
         const auto set = [&value, choices](const std::string& word) {
             for (const auto& choice : choices) {

@@ -29,6 +29,7 @@ std::string where_none_matches(const CaseJob& wanted, const std::vector<Witness>
     const char* const rest = "leave out --kernel and --reason to see all";
     for (const auto& wish : {std::pair(wanted.kernel, &Witness::kernel), std::pair(wanted.reason, &Witness::reason)}) {
         std::vector<std::string> names;
+        names.reserve(witnesses.size());
         for (const Witness& w : witnesses) names.push_back(w.*wish.second);
         const auto matches = [&](const std::string& name) { return base::glob_match(wish.first, name); };
         if (!wish.first.empty() && std::ranges::none_of(names, matches))

@@ -58,7 +58,10 @@ struct CountAxis : Axis {
     double max = 1;
     bool logarithmic = false;
 
-    explicit CountAxis(const std::vector<std::uint64_t>& counts) : Axis{.from = 214, .to = 40, .title = "cells"} {
+    explicit CountAxis(const std::vector<std::uint64_t>& counts) {
+        from = 214;
+        to = 40;
+        title = "cells";
         double min = std::numeric_limits<double>::infinity();
         for (const std::uint64_t c : counts) {
             max = std::max(max, static_cast<double>(c));

@@ -121,7 +121,8 @@ public:
     void operator()(const Named& n) {
         for (std::size_t i = 0; i < n.lines.size(); ++i) {
             const std::string name = fmt::format("{:<10} ", i == 0 ? n.name : "");
-            out += name + toned(wrapped(name + printable(n.lines[i]), n.wrap).substr(name.size()), n.tone) + "\n";
+            const std::string line = wrapped(name + printable(n.lines[i]), n.wrap).substr(name.size());
+            out.append(name).append(toned(line, n.tone)).append("\n");
         }
     }
 

@@ -73,17 +73,17 @@ private:
     void interpolate_second_order(const locate::PointRecord* points, std::size_t count);
     double* row(const locate::PointRecord& point) { return rows_.values + data_.width * point.number; }
 
-    const SamplerData& data_;
-    const SampleOptions& options_;
-    BlockRows rows_;
-    SampleCounts counts_;
-    std::optional<std::uint32_t> refused_;
     struct {
         std::array<locate::PointRecord, locate::chunk_size> points;
         std::array<locate::Place, locate::chunk_size> owners;
         std::array<Feature, locate::chunk_size> features;
         std::size_t count = 0;
-    } pending_;
+    } pending_;  ///< first: its points are aligned
+    const SamplerData& data_;
+    const SampleOptions& options_;
+    BlockRows rows_;
+    SampleCounts counts_;
+    std::optional<std::uint32_t> refused_;
     std::array<locate::Walk, locate::chunk_size> inside_;
     std::array<std::uint32_t, locate::chunk_size> undecided_;
     std::vector<Mesh::Index> cells_;

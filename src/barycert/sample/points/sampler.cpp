@@ -297,7 +297,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     const ExactEnvironment environment;
     out.counts = {};
     if (Status status = locate::check_size(points, data_->index().dimension()); !status) return status;
-    const Status finite = locate::check_finite(points, data_->index().dimension(), first_point);
+    Status finite = locate::check_finite(points, data_->index().dimension(), first_point);
     if (!finite && options.nonfinite_points == NonfinitePoints::error) return finite;
     const std::size_t d = data_->index().dimension(), count = points.size() / d;
     const std::span<const Mesh::Index> cells = out.cells;
