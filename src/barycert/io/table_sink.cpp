@@ -6,9 +6,9 @@
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/parallel.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/out_file.hpp"
-#include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert {
 namespace io {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <span>
 
 #include "barycert/audit/asking.hpp"

@@ -8,7 +8,7 @@
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
-#include "barycert/io/vtk/raw_grid.hpp"
+#include "barycert/io/parallel.hpp"
 
 namespace barycert::io {
 namespace {

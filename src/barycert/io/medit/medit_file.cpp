@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "barycert/base/text.hpp"
+#include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/numbers.hpp"
-#include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
 namespace {

@@ -152,7 +152,10 @@ void copy_cells(RawGrid& grid, std::size_t nodes, std::size_t count, Mesh& mesh)
 
 /// Makes doubles of integers, if these are exact: the field that they would be in a file of these cells alone.
 void make_field(RawArray& array) {
-    const auto is_double = [x = 0.0](std::int64_t n) mutable { return convert_number(n, x); };
+    const auto is_double = [](std::int64_t n) {
+        double x = 0;
+        return convert_number(n, x);
+    };
     const std::vector<std::int64_t>* const integers = array.integers();
     if (integers != nullptr && std::ranges::all_of(*integers, is_double))
         array.values = std::vector<double>(integers->begin(), integers->end());

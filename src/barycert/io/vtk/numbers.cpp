@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/vtk/parallel.hpp"
+#include "barycert/io/parallel.hpp"
 
 namespace barycert::io {
 namespace {

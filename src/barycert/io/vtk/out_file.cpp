@@ -12,8 +12,8 @@
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
+#include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/packed.hpp"
-#include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
 namespace {

@@ -10,7 +10,7 @@
 #include <new>
 #include <utility>
 
-#include "barycert/io/vtk/parallel.hpp"
+#include "barycert/io/parallel.hpp"
 
 namespace barycert::io {
 namespace {

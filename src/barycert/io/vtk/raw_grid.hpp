@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "barycert/io.hpp"
+#include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/numbers.hpp"
-#include "barycert/io/vtk/parallel.hpp"
 
 namespace barycert::io {
 
@@ -151,19 +151,7 @@ void move_behind(std::vector<T>& to, std::vector<T>& from) {
     }
 }
 
-/// Leaves those rows alone, which ascend.
-template <class T>
-void keep_rows(std::vector<T>& values, std::size_t components, const std::vector<std::int32_t>& rows) {
-    std::size_t to = 0;
-    for (const std::int32_t row : rows) {
-        const std::size_t from = static_cast<std::size_t>(row) * components;
-        for (std::size_t c = 0; c < components; ++c, ++to) {
-            if (to != from + c) values[to] = std::move(values[from + c]);
-        }
-    }
-    values.resize(to);
-}
-/// The same of all arrays without a fault.
+/// Leaves those rows, which ascend, of all arrays without a fault.
 void keep_rows(std::vector<RawArray>& arrays, const std::vector<std::int32_t>& rows);
 
 /// The piece behind what is there: points and cells count on. Arrays of the same name make one; one that a piece lacks

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "barycert/base/arena.hpp"
@@ -63,6 +65,19 @@ template <class T>
 void grow(std::vector<T>& values, std::size_t count) {
     make_room(values, count);
     values.resize(values.size() + count);
+}
+
+/// Leaves those rows, which ascend, and no others.
+template <class T>
+void keep_rows(std::vector<T>& values, std::size_t components, const std::vector<std::int32_t>& rows) {
+    std::size_t to = 0;
+    for (const std::int32_t row : rows) {
+        const std::size_t from = static_cast<std::size_t>(row) * components;
+        for (std::size_t c = 0; c < components; ++c, ++to) {
+            if (to != from + c) values[to] = std::move(values[from + c]);
+        }
+    }
+    values.resize(to);
 }
 
 }  // namespace barycert::io
