@@ -91,8 +91,8 @@ TEST(FacetContact, AsCgalsExactKernelHasIt) {
 /// What the lanes take out has no conflict, and they take out most of what has none; the same on every target.
 TEST(FacetContact, LanesTakeOutPairsWithoutConflict) {
     const std::string usual = simd_target();
-    std::array<std::size_t, 2> taken{}, left{};  // by whether the pair conflicts
-    std::array<std::size_t, 2> in_general{};     // of those in general position without a conflict: left, taken
+    std::array<std::size_t, 2> taken{}, left{};           // by whether the pair conflicts
+    std::array<std::size_t, 2> in_general{}, in_plane{};  // of those without a conflict: left, taken
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         base::Random random = base::Random::stream(12, seed, 0);
         // Few nodes, some of them at one place: facets have 0 to 3 nodes in common. On a lattice, in general position,
@@ -141,11 +141,13 @@ TEST(FacetContact, LanesTakeOutPairsWithoutConflict) {
             const bool is_left = std::ranges::count(first, key(pair)) != 0;
             ++(is_left ? left : taken)[conflict ? 1 : 0];
             if (kind == 1 && !conflict) ++in_general[is_left ? 0 : 1];
+            if (kind >= 2 && !conflict) ++in_plane[is_left ? 0 : 1];
         }
     }
     EXPECT_EQ(taken[1], 0U);
     EXPECT_GT(left[1], 1000U);
     EXPECT_GT(in_general[1], 2 * in_general[0]);
+    EXPECT_GT(in_plane[1], 2 * in_plane[0]);
 }
 
 }  // namespace

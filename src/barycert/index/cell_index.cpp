@@ -59,6 +59,18 @@ void pass(std::span<const KeyedPlace> from, KeyedPlace* to, int shift, int width
     for (const KeyedPlace& item : from) to[next[item.key >> shift & mask]++] = item;
 }
 
+constexpr std::size_t few = 32;
+
+/// By insertion.
+void sort_few(std::span<KeyedPlace> items) {
+    for (std::size_t i = 1; i < items.size(); ++i) {
+        const KeyedPlace item = items[i];
+        std::size_t j = i;
+        for (; j > 0 && item.key < items[j - 1].key; --j) items[j] = items[j - 1];
+        items[j] = item;
+    }
+}
+
 /// Ascending keys of `bits` <= 32 bits; equal ones keep their order.
 void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
     const int low = std::max(0, bits - high_bits);
@@ -71,6 +83,12 @@ void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
     base::parallel_for(begin.size() - 1, [&](std::size_t k) {
         const std::size_t size = begin[k + 1] - begin[k];
         KeyedPlace *from = items.data() + begin[k], *to = other.data() + begin[k];
+        if (size <= few) {  // of a small mesh: counting would take longer
+            KeyedPlace* const last = passes % 2 == 1 ? to : from;
+            std::copy_n(from, size, last);
+            sort_few({last, size});
+            return;
+        }
         for (int p = 0, shift = 0; p < passes; ++p) {
             const int width = (low - shift) / (passes - p);
             pass({from, size}, to, shift, width);

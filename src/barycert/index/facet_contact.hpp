@@ -28,9 +28,10 @@ struct FacetPair {
     std::uint32_t first, second;
 };
 
-/// Takes out pairs of triangles without a conflict, as far as a plane tells: all corners of one triangle that the other
-/// does not have are certainly on one side of the other's plane, which then has nothing of it but the common face. On
-/// SIMD lanes, by determinants in double with their bounds. Precondition: the points are aligned as a NodeRecord's.
+/// Takes out pairs of triangles without a conflict, as far as a plane tells: that of one triangle, or one through a
+/// side of it, parallel to an axis. All corners of the other one but common ones are certainly beyond it, so that it
+/// has nothing of both but the common face. On SIMD lanes, by determinants in double with their bounds. Precondition:
+/// the points are aligned as a NodeRecord's.
 std::span<FacetPair> without_separated(std::span<const PlacedFacet> facets, std::span<FacetPair> pairs);
 
 /// The nodes, ascending, of the face of f (all of it, an edge, a node) whose relative interior has the point; all -1
