@@ -67,10 +67,19 @@ struct Nearest {
     std::array<Mesh::Index, 3> nodes{-1, -1, -1};
 };
 
+/// When it is proved where points can be found by walks, which takes longer than to order the cells.
+enum class Prove : std::uint8_t {
+    at_once,
+    /// Meshes of up to 100,000 cells: once 50,000 points have been located by candidates, or when certified(),
+    /// contested_cells() or degenerate_cells() is asked. Larger ones: at once.
+    when_it_pays,
+    never,  ///< find no neighbours, and test candidates everywhere
+};
+
 /// How an index is built.
 struct BuildOptions {
-    bool prove = true;  ///< false: find no neighbours, prove nothing, and test candidates everywhere
-    int threads = 0;    ///< 0: as many as the machine has; the index is the same for any number
+    Prove prove = Prove::at_once;
+    int threads = 0;  ///< 0: as many as the machine has; the index is the same for any number
     std::function<void(const char* stage)> progress = {};  ///< called as each stage begins
 };
 
@@ -96,7 +105,7 @@ public:
     /// walks are enough. Never less than there are; where cells overlap or touch, some more.
     std::uint64_t contested_cells() const;
 
-    /// Cells of volume exactly zero; 0 if the index was built with `prove` off.
+    /// Cells of volume exactly zero; 0 if the index was built with Prove::never.
     std::uint64_t degenerate_cells() const;
 
     /// Bytes of memory besides the mesh, without buffers of points (up to 20 MiB a thread). Grows as parts of the index

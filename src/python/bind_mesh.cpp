@@ -118,7 +118,7 @@ const Locator& Geometry::locator(const Progress& progress) {
     const std::lock_guard once(making_);
     if (!locator_) {
         const auto on_stage = [&](const char* stage) { tell(progress, stage, 0, 0); };
-        locator_ = take(Locator::build(mesh, {.progress = on_stage}));
+        locator_ = take(Locator::build(mesh, {.prove = Prove::when_it_pays, .progress = on_stage}));
     }
     return *locator_;
 }

@@ -20,7 +20,7 @@ py::tuple locate(const MeshObject& object, const Given<double>& points, int thre
         check(locator.locate(points.part(first, n), std::span(cells).subspan(first, n),
                              std::span(features).subspan(first, n), nullptr, threads, nonfinite));
     };
-    in_blocks(progress, "points", points.rows(), block, first_block(locator.certified()));
+    in_blocks(progress, "points", points.rows(), block, first_block(locator, points.rows()));
     return py::make_tuple(owned(std::move(cells)), owned(std::move(features)));
 }
 
@@ -112,7 +112,7 @@ py::array sample(const BoundSampler& bound, const Given<double>& points, const S
                  const std::optional<Given<std::uint8_t>>& features) {
     const std::size_t count = points.rows(), columns = bound.sampler.columns().size();
     const bool near = options.outside.kind == Outside::nearest || options.outside.kind == Outside::extrapolate;
-    const std::size_t first_size = first_block(!near && bound.sampler.locator().certified());
+    const std::size_t first_size = near ? few : first_block(bound.sampler.locator(), count);
     const bool one_block = count <= first_size;  // whose values are not copied
     Table rows;
     Array<double> out(Shape{one_block ? 0 : count, columns});

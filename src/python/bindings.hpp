@@ -168,16 +168,20 @@ inline void tell(const Progress& progress, std::string_view stage, std::size_t d
     if (progress) (*progress)(py::str(stage.data(), stage.size()), done, total);
 }
 
-/// Points that cost next to nothing begin with so many that sorting them pays; all else begins with few.
-constexpr std::size_t first_block(bool cheap) {
-    return cheap ? std::size_t{1} << 20 : 4096;
+/// All begins with few.
+constexpr std::size_t few = 4096;
+
+/// Many points that cost next to nothing begin with so many that sorting them pays.
+inline std::size_t first_block(const Locator& locator, std::size_t points) {
+    constexpr std::size_t many = 50000;
+    return points >= many && locator.certified() ? std::size_t{1} << 20 : few;
 }
 
 /// body(first, count) for parts of [0, total), without the lock. Parts grow and shrink such that one takes some tenths
 /// of a second, after which Ctrl-C is noticed.
 template <class Body>
 void in_blocks(const Progress& progress, std::string_view stage, std::size_t total, const Body& body,
-               std::size_t size = first_block(false)) {
+               std::size_t size = few) {
     using Clock = std::chrono::steady_clock;
     using std::chrono_literals::operator""ms;
     constexpr std::size_t smallest = 64;

@@ -55,7 +55,7 @@ Subject::Subject(const std::string& name_, Mesh mesh_, std::size_t point_count, 
 
 Ours::Ours(const Subject& subject)
     : walk(demand_value(Locator::build(subject.mesh))),
-      candidates(demand_value(Locator::build(subject.mesh, {.prove = false}))),
+      candidates(demand_value(Locator::build(subject.mesh, {.prove = Prove::never}))),
       one(demand_value(Sampler::build(walk, {{&subject.linear}}))),
       three(demand_value(Sampler::build(walk, {{&subject.three}}))),
       uncertified(demand_value(Sampler::build(candidates, {{&subject.linear}}))) {

@@ -230,7 +230,7 @@ TEST(EveryEnvironment, SampleAndResample) {
                     options.rounding = rounding;
                     options.outside.kind = outside;
                     options.threads = 2;
-                    const auto locator = Locator::build(s.mesh, {.prove = false});
+                    const auto locator = Locator::build(s.mesh, {.prove = Prove::never});
                     const auto sampler = Sampler::build(*locator, fields_of(s.mesh));
                     Table samples;
                     SampleCounts counts;
@@ -301,7 +301,7 @@ TEST(EveryEnvironment, QuantitiesAndWeights) {
             const std::vector<double> points = points_around(s, 60);
             for (const Outside outside : {Outside::nan, Outside::nearest, Outside::extrapolate}) {
                 expect_same_everywhere("quantities of " + s.name, [&](Answers& out) {
-                    const auto locator = Locator::build(mesh, {.prove = false});
+                    const auto locator = Locator::build(mesh, {.prove = Prove::never});
                     Table rows = *locator->locate(points);
                     rows.points = points;
                     const auto weights = node_weights(*locator, rows.view(), {.kind = outside});
@@ -311,7 +311,7 @@ TEST(EveryEnvironment, QuantitiesAndWeights) {
                     for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
                         const auto sampler =
                             Sampler::build(mesh, {"grad(one)", "|two|", "two.y", "mean(cell)", "|cell|", "|grad(two)|"},
-                                           {.prove = false});
+                                           {.prove = Prove::never});
                         out.add(sampler.has_value());
                         const auto table =
                             sampler->sample(points, {.rounding = rounding, .outside = {.kind = outside}, .threads = 2});
@@ -676,7 +676,7 @@ TEST(EveryEnvironment, VerifiedResults) {
 // What a callback leaves behind ends with it.
 TEST(EveryEnvironment, CallbacksThatChangeIt) {
     const Subject s = subjects()[6];
-    const auto locator = Locator::build(s.mesh, {.prove = false});
+    const auto locator = Locator::build(s.mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, fields_of(s.mesh));
     const auto grid = grid_over(3, {9, 7, 9}, {0, 0, 0}, {61 * s.scale, 61 * s.scale, 61 * s.scale});
     std::vector<double> right, got;

@@ -18,7 +18,7 @@ const double nan = std::numeric_limits<double>::quiet_NaN();
 TEST(LocateErrors, TheFirstPointThatIsNotFiniteIsNamed) {
     for (const int d : {2, 3}) {
         const Mesh mesh = box(d, {2, 2, 2});
-        for (const bool prove : {false, true}) {
+        for (const Prove prove : {Prove::never, Prove::when_it_pays, Prove::at_once}) {
             const auto locator = Locator::build(mesh, {.prove = prove});
             for (const auto& [bad, count] : {std::pair(nan, 20), {infinity, 20}, {-infinity, 20}, {nan, 5000}}) {
                 std::vector<double> points(static_cast<std::size_t>(count * d), 0.5);
@@ -42,7 +42,7 @@ TEST(LocateErrors, TheFirstPointThatIsNotFiniteIsNamed) {
 
 TEST(LocateErrors, SizesThatDoNotFit) {
     const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     std::vector<Mesh::Index> cells(2);
     std::vector<Feature> features(2);
     EXPECT_FALSE(locator->locate(std::vector<double>(5), cells, features));
@@ -59,7 +59,7 @@ TEST(LocateErrors, InconsistentMeshes) {
     const auto refused = [&](auto spoil) {
         Mesh mesh = good;
         spoil(mesh);
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         EXPECT_FALSE(locator.has_value());
         return locator ? std::string() : locator.error().message();
     };
@@ -148,7 +148,7 @@ TEST(LocateErrors, CertifiedMeshesAreTaken) {
 TEST(LocateErrors, FieldsMayHoldAnything) {
     Mesh mesh = box(3, {1, 1, 1});
     mesh.point_fields.push_back({"f", 1, std::vector<double>(8, nan)});
-    EXPECT_TRUE(Locator::build(mesh, {.prove = false}));
+    EXPECT_TRUE(Locator::build(mesh, {.prove = Prove::never}));
 }
 
 TEST(LocateErrors, AFoldedMeshIsContestedWhereItFolds) {
@@ -173,7 +173,7 @@ TEST(LocateErrors, AFoldedMeshIsContestedWhereItFolds) {
 
 TEST(LocateErrors, MovedLocatorsAnswer) {
     const Mesh mesh = box(3, {2, 1, 1});
-    Locator first = Locator::build(mesh, {.prove = false}).value();
+    Locator first = Locator::build(mesh, {.prove = Prove::never}).value();
     const std::array<double, 3> p{1.5, 0.5, 0.25};
     const Location before = *first.locate(p.data());
     Locator second = std::move(first);

@@ -55,7 +55,7 @@ const std::vector<double>& all_sizes() {
 }
 
 std::size_t expect_exact(const Mesh& mesh, const std::vector<double>& points, const std::string& what) {
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const NearestJudge judge(mesh);
     const PointJudge holders(mesh);
     const auto d = static_cast<std::size_t>(mesh.dimension);
@@ -152,7 +152,7 @@ TEST(LocateNearest, N1ExactlyOnThinCells) {
 TEST(LocateNearest, N1InsideACellIsThatPoint) {
     for (const int d : {2, 3}) {
         const Mesh mesh = box(d, {2, 2, 2});
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const std::array<double, 3> p{0.75, 0.25, 0.125};
         const Nearest found = *locator->nearest(p.data(), infinity);
         EXPECT_EQ(found.distance, 0);
@@ -189,7 +189,7 @@ TEST(LocateNearest, N2FarPointsCostNoMore) {
         base::Random random(75);
         for (double& x : askew.points) x += factor * random.uniform(-0.1, 0.1);
         for (const Mesh& m : {mesh, askew}) {
-            const auto locator = Locator::build(m, {.prove = false});
+            const auto locator = Locator::build(m, {.prove = Prove::never});
             for (const std::size_t kind : {0U, 1U, 2U, 3U}) {
                 const std::uint64_t near = work_at(*locator, 10, kind);
                 for (const double away : {1e3, 1e9, 1e12, 1e14, 1e16, 1e20, 1e100, 1e200, 1e300})
@@ -203,7 +203,7 @@ TEST(LocateNearest, N2FarPointsCostNoMore) {
 // Within a limit far below the distance nothing but the box of the mesh is looked at.
 TEST(LocateNearest, N2BeyondTheLimit) {
     const Mesh mesh = box(3, {8, 8, 8});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     for (const double away : {1e2, 1e15, 1e300}) {
         const std::array<double, 3> p{away, 4, -away};
         locate::NearestWork work;
@@ -215,7 +215,7 @@ TEST(LocateNearest, N2BeyondTheLimit) {
 // A distance that no double holds is infinite: beyond every finite limit, within an infinite one.
 TEST(LocateNearest, DistancesThatOverflow) {
     const Mesh mesh = mapped(box(2, {1, 1, 0}), {1e300, 1e300, 1}, {-max_double, -max_double, 0});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const std::array<double, 2> p{max_double, max_double};
     const Nearest found = *locator->nearest(p.data(), infinity);
     EXPECT_GE(found.cell, 0);

@@ -62,7 +62,7 @@ double reach(const Mesh& mesh, Mesh::Index cell, const double* point) {
 /// Of points outside. Distances, and how much farther the chosen cell and feature are than the nearest, are right to
 /// eight roundings of the reach: differences, products and sums, divisions and roots follow each other no farther.
 void expect_nearest(const Mesh& mesh, const std::vector<double>& points, const std::string& what) {
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     ASSERT_TRUE(locator) << what;
     const NearestJudge judge(mesh);
     const PointJudge holders(mesh);
@@ -156,7 +156,7 @@ TEST(LocateNearest, FarPoints) {
             points.push_back(some[random.below(std::size(some))]);
         }
         expect_nearest(mesh, points, "far points");
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const std::array<double, 3> corner{max_double, -max_double, max_double};
         const auto found = locator->nearest(corner.data(), infinity);
         ASSERT_TRUE(found);
@@ -181,7 +181,7 @@ TEST(LocateNearest, L3DegenerateCellsAreNeverChosen) {
         expect_nearest(mesh, points, "flat cells");
         Mesh only_flat = mesh;
         only_flat.cells = flat;
-        const auto locator = Locator::build(only_flat, {.prove = false});
+        const auto locator = Locator::build(only_flat, {.prove = Prove::never});
         ASSERT_TRUE(locator);
         const auto found = locator->nearest(points.data(), infinity);
         ASSERT_TRUE(found);
@@ -192,7 +192,7 @@ TEST(LocateNearest, L3DegenerateCellsAreNeverChosen) {
 TEST(LocateNearest, NoCell) {
     Mesh mesh;
     mesh.dimension = 2;
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     ASSERT_TRUE(locator);
     const std::array<double, 2> p{1, 2};
     const auto found = locator->nearest(p.data(), infinity);
@@ -218,7 +218,7 @@ TEST(LocateNearest, TheLimitIncludesItself) {
     for (const char* stem : {"cube-hole", "plate"}) {
         base::Random random(8);
         const Mesh mesh = own_mesh(stem);
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const std::vector<double> points = outside_of(mesh, random);
         std::size_t lost = 0, beyond = 0;
         const auto d = static_cast<std::size_t>(mesh.dimension);
@@ -236,7 +236,7 @@ TEST(LocateNearest, TheLimitIncludesItself) {
 
 TEST(LocateNearest, NothingIsNearerThanAllDistances) {
     const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const std::array<double, 3> outside{-0.5, 0.25, 0.5};
     for (const double limit : {-1.0, -infinity, 0.0, 0.4999}) {
         const auto found = locator->nearest(outside.data(), limit);
@@ -268,7 +268,7 @@ TEST(LocateNearest, OneOrTwoSubnormalsWide) {
 // Squares of such distances are zero in double.
 TEST(LocateNearest, VeryNearIsNotZero) {
     const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     for (const double away : {1e-150, 1e-170, 1e-300, 5e-324}) {
         const std::array<double, 3> p{-away, 0.25, 0.5};
         EXPECT_EQ(locator->nearest(p.data(), infinity)->distance, away);
@@ -278,7 +278,7 @@ TEST(LocateNearest, VeryNearIsNotZero) {
 
 TEST(LocateNearest, CoordinatesThatAreNotFinite) {
     const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
         const std::array<double, 3> p{0.5, bad, 0.5};
         EXPECT_FALSE(locator->nearest(p.data(), infinity));

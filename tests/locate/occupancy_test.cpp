@@ -67,7 +67,7 @@ struct Told {
 /// Every point that is told to be outside must be so.
 Told ask(const Mesh& mesh, Detail detail, base::Random& random, const std::string& what) {
     Told told;
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     if (!locator || mesh.cell_count() == 0) return told;
     const locate::CellIndex& index = locate::LocatorData::of(*locator).index;
     const double filled = locate::filled_share(index);
@@ -143,7 +143,7 @@ TEST(LocateOccupancy, MostOfTheBoxOfAThinCellIsEmpty) {
     mesh.points = {0, 0, 0, 1, 1, 1, 1, 1, 0.99, 0.99, 1, 1};
     mesh.cells = {0, 1, 2, 3};
     base::Random random(13);
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     ASSERT_TRUE(locator);
     locate::LocatorData::of(*locator).prepare(1'000'000);
     ASSERT_NE(locate::LocatorData::of(*locator).occupancy(), nullptr);
@@ -168,7 +168,8 @@ TEST(LocateOccupancy, NoRoom) {
         EXPECT_EQ(locate::LocatorData::of(*locator).occupancy(), nullptr);
         Mesh flat = full;
         for (std::size_t i = 0; i < flat.points.size(); i += static_cast<std::size_t>(d)) flat.points[i] = 3;
-        EXPECT_GE(locate::filled_share(locate::LocatorData::of(*Locator::build(flat, {.prove = false})).index), 1);
+        EXPECT_GE(locate::filled_share(locate::LocatorData::of(*Locator::build(flat, {.prove = Prove::never})).index),
+                  1);
     }
 }
 
@@ -179,7 +180,7 @@ TEST(LocateOccupancy, L1L2L3EveryWay) {
             base::Random random = base::Random::stream(14, n, static_cast<std::uint64_t>(d));
             Mesh mesh = n % 2 == 0 ? grown_complex(d, random) : damaged_box(d, random);
             if (mesh.cell_count() == 0) continue;
-            const auto locator = Locator::build(mesh, {.prove = false});
+            const auto locator = Locator::build(mesh, {.prove = Prove::never});
             locate::LocatorData::of(*locator).prepare(1'000'000);
             if (locate::LocatorData::of(*locator).occupancy() == nullptr) continue;
             std::vector<double> points = edge_points(mesh, locate::LocatorData::of(*locator).index,

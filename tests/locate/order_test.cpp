@@ -3,8 +3,11 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <atomic>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <thread>
 
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
@@ -46,7 +49,7 @@ TEST(LocateOrder, D1ManyPoints) {
         std::vector<double> points = awkward_points(mesh, 1200, random);
         const std::vector<double> inner = inner_points(mesh, 30000, random);
         points.insert(points.end(), inner.begin(), inner.end());
-        const auto walks = Locator::build(mesh), asks = Locator::build(mesh, {.prove = false});
+        const auto walks = Locator::build(mesh), asks = Locator::build(mesh, {.prove = Prove::never});
         const Answers right = ask(*walks, points, 1);
         EXPECT_TRUE(ask(*asks, points, 1) == right) << stem;
         for (const std::string& target : simd_targets()) {
@@ -125,11 +128,75 @@ TEST(LocateOrder, D1Hints) {
     }
 }
 
+/// Answers must be those of an index that was proved at once, whether the proof came before, meanwhile or not at all.
+TEST(LocateOrder, TheProofComesWhenItPays) {
+    constexpr std::size_t enough = 50000;
+    for (const char* stem : {"cube-hole", "plate", "bracket"}) {
+        for (const bool twice : {false, true}) {  // a cell that is there twice is contested
+            base::Random random(base::hash64(stem));
+            const Mesh whole = own_mesh(stem);
+            Mesh mesh;
+            mesh.dimension = whole.dimension;
+            mesh.points = whole.points;
+            mesh.cells = whole.cells;
+            if (twice) std::copy_n(whole.cells.begin(), mesh.corners(), std::back_inserter(mesh.cells));
+            const auto at_once = Locator::build(mesh), later = Locator::build(mesh, {.prove = Prove::when_it_pays});
+            const std::vector<double> points = inner_points(mesh, enough / 2, random);
+            const Answers right = ask(*at_once, points, 1);
+            std::vector<Mesh::Index> cells(enough / 2);
+            std::vector<Feature> features(cells.size());
+            LocationCounts counts[2];
+            for (LocationCounts& c : counts) {
+                ASSERT_TRUE(later->locate(points, cells, features, &c));
+                EXPECT_TRUE((Answers{cells, features} == right)) << stem << twice;
+            }
+            EXPECT_EQ(counts[0].ways.candidates, cells.size()) << stem;
+            EXPECT_LT(counts[1].ways.candidates, cells.size() / 2) << stem;
+            EXPECT_EQ(later->certified(), !twice) << stem;
+            EXPECT_EQ(later->contested_cells(), at_once->contested_cells()) << stem;
+
+            const auto asked = Locator::build(mesh, {.prove = Prove::when_it_pays});
+            EXPECT_EQ(asked->contested_cells(), at_once->contested_cells()) << stem;
+            LocationCounts proved;
+            ASSERT_TRUE(asked->locate(points, cells, features, &proved));
+            EXPECT_EQ(proved.ways.walk, counts[1].ways.walk) << stem;
+        }
+    }
+}
+
+TEST(LocateOrder, ThreadsAskWhileAnotherProves) {
+    base::Random random(8);
+    const Mesh mesh = own_mesh("bracket");
+    const std::vector<double> points = awkward_points(mesh, 2000, random);
+    const Answers right = ask(*Locator::build(mesh), points, 1);
+    const auto locator = Locator::build(mesh, {.prove = Prove::when_it_pays});
+    std::atomic<std::size_t> wrong = 0;
+    const auto one_by_one = [&](std::size_t first) {
+        for (std::size_t n = 0; n < right.cells.size(); ++n) {
+            const std::size_t i = (first + n) % right.cells.size();
+            const Result<Location> found = locator->locate(&points[3 * i], n % 3 == 0 ? -1 : right.cells[(i + n) % 7]);
+            wrong += found && *found == Location{right.cells[i], right.features[i]} ? 0 : 1;
+        }
+    };
+    const auto together = [&] { wrong += ask(*locator, points, 2) == right ? 0 : 1; };
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < 3; ++t) threads.emplace_back(one_by_one, 1000 * t);
+    for (int t = 0; t < 2; ++t) threads.emplace_back(together);
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(wrong, 0U);
+    EXPECT_GT(2 * right.cells.size() + 3 * right.cells.size(), 50000U);
+    LocationCounts counts;
+    std::vector<Mesh::Index> cells(right.cells.size());
+    std::vector<Feature> features(cells.size());
+    ASSERT_TRUE(locator->locate(points, cells, features, &counts));
+    EXPECT_GT(counts.ways.walk, 0U);
+}
+
 TEST(LocateOrder, CountsAreAddedTo) {
     base::Random random(9);
     const Mesh mesh = own_mesh("lattice-eighths");
     const std::vector<double> points = awkward_points(mesh, 50, random);
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     std::vector<Mesh::Index> cells(points.size() / 3);
     std::vector<Feature> features(cells.size());
     LocationCounts counts;

@@ -122,7 +122,7 @@ bool expect_right(const Mesh& mesh, const std::vector<double>& points, base::Ran
     const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
     Asking asking(mesh, points, what, ways);
     for (const bool with : {true, false}) {
-        const auto locator = with ? Locator::build(mesh) : Locator::build(mesh, {.prove = false});
+        const auto locator = with ? Locator::build(mesh) : Locator::build(mesh, {.prove = Prove::never});
         if (!locator) {
             ADD_FAILURE() << what << ": " << locator.error().message();
             return certified;

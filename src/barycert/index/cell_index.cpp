@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <limits>
 #include <span>
 #include <utility>
@@ -19,7 +20,7 @@ struct KeyedPlace {
     std::int32_t place;
 };
 
-/// Of the first pass, over all items: as many as the second cache holds lines for.
+/// Of the first pass, over all items, at most: as many as the second cache holds lines for.
 constexpr int high_bits = 11;
 /// Of each later pass, over one bucket of the first.
 constexpr int low_bits = 8;
@@ -59,21 +60,11 @@ void pass(std::span<const KeyedPlace> from, KeyedPlace* to, int shift, int width
     for (const KeyedPlace& item : from) to[next[item.key >> shift & mask]++] = item;
 }
 
-constexpr std::size_t few = 32;
-
-/// By insertion.
-void sort_few(std::span<KeyedPlace> items) {
-    for (std::size_t i = 1; i < items.size(); ++i) {
-        const KeyedPlace item = items[i];
-        std::size_t j = i;
-        for (; j > 0 && item.key < items[j - 1].key; --j) items[j] = items[j - 1];
-        items[j] = item;
-    }
-}
-
 /// Ascending keys of `bits` <= 32 bits; equal ones keep their order.
 void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
-    const int low = std::max(0, bits - high_bits);
+    // Buckets of fewer items would be mostly counters.
+    const int high = std::clamp(static_cast<int>(std::bit_width(items.size() / 128)), 1, high_bits);
+    const int low = std::max(0, bits - high);
     Buffer<KeyedPlace> other(items.size());
     const std::vector<std::uint32_t> begin = scatter(items, other, low, bits - low);
     std::swap(items, other);
@@ -83,12 +74,6 @@ void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
     base::parallel_for(begin.size() - 1, [&](std::size_t k) {
         const std::size_t size = begin[k + 1] - begin[k];
         KeyedPlace *from = items.data() + begin[k], *to = other.data() + begin[k];
-        if (size <= few) {  // of a small mesh: counting would take longer
-            KeyedPlace* const last = passes % 2 == 1 ? to : from;
-            std::copy_n(from, size, last);
-            sort_few({last, size});
-            return;
-        }
         for (int p = 0, shift = 0; p < passes; ++p) {
             const int width = (low - shift) / (passes - p);
             pass({from, size}, to, shift, width);

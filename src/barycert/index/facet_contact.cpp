@@ -111,24 +111,9 @@ bool apart(const std::array<Point, 3>& f, const std::array<Point, 3>& g) {
     return s != 0 && s == orient(f[0], f[1], f[2], g[1]) && s == orient(f[0], f[1], f[2], g[2]);
 }
 
-/// In the projection along `axis`, a side of f has f on one side, and all of g on the other: then they do not meet. It
-/// spares coplanar triangles, of which a boundary is full, the exact zeros of the general way.
-bool projections_apart(const std::array<Projected, 3>& f, const std::array<Projected, 3>& g) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Point a = f[(i + 1) % 3].at, b = f[(i + 2) % 3].at;
-        const int outer = orient(a, b, g[0].at);
-        if (outer == 0 || orient(a, b, g[1].at) != outer || orient(a, b, g[2].at) != outer) continue;
-        if (opposite(orient(a, b, f[i].at), outer)) return true;
-    }
-    return false;
-}
-
 /// Triangles without common nodes: if they meet, then an edge of one meets the other, since an extreme point of what
 /// they have in common is on an edge of one.
 bool strangers_meet(const std::array<Point, 3>& f, const std::array<Point, 3>& g) {
-    const int axis = widest_projection(f);
-    const std::array<Projected, 3> p = project(f, axis), q = project(g, axis);
-    if (projections_apart(p, q) || projections_apart(q, p)) return false;
     if (apart(f, g) || apart(g, f)) return false;
     for (std::size_t i = 0; i < 3; ++i) {
         if (segment_meets_triangle(f[i], f[(i + 1) % 3], g) || segment_meets_triangle(g[i], g[(i + 1) % 3], f))
@@ -137,24 +122,9 @@ bool strangers_meet(const std::array<Point, 3>& f, const std::array<Point, 3>& g
     return false;
 }
 
-/// In the projection, a side of f through v has f on one side, without v's other neighbour on it, and g on the other,
-/// without all of g but v: then f and g meet in v alone. It spares what projections_apart does.
-bool side_separates(const std::array<Projected, 3>& f, const std::array<Projected, 3>& g) {
-    for (std::size_t i = 1; i < 3; ++i) {
-        const int inner = orient(f[0].at, f[i].at, f[3 - i].at);
-        if (inner != 0 && opposite(inner, orient(f[0].at, f[i].at, g[1].at)) &&
-            opposite(inner, orient(f[0].at, f[i].at, g[2].at)))
-            return true;
-    }
-    return false;
-}
-
 /// Triangles vab and vcd: if they share another point than v, then on the ray from v through it the first side that is
 /// met, ab or cd, is met within the other triangle.
 bool meet_beyond_vertex(const std::array<Point, 3>& f, const std::array<Point, 3>& g) {
-    const int axis = widest_projection(f);
-    const std::array<Projected, 3> p = project(f, axis), q = project(g, axis);
-    if (side_separates(p, q) || side_separates(q, p)) return false;
     return segment_meets_triangle(f[1], f[2], g) || segment_meets_triangle(g[1], g[2], f);
 }
 

@@ -64,7 +64,7 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
     report.threads = base::threads_for(threads);
 }
 
-Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove) {
+Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove) {
     const auto progress = [&](const char* stage) { tell_stage(job, stage); };
     return Locator::build(mesh, {.prove = prove, .threads = threads, .progress = progress}).value();
 }

@@ -75,7 +75,7 @@ Mesh open_mesh_with_fields(const MeshJob& job, int threads, MeshReport& report);
 void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& report);
 
 /// What finds points in the mesh.
-Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, bool prove = true);
+Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove = Prove::at_once);
 
 /// The mesh, the files of fields, and `more`; of VTK's files that name others, those.
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more = {});

@@ -230,11 +230,12 @@ TableFormat SampledMesh::format() const {
     return format;
 }
 
-void SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove) {
+void SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields, Prove prove) {
     Stopwatch watch;
     locator_ = build_locator(job, mesh, job.options.threads, prove);
     build_sampler(fields);
-    if (job.count_degenerate) report.degenerate_cells += prove ? locator_->degenerate_cells() : count_degenerate(mesh);
+    if (job.count_degenerate)
+        report.degenerate_cells += prove == Prove::never ? count_degenerate(mesh) : locator_->degenerate_cells();
     report.seconds.build += watch.lap();
 }
 
@@ -265,9 +266,9 @@ void SampledMesh::prepare(std::span<const double> all_points) {
         report.reason = fmt::format("no index for {}: {} of {} may hold some",
                                     counted(all_points.size() / static_cast<std::size_t>(mesh_.dimension), "point"),
                                     part_->cells.size(), counted(mesh_.cell_count(), "cell"));
-        return build(part_->mesh, fields_of_part(), false);
+        return build(part_->mesh, fields_of_part(), Prove::never);
     }
-    build(mesh_, fields_, true);
+    build(mesh_, fields_, Prove::at_once);
     report.method = FoundBy::walk;
     report.contested_cells += locator_->contested_cells();
     // Of several meshes, that all are certified, or why one is not.
@@ -324,7 +325,7 @@ void SampledMesh::name_cells(Table& rows) const {
 void SampledMesh::prepare_without_search(FoundBy method, const std::string& reason) {
     report.method = method;
     report.reason = reason;
-    build(mesh_, fields_, false);
+    build(mesh_, fields_, Prove::never);
 }
 
 }  // namespace barycert::jobs

@@ -114,7 +114,7 @@ private:
     std::vector<FieldChoice> fields_of_part();
     std::optional<std::vector<Mesh::Index>> cells_near(std::span<const double> points);
     void build_sampler(const std::vector<FieldChoice>& fields);
-    void build(const Mesh& mesh, const std::vector<FieldChoice>& fields, bool prove);
+    void build(const Mesh& mesh, const std::vector<FieldChoice>& fields, Prove prove);
 
     Stopwatch whole_;
     Mesh mesh_;

@@ -12,7 +12,7 @@ void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Fe
     std::fill(owner, owner + count, -1);
     std::fill(feature, feature + count, Feature::outside);
     asked_count_ = arrived_.count = 0;
-    if (data_.method == Method::walk) {
+    if (proof_ != nullptr) {
         walk(points, owner, feature, counts);
     } else {
         std::iota(asked_.begin(), asked_.begin() + static_cast<std::ptrdiff_t>(count), 0);
@@ -22,7 +22,8 @@ void Finder::find(const PointRecord* points, std::size_t count, Place* owner, Fe
     counts.ways.walk += count - asked_count_;
     counts.ways.candidates += asked_count_;
     std::uint64_t interior = arrived_.count;
-    if (interior != count || !data_.proof.contested.empty()) {  // in contested cells an owner may be another one
+    if (interior != count ||
+        (proof_ != nullptr && !proof_->contested.empty())) {  // in contested cells an owner may be another one
         interior = 0;
         for (std::size_t i = 0; i < count; ++i) {
             if (feature[i] == Feature::interior) {
@@ -89,7 +90,7 @@ void Finder::walk(const PointRecord* points, Place* owner, Feature* feature, Loc
         __builtin_prefetch(&data_.index.original[static_cast<std::size_t>(end.cell)]);
     }
     tests.add(Tier::filter, arrived_.count);
-    if (!data_.proof.contested.empty()) ask_contested(points, owner, feature, counts);
+    if (!proof_->contested.empty()) ask_contested(points, owner, feature, counts);
     for (std::size_t i = 0; i < stuck_.count; ++i)
         resolve(points[stuck_.walks[i].point], stuck_.walks[i], owner, feature, tests);
     for (std::size_t i = 0; i < walking_.count; ++i) {
@@ -124,7 +125,7 @@ void Finder::ask_contested(const PointRecord* points, Place* owner, Feature* fea
     std::size_t count = 0;
     for (std::size_t i = 0; i < arrived_.count; ++i) {
         contested[count] = arrived_.walks[i].point;
-        count += data_.proof.is_contested(arrived_.walks[i].cell) ? 1 : 0;
+        count += proof_->is_contested(arrived_.walks[i].cell) ? 1 : 0;
     }
     if (count == 0) return;
     data_.contested_cells().find_owners(points, contested.data(), count, owner, feature, counts.tests);
@@ -136,7 +137,7 @@ void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature
     const CellIndex& index = data_.index;
     // At the end of the domain the point may still be in another part of it, in a contested cell in others as well.
     WeightSigns signs = WeightSigns::degenerate_simplex();
-    if (stuck.cell >= 0 && !data_.proof.is_contested(stuck.cell))
+    if (stuck.cell >= 0 && !proof_->is_contested(stuck.cell))
         signs = cell_signs(index, stuck.cell, point.at.data(), tests);
     if (!signs.contains()) {
         asked_[asked_count_++] = stuck.point;

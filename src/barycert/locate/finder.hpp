@@ -18,7 +18,10 @@ class Finder {
 public:
     /// Walks read `nodes`, those of the index or a copy. `points`: about how many there will be.
     Finder(const LocatorData& data, const NodeRecord* nodes, std::size_t points)
-        : data_(data), nodes_(nodes), fetch_(points < data.index.cell_count()) {}
+        : data_(data),
+          proof_(data.proved() != nullptr ? &data.proved()->proof : nullptr),
+          nodes_(nodes),
+          fetch_(points < data.index.cell_count()) {}
 
     /// Points of the places [first, first + count) in `sorted` will be found after those of the next find().
     void expect(const SortedPoints& sorted, std::size_t first, std::size_t count);
@@ -76,6 +79,7 @@ private:
     }
 
     const LocatorData& data_;
+    const Proof* proof_;  ///< nullptr: every candidate is asked
     const NodeRecord* nodes_;
     bool fetch_;  ///< fewer points than cells: most memory is read for the first time
     Upcoming upcoming_;

@@ -22,7 +22,10 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
         return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
     auto data = std::make_unique<locate::LocatorData>();
     data->mesh = &mesh;
-    data->method = options.prove ? Method::walk : Method::candidates;
+    data->method = options.prove == Prove::never ? Method::candidates : Method::walk;
+    data->threads = options.threads;
+    constexpr std::size_t small = 100000;
+    const bool later = options.prove == Prove::when_it_pays && mesh.cell_count() <= small;
     base::in_arena(options.threads, mesh.cell_count(), [&] {
         const auto stage = [&](const char* name) {
             if (!options.progress) return;
@@ -31,13 +34,7 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
         };
         stage("ordering cells");
         data->index = locate::make_cell_index(mesh);
-        if (!options.prove) return;
-        stage("linking cells");
-        data->links = locate::link_facets(data->index);
-        stage("proving the partition");
-        data->proof =
-            locate::prove(data->index, data->links, [&]() -> const locate::CellTree& { return data->tree(); });
-        data->links.open = {};
+        if (!later) data->prove(stage);
     });
     return Locator(std::move(data));
 }
@@ -51,15 +48,18 @@ Method Locator::method() const {
 }
 
 bool Locator::certified() const {
-    return data_->proof.partition;
+    const ExactEnvironment environment;
+    return data_->demand_proved().proof.partition;
 }
 
 std::uint64_t Locator::contested_cells() const {
-    return data_->proof.contested_count;
+    const ExactEnvironment environment;
+    return data_->demand_proved().proof.contested_count;
 }
 
 std::uint64_t Locator::degenerate_cells() const {
-    return data_->links.degenerate.size();
+    const ExactEnvironment environment;
+    return data_->demand_proved().degenerate.size();
 }
 
 std::size_t Locator::bytes() const {

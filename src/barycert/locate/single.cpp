@@ -138,10 +138,11 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     locate::PointRecord record{};
     for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
     locate::Place stuck = -1;
-    if (data.method == Method::walk) {
+    data.prove_for(1);
+    if (const auto* const proved = data.proved()) {
         const locate::End end = d == 2 ? locate::walk_and_note<Simplex::triangle>(data, point, hint)
                                        : locate::walk_and_note<Simplex::tetrahedron>(data, point, hint);
-        if (end.inside && !data.proof.is_contested(end.cell)) return location(end.cell, Feature::interior);
+        if (end.inside && !proved->proof.is_contested(end.cell)) return location(end.cell, Feature::interior);
         if (end.inside) {
             locate::Place lowest = end.cell;
             Feature on = Feature::interior;

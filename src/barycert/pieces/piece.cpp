@@ -184,7 +184,7 @@ Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine) {
 }
 
 Status IndexedPiece::build() {
-    Result<Locator> made = Locator::build(mesh);
+    Result<Locator> made = Locator::build(mesh, {.prove = Prove::when_it_pays});
     if (!made) return made.error();
     locator = std::move(*made);
     some_cells = size_of_some_cells(mesh);

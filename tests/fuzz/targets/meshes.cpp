@@ -149,7 +149,7 @@ BARYCERT_FUZZ_TARGET(meshes, {std::size_t{32} << 20, 256}) {
     mesh.cell_fields = {q};
 
     const Result<Locator> locator = Locator::build(mesh, {.threads = 1}),
-                          plain = Locator::build(mesh, {.prove = false, .threads = 1});
+                          plain = Locator::build(mesh, {.prove = Prove::never, .threads = 1});
     expect(locator && plain, "a consistent mesh is not indexed");
     expect(locator->certified() == report.certified(), "check and locator differ on the certificate");
     expect(!locator->certified() || locator->contested_cells() == 0, "a certified mesh has contested cells");

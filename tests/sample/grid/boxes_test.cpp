@@ -24,7 +24,7 @@ void expect_law_everywhere(Mesh mesh, int components, const Grid& grid, const st
     if (random.coin()) {  // ties, and values so near to them that integers must decide
         for (double& x : mesh.point_fields[0].data) x = 1 + 0x1p-51 * random.integer(0, 3);
     }
-    const auto locator = Locator::build(mesh), asks = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh), asks = Locator::build(mesh, {.prove = Prove::never});
     const auto walks = Sampler::build(*locator, all_fields(mesh)), other = Sampler::build(*asks, all_fields(mesh));
     for (const std::string& target : simd_targets()) {
         ASSERT_TRUE(use_simd_target(target));

@@ -130,21 +130,21 @@ SampleCounts expect_law(const Sampler& sampler, const Grid& grid, const SampleOp
 
 SampleCounts expect_law(const Mesh& mesh, const Grid& grid, const std::string& what, const SampleOptions& options) {
     SampleCounts counts;
-    for (const bool prove : {true, false}) {
+    for (const Prove prove : {Prove::at_once, Prove::never}) {
         const auto locator = Locator::build(mesh, {.prove = prove});
         EXPECT_TRUE(locator) << what;
         if (!locator) return counts;
-        EXPECT_EQ(locator->method(), prove ? Method::walk : Method::candidates) << what;
+        EXPECT_EQ(locator->method(), prove == Prove::never ? Method::candidates : Method::walk) << what;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         EXPECT_TRUE(sampler) << what;
         if (!sampler) return counts;
-        counts = expect_law(*sampler, grid, options, what + (prove ? ", walks" : ", candidates"));
+        counts = expect_law(*sampler, grid, options, what + ", " + std::string(name(locator->method())));
     }
     return counts;
 }
 
 void expect_truth(const Mesh& mesh, const Grid& grid, const std::string& what) {
-    for (const bool prove : {true, false}) {
+    for (const Prove prove : {Prove::at_once, Prove::never}) {
         const auto locator = Locator::build(mesh, {.prove = prove});
         ASSERT_TRUE(locator) << what;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));

@@ -157,7 +157,8 @@ TEST(ResampleFuzz, AnythingGoes) {
         Mesh mesh = any_mesh(random);
         any_fields(mesh, random);
         const std::string what = "round " + std::to_string(round);
-        const auto locator = random.below(3) != 0 ? Locator::build(mesh) : Locator::build(mesh, {.prove = false});
+        const auto locator =
+            random.below(3) != 0 ? Locator::build(mesh) : Locator::build(mesh, {.prove = Prove::never});
         ASSERT_TRUE(locator) << what << locator.error().message();
         certified += locator->certified() ? 1 : 0;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));

@@ -40,7 +40,7 @@ TEST(GridLimits, PointsAscendAmongSubnormalNumbers) {
 // As many points as grid_over accepts do not make a grid that is none to resample.
 TEST(GridLimits, TheMostPointsOnAnAxis) {
     const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, {});
     const auto grid = grid_over(3, {Grid::max_on_axis, 2, 1}, {5, 5, 5}, {6, 6, 6});
     ASSERT_TRUE(grid);
@@ -51,7 +51,7 @@ TEST(GridLimits, TheMostPointsOnAnAxis) {
 
 /// Refused, or the rows of sample.
 void expect_refused_or_right(const Mesh& mesh, const Grid& grid) {
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const auto counts = resample(*sampler, grid, {}, nothing);
     if (!counts) return;

@@ -175,7 +175,7 @@ TEST(Grids, MadeByHand) {
         base::Random random(3);
         Mesh mesh = box(d, {2, 2, 2});
         set_simple_fields(mesh, random);
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         const Grid good = over(d, {5, 4, d == 3 ? 3 : 1}, {0, 0, 0}, {2, 2, 2});
         const auto refused = [&](const std::function<void(Grid&)>& change) {
@@ -231,7 +231,7 @@ TEST(Grids, OfAnotherDimension) {
         Mesh mesh = box(d, {1, 1, 1});
         base::Random random(4);
         set_simple_fields(mesh, random);
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         const auto status = resample(*sampler, over(5 - d, {2, 2, 2}, {0, 0, 0}, {1, 1, 1}), {},
                                      [](const TableView&) -> Status { return Done{}; });

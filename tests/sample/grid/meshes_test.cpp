@@ -15,7 +15,7 @@ const std::vector<std::string> own_stems{"bracket",         "cube-hole",   "cube
 
 /// On every grid that is awkward for the mesh.
 void expect_law_on_grids(const Mesh& mesh, std::int64_t points, base::Random& random, const std::string& what) {
-    const auto walks = Locator::build(mesh), asks = Locator::build(mesh, {.prove = false});
+    const auto walks = Locator::build(mesh), asks = Locator::build(mesh, {.prove = Prove::never});
     ASSERT_TRUE(walks && asks) << what;
     const auto one = Sampler::build(*walks, all_fields(mesh)), other = Sampler::build(*asks, all_fields(mesh));
     ASSERT_TRUE(one && other) << what;

@@ -34,7 +34,7 @@ TEST(ResampleOrder, ThreadsAndTargets) {
             mesh.cell_fields =
                 random_fields(mesh.cell_count(), std::vector<int>(components.size() - 1, 1), false, random);
             for (const bool certified : {true, false}) {
-                const auto locator = certified ? Locator::build(mesh) : Locator::build(mesh, {.prove = false});
+                const auto locator = certified ? Locator::build(mesh) : Locator::build(mesh, {.prove = Prove::never});
                 const auto sampler = Sampler::build(*locator, all_fields(mesh));
                 for (const NamedGrid& g : awkward_grids(mesh, 700, random)) {
                     use_simd_target("");
@@ -104,7 +104,7 @@ TEST(ResampleOrder, TheSinkStopsIt) {
     Mesh mesh = box(3, {2, 2, 2});
     mesh.cell_fields = random_fields(mesh.cell_count(), {2000}, false, random);
     mesh.point_fields = random_fields(mesh.point_count(), {1}, false, random);
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const Grid grid = over(3, {70, 60, 9}, {0, 0, 0}, {2, 2, 2});
     for (const int threads : {1, 2, 8}) {
@@ -128,7 +128,7 @@ TEST(ResampleOrder, RoundingModes) {
         base::Random random(base::hash64(stem));
         Mesh mesh = own_mesh(stem);
         set_simple_fields(mesh, random);
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         for (const NamedGrid& g : awkward_grids(mesh, 500, random)) {
             const Resampled nearest = resampled(*sampler, g.grid, on_threads(1));

@@ -71,7 +71,7 @@ TEST(ResampleOutside, ErrorNamesTheFirstPoint) {
         }
         mesh = only(mesh, keep);
         set_simple_fields(mesh, random);
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         const Grid grid = over(d, {17, 17, d == 3 ? 17 : 1}, {0, 0, 0}, {4, 4, 4});
         const std::size_t first = d == 3 ? (5 * 17 + 5) * 17 + 5 : 5 * 17 + 5;
@@ -101,7 +101,7 @@ TEST(ResampleOutside, CountsAddToWhatIsThere) {
     base::Random random(2);
     Mesh mesh = box(3, {2, 2, 2});
     set_simple_fields(mesh, random);
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const Grid grid = over(3, {5, 5, 5}, {0, 0, 0}, {2.5, 2, 2});
     const auto sink = [](const TableView&) -> Status { return Done{}; };

@@ -43,7 +43,7 @@ TEST(MapUse, RowsFromASavedMapHaveTheSameBits) {
         for (std::size_t i = 0; i < mesh.point_count(); ++i) {
             mesh.point_fields[0].data.push_back(random.uniform(-1, 1));
         }
-        const Locator locator = Locator::build(mesh, {.prove = false}).value();
+        const Locator locator = Locator::build(mesh, {.prove = Prove::never}).value();
         const Sampler sampler = Sampler::build(locator, {{&mesh.point_fields[0], false}}).value();
         const std::vector<double> points = points_for(mesh, 20000);
         Table direct;
@@ -69,7 +69,7 @@ TEST(MapUse, RowsFromASavedMapHaveTheSameBits) {
 TEST(MapUse, EveryCellThatHoldsAPoint) {
     const TemporaryFolder folder;
     const Mesh mesh = read_tetgen(std::string(BARYCERT_DATA_DIR) + "/meshes/cube-hole").value();
-    const Locator locator = Locator::build(mesh, {.prove = false}).value();
+    const Locator locator = Locator::build(mesh, {.prove = Prove::never}).value();
     const std::vector<double> points = points_for(mesh, 3000);
     const Table rows = locator.locate_all(points).value();
     ASSERT_GT(rows.cells.size(), 3000U);  // points that several cells hold

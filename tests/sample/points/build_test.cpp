@@ -27,7 +27,7 @@ TEST(SamplerBuild, ProvesAndNamesFields) {
     ASSERT_TRUE(all);
     EXPECT_EQ(all->columns(), (std::vector<std::string>{"T", "v.0", "v.1", "region"}));
     EXPECT_EQ(all->locator().method(), Method::walk);
-    EXPECT_EQ(Sampler::build(mesh, {}, {.prove = false})->locator().method(), Method::candidates);
+    EXPECT_EQ(Sampler::build(mesh, {}, {.prove = Prove::never})->locator().method(), Method::candidates);
     const auto some = Sampler::build(mesh, {"cell:region", "point:T"});
     ASSERT_TRUE(some);
     EXPECT_EQ(some->columns(), (std::vector<std::string>{"T", "region"})) << "fields of nodes come first";
@@ -47,7 +47,7 @@ TEST(SamplerBuild, RowsAreThoseOfALocatorOfOnesOwn) {
     Sampler built = Sampler::build(mesh).value();
     const Sampler sampler = std::move(built);  // with the locator that it owns
     const Table rows = sampler.sample(points).value();
-    const Locator locator = Locator::build(mesh, {.prove = false}).value();
+    const Locator locator = Locator::build(mesh, {.prove = Prove::never}).value();
     const Table expected = Sampler::build(locator, all_fields(mesh))->sample(points).value();
     EXPECT_TRUE(same(rows, expected));
     EXPECT_EQ(rows.columns, expected.columns);

@@ -12,7 +12,7 @@ namespace {
 
 TEST(SampleErrors, FieldsThatDoNotFit) {
     const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const Field one{"one", 1, std::vector<double>(8)}, two{"two", 2, std::vector<double>(16)};
     const Field short_of{"short", 1, std::vector<double>(7)}, none{"none", 0, {}};
     const Field cells{"cells", 1, std::vector<double>(6)};
@@ -29,7 +29,7 @@ TEST(SampleErrors, FieldsThatDoNotFit) {
 
 TEST(SampleErrors, PointsAndLocations) {
     const Mesh mesh = box(3, {1, 1, 1});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const Field field{"f", 1, std::vector<double>(8)};
     const auto sampler = Sampler::build(*locator, {{&field, false}});
     Table samples;

@@ -25,7 +25,7 @@ TEST(SampleExtremes, ACellWithoutVolumeHasNoValue) {
     for (const std::vector<Mesh::Index>& cell : {std::vector<Mesh::Index>{0, 1, 2, 3}, {3, 1, 0, 2}}) {
         mesh.cells = cell;
         const Field field{"f", 1, {0, 1, 2, 3}};
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const auto sampler = Sampler::build(*locator, {{&field}});
         for (const double z : {0.0, 0.1}) {
             Table rows;
@@ -43,7 +43,7 @@ TEST(SampleExtremes, TheNearestPointIsOnTheFaceWhateverTheSize) {
     for (int exponent = -300; exponent <= 300; exponent += 10) {
         const double size = std::ldexp(1, exponent);
         const Mesh mesh = tetrahedron(size);
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const double point[] = {size / 4, size / 4, -size};
         const auto nearest = locator->nearest(point, std::numeric_limits<double>::infinity());
         EXPECT_EQ(nearest->nodes, (std::array<Mesh::Index, 3>{0, 1, 2})) << exponent;
@@ -55,7 +55,7 @@ TEST(SampleExtremes, CellsFarSmallerThanTheDomainHaveFaces) {
     Mesh mesh = tetrahedron(0x1p-270);
     mesh.points.insert(mesh.points.end(), {1, 1, 1, 2, 1, 1, 1, 2, 1, 1, 1, 2});
     mesh.cells.insert(mesh.cells.end(), {4, 5, 6, 7});
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const double point[] = {0x1p-272, 0x1p-272, -0x1p-270};
     EXPECT_EQ(locator->nearest(point, 1)->distance, 0x1p-270);
 }
@@ -67,7 +67,7 @@ TEST(SampleExtremes, VerticesAreFoundInEveryRoundingMode) {
         mesh.points.insert(mesh.points.end(), {x, y, z, x + h, y, z, x, y + h, z, x, y, z + h});
         for (Mesh::Index v = 0; v < 4; ++v) mesh.cells.push_back(4 * i + v);
     }
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     std::vector<Mesh::Index> cells(mesh.point_count());
     std::vector<Feature> features(mesh.point_count());
     for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
@@ -87,7 +87,7 @@ TEST(SampleExtremes, GridsThatAreNone) {
         EXPECT_FALSE(grid_spaced(dimension, {1, 1, 1}, {0, 0, 0}, {1, 1, 1})) << dimension;
     }
     const Mesh mesh = tetrahedron(1);
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, {});
     const auto refused = [&](const Grid& grid) {
         return !resample(*sampler, grid, {}, [](const TableView&) -> Status { return Done{}; });

@@ -43,7 +43,7 @@ TEST(SampleLeftOut, E1D1SameRowsAsByFewPoints) {
         mesh.cell_fields = random_fields(mesh.cell_count(), {1}, false, random);
         const auto d = static_cast<std::size_t>(mesh.dimension);
         const std::vector<double> points = points_in_box(mesh, 24000, random);
-        for (const bool prove : {true, false}) {
+        for (const Prove prove : {Prove::at_once, Prove::never}) {
             // Few points at once, so that nothing is prepared; then many.
             const Sampler few = Sampler::build(mesh, {}, {.prove = prove}).value();
             const Sampler many = Sampler::build(mesh, {}, {.prove = prove}).value();

@@ -64,7 +64,7 @@ void expect_in_range(Mesh mesh, double size, const std::string& what) {
     for (std::size_t i = 0; i < 3 * mesh.point_count(); ++i)
         mesh.point_fields[0].data.push_back(random.uniform(-0.5, 1.9));
     const std::vector<double> points = far_points(mesh.dimension, size, random);
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, {{&mesh.point_fields[0], false}});
     ASSERT_TRUE(sampler) << what;
     for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {

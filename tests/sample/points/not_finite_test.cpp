@@ -171,7 +171,7 @@ TEST_P(NotFinite, V1V2AtPointsFromEveryCell) {
         const Mesh mesh = this->mesh(number);
         const std::vector<double> points = exact_points(mesh, random);
         const auto d = static_cast<std::size_t>(mesh.dimension);
-        for (const bool prove : {true, false}) {
+        for (const Prove prove : {Prove::at_once, Prove::never}) {
             const auto locator = Locator::build(mesh, {.prove = prove});
             const auto sampler = Sampler::build(*locator, all_fields(mesh));
             for (const Rounding rounding : roundings) {

@@ -64,7 +64,7 @@ TEST(SampleOrder, D1ThreadsTargetsMethodsAndEvaluate) {
         base::Random random(base::hash64(stem));
         const Mesh mesh = own_with_fields(stem);
         const std::vector<double> points = awkward_points(mesh, 40, random);
-        const auto walks = Locator::build(mesh), asks = Locator::build(mesh, {.prove = false});
+        const auto walks = Locator::build(mesh), asks = Locator::build(mesh, {.prove = Prove::never});
         const auto one = Sampler::build(*walks, all_fields(mesh)), other = Sampler::build(*asks, all_fields(mesh));
         for (SampleOptions options : all_options()) {
             const std::string what = std::string(stem) + (options.rounding == Rounding::plain ? ", plain" : "") +
@@ -135,7 +135,7 @@ TEST(SampleOrder, D1AHundredThousandPointsInAnyOrder) {
 
 TEST(SampleOrder, NoPointAndOnePoint) {
     const Mesh mesh = own_with_fields("plate");
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     for (const SampleOptions& options : all_options()) {
         SampleCounts counts;
@@ -156,7 +156,7 @@ TEST(SampleOrder, NoFieldAndNoCell) {
     base::Random random(2);
     const Mesh mesh = own_with_fields("plate");
     const std::vector<double> points = awkward_points(mesh, 20, random);
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto none = Sampler::build(*locator, {});
     ASSERT_TRUE(none);
     SampleCounts counts;
@@ -167,7 +167,7 @@ TEST(SampleOrder, NoFieldAndNoCell) {
     Mesh empty;
     empty.dimension = 2;
     empty.point_fields = {{"f", 2, {}}};
-    const auto nowhere = Locator::build(empty, {.prove = false});
+    const auto nowhere = Locator::build(empty, {.prove = Prove::never});
     const auto sampler = Sampler::build(*nowhere, all_fields(empty));
     ASSERT_TRUE(sampler);
     for (const SampleOptions& options : all_options()) {

@@ -55,7 +55,7 @@ double true_projected(const Mesh& mesh, const Field& field, std::size_t c, const
 
 void expect_outside(const Mesh& mesh, const std::vector<double>& points, const OutsidePolicy& policy,
                     const std::string& what) {
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     ASSERT_TRUE(sampler);
     Table samples;
@@ -137,7 +137,7 @@ TEST(SampleOutside, E1Extrapolate) {
 // The limit is one of `nearest`.
 TEST(SampleOutside, E1ExtrapolationKnowsNoLimit) {
     const Mesh mesh = own_with_field("plate");
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const std::vector<double> point{1000, 1000};
     Table samples;
@@ -152,7 +152,7 @@ TEST(SampleOutside, E1NearestValuesThatAreNotFinite) {
     Mesh mesh = box(3, {1, 1, 1});
     mesh.point_fields = {{"f", 2, std::vector<double>(16, 1.0)}};
     mesh.point_fields[0].data[0] = infinity;
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const std::vector<double> points{-1, -1, -1, -1, -1, 0.25, -1, 0.25, 0.125, 0.5, 0.25, 0.125};
     Table samples;
@@ -172,7 +172,7 @@ TEST(SampleOutside, E1NearestVertexIsAsThePointOnIt) {
     mesh.point_fields = {{"f", 5, {}}};
     mesh.point_fields[0].data.assign(20, -0.0);
     for (std::size_t i = 1; i < 5; ++i) mesh.point_fields[0].data[i] = random.uniform(-1, 1);
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     Table samples;
     ASSERT_TRUE(sampler->sample(std::vector<double>{0, 0, -1, -2}, {.outside = {.kind = Outside::nearest}}, samples));
@@ -185,7 +185,7 @@ TEST(SampleOutside, E1NearestVertexIsAsThePointOnIt) {
 TEST(SampleOutside, E1NearestOnSecondOrderCells) {
     base::Random random(2);
     const Mesh mesh = own_with_field("cube-hole-o2");
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, {{&mesh.point_fields[0], false}});
     const std::vector<double> points = points_around(mesh, random);
     Table samples;
@@ -208,7 +208,7 @@ TEST(SampleOutside, E1NanAndFill) {
     base::Random random(4);
     const Mesh mesh = own_with_field("bracket");
     const std::vector<double> points = points_around(mesh, random);
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     const std::size_t columns = sampler->columns().size();
     for (const OutsidePolicy& policy :

@@ -26,7 +26,7 @@ TEST(SampleShared, V2SameBitsFromEverySide) {
         mesh.point_fields = random_fields(mesh.point_count(), {1, 4}, true, random);
         mesh.cell_fields.clear();
         const std::vector<double> points = awkward_points(mesh, 120, random);
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const Table located = *locator->locate_all(points);
         const std::vector<std::size_t> point_of = point_of_rows(located);
         const auto sampler = Sampler::build(*locator, all_fields(mesh));

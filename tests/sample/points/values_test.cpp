@@ -14,7 +14,7 @@ namespace {
 
 void expect_right(const Mesh& mesh, const std::vector<double>& points, const std::string& what) {
     for (const bool certified : {true, false}) {
-        const auto locator = certified ? Locator::build(mesh) : Locator::build(mesh, {.prove = false});
+        const auto locator = certified ? Locator::build(mesh) : Locator::build(mesh, {.prove = Prove::never});
         ASSERT_TRUE(locator) << what;
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         ASSERT_TRUE(sampler) << what << sampler.error().message();
@@ -91,7 +91,7 @@ TEST(SampleValues, V1ValuesThatAreNotFinite) {
         }
         const std::vector<double> points = awkward_points(mesh, 60, random);
         expect_right(mesh, points, stem);
-        const auto locator = Locator::build(mesh, {.prove = false});
+        const auto locator = Locator::build(mesh, {.prove = Prove::never});
         const auto sampler = Sampler::build(*locator, all_fields(mesh));
         Table samples;
         const SampleCounts& counts = samples.counts;
@@ -150,7 +150,7 @@ TEST(SampleValues, ColumnsHaveNames) {
     mesh.point_fields = random_fields(mesh.point_count(), {1, 3}, false, random);
     mesh.cell_fields = random_fields(mesh.cell_count(), {2, 1}, false, random);
     mesh.cell_fields[0].name = "c", mesh.cell_fields[1].name = "e";
-    const auto locator = Locator::build(mesh, {.prove = false});
+    const auto locator = Locator::build(mesh, {.prove = Prove::never});
     const auto sampler = Sampler::build(*locator, all_fields(mesh));
     EXPECT_EQ(sampler->columns(), (std::vector<std::string>{"f0", "f1.0", "f1.1", "f1.2", "c.0", "c.1", "e"}));
 }
