@@ -7,7 +7,9 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "barycert/base/arena.hpp"
 
@@ -65,8 +67,9 @@ public:
     void reset(std::size_t facets) {
         // At most half full: about half of the facets find a partner, and leave a slot that is not used again.
         const std::size_t size = std::bit_ceil(std::max<std::size_t>(facets, 8) * 2);
+        std::fill_n(slots_.begin(), used_, Slot{});
         if (slots_.size() < size) slots_.resize(size);
-        std::fill(slots_.begin(), slots_.begin() + static_cast<std::ptrdiff_t>(size), Slot{});
+        used_ = size;
         mask_ = size - 1;
     }
 
@@ -93,24 +96,30 @@ public:
         }
     }
 
-    /// use(number, tag, side) for each facet that waits.
-    template <class Use>
-    void for_each_waiting(Use use) const {
-        for (std::size_t i = 0; i <= mask_; ++i) {
-            const std::uint32_t facet = slots_[i].facet;
-            if (facet != empty && facet != found)
-                use((facet - 1) >> 1, slots_[i].tag, static_cast<std::uint8_t>((facet - 1) & 1));
-        }
-    }
-
-private:
     static constexpr std::uint32_t empty = 0, found = ~std::uint32_t{0};
 
     struct Slot {
         std::uint32_t tag = 0;
         std::uint32_t facet = empty;  ///< 1 + (its number, then a bit for its side)
+
+        std::uint32_t number() const { return (facet - 1) >> 1; }
+        std::uint8_t side() const { return static_cast<std::uint8_t>((facet - 1) & 1); }
     };
 
+    /// The facets that wait. They stand in the table up to the next reset.
+    std::span<const Slot> take_waiting() {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i <= mask_; ++i) {  // without a branch, which would be guessed wrong
+            const Slot slot = slots_[i];
+            slots_[i] = {};
+            slots_[count] = slot;
+            count += slot.facet != empty && slot.facet != found ? 1 : 0;
+        }
+        used_ = count + 1;
+        return {slots_.data(), count};
+    }
+
+private:
     /// The same nodes: each facet has d different ones.
     static bool same(const CellRecord* cells, const HashedFacet& f, const HashedFacet& g) {
         const auto &a = cells[f.cell].node, &b = cells[g.cell].node;
@@ -123,7 +132,7 @@ private:
         return all;
     }
 
-    std::size_t mask_ = 0;
+    std::size_t mask_ = 0, used_ = 0;  ///< slots from `used_` on are empty
     std::vector<Slot> slots_;
 };
 
@@ -136,14 +145,20 @@ constexpr std::size_t block_size = std::size_t{1} << 13;
 constexpr std::size_t parts = 64;
 
 struct Block {
-    std::array<std::vector<HashedFacet>, parts> open;
+    std::vector<HashedFacet> open;                 ///< part by part
+    std::array<std::uint32_t, parts + 1> begin{};  ///< where each begins
     std::vector<Place> degenerate;
+
+    std::span<const HashedFacet> part(std::size_t p) const {
+        return {open.data() + begin[p], open.data() + begin[p + 1]};
+    }
 };
 
 template <std::size_t d>
 struct Memory {
     FacetTable<d> table;
     std::vector<std::int8_t> orientation = {};
+    std::vector<HashedFacet> open = {};
 };
 
 template <std::size_t d>
@@ -174,20 +189,26 @@ void link_block(CellIndex& index, std::size_t first, std::size_t last, Memory<d>
         for (const HashedFacet& facet : facets) memory.table.fetch(facet);
     }
     for (std::size_t place = std::max(first + ahead, last) - ahead; place < last; ++place) finish(place);
-    memory.table.for_each_waiting([&](std::uint32_t number, std::uint32_t tag, std::uint8_t side) {
-        HashedFacet facet = at(number);
-        facet.start = static_cast<std::uint32_t>(tag / parts);  // all of a part have the same remainder
-        facet.tag = tag;
-        facet.side = side;
-        block.open[tag % parts].push_back(facet);
-    });
+    const auto waiting = memory.table.take_waiting();
+    for (const auto& slot : waiting) ++block.begin[slot.tag % parts + 1];
+    for (std::size_t p = 0; p < parts; ++p) block.begin[p + 1] += block.begin[p];
+    std::array<std::uint32_t, parts + 1> next = block.begin;
+    block.open.resize(waiting.size());
+    for (const auto& slot : waiting) {
+        HashedFacet& facet = block.open[next[slot.tag % parts]++];
+        facet = at(slot.number());
+        facet.start = static_cast<std::uint32_t>(slot.tag / parts);  // all of a part have the same remainder
+        facet.tag = slot.tag;
+        facet.side = slot.side();
+    }
 }
 
 /// The part of all blocks, in their order.
 template <std::size_t d>
 void link_part(CellIndex& index, const std::vector<Block>& blocks, std::size_t part, Memory<d>& memory) {
-    std::vector<HashedFacet> open;
-    for (const Block& block : blocks) open.insert(open.end(), block.open[part].begin(), block.open[part].end());
+    std::vector<HashedFacet>& open = memory.open;
+    open.clear();
+    for (const Block& block : blocks) open.insert(open.end(), block.part(part).begin(), block.part(part).end());
     memory.table.reset(open.size());
     constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < open.size(); ++i) {
@@ -213,11 +234,9 @@ FacetLinks link(CellIndex& index) {
     FacetLinks links;
     for (const Block& block : blocks) {
         links.degenerate.insert(links.degenerate.end(), block.degenerate.begin(), block.degenerate.end());
-        for (const auto& part : block.open) {
-            for (const HashedFacet& f : part) {
-                if (index.cells[static_cast<std::size_t>(f.cell)].next[f.corner] < 0)
-                    links.open.push_back({f.cell, f.corner});
-            }
+        for (const HashedFacet& f : block.open) {
+            if (index.cells[static_cast<std::size_t>(f.cell)].next[f.corner] < 0)
+                links.open.push_back({f.cell, f.corner});
         }
     }
     tbb::parallel_sort(links.open.begin(), links.open.end(), [](const CellFacet& f, const CellFacet& g) {
