@@ -174,7 +174,7 @@ Status InputFile::check(Text text, const std::string& path, const Header& header
 
 Result<std::string> read_file(const std::string& path, std::size_t longest, Text text, const Header& header) {
     bool pipe = false;
-    const Result<InputFile> file = InputFile::open(path, "save the data to a regular file first", text, &pipe);
+    const Result<InputFile> file = InputFile::open(path, save_first, text, &pipe);
     if (!file) return file.error();
     if (Status begins = pipe ? Status(Done{}) : file->check(text, path, header); !begins) return begins.error();
     // The size is a hint: files of the system tell 0, and a file may grow.
@@ -188,8 +188,7 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
         if (got == 0) break;
         have += static_cast<std::size_t>(got);
         if (pipe && have > longest)
-            return unfit(path, "at most " + std::to_string(longest) + " bytes from a pipe", "more",
-                         "save the data to a regular file first");
+            return unfit(path, "at most " + std::to_string(longest) + " bytes from a pipe", "more", save_first);
     }
     if (pipe && have == 0)
         return unfit(path, "data", "nothing: a pipe that nobody writes to",
@@ -199,14 +198,17 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
 }
 
 Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text text, const Header& header) {
-    const Result<InputFile> file = InputFile::open(path, "save the data to a regular file first", text);
+    const Result<InputFile> file = InputFile::open(path, save_first, text);
     if (!file) return file.error();
     if (Status begins = file->check(text, path, header); !begins) return begins.error();
+    return read(*file, path, static_cast<std::size_t>(file->size()), threads);
+}
+
+Result<MappedFile> MappedFile::read(const InputFile& file, const std::string& path, std::size_t size, int threads) {
     // What a thread reads at a time: a few large pages.
     constexpr std::size_t block_size = 4 * large_page;
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     MappedFile result;
-    const auto size = static_cast<std::size_t>(file->size());
     const std::size_t whole = (size + page - 1) / page * page + page;
     result.memory_ = map_memory(whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS);
     result.size_ = size;
@@ -219,13 +221,13 @@ Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text t
     share_work(threads, (size + block_size - 1) / block_size, [&](std::size_t block) {
         const std::size_t from = block * block_size;
         const std::span<char> part(bytes + from, std::min(block_size, size - from));
-        const Result<std::size_t> got = file->read_at(from, part, path);
+        const Result<std::size_t> got = file.read_at(from, part, path);
         if (got && *got == part.size()) return true;
         const std::lock_guard lock(mutex);
         if (!got) status = got.error();
         return false;
     });
-    if (status) status = file->unchanged(path);
+    if (status) status = file.unchanged(path);
     if (!status) return status.error();
     return result;
 }

@@ -55,13 +55,16 @@ Status unchanged(int descriptor, const FileState& then, const std::string& path)
 /// Error if it cannot be read.
 Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char> bytes, const std::string& path);
 
+/// What to do about a pipe or device where only a regular file will do.
+inline constexpr const char* save_first = "save the data to a regular file first";
+
 /// A regular file open for reading; closed at the end.
 class InputFile {
 public:
     /// Errors: missing, unreadable, a folder, a pipe or device (for which `remedy` says what to do), packed and not
     /// beginning as `text` says. `pipe`, if given, lets it be a pipe, and is set if it is one.
-    static Result<InputFile> open(const std::string& path, const char* remedy = "save the data to a regular file first",
-                                  Text text = Text::none, bool* pipe = nullptr);
+    static Result<InputFile> open(const std::string& path, const char* remedy = save_first, Text text = Text::none,
+                                  bool* pipe = nullptr);
 
     /// Its first bytes, as many as that or fewer where it ends: of a packed file these alone are unpacked.
     static Result<std::string> head(const std::string& path, std::size_t size);
@@ -114,6 +117,9 @@ public:
     /// does not begin as `text` and `header` say, changed while it was read, larger than the memory.
     static Result<MappedFile> open(const std::string& path, int threads = 1, Text text = Text::none,
                                    const Header& header = {});
+
+    /// The first `size` bytes of an open file; so many must have been there.
+    static Result<MappedFile> read(const InputFile& file, const std::string& path, std::size_t size, int threads = 1);
 
     std::string_view bytes() const { return memory_ ? std::string_view(memory_.get(), size_) : ""; }
 

@@ -7,6 +7,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
+#include "barycert/io/parallel.hpp"
 #include "barycert/io/streams.hpp"
 
 namespace barycert::io {
@@ -112,7 +113,7 @@ private:
 
     std::size_t next(std::size_t max, std::vector<double>& out) override {
         const std::size_t taken = std::min<std::uint64_t>(max, rows_ - next_), before = out.size();
-        out.resize(before + taken * dimension_);
+        grow(out, taken * dimension_);
         const std::span<double> points = std::span(out).subspan(before);
         try {
             if (as_in_memory_ && taken != 0) {

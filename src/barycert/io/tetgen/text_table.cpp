@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
@@ -11,29 +12,76 @@
 namespace barycert::io {
 namespace {
 
-/// Whole lines of a table and the rows that should stand in them.
+/// Whole lines of a table, from byte `start` to `stop` - 1 of the file, and the rows that should stand in them.
 struct Block {
     const TextTable* table;
-    const char* start;
-    const char* stop;
+    std::size_t start;
+    std::size_t stop;
     std::size_t first_row;
     std::size_t last_row;
 };
 
-/// Large enough that the start of a block costs nothing, small enough to share the work evenly.
-constexpr std::ptrdiff_t block_size = std::ptrdiff_t{1} << 19;
+/// Large enough that the start of a block costs nothing, small enough to stay in the second cache.
+constexpr std::size_t block_size = std::size_t{1} << 19;
+
+/// Some bytes of a file, in memory that is used again by the next read.
+class SomeBytes {
+public:
+    /// Those from `from` to `to` - 1, as those of a MappedFile: a scanner may look ahead.
+    std::string_view read(const TextTable& table, std::size_t from, std::size_t to) {
+        if (table.is_whole()) return table.bytes.substr(from, to - from);
+        constexpr std::size_t ahead = 128;
+        const std::size_t size = to - from;
+        if (size_ < size + ahead) bytes_ = std::make_unique_for_overwrite<char[]>(size_ = size + ahead);
+        const std::size_t got = table.input.read_at(from, {bytes_.get(), size}, table.file).value();
+        std::fill(bytes_.get() + got, bytes_.get() + size + ahead, '\0');
+        return {bytes_.get(), size};
+    }
+
+private:
+    std::unique_ptr<char[]> bytes_;
+    std::size_t size_ = 0;
+};
+
+/// Behind the first line end at byte `from` or later.
+std::size_t behind_line(const TextTable& table, std::size_t from, SomeBytes& room) {
+    constexpr std::size_t step = std::size_t{1} << 12;
+    const std::size_t size = table.input.size();
+    while (from < size) {
+        const std::string_view some = room.read(table, from, std::min(size, from + step));
+        const std::size_t feed = some.find('\n');
+        if (feed != std::string_view::npos) return from + feed + 1;
+        from += some.size();
+    }
+    return size;
+}
+
+/// The first id in these lines; false if there is none that is a number. `found`: whether there is a row.
+bool first_id(const TextTable& table, std::size_t start, std::size_t stop, SomeBytes& room, bool& found,
+              std::int64_t& id) {
+    constexpr std::size_t enough = std::size_t{1} << 12, longest = 64;
+    for (std::size_t size = std::min(enough, stop - start);; size = stop - start) {
+        const std::string_view some = room.read(table, start, start + size);
+        const bool all = size == stop - start;
+        Scanner first{some.data(), some.data() + size};
+        found = first.next_row(first.end - (all ? 0 : longest));
+        if (found || all) return !found || first.integer(id);
+    }
+}
 
 /// Cuts the body at line ends; looks at the first id of each block. False if the ids cannot belong to a good file.
 bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
     const std::size_t begin = blocks.size();
     std::size_t row = 0;
-    for (const char* at = table.body; at != table.end();) {
-        Scanner next{at + std::min(block_size, table.end() - at), table.end()};
-        if (next.at != table.end()) next.skip_line();
-        Scanner first{at, table.end()};
-        if (first.next_row(next.at)) {
-            std::int64_t id = 0;
-            if (!first.integer(id) || id < table.base || id - table.base > max_count) return false;
+    SomeBytes room;
+    const std::size_t size = table.input.size();
+    for (auto at = static_cast<std::size_t>(table.body - table.begin()); at < size;) {
+        const std::size_t next = behind_line(table, std::min(size, at + block_size), room);
+        bool found = false;
+        std::int64_t id = 0;
+        if (!first_id(table, at, next, room, found, id)) return false;
+        if (found) {
+            if (id < table.base || id - table.base > max_count) return false;
             row = static_cast<std::size_t>(id - table.base);
         } else if (blocks.size() != begin) {
             row = table.rows;  // nothing but comments: they can only follow the last row, or the check below fails
@@ -41,8 +89,8 @@ bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
         if (blocks.size() == begin ? row != 0 : row < blocks.back().first_row) return false;
         if (row > table.rows) return false;
         if (blocks.size() != begin) blocks.back().last_row = row;
-        blocks.push_back({&table, at, next.at, row, table.rows});
-        at = next.at;
+        blocks.push_back({&table, at, next, row, table.rows});
+        at = next;
     }
     return blocks.size() != begin || table.rows == 0;
 }
@@ -125,7 +173,8 @@ bool parse_rows(const TextTable& table, Scanner& scanner, const char* stop, std:
 }
 
 /// The whole table at once: the slow twin that knows the first error.
-void parse_in_order(const TextTable& table) {
+void parse_in_order(TextTable& table) {
+    table.read_whole();
     Scanner scanner{table.body, table.end()};
     std::size_t row = 0;
     if (parse_rows(table, scanner, table.end(), row, table.rows)) return;
@@ -184,6 +233,16 @@ void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<d
     make_room(table);
 }
 
+void TextTable::read_whole() {
+    if (is_whole()) return;
+    const std::ptrdiff_t header_begins = header_at - begin(), body_begins = body - begin();
+    data = base::MappedFile::read(input, file, input.size(), threads).value();
+    bytes = data.bytes();
+    if (header_at == nullptr) return;
+    header_at = begin() + header_begins;
+    body = begin() + body_begins;
+}
+
 std::size_t TextTable::column_count() const {
     std::size_t count = 0;
     for (const Columns& group : columns) count += group.count;
@@ -206,8 +265,19 @@ TextTable open_table(const std::string& name, std::span<const char* const> heade
         Status read = status_of([&] { read_header(beginning, header_names); });
         return beginning.header_at == nullptr ? Status(Done{}) : read;  // after many comments
     };
-    table.data = base::MappedFile::open(table.file, threads, base::Text::all, header_in).value();
-    table.bytes = table.data.bytes();
+    table.input = base::InputFile::open(table.file, base::save_first, base::Text::all).value();
+    table.threads = threads;
+    table.input.check(base::Text::all, table.file, header_in).value();
+    if (table.input.size() > base::first_block) {
+        table.data = base::MappedFile::read(table.input, table.file, base::first_block).value();
+        table.bytes = table.data.bytes();
+        table.bytes = table.bytes.substr(0, table.bytes.rfind('\n') + 1);
+    }
+    Scanner first{table.begin(), table.end()};
+    const auto next_row = [&] { return table.begin() != nullptr && first.next_row(table.end()); };
+    const bool has_header = next_row();
+    if (has_header) first.skip_line();
+    if (!has_header || !next_row()) table.read_whole();
     read_header(table, header_names);
     table.rows = static_cast<std::size_t>(table.header[0]);
     return table;
@@ -216,7 +286,7 @@ TextTable open_table(const std::string& name, std::span<const char* const> heade
 void make_room(TextTable& table) {
     // Each field takes a character and something that ends it. Without that room rows are missing, or one is too short,
     // or the last has no line end: the first of these is told.
-    const auto bytes = static_cast<std::size_t>(table.end() - table.body);
+    const std::size_t bytes = table.input.size() - static_cast<std::size_t>(table.body - table.begin());
     if (table.rows * 2 * table.column_count() > bytes) {
         for (Columns& c : table.columns) c = {c.kind, c.count, c.name, c.limit, c.refers_to};  // there is no place yet
         parse_in_order(table);
@@ -243,15 +313,20 @@ void parse_tables(std::span<TextTable* const> tables, int threads) {
     std::vector<Block> blocks;
     bool good = true;
     for (const TextTable* table : tables) good = good && append_blocks(*table, blocks);
-    if (good && base::share_work(threads, blocks.size(), [&](std::size_t i) {
-            const Block& block = blocks[i];
-            Scanner scanner{block.start, block.table->end()};
-            std::size_t row = block.first_row;
-            return parse_rows(*block.table, scanner, block.stop, row, block.last_row);
-        })) {
-        return;
+    good = good && base::share_work(threads, blocks.size(), [&](std::size_t i) {
+               const Block& block = blocks[i];
+               SomeBytes room;  // the thread's next block gets the same memory
+               const std::string_view text = room.read(*block.table, block.start, block.stop);
+               Scanner scanner{text.data(), text.data() + text.size()};
+               std::size_t row = block.first_row;
+               return parse_rows(*block.table, scanner, scanner.end, row, block.last_row);
+           });
+    for (TextTable* table : tables) {
+        if (good)
+            table->input.unchanged(table->file).value();
+        else
+            parse_in_order(*table);
     }
-    for (const TextTable* table : tables) parse_in_order(*table);
 }
 
 }  // namespace barycert::io

@@ -2,9 +2,10 @@
 ///
 /// Rows are parsed on several threads. Their ids tell where they belong, so each block of lines can write straight to
 /// its place: the first id of each block is looked at before any work starts, and every block verifies that its rows
-/// lead from its own first id to that of the next block. Whatever fails is parsed again from the beginning, on one
-/// thread, which finds the first error; results and errors therefore do not depend on the number of threads. Errors are
-/// thrown as Exceptions, which read_guarded() makes a Result.
+/// lead from its own first id to that of the next block. Each thread reads its blocks into memory that it uses again.
+/// Whatever fails is read whole and parsed again from the beginning, on one thread, which finds the first error;
+/// results and errors therefore do not depend on the number of threads. Errors are thrown as Exceptions, which
+/// read_guarded() makes a Result.
 #pragma once
 
 #include <cstddef>
@@ -51,7 +52,9 @@ struct Columns {
 
 struct TextTable {
     std::string file;
-    base::MappedFile data;
+    base::InputFile input;
+    int threads = 1;                   ///< that read it
+    base::MappedFile data;             ///< all of it, or its beginning: whole lines, the first row among them
     std::string_view bytes;            ///< of data
     const char* header_at = nullptr;   ///< the first field of the header
     const char* body = nullptr;        ///< the line after the header
@@ -67,6 +70,9 @@ struct TextTable {
 
     const char* begin() const { return bytes.data(); }
     const char* end() const { return begin() + bytes.size(); }
+    bool is_whole() const { return bytes.size() == input.size(); }
+    /// Reads all of it.
+    void read_whole();
     std::size_t column_count() const;
 
     /// The header's number i, or what stands for it if the header is shorter.
