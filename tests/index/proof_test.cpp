@@ -54,7 +54,8 @@ std::size_t expect_proved(const Mesh& mesh, const std::string& what, std::size_t
     std::size_t proved = 0;
     for (std::size_t p = 0; p < mesh.cell_count(); ++p) {
         const Mesh::Index a = data.index.original[p];
-        if (data.proof.is_contested(static_cast<Place>(p)) || degenerate(mesh, static_cast<std::size_t>(a))) continue;
+        if (data.proved()->proof.is_contested(static_cast<Place>(p)) || degenerate(mesh, static_cast<std::size_t>(a)))
+            continue;
         if (proved++ % step != 0) continue;
         for (std::size_t b = 0; b < mesh.cell_count(); ++b) {
             if (b == static_cast<std::size_t>(a) || !boxes_meet(mesh, static_cast<std::size_t>(a), b)) continue;
@@ -202,7 +203,7 @@ TEST(IndexProof, D1TheIndexHasTheSameBytesForAnyNumberOfThreads) {
                 << threads;
             EXPECT_EQ(a.index.first, b.index.first);
             EXPECT_EQ(a.index.original_node, b.index.original_node);
-            EXPECT_EQ(a.proof.contested, b.proof.contested);
+            EXPECT_EQ(a.proved()->proof.contested, b.proved()->proof.contested);
         }
     }
 }

@@ -42,7 +42,7 @@ LOCATE = [
     ("cells_at_points.cpp", "points[i + k] <= box.high[k]", "points[i + k] < box.high[k]", "points on the upper side"),
     ("single.cpp", "static_cast<std::size_t>(last_end.place) < index.cell_count()", "true", "a place of a locator that is gone"),
     ("single.cpp", "last_end.cell == hint && last_end.data == &data", "last_end.cell == hint", "a place of another locator"),
-    ("single.cpp", "if (end.inside && !data.proof.is_contested(end.cell))", "if (end.inside)", "the lowest of cells that overlap"),
+    ("single.cpp", "if (end.inside && !proved->proof.is_contested(end.cell))", "if (end.inside)", "the lowest of cells that overlap"),
     ("sorted_points.cpp", "finite &= find_bins", "finite = find_bins", "the last points alone"),
 ]
 SAMPLE = [

@@ -170,8 +170,13 @@ def test_progress_is_told(mesh):
     at = np.full((10_000, 3), 3.3)
     fresh = barycert.Mesh(mesh.points, mesh.cells, point_data={"T": mesh.points[:, 0]})
     fresh.sample(at, "T", progress=tell)
-    assert [stage for stage, done, total in calls if total == 0] == ["ordering cells", "linking cells", "proving the partition"]
+    assert [stage for stage, done, total in calls if total == 0] == ["ordering cells"]  # it is proved when it pays
     assert calls[-1] == ("points", 10_000, 10_000)
+    large = barycert.Mesh(*kuhn(26, 3))
+    calls.clear()
+    large.locate(at, progress=tell)
+    stages = ["ordering cells", "linking cells", "proving the partition"]
+    assert [stage for stage, done, total in calls if total == 0] == stages
     for work, stage in (
         (lambda: fresh.locate(at, progress=tell), "points"),
         (lambda: fresh.locate(at).matrix(progress=tell), "weights"),

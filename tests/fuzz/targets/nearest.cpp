@@ -16,7 +16,8 @@ BARYCERT_FUZZ_TARGET(nearest, {std::size_t{32} << 20, 256}) {
     Draws draws(input);
     const Drawn drawn = draw_mesh(draws, 8, 4);
     const Mesh& mesh = drawn.mesh;
-    const Result<Locator> locator = Locator::build(mesh, {.prove = draws.below(2) == 0, .threads = 1});
+    const Result<Locator> locator =
+        Locator::build(mesh, {.prove = draws.below(2) == 0 ? Prove::at_once : Prove::never, .threads = 1});
     expect(bool(locator), "a consistent mesh is not indexed");
     const testing::NearestJudge judge(mesh);
     const testing::PointJudge holders(mesh);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
@@ -29,7 +30,7 @@ class SomeBytes {
 public:
     /// Those from `from` to `to` - 1, as those of a MappedFile: a scanner may look ahead.
     std::string_view read(const TextTable& table, std::size_t from, std::size_t to) {
-        if (table.is_whole()) return table.bytes.substr(from, to - from);
+        if (table.is_whole) return table.bytes.substr(from, to - from);
         constexpr std::size_t ahead = 128;
         const std::size_t size = to - from;
         if (size_ < size + ahead) bytes_ = std::make_unique_for_overwrite<char[]>(size_ = size + ahead);
@@ -234,7 +235,7 @@ void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<d
 }
 
 void TextTable::read_whole() {
-    if (is_whole()) return;
+    if (std::exchange(is_whole, true)) return;
     const std::ptrdiff_t header_begins = header_at - begin(), body_begins = body - begin();
     data = base::MappedFile::read(input, file, input.size(), threads).value();
     bytes = data.bytes();

@@ -53,8 +53,9 @@ struct Columns {
 struct TextTable {
     std::string file;
     base::InputFile input;
-    int threads = 1;                   ///< that read it
-    base::MappedFile data;             ///< all of it, or its beginning: whole lines, the first row among them
+    int threads = 1;        ///< that read it
+    base::MappedFile data;  ///< all of it, or its beginning: whole lines, the first row among them
+    bool is_whole = false;
     std::string_view bytes;            ///< of data
     const char* header_at = nullptr;   ///< the first field of the header
     const char* body = nullptr;        ///< the line after the header
@@ -70,7 +71,6 @@ struct TextTable {
 
     const char* begin() const { return bytes.data(); }
     const char* end() const { return begin() + bytes.size(); }
-    bool is_whole() const { return bytes.size() == input.size(); }
     /// Reads all of it.
     void read_whole();
     std::size_t column_count() const;
