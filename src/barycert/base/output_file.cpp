@@ -1,10 +1,8 @@
 #include "barycert/base/output_file.hpp"
 
 #include <fcntl.h>
-#include <linux/magic.h>
 #include <signal.h>
 #include <sys/stat.h>
-#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -111,8 +109,6 @@ OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_pa
         return;
     }
     if (!open_nameless()) open_beside();
-    struct statfs system {};
-    takes_space_ = file_ && ::fstatfs(file_.number, &system) == 0 && system.f_type == EXT4_SUPER_MAGIC;
     if (exists && file_ && ::fchmod(file_.number, status.st_mode & 07777U) != 0)
         fail("cannot give the new file the permissions of the old one", errno);
 }
@@ -190,31 +186,11 @@ void OutputFile::flush() {
 }
 
 void OutputFile::put(std::string_view bytes, std::optional<std::size_t> offset) {
-    if (!offset) written_ += bytes.size();
-    if (takes_space_ && written_ > taken_) take_space();
     if (error_.what.empty() && !file_.write(bytes, offset)) fail(cannot_write_it, errno);
-}
-
-/// ext4 looks for space when a file replaces another one, which then takes longer than to write it, unless it has some:
-/// as much again as is written.
-void OutputFile::take_space() {
-    constexpr std::uint64_t least = std::uint64_t{1} << 22;
-    if (written_ < least) return;
-    const std::uint64_t more = 2 * written_ - taken_;
-    takes_space_ =
-        ::fallocate(file_.number, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(taken_), static_cast<off_t>(more)) == 0;
-    taken_ += more;
-}
-
-/// What is left of it.
-void OutputFile::give_back_space() {
-    if (taken_ > written_ && ::ftruncate(file_.number, static_cast<off_t>(written_)) != 0) fail(cannot_write_it, errno);
-    taken_ = std::min(taken_, written_);
 }
 
 Status OutputFile::close() {
     if (file_) flush();
-    if (file_) give_back_space();
     // Network file systems report a full disk only here. They know no nameless files, which must stay open.
     if (!nameless_ && !file_.close()) fail(cannot_write_it, errno);
     return status();
@@ -257,9 +233,6 @@ Status OutputFile::commit() {
     if (nameless_) {
         const bool in_place = give_name();
         nameless_ = false;
-        // So that a loss of power does not cost both files: bytes without space begin their way to the disk by the
-        // rename.
-        if (!in_place && taken_ != 0) ::sync_file_range(file_.number, 0, 0, SYNC_FILE_RANGE_WRITE);
         if (!file_.close()) fail(cannot_write_it, errno);
         if (in_place || !error_.what.empty()) return status();
     }

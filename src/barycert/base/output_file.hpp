@@ -93,16 +93,12 @@ private:
     bool give_name();
     void flush();
     void put(std::string_view bytes, std::optional<std::size_t> offset = {});
-    void take_space();
-    void give_back_space();
 
     std::string target_;          // as the caller named it: for messages
     std::string real_path_;       // with links resolved
     BegunName* begun_ = nullptr;  // the name of the unfinished file, while it has one
     std::string buffer_;
     Descriptor file_;
-    std::uint64_t written_ = 0, taken_ = 0;  // bytes, and how far there is space on the disk, if that was asked for
-    bool takes_space_ = false;
     bool nameless_ = false;  // the unfinished file has no name, and lives while its descriptor is open
     Error error_;
 };
