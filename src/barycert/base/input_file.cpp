@@ -204,17 +204,18 @@ Result<MappedFile> MappedFile::open(const std::string& path, int threads, Text t
     return read(*file, path, static_cast<std::size_t>(file->size()), threads);
 }
 
-Result<MappedFile> MappedFile::read(const InputFile& file, const std::string& path, std::size_t size, int threads) {
+Result<MappedFile> MappedFile::read(const InputFile& file, const std::string& path, std::size_t most, int threads) {
     // What a thread reads at a time: a few large pages.
     constexpr std::size_t block_size = 4 * large_page;
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     MappedFile result;
-    const std::size_t whole = (size + page - 1) / page * page + page;
+    const auto all = static_cast<std::size_t>(file.size());
+    const std::size_t size = std::min(all, most), whole = (all + page - 1) / page * page + page;
     result.memory_ = map_memory(whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS);
-    result.size_ = size;
+    result.size_ = all;
     char* const bytes = result.memory_.get();
     if (bytes == nullptr) return read_failure(path, errno);
-    ask_for_large_pages(bytes, whole);
+    if (size == all) ask_for_large_pages(bytes, whole);
 
     std::mutex mutex;
     Status status = Done{};

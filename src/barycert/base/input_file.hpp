@@ -118,7 +118,7 @@ public:
     static Result<MappedFile> open(const std::string& path, int threads = 1, Text text = Text::none,
                                    const Header& header = {});
 
-    /// The first `size` bytes of an open file; so many must have been there.
+    /// The first `size` bytes of an open file, as many as there are; those behind stand as zeros.
     static Result<MappedFile> read(const InputFile& file, const std::string& path, std::size_t size, int threads = 1);
 
     std::string_view bytes() const { return memory_ ? std::string_view(memory_.get(), size_) : ""; }

@@ -271,7 +271,7 @@ TextTable open_table(const std::string& name, std::span<const char* const> heade
     table.input.check(base::Text::all, table.file, header_in).value();
     if (table.input.size() > base::first_block) {
         table.data = base::MappedFile::read(table.input, table.file, base::first_block).value();
-        table.bytes = table.data.bytes();
+        table.bytes = table.data.bytes().substr(0, base::first_block);
         table.bytes = table.bytes.substr(0, table.bytes.rfind('\n') + 1);
     }
     Scanner first{table.begin(), table.end()};

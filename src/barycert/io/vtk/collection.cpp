@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -124,13 +125,37 @@ void check_block(std::string_view block, const std::string& path) {
     base::check_beginning(block, text ? base::Text::all : base::Text::head, path).value();
 }
 
+/// Where the first block of an XML file leads up to raw data, these are left to be read to where they belong: then they
+/// are not twice in memory. False if it does not, or something is wrong, which is told of the whole file.
+bool read_beginning(VtkFile& file, const std::string& path) {
+    if (file.input->size() <= base::first_block) return false;
+    file.file = base::MappedFile::read(*file.input, path, base::first_block).value();
+    file.text = file.file.bytes();
+    const std::string_view block = file.text.substr(0, base::first_block);
+    const std::size_t tag = block.find("<AppendedData"), end = block.find('_', std::min(tag, block.size()));
+    if (kind_of(file.text) != Kind::xml || end == std::string_view::npos) return false;
+    const Status good = status_of([&] { file.tree = parse_xml(file.text, path); });
+    if (!good || !file.tree->appended_raw || file.tree->appended.data() != block.data() + end + 1) return false;
+    file.tree->read_part = [input = file.input, begin = block.data(), path](std::string_view part, char* to) {
+        const auto at = static_cast<std::uint64_t>(part.data() - begin);
+        if (input->read_at(at, {to, part.size()}, path).value() != part.size()) input->unchanged(path).value();
+    };
+    file.collection = files_of(*file.tree);
+    return true;
+}
+
 }  // namespace
 
 VtkFile open_vtk(const std::string& path) {
     const auto check = [&](std::string_view block, std::uint64_t) {
         return status_of([&] { check_block(block, path); });
     };
-    VtkFile file{base::MappedFile::open(path, 1, base::Text::head, check).value()};
+    VtkFile file{
+        std::make_shared<base::InputFile>(base::InputFile::open(path, base::save_first, base::Text::head).value())};
+    file.input->check(base::Text::head, path, check).value();
+    if (read_beginning(file, path)) return file;
+    const auto size = static_cast<std::size_t>(file.input->size());
+    file.file = base::MappedFile::read(*file.input, path, size, base::arena_threads()).value();
     file.text = file.file.bytes();
     const Kind kind = kind_of(file.text);
     if (kind == Kind::other) refuse_other(path, file.text.empty() ? "the file is empty" : "not a file of VTK");

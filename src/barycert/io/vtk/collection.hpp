@@ -1,6 +1,7 @@
 /// Files that name files: partitioned data sets, blocks and series.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,7 +28,8 @@ struct Collection {
 };
 
 struct VtkFile {
-    base::MappedFile file;
+    std::shared_ptr<const base::InputFile> input;
+    base::MappedFile file = {};
     std::string_view text = {};                 ///< all of it but for a byte order mark
     std::optional<XmlTree> tree = {};           ///< of XML; without one and names it is a legacy file
     std::optional<Collection> collection = {};  ///< the files that it names

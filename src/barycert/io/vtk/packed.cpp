@@ -99,13 +99,20 @@ std::size_t Encoded::take_quadruples(char* to, std::size_t count) {
     return 3 * good;
 }
 
+std::string_view Encoded::take_unread(std::size_t count) {
+    const std::string_view taken = left_.substr(0, count);
+    left_.remove_prefix(count);
+    return taken;
+}
+
 std::optional<std::string_view> Encoded::take(std::uint64_t count, ByteRoom& room) {
     if (count > left()) return std::nullopt;
     const auto size = static_cast<std::size_t>(count);
     if (!base64_) {
-        const std::string_view taken = left_.substr(0, size);
-        left_.remove_prefix(size);
-        return taken;
+        const std::string_view taken = take_unread(size);
+        if (!read_part_) return taken;
+        read_part_(taken, room.of(size));
+        return std::string_view(room.of(size), size);
     }
     char* const to = room.of(size);
     bool quick = true;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,11 +27,21 @@ private:
 /// head of compressed data apart from the data. It ends at any other character.
 class Encoded {
 public:
-    Encoded(std::string_view bytes, bool base64) : left_(bytes), base64_(base64) {}
+    /// Reads bytes of the file to that place, where they are not in memory: that is where they would stand.
+    using ReadPart = std::function<void(std::string_view part, char* to)>;
 
-    /// The next `count` bytes: of the file itself, or decoded into `room`, which must live as long as the view.
+    /// `read_part`: empty if the bytes are in memory; only without base64. It must stay.
+    Encoded(std::string_view bytes, bool base64, const ReadPart& read_part)
+        : left_(bytes), base64_(base64), read_part_(read_part) {}
+
+    /// The next `count` bytes: of the file itself, or read or decoded into `room`, which must live as long as the view.
     /// Nothing if there are fewer.
     std::optional<std::string_view> take(std::uint64_t count, ByteRoom& room);
+
+    /// The next `count` bytes are to be read by read_part(). Precondition: there are so many, and not in memory.
+    std::string_view take_unread(std::size_t count);
+    bool is_unread() const { return bool(read_part_); }
+    void read_part(std::string_view part, char* to) const { read_part_(part, to); }
 
     /// That many bytes are left at most.
     std::uint64_t left() const { return base64_ ? left_.size() / 4 * 3 + 3 + held_ : left_.size(); }
@@ -41,6 +52,7 @@ private:
 
     std::string_view left_;
     bool base64_;
+    const ReadPart& read_part_;
     char bytes_[3] = {};
     std::size_t first_ = 0;  // of the bytes not yet given
     std::size_t held_ = 0;   // how many they are

@@ -55,7 +55,9 @@ public:
         const io::VtkFile file = io::open_vtk(path);
         if (const auto& named = file.collection; named)
             return named->is_series ? read_step(named->files, path, depth) : read_all(named->files, path, depth);
-        return file.tree ? io::read_xml(*file.tree, part_) : io::read_legacy(file.text, path, part_);
+        io::RawGrid grid = file.tree ? io::read_xml(*file.tree, part_) : io::read_legacy(file.text, path, part_);
+        file.input->unchanged(path).value();
+        return grid;
     }
 
     /// Whether a step is chosen of what is no series.

@@ -27,6 +27,11 @@ public:
         const std::optional<std::vector<std::uint64_t>> head = next_words(plain ? 1 : 3);
         if (!head || (!plain && head->front() > from_.left() / layout_.header_bytes)) return too_short;
         size_ = head->front();
+        if (plain && from_.is_unread() && size_ <= from_.left()) {  // else it is all in memory, or too short
+            block_ = std::uint64_t{1} << 18;
+            packed_.assign(static_cast<std::size_t>((size_ + block_ - 1) / block_), block_);
+            if (size_ % block_ != 0) packed_.back() = size_ % block_;
+        }
         if (plain || size_ == 0) return {};
         const std::uint64_t blocks = size_, last = (*head)[2] != 0 ? (*head)[2] : (*head)[1];
         block_ = (*head)[1];
@@ -52,7 +57,7 @@ public:
     /// that memory grows with what the file really has.
     template <class To>
     NumberFault read(NumberType type, std::size_t count, std::vector<To>& values) {
-        if (layout_.compressor == Compressor::none) {
+        if (layout_.compressor == Compressor::none && packed_.empty()) {
             const std::uint64_t there = std::min(from_.left(), size_) / number_bytes(type);  // at most
             ByteRoom room;
             const std::optional<std::string_view> bytes = from_.take(size_, room);
@@ -60,7 +65,7 @@ public:
             return {NumberFault::Kind::too_few, std::min(static_cast<std::size_t>(there), count - 1)};
         }
         const std::size_t number = number_bytes(type);
-        constexpr std::uint64_t wave_bytes = std::uint64_t{1} << 24;
+        constexpr std::uint64_t wave_bytes = std::uint64_t{1} << 22;
         auto per_wave =
             static_cast<std::size_t>(std::max<std::uint64_t>(wave_bytes / std::max<std::uint64_t>(block_, 1), 1));
         if (per_wave > number) per_wave -= per_wave % number;
@@ -118,6 +123,13 @@ private:
     bool unpack_wave(std::size_t first, std::size_t last, ByteRoom& room, char* to) {
         std::vector<std::size_t> ends{0};
         for (std::size_t i = first; i < last; ++i) ends.push_back(ends.back() + static_cast<std::size_t>(packed_[i]));
+        if (layout_.compressor == Compressor::none) {
+            const std::string_view part = from_.take_unread(ends.back());
+            in_parallel(last - first, [&](std::size_t i) {
+                from_.read_part(part.substr(ends[i], ends[i + 1] - ends[i]), to + ends[i]);
+            });
+            return true;
+        }
         const std::optional<std::string_view> bytes = from_.take(ends.back(), room);
         std::atomic<bool> good{bytes.has_value()};
         if (!good) return false;
@@ -190,7 +202,9 @@ NumberFault XmlArrays::read_any(const XmlElement& array, const std::string& what
                 in_quotes(offset), cut_off);
         text.remove_prefix(static_cast<std::size_t>(begin));
     }
-    ArrayData data(Encoded(text, format == "binary" || !tree_.appended_raw), layout_);
+    static const Encoded::ReadPart in_memory;
+    const bool appended = format == "appended";
+    ArrayData data(Encoded(text, !appended || !tree_.appended_raw, appended ? tree_.read_part : in_memory), layout_);
     if (const std::string found = data.open(); !found.empty())
         tree_.refuse_at(array, "the data of " + what, {}, found, "write the file again");
     if (count && data.size() != *size)
