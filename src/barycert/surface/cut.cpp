@@ -63,10 +63,10 @@ public:
 
     State state(std::size_t node) const {
         const double f = data_[stride_ * node];
-        return f < value_         ? (std::isinf(f) ? unknown : outside)
-               : f == value_      ? on
-               : std::isfinite(f) ? inside
-                                  : unknown;
+        // One branch, for nodes may come in any order.
+        if (std::isfinite(f) && f != value_) [[likely]]
+            return static_cast<State>(f > value_);
+        return f == value_ ? on : unknown;
     }
 
     /// Arrays that lanes need besides the numbers to interpolate.
@@ -109,8 +109,9 @@ public:
             magnitude += std::fabs(product);
         }
         const double bound = 4.5 * 0x1p-53 * magnitude + 0x1p-1070;
-        if (height > bound) return inside;
-        if (height < -bound) return outside;
+        // One branch, for nodes may come in any order.
+        if (std::fabs(height) > bound) [[likely]]
+            return static_cast<State>(height > 0);
         const int sign = exact_height(x, unit_of({1, x[0], x[1], x[2]})).sign();
         return sign > 0 ? inside : sign < 0 ? outside : on;
     }
@@ -246,8 +247,8 @@ TierCounts place_points(const Mesh& mesh, const Level& level, const CutOptions& 
 
 template <class Level>
 Result<Cut> cut_at(const Mesh& mesh, const Level& level, const CutOptions& options) {
-    std::vector<std::uint8_t> states(mesh.point_count());
-    base::parallel_for_each(states.size(), grain, [&](std::size_t i) { states[i] = level.state(i); });
+    std::vector<std::uint8_t> states(mesh.point_count() + states_ahead);
+    base::parallel_for_each(mesh.point_count(), grain, [&](std::size_t i) { states[i] = level.state(i); });
     Cut cut;
     if (Status done = cut_cells(mesh, states, cut.surface, cut.counts); !done) return done.error();
     cut.counts.tiers = place_points(mesh, level, options, cut.surface);

@@ -1,6 +1,7 @@
 #include "barycert/surface/parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <numeric>
 #include <string>
@@ -138,13 +139,16 @@ private:
         blocks_.resize((count + block_size - 1) / block_size);
         base::parallel_for(blocks_.size(), [&](std::size_t b) {
             Block& block = blocks_[b];
-            const std::size_t end = std::min(count, (b + 1) * block_size);
-            if (!indices_fit({corners(static_cast<Index>(b * block_size)), n * (end - b * block_size)},
-                             states_.size())) {
+            const std::size_t begin = b * block_size, size = std::min(count - begin, block_size);
+            const Index* const first = corners(static_cast<Index>(begin));
+            std::array<std::uint32_t, block_size> mixed;
+            const std::size_t found = mixed_cells(first, n, size, {states_.data(), mesh_.point_count()}, mixed.data());
+            if (found == no_node) {
                 good = false;
                 return;
             }
-            for (std::size_t cell = b * block_size; cell < end; ++cell) {
+            for (std::size_t k = 0; k < found; ++k) {
+                const std::size_t cell = begin + mixed[k];
                 const Index* const corner = mesh_.cells.data() + n * cell;
                 std::size_t states = 0;
                 for (std::size_t i = 0; i < n; ++i)
@@ -217,16 +221,16 @@ private:
     /// come; then sorted, each once. first_[i]: the number of the first point of node i; those of the others follow.
     void gather_ends() {
         const std::size_t nodes = mesh_.point_count();
-        begin_.assign(nodes + 1, 0);
+        base::resize_large(begin_, nodes + 1);
         for_crossings(
             begin_, [&](const Ends& e) { std::atomic_ref(begin_[e.low + 1]).fetch_add(1, std::memory_order_relaxed); });
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
         base::resize_large(high_, begin_.back());
-        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-        for_crossings(next, [&](const Ends& e) {
-            high_[std::atomic_ref(next[e.low]).fetch_add(1, std::memory_order_relaxed)] = e.high;
+        first_ = begin_;  // the next of each
+        for_crossings(first_, [&](const Ends& e) {
+            high_[std::atomic_ref(first_[e.low]).fetch_add(1, std::memory_order_relaxed)] = e.high;
         });
-        first_.assign(nodes + 1, 0);
+        first_[0] = 0;
         base::parallel_for_each(nodes, grain, [&](std::size_t i) {
             Index* const list = high_.data() + begin_[i];
             Index* const end = high_.data() + begin_[i + 1];

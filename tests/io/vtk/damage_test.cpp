@@ -3,8 +3,10 @@
 
 #include <chrono>
 
+#include "barycert/base/random.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/vtk/packed.hpp"
+#include "io/tetgen/mesh_files.hpp"
 #include "io/vtk/mesh_notes.hpp"
 #include "sanitized.hpp"
 
@@ -144,6 +146,60 @@ TEST(VtkDamage, WhatCompressedBytesCanHold) {
     EXPECT_GT(ratio(io::Compressor::zlib), 900);
     EXPECT_GT(ratio(io::Compressor::lz4), 250);
     EXPECT_GT(ratio(io::Compressor::lzma), 6600);
+}
+
+/// A file that is read in parts: its first block leads up to raw data. Behind a comment as long as a block it is read
+/// whole. Both must say the same, of the good file and of each damaged one.
+TEST(VtkDamage, ReadInPartsAsReadWhole) {
+    constexpr std::size_t many = 40000;
+    const std::string comment = "<!--" + std::string(std::size_t{1} << 17, 'c') + "-->";
+    Mesh mesh = small_mesh();
+    mesh.cell_labels.clear();
+    for (std::size_t i = mesh.point_count(); i < many; ++i) {
+        const auto x = static_cast<double>(i);
+        mesh.points.insert(mesh.points.end(), {x, x * 0.1, -x});
+        mesh.point_fields[0].data.push_back(1 / x);
+        const auto node = static_cast<Mesh::Index>(i);
+        mesh.cells.insert(mesh.cells.end(), {node - 3, node - 2, node - 1, node});
+    }
+    const TemporaryFolder folder;
+    const std::string path = folder / "m.vtu";
+    base::Random random(35);
+    for (const VtkData data : {VtkData::raw, VtkData::zlib, VtkData::lz4, VtkData::lzma}) {
+        SCOPED_TRACE(barycert::name(data));
+        ASSERT_TRUE(write_vtu(mesh, path, data));
+        const std::string good = get(path);
+        ASSERT_GT(good.size(), std::size_t{1} << 17);
+        const std::size_t behind_tag = good.find(">\n") + 1, numbers = good.find('_');
+        ASSERT_LT(numbers, std::size_t{1} << 15);
+        std::size_t refused = 0;
+        for (int n = 0; n < 120; ++n) {
+            std::string text = good;
+            if (n % 3 == 1) text.resize(numbers + random.below(good.size() - numbers));
+            for (int k = 0; k < n % 3 * 2; ++k) {
+                const std::size_t at = n % 2 == 0 ? numbers + random.below(64)
+                                                  : behind_tag + 1 + random.below(good.size() - behind_tag - 1);
+                if (at < text.size()) text[at] = static_cast<char>(text[at] ^ 1 << random.below(8));
+            }
+            put(path, text);
+            const Result<Mesh> parts = read_vtk(path);
+            put(path, text.insert(behind_tag, comment));
+            const Result<Mesh> whole = read_vtk(path);
+            ASSERT_EQ(parts.has_value(), whole.has_value()) << n;
+            if (parts) {
+                expect_same(*parts, *whole);
+            } else {
+                ++refused;
+                EXPECT_EQ(parts.error().message(), whole.error().message()) << n;
+            }
+            if (n == 0) {
+                ASSERT_TRUE(parts);
+                EXPECT_TRUE(is_same(*parts, mesh));
+            }
+        }
+        EXPECT_GT(refused, 30U);
+        EXPECT_LT(refused, 115U);
+    }
 }
 
 }  // namespace
