@@ -211,7 +211,9 @@ Result<MappedFile> MappedFile::read(const InputFile& file, const std::string& pa
     MappedFile result;
     const auto all = static_cast<std::size_t>(file.size());
     const std::size_t size = std::min(all, most), whole = (all + page - 1) / page * page + page;
-    result.memory_ = map_memory(whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS);
+    // Of what is not read, there need be no memory.
+    const int reserve = size == all ? 0 : MAP_NORESERVE;
+    result.memory_ = map_memory(whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | reserve);
     result.size_ = all;
     char* const bytes = result.memory_.get();
     if (bytes == nullptr) return read_failure(path, errno);

@@ -247,7 +247,7 @@ TierCounts place_points(const Mesh& mesh, const Level& level, const CutOptions& 
 
 template <class Level>
 Result<Cut> cut_at(const Mesh& mesh, const Level& level, const CutOptions& options) {
-    std::vector<std::uint8_t> states(mesh.point_count() + states_ahead);
+    States states(mesh.point_count());
     base::parallel_for_each(mesh.point_count(), grain, [&](std::size_t i) { states[i] = level.state(i); });
     Cut cut;
     if (Status done = cut_cells(mesh, states, cut.surface, cut.counts); !done) return done.error();

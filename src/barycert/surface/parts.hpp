@@ -62,20 +62,31 @@ inline Sign orientation(const Mesh& mesh, const Mesh::Index* corners) {
     return mesh.dimension == 2 ? orient2d(at(0), at(1), at(2)) : orient3d(at(0), at(1), at(2), at(3));
 }
 
-/// Room behind the states of all nodes.
-inline constexpr std::size_t states_ahead = 3;
+/// The State of each node: bytes in words, which lanes read.
+struct States {
+    explicit States(std::size_t nodes) : words((nodes + 3) / 4), count(nodes) {}
+
+    std::uint8_t& operator[](std::size_t node) { return reinterpret_cast<std::uint8_t*>(words.data())[node]; }
+    std::uint8_t operator[](std::size_t node) const {
+        return reinterpret_cast<const std::uint8_t*>(words.data())[node];
+    }
+
+    std::vector<std::uint32_t> words;
+    std::size_t count;  ///< of nodes
+};
+
+/// What mixed_cells returns if a corner is no node.
+inline constexpr std::size_t no_node = ~std::size_t{0};
 
 /// On SIMD lanes: which of `count` < 2^32 cells of n corners may hold a part of the cut, or have a corner whose state
-/// is unknown, ascending in out[0 ...]; returns how many, or `no_node` if a corner is none. `states`: those of the
-/// nodes, with states_ahead more behind them.
-inline constexpr std::size_t no_node = ~std::size_t{0};
-std::size_t mixed_cells(const Mesh::Index* corners, std::size_t n, std::size_t count,
-                        std::span<const std::uint8_t> states, std::uint32_t* out);
+/// is unknown, ascending in out[0 ...]; returns how many.
+std::size_t mixed_cells(const Mesh::Index* corners, std::size_t n, std::size_t count, const States& states,
+                        std::uint32_t* out);
 
 /// Sets cells, mesh_cells and mesh_edges of the surface, and the counts of cells and points, from the State of each
-/// node, behind which there are states_ahead more. On all threads of the calling arena. Error: a corner of a cell that
+/// node. On all threads of the calling arena. Error: a corner of a cell that
 /// is no node; more points or triangles than indices can number.
-Status cut_cells(const Mesh& mesh, const std::vector<std::uint8_t>& states, Surface& surface, CutCounts& counts);
+Status cut_cells(const Mesh& mesh, const States& states, Surface& surface, CutCounts& counts);
 
 // The middle tier of crossings, on SIMD lanes, dispatched at run time as those of core/lanes.hpp.
 

@@ -99,7 +99,7 @@ std::vector<std::int8_t> flat_signs(const Mesh& mesh, const std::vector<Index>& 
 template <std::size_t n>
 class Cutter {
 public:
-    Cutter(const Mesh& mesh, const std::vector<std::uint8_t>& states) : mesh_(mesh), states_(states) {}
+    Cutter(const Mesh& mesh, const States& states) : mesh_(mesh), states_(states) {}
 
     Status cut(Surface& surface, CutCounts& counts) {
         if (!find_cells()) return bad_index();
@@ -142,7 +142,7 @@ private:
             const std::size_t begin = b * block_size, size = std::min(count - begin, block_size);
             const Index* const first = corners(static_cast<Index>(begin));
             std::array<std::uint32_t, block_size> mixed;
-            const std::size_t found = mixed_cells(first, n, size, {states_.data(), mesh_.point_count()}, mixed.data());
+            const std::size_t found = mixed_cells(first, n, size, states_, mixed.data());
             if (found == no_node) {
                 good = false;
                 return;
@@ -306,7 +306,7 @@ private:
     }
 
     const Mesh& mesh_;
-    const std::vector<std::uint8_t>& states_;
+    const States& states_;
     std::vector<Block> blocks_;
     std::size_t part_count_ = 0;
     std::vector<std::size_t> begin_, first_;  ///< of each node, and the end of all
@@ -316,7 +316,7 @@ private:
 
 }  // namespace
 
-Status cut_cells(const Mesh& mesh, const std::vector<std::uint8_t>& states, Surface& surface, CutCounts& counts) {
+Status cut_cells(const Mesh& mesh, const States& states, Surface& surface, CutCounts& counts) {
     surface.dimension = mesh.dimension;
     return mesh.dimension == 2 ? Cutter<3>(mesh, states).cut(surface, counts)
                                : Cutter<4>(mesh, states).cut(surface, counts);

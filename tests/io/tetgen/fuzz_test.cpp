@@ -97,5 +97,46 @@ TEST(Damage, RandomBytes) {
     EXPECT_LT(accepted, 3000);
 }
 
+/// A file of several blocks is read in parts; behind a comment longer than its first block it is read whole. Both must
+/// say the same, of good files and of damaged ones, also where damage, blank lines or comments lie across the bounds of
+/// blocks.
+TEST(Damage, ReadInPartsAsReadWhole) {
+    constexpr std::size_t block = std::size_t{1} << 19;
+    constexpr std::string_view alphabet = "0123456789 \n\r\t,+-.#eEx";
+    const TemporaryFolder folder;
+    const std::string node = folder / "m.node", comment = '#' + std::string(std::size_t{1} << 17, 'c') + '\n';
+    put(folder / "m.ele", "1 4 0\n0 0 1 2 3\n");
+    std::string good = "80000 3 0 0\n";
+    for (int i = 0; i < 80000; ++i) good += std::to_string(i) + ' ' + std::to_string(i % 7) + ".5 0.25 1e-3\n";
+    ASSERT_GT(good.size(), 3 * block);
+    int refused = 0;
+    for (int n = 0; n < 150; ++n) {
+        base::Random random(static_cast<std::uint64_t>(n));
+        std::string text = good;
+        const std::size_t bound = block * (1 + random.below(3)), near = bound - 60 + random.below(120);
+        if (n % 5 == 1) text.insert(good.find('\n', near) + 1, std::string(random.below(9000), "\n #"[n % 3]) + '\n');
+        if (n % 5 == 2)
+            text.insert(good.find('\n', near) + 1, "# 7 " + std::string(random.below(2 * block), '1') + '\n');
+        if (n % 5 == 3) text[near] = alphabet[random.below(alphabet.size())];
+        if (n % 5 == 4) text.resize(n % 2 == 0 ? near : random.below(good.size()));
+        put(node, text);
+        const Result<Mesh> parts = read_tetgen(node, {.threads = 2});
+        put(node, comment + text);
+        const Result<Mesh> whole = read_tetgen(node, {.threads = 1});
+        ASSERT_EQ(parts.has_value(), whole.has_value()) << n;
+        if (parts) {
+            expect_same(*parts, *whole);
+            continue;
+        }
+        ++refused;
+        EXPECT_EQ(parts.error().line + 1, whole.error().line) << n;
+        EXPECT_EQ(parts.error().what + parts.error().expected + parts.error().found + parts.error().remedy,
+                  whole.error().what + whole.error().expected + whole.error().found + whole.error().remedy)
+            << n;
+    }
+    EXPECT_GT(refused, 30);
+    EXPECT_LT(refused, 75);
+}
+
 }  // namespace
 }  // namespace barycert::testing

@@ -132,7 +132,7 @@ void write_raw(const OutFile& f, base::OutputFile& file) {
     for_each_array(f, [&](const OutArray& a) {
         const std::uint64_t size = a.size();
         write({reinterpret_cast<const char*>(&size), appended_header});
-        a.bytes != nullptr ? write({a.bytes, static_cast<std::size_t>(size)}) : write_parts(a, block_size, {}, write);
+        a.bytes != nullptr ? write({a.bytes, static_cast<std::size_t>(size)}) : write_parts(a, block_size / number_bytes(a.format.type), {}, write);
     });
     write(appended_tail);
 }
@@ -204,7 +204,7 @@ OutArray array_of_points(std::span<const double> points, int dimension) {
 
 void write_parts(const OutArray& array, std::size_t part, const Transform& transform,
                  const std::function<void(std::string_view)>& write) {
-    constexpr std::size_t wave = 64;
+    constexpr std::size_t wave = 16;
     const std::uint64_t number = number_bytes(array.format.type);
     const auto count = static_cast<std::size_t>(array.count);
     const auto make = [&](std::size_t first, std::string& bytes) {
