@@ -104,7 +104,10 @@ TEST(Damage, ReadInPartsAsReadWhole) {
     constexpr std::size_t block = std::size_t{1} << 19;
     constexpr std::string_view alphabet = "0123456789 \n\r\t,+-.#eEx";
     const TemporaryFolder folder;
-    const std::string node = folder / "m.node", comment = '#' + std::string(std::size_t{1} << 17, 'c') + '\n';
+    const std::string node = folder / "m.node";
+    std::string comment = "#";
+    while (comment.size() < block / 4) comment += " c";
+    comment += '\n';
     put(folder / "m.ele", "1 4 0\n0 0 1 2 3\n");
     std::string good = "80000 3 0 0\n";
     for (int i = 0; i < 80000; ++i) good += std::to_string(i) + ' ' + std::to_string(i % 7) + ".5 0.25 1e-3\n";
