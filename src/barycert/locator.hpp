@@ -16,11 +16,11 @@
 ///   N2  Its cost does not grow with the distance: a point 1e300 mesh sizes away visits about as many cells as one ten
 ///       sizes away.
 ///
-/// Method. While the index is made, or later (Prove), it is proved of each cell, if it is so, that all others meet it in
-/// common faces or not at all (doc/theorem.md). Points are sorted along a space-filling curve and walk, on SIMD lanes,
-/// to a cell that certainly contains them; integers decide what the filter leaves open, connectivity gives the cells
-/// around a face, edge or vertex. Where a walk ends at the boundary, or in a cell of which nothing is proved, every
-/// cell whose box has the point is tested. Points where no cell is near are outside at once.
+/// Method. While the index is made, or later (Prove), it is proved of each cell, if it is so, that all others meet it
+/// in common faces or not at all (doc/theorem.md). Points are sorted along a space-filling curve and walk, on SIMD
+/// lanes, to a cell that certainly contains them; integers decide what the filter leaves open, connectivity gives the
+/// cells around a face, edge or vertex. Where a walk ends at the boundary, or in a cell of which nothing is proved,
+/// every cell whose box has the point is tested. Points where no cell is near are outside at once.
 #pragma once
 
 #include <cstddef>

@@ -132,7 +132,8 @@ void write_raw(const OutFile& f, base::OutputFile& file) {
     for_each_array(f, [&](const OutArray& a) {
         const std::uint64_t size = a.size();
         write({reinterpret_cast<const char*>(&size), appended_header});
-        a.bytes != nullptr ? write({a.bytes, static_cast<std::size_t>(size)}) : write_parts(a, block_size / number_bytes(a.format.type), {}, write);
+        a.bytes != nullptr ? write({a.bytes, static_cast<std::size_t>(size)})
+                           : write_parts(a, block_size / number_bytes(a.format.type), {}, write);
     });
     write(appended_tail);
 }
