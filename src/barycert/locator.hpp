@@ -96,6 +96,7 @@ public:
     ~Locator();
 
     const Mesh& mesh() const;
+    /// Candidates after Prove::never, else walk, also before the proof.
     Method method() const;
 
     /// True if it is proved that the cells partition their domain: P1 to P4 of check.hpp hold.

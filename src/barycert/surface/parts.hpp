@@ -84,8 +84,8 @@ std::size_t mixed_cells(const Mesh::Index* corners, std::size_t n, std::size_t c
                         std::uint32_t* out);
 
 /// Sets cells, mesh_cells and mesh_edges of the surface, and the counts of cells and points, from the State of each
-/// node. On all threads of the calling arena. Error: a corner of a cell that
-/// is no node; more points or triangles than indices can number.
+/// node. On all threads of the calling arena. Error: a corner of a cell that is no node; more points or triangles than
+/// indices can number.
 Status cut_cells(const Mesh& mesh, const States& states, Surface& surface, CutCounts& counts);
 
 // The middle tier of crossings, on SIMD lanes, dispatched at run time as those of core/lanes.hpp.

@@ -16,6 +16,8 @@ namespace barycert::surface::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Of cells whose corners are all alike, none has a part of the cut. At the end, less than a vector of cells is left to
+/// the caller.
 template <std::size_t n>
 std::size_t mixed(const Mesh::Index* corners, std::size_t count, const States& states, std::uint32_t* out) {
     const hn::ScalableTag<std::int32_t> tag;

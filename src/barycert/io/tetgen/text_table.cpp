@@ -269,16 +269,17 @@ TextTable open_table(const std::string& name, std::span<const char* const> heade
     table.input = base::InputFile::open(table.file, base::save_first, base::Text::all).value();
     table.threads = threads;
     table.input.check(base::Text::all, table.file, header_in).value();
+    bool has_first_row = false;
     if (table.input.size() > base::first_block) {
         table.data = base::MappedFile::read(table.input, table.file, base::first_block).value();
         table.bytes = table.data.bytes().substr(0, base::first_block);
         table.bytes = table.bytes.substr(0, table.bytes.rfind('\n') + 1);
+        Scanner scanner{table.begin(), table.end()};
+        const bool has_header = scanner.next_row(table.end());
+        if (has_header) scanner.skip_line();
+        has_first_row = has_header && scanner.next_row(table.end());
     }
-    Scanner first{table.begin(), table.end()};
-    const auto next_row = [&] { return table.begin() != nullptr && first.next_row(table.end()); };
-    const bool has_header = next_row();
-    if (has_header) first.skip_line();
-    if (!has_header || !next_row()) table.read_whole();
+    if (!has_first_row) table.read_whole();
     read_header(table, header_names);
     table.rows = static_cast<std::size_t>(table.header[0]);
     return table;

@@ -53,10 +53,10 @@ struct Columns {
 struct TextTable {
     std::string file;
     base::InputFile input;
-    int threads = 1;        ///< that read it
-    base::MappedFile data;  ///< all of it, or its beginning: whole lines, the first row among them
-    bool is_whole = false;
-    std::string_view bytes;            ///< of data
+    int threads = 1;                   ///< that read it
+    base::MappedFile data;             ///< all of it, or its first block
+    bool is_whole = false;             ///< all of it
+    std::string_view bytes;            ///< of data: whole lines, the first row among them
     const char* header_at = nullptr;   ///< the first field of the header
     const char* body = nullptr;        ///< the line after the header
     std::vector<std::int64_t> header;  ///< the numbers of the header, at least the count of rows

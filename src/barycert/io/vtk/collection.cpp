@@ -138,7 +138,9 @@ bool read_beginning(VtkFile& file, const std::string& path) {
     if (!good || !file.tree->appended_raw || file.tree->appended.data() != block.data() + end + 1) return false;
     file.tree->read_part = [input = file.input, begin = block.data(), path](std::string_view part, char* to) {
         const auto at = static_cast<std::uint64_t>(part.data() - begin);
-        if (input->read_at(at, {to, part.size()}, path).value() != part.size()) input->unchanged(path).value();
+        if (input->read_at(at, {to, part.size()}, path).value() == part.size()) return;
+        input->unchanged(path).value();
+        refuse_file(path, "the file ends before its size", std::to_string(input->size()) + " bytes", "fewer", cut_off);
     };
     file.collection = files_of(*file.tree);
     return true;

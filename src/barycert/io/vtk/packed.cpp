@@ -99,7 +99,7 @@ std::size_t Encoded::take_quadruples(char* to, std::size_t count) {
     return 3 * good;
 }
 
-std::string_view Encoded::take_unread(std::size_t count) {
+std::string_view Encoded::take_as_they_stand(std::size_t count) {
     const std::string_view taken = left_.substr(0, count);
     left_.remove_prefix(count);
     return taken;
@@ -109,8 +109,8 @@ std::optional<std::string_view> Encoded::take(std::uint64_t count, ByteRoom& roo
     if (count > left()) return std::nullopt;
     const auto size = static_cast<std::size_t>(count);
     if (!base64_) {
-        const std::string_view taken = take_unread(size);
-        if (!read_part_) return taken;
+        const std::string_view taken = take_as_they_stand(size);
+        if (!is_unread()) return taken;
         read_part_(taken, room.of(size));
         return std::string_view(room.of(size), size);
     }

@@ -30,7 +30,7 @@ public:
     /// Reads bytes of the file to that place, where they are not in memory: that is where they would stand.
     using ReadPart = std::function<void(std::string_view part, char* to)>;
 
-    /// `read_part`: empty if the bytes are in memory; only without base64. It must stay.
+    /// `read_part`: empty if the bytes are in memory, as those in base64 are. It must stay.
     Encoded(std::string_view bytes, bool base64, const ReadPart& read_part)
         : left_(bytes), base64_(base64), read_part_(read_part) {}
 
@@ -38,9 +38,10 @@ public:
     /// Nothing if there are fewer.
     std::optional<std::string_view> take(std::uint64_t count, ByteRoom& room);
 
-    /// The next `count` bytes are to be read by read_part(). Precondition: there are so many, and not in memory.
-    std::string_view take_unread(std::size_t count);
-    bool is_unread() const { return bool(read_part_); }
+    /// The next `count` bytes where they stand in the file or, if is_unread(), would stand in memory: read_part() reads
+    /// them. Precondition: there are so many; no base64.
+    std::string_view take_as_they_stand(std::size_t count);
+    bool is_unread() const { return !base64_ && read_part_; }
     void read_part(std::string_view part, char* to) const { read_part_(part, to); }
 
     /// That many bytes are left at most.

@@ -124,7 +124,7 @@ private:
         std::vector<std::size_t> ends{0};
         for (std::size_t i = first; i < last; ++i) ends.push_back(ends.back() + static_cast<std::size_t>(packed_[i]));
         if (layout_.compressor == Compressor::none) {
-            const std::string_view part = from_.take_unread(ends.back());
+            const std::string_view part = from_.take_as_they_stand(ends.back());
             in_parallel(last - first, [&](std::size_t i) {
                 from_.read_part(part.substr(ends[i], ends[i + 1] - ends[i]), to + ends[i]);
             });
@@ -202,9 +202,7 @@ NumberFault XmlArrays::read_any(const XmlElement& array, const std::string& what
                 in_quotes(offset), cut_off);
         text.remove_prefix(static_cast<std::size_t>(begin));
     }
-    static const Encoded::ReadPart in_memory;
-    const bool appended = format == "appended";
-    ArrayData data(Encoded(text, !appended || !tree_.appended_raw, appended ? tree_.read_part : in_memory), layout_);
+    ArrayData data(Encoded(text, format == "binary" || !tree_.appended_raw, tree_.read_part), layout_);
     if (const std::string found = data.open(); !found.empty())
         tree_.refuse_at(array, "the data of " + what, {}, found, "write the file again");
     if (count && data.size() != *size)
