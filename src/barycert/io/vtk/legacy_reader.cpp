@@ -1,17 +1,12 @@
 // VTK's legacy files.
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "barycert/base/input_file.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/legacy_text.hpp"
 
 namespace barycert::io {

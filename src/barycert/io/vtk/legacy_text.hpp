@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -12,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/base/input_file.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
