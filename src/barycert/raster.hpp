@@ -179,11 +179,12 @@ struct TexturedVertex {
 /// Texture coordinates are computed in fixed point or single precision. For pictures and textures of up to 1024 by
 /// 1024, coordinates u and v in [-1, 2] and depths that differ by a factor of up to 16 in a triangle they are off by
 /// less than 2^-8 of a texel: so near to the border of two texels the neighbour may be taken. They may differ that much
-/// between SIMD targets. No texel outside the texture is read, whatever the numbers. Error, and nothing drawn: a number
-/// of vertices that is no multiple of 3, one that is not finite, w <= 0 with perspective, another filter than
-/// Filter::nearest, or what check_image refuses.
+/// between SIMD targets. No texel outside the texture is read, whatever the numbers. `threads`: 0 as many as the
+/// machine has; the picture is the same with any number. Error, and nothing drawn: a number of vertices that is no
+/// multiple of 3, one that is not finite, w <= 0 with perspective, another filter than Filter::nearest, or what
+/// check_image refuses.
 Result<std::size_t> draw_textured(Image& image, const Texture& texture, std::span<const TexturedVertex> vertices,
-                                  bool perspective = true);
+                                  bool perspective = true, int threads = 0);
 
 // Clipping: what of a segment or triangle lies in a half-space, a box or the clip volume, with attributes.
 //

@@ -3,6 +3,7 @@
 // Every picture is verified first: the same pixels as cover_triangle, and texels within a stated distance of those at
 // the exact texture coordinates; the loops' pixels that differ are counted. Times are the thread's own.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -178,6 +179,26 @@ void beside_mesa(double across, const std::vector<TexturedVertex>& corners, doub
 }
 #endif
 
+double seconds_of(const auto& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Two threads by the clock, in turn with the scanline loop.
+void two_threads(const std::vector<TexturedVertex>& corners, double pixels) {
+    Picture picture;
+    const Texels texels;
+    std::vector<double> ours, ratios;
+    for (int r = 0; r < repetitions; ++r) {
+        const double loop = seconds_of([&] { bench::scanline_loop(picture.rows(), texels.rows(), corners); });
+        ours.push_back(seconds_of([&] { draw_textured(picture.image, texels.texture, corners, false, 2).value(); }));
+        ratios.push_back(loop / ours.back());
+    }
+    std::printf("  affine, 2 threads: %.3g ns a pixel by the clock, scanline / affine %.3gx\n",
+                1e9 * bench::median(ours) / pixels, bench::median(ratios));
+}
+
 }  // namespace
 
 int main() {
@@ -199,13 +220,14 @@ int main() {
         row(
             "textbook scanline", pixels, [&] { bench::scanline_loop(picture.rows(), texels.rows(), flat); }, true);
         row(
-            "affine", pixels, [&] { draw_textured(picture.image, texels.texture, flat, false).value(); }, false);
+            "affine", pixels, [&] { draw_textured(picture.image, texels.texture, flat, false, 1).value(); }, false);
         row(
-            "perspective", deep_pixels, [&] { draw_textured(picture.image, texels.texture, deep, true).value(); },
+            "perspective", deep_pixels, [&] { draw_textured(picture.image, texels.texture, deep, true, 1).value(); },
             false);
         char title[100];
         std::snprintf(title, sizeof title, "triangles %g pixels across, ns a pixel", across);
         table.run(title, rows, repetitions);
+        two_threads(flat, pixels);
 #ifdef BARYCERT_WITH_OSMESA
         beside_mesa(across, flat, pixels, false);
         beside_mesa(across, deep, deep_pixels, true);

@@ -154,6 +154,42 @@ TEST_P(Textured, AnyFiniteNumbersAreSafe) {
     }
 }
 
+TEST_P(Textured, ManyAtOnceOnAnyThreadsAreAsDrawnOneByOne) {
+    // So wide that a band has 16 rows: triangles meet one, several or all bands, and lie over each other.
+    constexpr std::int32_t width = 4096, height = 290;
+    base::Random random(23);
+    std::vector<TexturedVertex> all;
+    for (int k = 0; k < 400; ++k) {
+        const double size = k % 3 == 0 ? 400 : 12, x = random.uniform(0, width), y = random.uniform(0, height);
+        for (TexturedVertex v : any_triangle(random, size, k % 2 == 0 ? 0.5 : 1.5)) {
+            v.x += x - size / 2, v.y += y - size / 2;
+            all.push_back(v);
+        }
+    }
+    for (const Wrap wrap : {Wrap::clamp, Wrap::mirror}) {
+        const Texture texture = numbered(64, 50, wrap);
+        for (const bool perspective : {false, true}) {
+            Image one_by_one = blank_image(width, height, {}).value();
+            std::size_t drawn = 0;
+            std::vector<PixelSpan> spans;
+            for (std::size_t k = 0; k < all.size(); k += 3) {
+                const TexturedVertex* const t = all.data() + k;
+                drawn += draw_textured(one_by_one, texture, std::span(t, 3), perspective, 1).value();
+                ASSERT_TRUE(
+                    cover_triangle({width, height}, std::array{t[0].x, t[0].y, t[1].x, t[1].y, t[2].x, t[2].y}, spans));
+            }
+            std::size_t covered = 0;
+            for (const PixelSpan& s : spans) covered += static_cast<std::size_t>(s.end - s.begin);
+            EXPECT_EQ(drawn, covered);
+            for (const int threads : {0, 1, 2, 5}) {
+                Image together = blank_image(width, height, {}).value();
+                EXPECT_EQ(draw_textured(together, texture, all, perspective, threads).value(), covered);
+                EXPECT_EQ(together, one_by_one) << threads << " threads";
+            }
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Targets, Textured, testing::ValuesIn(simd_targets()), [](const auto& target) {
     std::string name = target.param;
     std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });

@@ -26,105 +26,19 @@
 #include "barycert/core/foreach_target.hpp"
 
 #include "barycert/core/lane_loop-inl.hpp"
+#include "barycert/raster/triangle_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::raster {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using Doubles = hn::ScalableTag<double>;
 using Floats = hn::ScalableTag<float>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
 using IntLanes = hn::Vec<Ints>;
 using FloatLanes = hn::Vec<Floats>;
-using core::HWY_NAMESPACE::store_some;
-
-// Spans: the crossings of several rows at once, by the filter of edge.hpp; a row that it leaves undecided is asked
-// exactly.
-
-/// Rows that are prepared together.
-struct RowBlock {
-    static constexpr std::int32_t capacity = 16;
-    std::int32_t first[capacity], last[capacity];  ///< pixels first, ..., last - 1
-};
-
-/// draw(row, block, size): the rows row, ..., row + size - 1 of the triangle, from the bottom. Precondition: it has
-/// one.
-template <class Draw>
-HWY_INLINE void for_row_blocks(const SortedTriangle& t, std::int32_t width, Draw draw) {
-    const Doubles tag;
-    const hn::Rebind<std::int32_t, Doubles> itag;
-    using V = hn::Vec<Doubles>;
-    const auto n = static_cast<std::int32_t>(hn::Lanes(tag));
-    const Edge whole(t.vertex[0], t.vertex[2]);
-    // A short side that meets no row may be horizontal: the other one stands for it.
-    const auto side = [&](int i) { return Edge(t.vertex[i], t.vertex[i + 1]); };
-    const Edge lower = side(t.begin == t.middle ? 1 : 0), upper = side(t.middle == t.end ? 0 : 1);
-    const auto half = hn::Set(tag, 0.5), zero = hn::Zero(tag), one = hn::Set(tag, 1);
-    const auto limit = hn::Set(tag, static_cast<double>(width));
-    RowBlock block;
-    for (std::int32_t j = t.begin; j < t.end;) {
-        const std::int32_t size = std::min(RowBlock::capacity, t.end - j);
-        for (std::int32_t r = 0; r < size; r += n) {
-            const auto row = hn::Add(hn::Set(tag, static_cast<double>(j + r)), hn::Iota(tag, 0));
-            const auto y = hn::Add(row, half);
-            const auto is_lower = hn::Lt(row, hn::Set(tag, static_cast<double>(t.middle)));
-            const auto pick = [&](double p, double q)
-                                  HWY_ATTR { return hn::IfThenElse(is_lower, hn::Set(tag, p), hn::Set(tag, q)); };
-            const auto position = [&](V x0, V y0, V slope)
-                                      HWY_ATTR { return hn::Sub(hn::Add(x0, hn::Mul(hn::Sub(y, y0), slope)), half); };
-            const V s = position(hn::Set(tag, whole.lower[0]), hn::Set(tag, whole.lower[1]), hn::Set(tag, whole.slope));
-            const V q = position(pick(lower.lower[0], upper.lower[0]), pick(lower.lower[1], upper.lower[1]),
-                                 pick(lower.slope, upper.slope));
-            const V s_up = hn::Ceil(s), q_up = hn::Ceil(q);
-            const V s_error = hn::Set(tag, whole.error), q_error = pick(lower.error, upper.error);
-            const auto far = [&](V x, V up, V error) HWY_ATTR {
-                return hn::And(hn::Gt(hn::Sub(up, x), error), hn::Gt(hn::Sub(x, hn::Sub(up, one)), error));
-            };
-            V s_at = hn::Min(hn::Max(s_up, zero), limit), q_at = hn::Min(hn::Max(q_up, zero), limit);
-            const auto decided = hn::And(far(s, s_up, s_error), far(q, q_up, q_error));
-            const std::int32_t used = std::min(n, size - r);
-            if (!hn::AllTrue(tag, hn::Or(decided, hn::Not(hn::FirstN(tag, static_cast<std::size_t>(used)))))) {
-                HWY_ALIGN double s_fixed[hn::MaxLanes(Doubles())], q_fixed[hn::MaxLanes(Doubles())];
-                hn::Store(s_at, tag, s_fixed);
-                hn::Store(q_at, tag, q_fixed);
-                for (std::int32_t l = 0; l < used; ++l) {
-                    const std::int32_t at = j + r + l;
-                    s_fixed[l] = crossing(whole, at, width);
-                    q_fixed[l] = crossing(at < t.middle ? lower : upper, at, width);
-                }
-                s_at = hn::Load(tag, s_fixed);
-                q_at = hn::Load(tag, q_fixed);
-            }
-            const V first = hn::Min(s_at, q_at);
-            hn::StoreU(hn::DemoteTo(itag, first), itag, block.first + r);
-            hn::StoreU(hn::DemoteTo(itag, hn::Max(s_at, q_at)), itag, block.last + r);
-        }
-        draw(j, block, size);
-        j += size;
-    }
-}
 
 // Texture coordinates.
-
-/// value + x * along + y * up, x and y from corner 0 of the triangle.
-struct Plane {
-    double value, along, up;
-
-    double at(double x, double y) const { return value + (x * along + y * up); }
-};
-
-/// The edges of a triangle from its corner 0.
-struct Basis {
-    double x1, y1, x2, y2, inverse_area = 1 / (x1 * y2 - x2 * y1);
-
-    explicit Basis(const TexturedVertex* c)
-        : x1(c[1].x - c[0].x), y1(c[1].y - c[0].y), x2(c[2].x - c[0].x), y2(c[2].y - c[0].y) {}
-    Plane plane(double f0, double f1, double f2) const {
-        const double g1 = f1 - f0, g2 = f2 - f0;
-        return {f0, (g1 * y2 - g2 * y1) * inverse_area, (g2 * x1 - g1 * x2) * inverse_area};
-    }
-};
 
 /// How to get at the texels.
 struct Sheet {
@@ -139,19 +53,21 @@ struct Sheet {
     }
 };
 
-/// The index of a texel, and 0 from lane `count` on: what is not stored costs no cache line.
-HWY_INLINE IntLanes first_lanes(IntLanes index, std::int32_t count) {
-    const Ints tag;
-    return hn::IfThenElseZero(hn::Lt(hn::Iota(tag, 0), hn::Set(tag, count)), index);
+/// The first `count` texels, fewer than there are lanes, one by one: faster than a gather whose last lanes are unused.
+HWY_INLINE void fetch_some(const std::int32_t* texels, IntLanes index, std::int32_t count, std::int32_t* to) {
+    HWY_ALIGN std::int32_t lanes[hn::MaxLanes(Ints())];
+    hn::Store(index, Ints(), lanes);
+    for (std::int32_t i = 0; i < count; ++i) to[i] = texels[lanes[i]];
 }
 
 /// Rows of an affine triangle with a clamped texture, in fixed point.
 template <bool power_of_two>
 class FixedRows {
 public:
-    FixedRows(const Sheet& sheet, const Basis& basis, const TexturedVertex* c) : sheet_(sheet) {
-        u_ = basis.plane(c[0].u * sheet.width, c[1].u * sheet.width, c[2].u * sheet.width);
-        v_ = basis.plane(c[0].v * sheet.height, c[1].v * sheet.height, c[2].v * sheet.height);
+    static constexpr bool has_perspective = false;
+
+    FixedRows(const Sheet& sheet, const Triangles& set_up, std::size_t l)
+        : sheet_(sheet), u_(set_up.u.of(l)), v_(set_up.v.of(l)) {
         const Ints tag;
         const double n = static_cast<double>(hn::Lanes(tag));
         u_next_ = fixed(n * u_.along), v_next_ = fixed(n * v_.along);
@@ -161,12 +77,7 @@ public:
     }
 
     /// Whether the coordinates at the vertices, and so at all pixels, are within the range of fixed point.
-    static bool fits(const Sheet& sheet, const TexturedVertex* c) {
-        constexpr double range = 1 << 13;
-        return std::all_of(c, c + 3, [&](const TexturedVertex& t) {
-            return std::fabs(t.u * sheet.width) <= range && std::fabs(t.v * sheet.height) <= range;
-        });
-    }
+    static bool fits(const Triangles& set_up, std::size_t l) { return set_up.largest[l] <= 1 << 13; }
 
     /// `count` pixels of a row from `to` on; x and y: the centre of the first.
     HWY_INLINE void draw(double x, double y, std::int32_t count, std::int32_t* to) const {
@@ -193,7 +104,7 @@ public:
             count -= whole * n;
             if (count == 0) return;
         }
-        store_some(tag, hn::GatherIndex(tag, sheet_.texels, first_lanes(clamped_index(u, v), count)), to, count);
+        fetch_some(sheet_.texels, clamped_index(u, v), count, to);
     }
 
 private:
@@ -253,21 +164,14 @@ HWY_INLINE IntLanes texel_index(FloatLanes x, FloatLanes size, FloatLanes invers
 template <Wrap wrap, bool perspective>
 class FloatRows {
 public:
-    FloatRows(const Sheet& sheet, const Basis& basis, const TexturedVertex* c) : sheet_(sheet) {
-        const double w = sheet.width, h = sheet.height;
-        if constexpr (perspective) {
-            const double q[3] = {1 / c[0].w, 1 / c[1].w, 1 / c[2].w};
-            q_ = basis.plane(q[0], q[1], q[2]);
-            max_w_ = 256 * std::min({c[0].w, c[1].w, c[2].w});
-            u_ = basis.plane(c[0].u * w * q[0], c[1].u * w * q[1], c[2].u * w * q[2]);
-            v_ = basis.plane(c[0].v * h * q[0], c[1].v * h * q[1], c[2].v * h * q[2]);
-        } else {
-            u_ = basis.plane(c[0].u * w, c[1].u * w, c[2].u * w);
-            v_ = basis.plane(c[0].v * h, c[1].v * h, c[2].v * h);
-        }
+    static constexpr bool has_perspective = perspective;
+
+    FloatRows(const Sheet& sheet, const Triangles& set_up, std::size_t l)
+        : sheet_(sheet), u_(set_up.u.of(l)), v_(set_up.v.of(l)) {
+        if constexpr (perspective) q_ = set_up.q.of(l), max_w_ = 256 * set_up.least_w[l];
     }
 
-    static bool fits(const Sheet&, const TexturedVertex*) { return true; }
+    static bool fits(const Triangles&, std::size_t) { return true; }
 
     HWY_INLINE void draw(double x, double y, std::int32_t count, std::int32_t* to) const {
         const Floats tag;
@@ -300,9 +204,7 @@ public:
         }
         for (; count >= n; count -= n, to += n)
             hn::StoreU(hn::GatherIndex(itag, sheet_.texels, index(std::false_type())), itag, to);
-        if (count > 0)
-            store_some(itag, hn::GatherIndex(itag, sheet_.texels, first_lanes(index(std::false_type()), count)), to,
-                       count);
+        if (count > 0) fetch_some(sheet_.texels, index(std::false_type()), count, to);
     }
 
 private:
@@ -335,45 +237,57 @@ private:
 };
 
 template <class Rows>
-std::size_t draw_all(Image& out, const Sheet& sheet, std::span<const TexturedVertex> vertices) {
+std::size_t draw_all(const TexturedWork& work, const Sheet& sheet, std::span<const std::uint32_t> triangles) {
     std::size_t drawn = 0;
-    auto* const pixels = reinterpret_cast<std::int32_t*>(out.data.data());
-    for (std::size_t k = 0; k + 3 <= vertices.size(); k += 3) {
-        const TexturedVertex* const c = vertices.data() + k;
-        const double window[6] = {c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y};
-        const SortedTriangle sorted(window, out.height);
-        if (sorted.begin == sorted.end) continue;
-        if (!Rows::fits(sheet, c)) {
-            drawn += draw_all<FloatRows<Wrap::clamp, false>>(out, sheet, vertices.subspan(k, 3));
-            continue;
+    const auto width = static_cast<std::size_t>(work.image.width);
+    auto* const pixels = reinterpret_cast<std::int32_t*>(work.image.data.data());
+    Triangles set_up;
+    while (!triangles.empty()) {
+        const auto used = std::min(hn::Lanes(Doubles()), triangles.size());
+        set_up.fill(work, triangles.first(used), Rows::has_perspective, sheet.width, sheet.height);
+        for (std::size_t l = used; l < std::min(2 * used, triangles.size()); ++l) {
+            const auto* const next = work.corners(triangles[l]);
+            __builtin_prefetch(next);
+            __builtin_prefetch(next + 2);
         }
-        const Rows rows(sheet, Basis(c), c);
-        for_row_blocks(sorted, out.width, [&](std::int32_t j, const RowBlock& block, std::int32_t size) HWY_ATTR {
-            for (std::int32_t r = 0; r < size; ++r) {
-                const std::int32_t first = block.first[r], count = block.last[r] - first;
-                if (count <= 0) continue;
-                drawn += static_cast<std::size_t>(count);
-                const auto at = static_cast<std::size_t>(j + r) * static_cast<std::size_t>(out.width);
-                rows.draw(first + 0.5 - c[0].x, j + r + 0.5 - c[0].y, count, pixels + at + first);
+        for (std::size_t l = 0; l < used; ++l) {
+            if (set_up.begin[l] == set_up.end[l]) continue;
+            if (!Rows::fits(set_up, l)) {
+                drawn += draw_all<FloatRows<Wrap::clamp, false>>(work, sheet, triangles.subspan(l, 1));
+                continue;
             }
-        });
+            const TexturedVertex* const c = work.corners(triangles[l]);
+            const Rows rows(sheet, set_up, l);
+            for_row_blocks(set_up, l, c, work.image.width,
+                           [&](std::int32_t j, const RowBlock& block, std::int32_t size) HWY_ATTR {
+                               for (std::int32_t r = 0; r < size; ++r) {
+                                   const std::int32_t first = block.first[r], count = block.last[r] - first;
+                                   if (count <= 0) continue;
+                                   drawn += static_cast<std::size_t>(count);
+                                   rows.draw(first + 0.5 - c[0].x, j + r + 0.5 - c[0].y, count,
+                                             pixels + static_cast<std::size_t>(j + r) * width + first);
+                               }
+                           });
+        }
+        triangles = triangles.subspan(used);
     }
     return drawn;
 }
 
 template <bool perspective>
-std::size_t draw_wrapped(Image& out, const Texture& texture, std::span<const TexturedVertex> vertices) {
-    const Sheet sheet(texture.image);
-    if (texture.wrap == Wrap::repeat) return draw_all<FloatRows<Wrap::repeat, perspective>>(out, sheet, vertices);
-    if (texture.wrap == Wrap::mirror) return draw_all<FloatRows<Wrap::mirror, perspective>>(out, sheet, vertices);
+std::size_t draw_wrapped(const TexturedWork& work, const Sheet& sheet, std::span<const std::uint32_t> triangles) {
+    const Wrap wrap = work.texture.wrap;
+    if (wrap == Wrap::repeat) return draw_all<FloatRows<Wrap::repeat, perspective>>(work, sheet, triangles);
+    if (wrap == Wrap::mirror) return draw_all<FloatRows<Wrap::mirror, perspective>>(work, sheet, triangles);
     if (perspective || std::max(sheet.width, sheet.height) > 1 << 13)
-        return draw_all<FloatRows<Wrap::clamp, perspective>>(out, sheet, vertices);
-    return sheet.width_bits >= 0 ? draw_all<FixedRows<true>>(out, sheet, vertices)
-                                 : draw_all<FixedRows<false>>(out, sheet, vertices);
+        return draw_all<FloatRows<Wrap::clamp, perspective>>(work, sheet, triangles);
+    return sheet.width_bits >= 0 ? draw_all<FixedRows<true>>(work, sheet, triangles)
+                                 : draw_all<FixedRows<false>>(work, sheet, triangles);
 }
 
-std::size_t draw(Image& out, const Texture& texture, std::span<const TexturedVertex> vertices, bool perspective) {
-    return perspective ? draw_wrapped<true>(out, texture, vertices) : draw_wrapped<false>(out, texture, vertices);
+std::size_t draw(const TexturedWork& work, std::span<const std::uint32_t> triangles) {
+    const Sheet sheet(work.texture.image);
+    return work.perspective ? draw_wrapped<true>(work, sheet, triangles) : draw_wrapped<false>(work, sheet, triangles);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -381,46 +295,12 @@ std::size_t draw(Image& out, const Texture& texture, std::span<const TexturedVer
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace barycert {
-namespace raster {
+namespace barycert::raster {
 HWY_EXPORT(draw);
 
-namespace {
-
-Status check_textured(const Image& image, const Texture& texture, std::span<const TexturedVertex> vertices,
-                      bool perspective) {
-    if (Status s = check_image(image); !s) return s;
-    if (Status s = check_image(texture.image); !s) return s;
-    if (Status s = check_raster_size({image.width, image.height}); !s) return s;
-    if (texture.filter != Filter::nearest)
-        return Error{.what = "the filter of a texture that is drawn on lanes",
-                     .expected = "Filter::nearest",
-                     .remedy = "use render() of scene.hpp, which filters"};
-    if (vertices.size() % 3 != 0)
-        return Error{.what = "number of vertices",
-                     .expected = "three for each triangle",
-                     .found = std::to_string(vertices.size())};
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const TexturedVertex& t = vertices[i];
-        const bool finite = std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.u) && std::isfinite(t.v);
-        if (!finite || !std::isfinite(t.w) || (perspective && !(t.w > 0)))
-            return Error{.what = "vertex " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
-                         .expected = perspective ? "finite numbers, w > 0" : "finite numbers",
-                         .found = finite ? "w = " + std::to_string(t.w) : "one that is not finite"};
-    }
-    return Done{};
+std::size_t draw_triangles(const TexturedWork& work, std::span<const std::uint32_t> triangles) {
+    return HWY_DYNAMIC_DISPATCH(draw)(work, triangles);
 }
 
-}  // namespace
-}  // namespace raster
-
-Result<std::size_t> draw_textured(Image& image, const Texture& texture, std::span<const TexturedVertex> vertices,
-                                  bool perspective) {
-    using namespace raster;
-    const ExactEnvironment environment;
-    if (Status s = check_textured(image, texture, vertices, perspective); !s) return s.error();
-    return HWY_DYNAMIC_DISPATCH(draw)(image, texture, vertices, perspective);
-}
-
-}  // namespace barycert
+}  // namespace barycert::raster
 #endif
