@@ -89,6 +89,18 @@ struct LocatorData {
             coarse_.get([&] { return Occupancy(index, filled, Occupancy::Detail::coarse); });
         }
     }
+    /// A call for one point found it outside: an occupancy is made when such points would have paid for it.
+    void found_outside() const {
+        const auto cells = static_cast<double>(std::max(index.cell_count(), Occupancy::least_cells));
+        const auto enough = static_cast<std::size_t>(cells * cost_of_coarse);
+        if (outside_.load(std::memory_order_relaxed) >= enough) return;
+        if (outside_.fetch_add(1, std::memory_order_relaxed) + 1 != enough) return;
+        base::in_arena(threads, index.cell_count(), [&] {
+            const double filled = filled_.get([&] { return filled_share(index); });
+            if (filled < max_filled && fine_.made() == nullptr)
+                coarse_.get([&] { return Occupancy(index, filled, Occupancy::Detail::coarse); });
+        });
+    }
     /// Cells are linked and proved, unless they are or `method` forbids it. Uses the threads of the calling arena.
     void prove(const std::function<void(const char*)>& stage = [](const char*) {}) const {
         if (method != Method::walk) return;
@@ -156,7 +168,8 @@ private:
     static constexpr double cost_of_coarse = 0.6, cost_of_fine = 6;  ///< in points outside
     static constexpr double max_filled = 0.95;
 
-    mutable std::atomic<std::size_t> asked_ = 0;  ///< points before the proof
+    mutable std::atomic<std::size_t> asked_ = 0;    ///< points before the proof
+    mutable std::atomic<std::size_t> outside_ = 0;  ///< points of calls for one, before an occupancy is made
     Lazy<Proved> proved_;
     Lazy<double> filled_;
     Lazy<Occupancy> coarse_, fine_;

@@ -135,6 +135,10 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     const auto location = [&](locate::Place owner, Feature feature) {
         return owner < 0 ? Location{} : Location{index.original[static_cast<std::size_t>(owner)], feature};
     };
+    const locate::Occupancy* const occupancy = data.occupancy();
+    // Who has no hint may be outside, and then a walk would be in vain.
+    const bool asked = occupancy != nullptr && hint < 0;
+    if (asked && !occupancy->may_hold(index, point)) return Location{};
     locate::PointRecord record{};
     for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
     locate::Place stuck = -1;
@@ -154,11 +158,12 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
         }
         stuck = end.outside ? ~end.cell : end.cell;
     }
-    if (data.occupancy() != nullptr && !data.occupancy()->may_hold(index, point)) return Location{};
+    if (occupancy != nullptr && !asked && !occupancy->may_hold(index, point)) return Location{};
     locate::Finder finder(data, index.nodes.data(), 1);
     locate::Place owner = -1;
     Feature feature = Feature::outside;
     finder.settle(record, stuck, owner, feature);
+    if (owner < 0 && occupancy == nullptr) data.found_outside();
     return location(owner, feature);
 }
 
