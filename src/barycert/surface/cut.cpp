@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -246,10 +247,33 @@ TierCounts place_points(const Mesh& mesh, const Level& level, const CutOptions& 
 }
 
 template <class Level>
+States states_of(const Mesh& mesh, const Level& level) {
+    constexpr std::size_t word = 64;
+    const std::size_t nodes = mesh.point_count();
+    States states{std::vector<std::uint8_t>(nodes), std::vector<std::uint64_t>((nodes + word - 1) / word)};
+    std::atomic<bool> all_known{true};
+    base::parallel_for(states.in_set.size(), grain / word, [&](std::size_t begin, std::size_t end) {
+        bool known = true;
+        for (std::size_t w = begin; w < end; ++w) {
+            std::uint64_t bits = 0;
+            for (std::size_t i = word * w; i < std::min(nodes, word * (w + 1)); ++i) {
+                const State state = level.state(i);
+                states.of[i] = state;
+                bits |= static_cast<std::uint64_t>(state & 1) << (i % word);
+                known &= state != unknown;
+            }
+            states.in_set[w] = bits;
+        }
+        if (!known) all_known = false;
+    });
+    states.all_known = all_known;
+    return states;
+}
+
+template <class Level>
 Result<Cut> cut_at(const Mesh& mesh, const Level& level, const CutOptions& options) {
-    States states(mesh.point_count());
-    base::parallel_for_each(mesh.point_count(), grain, [&](std::size_t i) { states[i] = level.state(i); });
     Cut cut;
+    const States states = states_of(mesh, level);
     if (Status done = cut_cells(mesh, states, cut.surface, cut.counts); !done) return done.error();
     cut.counts.tiers = place_points(mesh, level, options, cut.surface);
     take_rows(options.cell_fields, cut.surface.mesh_cells, 1, cut.surface.cell_fields);

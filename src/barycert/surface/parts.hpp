@@ -62,24 +62,18 @@ inline Sign orientation(const Mesh& mesh, const Mesh::Index* corners) {
     return mesh.dimension == 2 ? orient2d(at(0), at(1), at(2)) : orient3d(at(0), at(1), at(2), at(3));
 }
 
-/// The State of each node: bytes in words, which lanes read.
+/// The State of each node.
 struct States {
-    explicit States(std::size_t nodes) : words((nodes + 3) / 4), count(nodes) {}
-
-    std::uint8_t& operator[](std::size_t node) { return reinterpret_cast<std::uint8_t*>(words.data())[node]; }
-    std::uint8_t operator[](std::size_t node) const {
-        return reinterpret_cast<const std::uint8_t*>(words.data())[node];
-    }
-
-    std::vector<std::uint32_t> words;
-    std::size_t count;  ///< of nodes
+    std::vector<std::uint8_t> of;
+    std::vector<std::uint64_t> in_set;  ///< bit 0 of each state, 64 nodes a word, the lowest first
+    bool all_known = true;
 };
 
 /// What mixed_cells returns if a corner is no node.
 inline constexpr std::size_t no_node = ~std::size_t{0};
 
-/// On SIMD lanes: which of `count` < 2^32 cells of n corners may hold a part of the cut, or have a corner whose state
-/// is unknown, ascending in out[0 ...]; returns how many.
+/// Which of `count` < 2^32 cells of n corners have corners in the set and corners that are not, ascending in
+/// out[0 ...]; returns how many. All of them where the state of some node is unknown.
 std::size_t mixed_cells(const Mesh::Index* corners, std::size_t n, std::size_t count, const States& states,
                         std::uint32_t* out);
 

@@ -16,15 +16,18 @@ namespace {
 using Index = Mesh::Index;
 
 /// A cell with a part of the surface.
+template <std::size_t n>
 struct CutCell {
+    std::array<Index, n> corners;  ///< copied: cells that are cut lie anywhere among the others
     Index cell = 0;
     std::uint8_t states = 0;  ///< index of its CellCase
     std::int8_t sign = 0;     ///< its orientation; 0: to be left out
 };
 
 /// Cells that one task looks at, in their order: the work does not depend on threads.
+template <std::size_t n>
 struct Block {
-    std::vector<CutCell> cells;
+    std::vector<CutCell<n>> cells;
     std::uint64_t not_finite = 0, degenerate = 0;
     std::size_t first_part = 0;  ///< of the surface
 };
@@ -118,9 +121,7 @@ public:
     }
 
 private:
-    const Index* corners(Index cell) const { return mesh_.cells.data() + n * static_cast<std::size_t>(cell); }
-
-    static const CellCase<n>& case_of(const CutCell& c) { return cell_cases<n>[c.states]; }
+    static const CellCase<n>& case_of(const CutCell<n>& c) { return cell_cases<n>[c.states]; }
 
     /// The node of the lower number first; a node itself twice.
     struct Ends {
@@ -138,9 +139,9 @@ private:
         std::atomic<bool> good{true};
         blocks_.resize((count + block_size - 1) / block_size);
         base::parallel_for(blocks_.size(), [&](std::size_t b) {
-            Block& block = blocks_[b];
+            Block<n>& block = blocks_[b];
             const std::size_t begin = b * block_size, size = std::min(count - begin, block_size);
-            const Index* const first = corners(static_cast<Index>(begin));
+            const Index* const first = mesh_.cells.data() + n * begin;
             std::array<std::uint32_t, block_size> mixed;
             const std::size_t found = mixed_cells(first, n, size, states_, mixed.data());
             if (found == no_node) {
@@ -152,7 +153,7 @@ private:
                 const Index* const corner = mesh_.cells.data() + n * cell;
                 std::size_t states = 0;
                 for (std::size_t i = 0; i < n; ++i)
-                    states |= static_cast<std::size_t>(states_[static_cast<std::size_t>(corner[i])]) << (2 * i);
+                    states |= static_cast<std::size_t>(states_.of[static_cast<std::size_t>(corner[i])]) << (2 * i);
                 const CellCase<n>& what = cell_cases<n>[states];
                 if (what.part_count == 0) {
                     block.not_finite += what.left_out ? 1 : 0;
@@ -160,7 +161,9 @@ private:
                 }
                 const auto sign = static_cast<std::int8_t>(orientation(mesh_, corner));
                 block.degenerate += sign == 0 ? 1 : 0;
-                block.cells.push_back({static_cast<Index>(cell), static_cast<std::uint8_t>(states), sign});
+                CutCell<n> cut{{}, static_cast<Index>(cell), static_cast<std::uint8_t>(states), sign};
+                std::copy_n(corner, n, cut.corners.data());
+                block.cells.push_back(cut);
             }
         });
         return good;
@@ -168,23 +171,23 @@ private:
 
     void orient_flat_cells() {
         std::vector<Index> flat;
-        for (const Block& block : blocks_) {
-            for (const CutCell& c : block.cells)
+        for (const Block<n>& block : blocks_) {
+            for (const CutCell<n>& c : block.cells)
                 if (c.sign == 0) flat.push_back(c.cell);
         }
         if (flat.empty()) return;
         const std::vector<std::int8_t> signs = flat_signs(mesh_, flat);
-        for (Block& block : blocks_) {
-            for (CutCell& c : block.cells)
+        for (Block<n>& block : blocks_) {
+            for (CutCell<n>& c : block.cells)
                 if (c.sign == 0) c.sign = signs[static_cast<std::size_t>(c.cell)];
-            std::erase_if(block.cells, [](const CutCell& c) { return c.sign == 0; });
+            std::erase_if(block.cells, [](const CutCell<n>& c) { return c.sign == 0; });
         }
     }
 
     void count_parts() {
-        for (Block& block : blocks_) {
+        for (Block<n>& block : blocks_) {
             block.first_part = part_count_;
-            for (const CutCell& c : block.cells) part_count_ += case_of(c).part_count;
+            for (const CutCell<n>& c : block.cells) part_count_ += case_of(c).part_count;
         }
     }
 
@@ -192,15 +195,21 @@ private:
     /// to come: these lie anywhere in memory.
     template <class Ask, class Visit>
     void for_cut_cells(Ask ask, Visit visit) const {
-        constexpr std::size_t ahead = 12;
+        for_cut_cells(
+            ask, [](std::size_t) {}, visit);
+    }
+    /// And, later, ask_again(node), for what lies where the node's first answer says.
+    template <class Ask, class AskAgain, class Visit>
+    void for_cut_cells(Ask ask, AskAgain ask_again, Visit visit) const {
+        constexpr std::size_t ahead = 24, again = 12;
         base::parallel_for(blocks_.size(), [&](std::size_t b) {
-            const std::vector<CutCell>& cells = blocks_[b].cells;
+            const std::vector<CutCell<n>>& cells = blocks_[b].cells;
             std::size_t part = blocks_[b].first_part;
             for (std::size_t k = 0; k < cells.size(); ++k) {
-                if (k + ahead < cells.size()) {
-                    const Index* const corner = corners(cells[k + ahead].cell);
-                    for (std::size_t i = 0; i < n; ++i) ask(static_cast<std::size_t>(corner[i]));
-                }
+                if (k + ahead < cells.size())
+                    for (const Index node : cells[k + ahead].corners) ask(static_cast<std::size_t>(node));
+                if (k + again < cells.size())
+                    for (const Index node : cells[k + again].corners) ask_again(static_cast<std::size_t>(node));
                 visit(cells[k], part);
                 part += case_of(cells[k]).part_count;
             }
@@ -210,10 +219,10 @@ private:
     template <class F>
     void for_crossings(const std::vector<std::size_t>& counters, F&& f) const {
         for_cut_cells([&](std::size_t node) { __builtin_prefetch(&counters[node], 1); },
-                      [&](const CutCell& c, std::size_t) {
+                      [&](const CutCell<n>& c, std::size_t) {
                           const CellCase<n>& what = case_of(c);
-                          const Index* const corner = corners(c.cell);
-                          for (std::size_t i = 0; i < what.crossing_count; ++i) f(ends(corner, what.crossings[i]));
+                          for (std::size_t i = 0; i < what.crossing_count; ++i)
+                              f(ends(c.corners.data(), what.crossings[i]));
                       });
     }
 
@@ -252,7 +261,7 @@ private:
                     const auto low = static_cast<Index>(i), high = high_[begin_[i] + k];
                     end_[first_[i] + k] = high;
                     Index* const edge = surface.mesh_edges.data() + 2 * (first_[i] + k);
-                    const bool low_inside = (states_[i] & 1) != 0;
+                    const bool low_inside = (states_.of[i] & 1) != 0;
                     edge[0] = low_inside ? low : high;
                     edge[1] = low_inside ? high : low;
                     own += low == high ? 1 : 0;
@@ -280,11 +289,11 @@ private:
         return static_cast<Index>(first + lower);
     }
 
-    void write_parts_of(const CutCell& c, std::size_t part, Surface& surface) const {
+    void write_parts_of(const CutCell<n>& c, std::size_t part, Surface& surface) const {
         const CellCase<n>& what = case_of(c);
-        const Index* const corner = corners(c.cell);
         std::array<Index, n> points{};
-        for (std::size_t i = 0; i < what.crossing_count; ++i) points[i] = number(ends(corner, what.crossings[i]));
+        for (std::size_t i = 0; i < what.crossing_count; ++i)
+            points[i] = number(ends(c.corners.data(), what.crossings[i]));
         for (std::size_t p = 0; p < what.part_count; ++p) {
             Index* const to = surface.cells.data() + (n - 1) * (part + p);
             for (std::size_t i = 0; i < n - 1; ++i) to[i] = points[what.parts[p][i]];
@@ -297,8 +306,9 @@ private:
         base::resize_large(surface.cells, (n - 1) * part_count_);
         base::resize_large(surface.mesh_cells, part_count_);
         for_cut_cells([&](std::size_t node) { __builtin_prefetch(&first_[node]); },
-                      [&](const CutCell& c, std::size_t part) { write_parts_of(c, part, surface); });
-        for (const Block& block : blocks_) {
+                      [&](std::size_t node) { __builtin_prefetch(&end_[first_[node]]); },
+                      [&](const CutCell<n>& c, std::size_t part) { write_parts_of(c, part, surface); });
+        for (const Block<n>& block : blocks_) {
             counts.cells += block.cells.size();
             counts.not_finite += block.not_finite;
             counts.degenerate += block.degenerate;
@@ -307,7 +317,7 @@ private:
 
     const Mesh& mesh_;
     const States& states_;
-    std::vector<Block> blocks_;
+    std::vector<Block<n>> blocks_;
     std::size_t part_count_ = 0;
     std::vector<std::size_t> begin_, first_;  ///< of each node, and the end of all
     std::vector<Index> high_, end_;
