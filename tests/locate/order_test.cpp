@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -162,6 +163,45 @@ TEST(LocateOrder, TheProofComesWhenItPays) {
             EXPECT_EQ(proved.ways.walk, counts[1].ways.walk) << stem;
         }
     }
+}
+
+TEST(LocateOrder, CallsForOnePointRememberWhereNoCellIs) {
+    for (const char* stem : {"bracket", "cube-hole", "plate"}) {
+        base::Random random(base::hash64(stem));
+        const Mesh mesh = own_mesh(stem);
+        const std::vector<double> points = awkward_points(mesh, 3000, random);
+        for (const Prove prove : {Prove::at_once, Prove::never}) {
+            // One that many calls have asked, with hints and without, and one that none has.
+            const auto locator = Locator::build(mesh, {.prove = prove});
+            const Answers right = ask(*Locator::build(mesh), points, 1);
+            const std::size_t d = mesh.corners() - 1;
+            for (const bool hints : {true, false}) {
+                Mesh::Index hint = -1;
+                for (std::size_t i = 0; i < right.cells.size(); ++i) {
+                    const Location found = locator->locate(points.data() + d * i, hint).value();
+                    ASSERT_EQ(found.cell, right.cells[i]) << stem << " point " << i;
+                    ASSERT_EQ(found.feature, right.features[i]) << stem << " point " << i;
+                    if (hints) hint = found.cell;
+                }
+            }
+        }
+    }
+    // What is remembered takes memory, and is made after so many points outside as pay for it.
+    const Mesh mesh = own_mesh("bracket");
+    const auto locator = Locator::build(mesh);
+    base::Random random(9);
+    std::size_t few = 0;
+    for (std::size_t outside = 0; outside < mesh.cell_count();) {
+        double x[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            double low = HUGE_VAL, high = -HUGE_VAL;
+            for (std::size_t i = k; i < mesh.points.size(); i += 3)
+                low = std::min(low, mesh.points[i]), high = std::max(high, mesh.points[i]);
+            x[k] = random.uniform(low, high);
+        }
+        if (locator->locate(x)->cell < 0 && ++outside == 200) few = locator->bytes();
+    }
+    EXPECT_GT(locator->bytes(), few);
 }
 
 TEST(LocateOrder, ThreadsAskWhileAnotherProves) {
