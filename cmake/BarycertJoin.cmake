@@ -29,10 +29,10 @@ function(barycert_join target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# barycert_cold(TARGET): for code that reads options, writes words, or compares files in tests. No time is spent in it,
-# and -O3 takes half as long again to compile.
+# barycert_cold(TARGET): for code in which no time is spent, as that which reads options or writes words, and tests: -O3
+# takes half as long again to compile. Not -O0, for exact judges of tests take their time.
 function(barycert_cold target)
-  target_compile_options(${target} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
 endfunction()
 
 # barycert_objects(NAME TARGET REGEX [BUT REGEX]): the sources of the target that match become an object library NAME,

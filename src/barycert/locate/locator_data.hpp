@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -75,31 +76,15 @@ struct LocatorData {
         if (proved() != nullptr && !proved()->proof.contested.empty() &&
             points > index.cell_count() / ContestedCells::cost_of_list)
             contested_cells().prepare();
-        // As measured: a point outside takes about 100 ns without an occupancy; to make the coarse one takes about 60
-        // ns a cell. The fine one takes about 600 and saves a few more nanoseconds a point: where there are so many
-        // points, they are taken not to be the last. Of few cells they take as long as of a certain number.
-        const auto cells = static_cast<double>(std::max(index.cell_count(), Occupancy::least_cells));
-        if (static_cast<double>(points) < cells * cost_of_coarse) return;
-        const double filled = filled_.get([&] { return filled_share(index); });
-        const double outside = static_cast<double>(points) * (1 - filled);
-        if (!(filled < max_filled) || outside < cells * cost_of_coarse) return;
-        if (outside >= cells * cost_of_fine) {
-            fine_.get([&] { return Occupancy(index, filled, Occupancy::Detail::fine); });
-        } else if (fine_.made() == nullptr) {
-            coarse_.get([&] { return Occupancy(index, filled, Occupancy::Detail::coarse); });
-        }
+        if (static_cast<double>(points) < cost_of_coarse * cells_of_occupancy()) return;
+        expect_outside(static_cast<double>(points) * (1 - filled()));
     }
-    /// A call for one point found it outside: an occupancy is made when such points would have paid for it.
+    /// A call for one point found it outside without an occupancy.
     void found_outside() const {
-        const auto cells = static_cast<double>(std::max(index.cell_count(), Occupancy::least_cells));
-        const auto enough = static_cast<std::size_t>(cells * cost_of_coarse);
+        const auto enough = static_cast<std::size_t>(std::ceil(cost_of_coarse * cells_of_occupancy()));
         if (outside_.load(std::memory_order_relaxed) >= enough) return;
-        if (outside_.fetch_add(1, std::memory_order_relaxed) + 1 != enough) return;
-        base::in_arena(threads, index.cell_count(), [&] {
-            const double filled = filled_.get([&] { return filled_share(index); });
-            if (filled < max_filled && fine_.made() == nullptr)
-                coarse_.get([&] { return Occupancy(index, filled, Occupancy::Detail::coarse); });
-        });
+        if (outside_.fetch_add(1, std::memory_order_relaxed) + 1 == enough)
+            base::in_arena(threads, index.cell_count(), [&] { expect_outside(static_cast<double>(enough)); });
     }
     /// Cells are linked and proved, unless they are or `method` forbids it. Uses the threads of the calling arena.
     void prove(const std::function<void(const char*)>& stage = [](const char*) {}) const {
@@ -165,7 +150,26 @@ struct LocatorData {
     }
 
 private:
-    static constexpr double cost_of_coarse = 0.6, cost_of_fine = 6;  ///< in points outside
+    double filled() const {
+        return filled_.get([&] { return filled_share(index); });
+    }
+    /// Of few cells an occupancy takes as long as of a certain number.
+    double cells_of_occupancy() const {
+        return static_cast<double>(std::max(index.cell_count(), Occupancy::least_cells));
+    }
+    /// Makes the occupancy that pays for so many points outside. As measured: one takes about 100 ns without; to make
+    /// the coarse one takes about 60 ns a cell. The fine one takes about 600 and saves a few more nanoseconds a point:
+    /// where there are so many points, they are taken not to be the last.
+    void expect_outside(double points) const {
+        if (!(filled() < max_filled) || points < cost_of_coarse * cells_of_occupancy()) return;
+        if (points >= cost_of_fine * cells_of_occupancy()) {
+            fine_.get([&] { return Occupancy(index, filled(), Occupancy::Detail::fine); });
+        } else if (fine_.made() == nullptr) {
+            coarse_.get([&] { return Occupancy(index, filled(), Occupancy::Detail::coarse); });
+        }
+    }
+
+    static constexpr double cost_of_coarse = 0.6, cost_of_fine = 6;  ///< in points outside, a cell
     static constexpr double max_filled = 0.95;
 
     mutable std::atomic<std::size_t> asked_ = 0;    ///< points before the proof

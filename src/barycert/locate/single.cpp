@@ -136,9 +136,9 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
         return owner < 0 ? Location{} : Location{index.original[static_cast<std::size_t>(owner)], feature};
     };
     const locate::Occupancy* const occupancy = data.occupancy();
+    const auto no_cell_is_near = [&] { return occupancy != nullptr && !occupancy->may_hold(index, point); };
     // Who has no hint may be outside, and then a walk would be in vain.
-    const bool asked = occupancy != nullptr && hint < 0;
-    if (asked && !occupancy->may_hold(index, point)) return Location{};
+    if (hint < 0 && no_cell_is_near()) return Location{};
     locate::PointRecord record{};
     for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
     locate::Place stuck = -1;
@@ -158,7 +158,7 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
         }
         stuck = end.outside ? ~end.cell : end.cell;
     }
-    if (occupancy != nullptr && !asked && !occupancy->may_hold(index, point)) return Location{};
+    if (hint >= 0 && no_cell_is_near()) return Location{};
     locate::Finder finder(data, index.nodes.data(), 1);
     locate::Place owner = -1;
     Feature feature = Feature::outside;

@@ -25,7 +25,6 @@
 #define HWY_TARGET_INCLUDE "barycert/raster/textured_lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
 
-#include "barycert/core/lane_loop-inl.hpp"
 #include "barycert/raster/triangle_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -64,8 +63,6 @@ HWY_INLINE void fetch_some(const std::int32_t* texels, IntLanes index, std::int3
 template <bool power_of_two>
 class FixedRows {
 public:
-    static constexpr bool has_perspective = false;
-
     FixedRows(const Sheet& sheet, const Triangles& set_up, std::size_t l)
         : sheet_(sheet), u_(set_up.u.of(l)), v_(set_up.v.of(l)) {
         const Ints tag;
@@ -164,8 +161,6 @@ HWY_INLINE IntLanes texel_index(FloatLanes x, FloatLanes size, FloatLanes invers
 template <Wrap wrap, bool perspective>
 class FloatRows {
 public:
-    static constexpr bool has_perspective = perspective;
-
     FloatRows(const Sheet& sheet, const Triangles& set_up, std::size_t l)
         : sheet_(sheet), u_(set_up.u.of(l)), v_(set_up.v.of(l)) {
         if constexpr (perspective) q_ = set_up.q.of(l), max_w_ = 256 * set_up.least_w[l];
@@ -244,7 +239,7 @@ std::size_t draw_all(const TexturedWork& work, const Sheet& sheet, std::span<con
     Triangles set_up;
     while (!triangles.empty()) {
         const auto used = std::min(hn::Lanes(Doubles()), triangles.size());
-        set_up.fill(work, triangles.first(used), Rows::has_perspective, sheet.width, sheet.height);
+        set_up.fill(work, triangles.first(used));
         for (std::size_t l = used; l < std::min(2 * used, triangles.size()); ++l) {
             const auto* const next = work.corners(triangles[l]);
             __builtin_prefetch(next);

@@ -65,9 +65,8 @@ struct Triangles {
     HWY_ALIGN double largest[capacity];  ///< of |u| and |v| at the vertices
     HWY_ALIGN double least_w[capacity];
 
-    /// At most one triangle a lane; `width` and `height`: of the texture.
-    void fill(const TexturedWork& work, std::span<const std::uint32_t> triangles, bool perspective, double width,
-              double height) {
+    /// At most one triangle a lane.
+    void fill(const TexturedWork& work, std::span<const std::uint32_t> triangles) {
         const Doubles tag;
         // Gathers are slower than this on some processors.
         constexpr std::size_t members = 5;
@@ -93,7 +92,8 @@ struct Triangles {
             hn::Store(hn::Mul(hn::Sub(hn::Mul(g1, dy2), hn::Mul(g2, dy1)), inverse_area), tag, p.along);
             hn::Store(hn::Mul(hn::Sub(hn::Mul(g2, dx1), hn::Mul(g1, dx2)), inverse_area), tag, p.up);
         };
-        const auto w = hn::Set(tag, width), h = hn::Set(tag, height);
+        const auto w = hn::Set(tag, static_cast<double>(work.texture.image.width));
+        const auto h = hn::Set(tag, static_cast<double>(work.texture.image.height));
         DoubleLanes s[3], t[3];
         auto most = hn::Zero(tag);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -101,7 +101,7 @@ struct Triangles {
             most = hn::Max(most, hn::Max(hn::Abs(s[k]), hn::Abs(t[k])));
         }
         hn::Store(most, tag, largest);
-        if (perspective) {
+        if (work.perspective) {
             const auto one = hn::Set(tag, 1);
             const DoubleLanes w0 = corner(0, 2), w1 = corner(1, 2), w2 = corner(2, 2);
             const DoubleLanes inverse[3] = {hn::Div(one, w0), hn::Div(one, w1), hn::Div(one, w2)};

@@ -44,7 +44,7 @@ std::size_t mixed(const Mesh::Index* corners, std::size_t count, const States& s
             return no_node;
         for (std::size_t cell = begin; cell < end; ++cell) {
             const Mesh::Index* const c = corners + n * cell;
-            __builtin_prefetch(c + 2 * n * at_a_time);
+            __builtin_prefetch(corners + n * std::min(cell + 2 * at_a_time, count - 1));
             const auto bit = [&](std::size_t i) {
                 const auto node = static_cast<std::uint32_t>(c[i]);
                 return in_set[node / 64] >> (node % 64);

@@ -18,7 +18,7 @@ using Index = Mesh::Index;
 /// A cell with a part of the surface.
 template <std::size_t n>
 struct CutCell {
-    std::array<Index, n> corners;  ///< copied: cells that are cut lie anywhere among the others
+    std::array<Index, n> corners{};  ///< copied: cells that are cut lie anywhere among the others
     Index cell = 0;
     std::uint8_t states = 0;  ///< index of its CellCase
     std::int8_t sign = 0;     ///< its orientation; 0: to be left out
@@ -150,19 +150,19 @@ private:
             }
             for (std::size_t k = 0; k < found; ++k) {
                 const std::size_t cell = begin + mixed[k];
-                const Index* const corner = mesh_.cells.data() + n * cell;
+                CutCell<n> cut{.cell = static_cast<Index>(cell)};
+                std::copy_n(mesh_.cells.data() + n * cell, n, cut.corners.data());
                 std::size_t states = 0;
                 for (std::size_t i = 0; i < n; ++i)
-                    states |= static_cast<std::size_t>(states_.of[static_cast<std::size_t>(corner[i])]) << (2 * i);
-                const CellCase<n>& what = cell_cases<n>[states];
+                    states |= static_cast<std::size_t>(states_.of[static_cast<std::size_t>(cut.corners[i])]) << (2 * i);
+                cut.states = static_cast<std::uint8_t>(states);
+                const CellCase<n>& what = case_of(cut);
                 if (what.part_count == 0) {
                     block.not_finite += what.left_out ? 1 : 0;
                     continue;
                 }
-                const auto sign = static_cast<std::int8_t>(orientation(mesh_, corner));
-                block.degenerate += sign == 0 ? 1 : 0;
-                CutCell<n> cut{{}, static_cast<Index>(cell), static_cast<std::uint8_t>(states), sign};
-                std::copy_n(corner, n, cut.corners.data());
+                cut.sign = static_cast<std::int8_t>(orientation(mesh_, cut.corners.data()));
+                block.degenerate += cut.sign == 0 ? 1 : 0;
                 block.cells.push_back(cut);
             }
         });
@@ -192,13 +192,7 @@ private:
     }
 
     /// visit(cell) for the cut cells of all blocks, in parallel; before that, ask(node) for the corners of a cell soon
-    /// to come: these lie anywhere in memory.
-    template <class Ask, class Visit>
-    void for_cut_cells(Ask ask, Visit visit) const {
-        for_cut_cells(
-            ask, [](std::size_t) {}, visit);
-    }
-    /// And, later, ask_again(node), for what lies where the node's first answer says.
+    /// to come, and a little later ask_again(node): what is asked for lies anywhere in memory.
     template <class Ask, class AskAgain, class Visit>
     void for_cut_cells(Ask ask, AskAgain ask_again, Visit visit) const {
         constexpr std::size_t ahead = 24, again = 12;
@@ -218,7 +212,7 @@ private:
 
     template <class F>
     void for_crossings(const std::vector<std::size_t>& counters, F&& f) const {
-        for_cut_cells([&](std::size_t node) { __builtin_prefetch(&counters[node], 1); },
+        for_cut_cells([&](std::size_t node) { __builtin_prefetch(&counters[node], 1); }, [](std::size_t) {},
                       [&](const CutCell<n>& c, std::size_t) {
                           const CellCase<n>& what = case_of(c);
                           for (std::size_t i = 0; i < what.crossing_count; ++i)
