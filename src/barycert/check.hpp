@@ -62,7 +62,10 @@ public:
 
 private:
     friend CheckReport check_mesh(const Mesh&, const CheckOptions&);
+    friend CheckReport check_surface(const Surface&, const CheckOptions&);
+    friend CheckReport check_plc(const Plc&, const CheckOptions&);
     Certificate(Verdict verdict, const Mesh& mesh);
+    explicit Certificate(Verdict verdict) : verdict_(verdict) {}
 
     Verdict verdict_ = Verdict::not_checked;
     std::uint64_t fingerprint_ = 0;
@@ -129,6 +132,20 @@ enum class DefectKind : std::uint8_t {
     crack,
     missing_cell,
     near_hanging,  ///< CheckOptions::near
+    // Of surfaces and PLCs.
+    bad_facet,
+    degenerate_triangle,
+    duplicate_triangle,
+    self_intersection,
+    node_on_facet,
+    segment_in_facet,
+    open_edge,
+    nonmanifold_edge,
+    nonmanifold_node,
+    misoriented_edge,
+    inside_out,
+    facet_off_plane,
+    misplaced_point,
 };
 
 struct DefectText {
@@ -141,7 +158,7 @@ struct DefectText {
     std::string_view one = {}, more = {};  ///< of those that do: what it means for the verdict, after its count
 };
 
-inline constexpr std::array<DefectText, 26> defect_texts{{
+inline constexpr std::array<DefectText, 39> defect_texts{{
     {DefectKind::bad_structure, "bad_structure", "P1", "arrays whose sizes are no whole number of nodes or cells",
      "give d coordinates per node and d + 1 vertices per cell", true, "array has a wrong size",
      "arrays have a wrong size"},
@@ -198,6 +215,35 @@ inline constexpr std::array<DefectText, 26> defect_texts{{
     {DefectKind::missing_cell, "missing_cell", "", "voids that one cell would fill", "is one cell missing?", false},
     {DefectKind::near_hanging, "near_hanging", "", "nodes that nearly lie within an edge or a facet of another cell",
      "split that cell at the node, if the cells on both sides should be neighbours", false},
+    {DefectKind::bad_facet, "bad_facet", "S1", "facets whose segments cross, or whose nodes fold over or lie on a line",
+     "correct the polygons of the facet, or cut it into triangles", true, "facet is not simple",
+     "facets are not simple"},
+    {DefectKind::degenerate_triangle, "degenerate_triangle", "S1", "triangles with an area of exactly zero",
+     "remove them, and split the triangle at their longest side", true, "triangle is degenerate",
+     "triangles are degenerate"},
+    {DefectKind::duplicate_triangle, "duplicate_triangle", "S2", "triangles with the same nodes as another",
+     "keep one of each", true, "triangle is a duplicate", "triangles are duplicates"},
+    {DefectKind::self_intersection, "self_intersection", "S2",
+     "pairs of triangles that meet outside common nodes and edges", "move them apart, or cut both where they meet",
+     true, "pair of triangles intersects", "pairs of triangles intersect"},
+    {DefectKind::node_on_facet, "node_on_facet", "S2", "nodes on a segment or a facet that does not have them",
+     "make the node one of its nodes", true, "node lies on a facet that does not have it",
+     "nodes lie on facets that do not have them"},
+    {DefectKind::segment_in_facet, "segment_in_facet", "S2", "segments inside a facet that does not have them",
+     "add the segment to that facet, as a polygon of two nodes", true, "segment lies in a facet that does not have it",
+     "segments lie in facets that do not have them"},
+    {DefectKind::open_edge, "open_edge", "S3", "edges of one triangle, where the surface is open", "close the surface",
+     false, "edge is open", "edges are open"},
+    {DefectKind::nonmanifold_edge, "nonmanifold_edge", "", "edges of more than two triangles", "", false},
+    {DefectKind::nonmanifold_node, "nonmanifold_node", "", "nodes where the surface touches itself", "", false},
+    {DefectKind::misoriented_edge, "misoriented_edge", "", "edges whose two triangles are turned against each other",
+     "turn the triangles on one side", false},
+    {DefectKind::inside_out, "inside_out", "", "closed shells whose normals point into what they enclose",
+     "turn their triangles", false},
+    {DefectKind::facet_off_plane, "facet_off_plane", "", "facets whose nodes do not lie exactly in one plane", "",
+     false},
+    {DefectKind::misplaced_point, "misplaced_point", "", "hole and region points on a facet, or in no closed part",
+     "move the point into the part that is meant", false},
 }};
 
 inline constexpr std::size_t defect_kind_count = defect_texts.size();
@@ -207,7 +253,7 @@ constexpr const DefectText& defect_text(DefectKind p) {
 }
 
 /// A set of kinds: bit i is kind i.
-using DefectSet = std::uint32_t;
+using DefectSet = std::uint64_t;
 constexpr DefectSet defect_bit(DefectKind p) {
     return DefectSet{1} << static_cast<unsigned>(p);
 }
@@ -368,8 +414,59 @@ void count_not_finite(const Field& field, bool of_cells, std::vector<NotFinite>&
 /// The fields of nodes that have such values, then those of cells.
 std::vector<NotFinite> not_finite_values(const Mesh& mesh);
 
+// Surfaces and PLCs. Two nodes at one place are one node here, as for TetGen. A surface is certified if
+//   S1  every coordinate is finite, every corner is a node, no triangle is degenerate, and every facet of a PLC can be
+//       cut into triangles of its nodes (read_surface);
+//   S2  two triangles meet, if at all, in a common node or edge of both; no node or segment of a PLC lies on a facet
+//       that does not have it;
+//   S3  it is closed: each edge has two triangles or more. Of a PLC, which may have open facets inside: the facets
+//       enclose a region.
+// All of it is decided exactly, from signs of orientations of nodes. Facets of a PLC whose nodes do not lie in one
+// plane stand for the triangles that they are cut into; how far off they are is told.
+
+/// A set of triangles connected over edges.
+struct SurfaceShell {
+    std::uint64_t triangles = 0;
+    bool closed = true;            ///< each edge has two triangles or more
+    std::optional<double> volume;  ///< if each edge has as many one way as the other: signed, exact and rounded once
+    double area = 0;               ///< in long double: sums of square roots are not rational
+    std::int64_t inside = -1;      ///< the smallest shell that encloses it; -1: none
+    Mesh::Index first = -1;        ///< its lowest triangle
+};
+
+/// A bounded part of space between the triangles.
+struct SurfaceRegion {
+    double volume = 0;        ///< exact and rounded once, without what lies inside other shells within it
+    std::int64_t shell = -1;  ///< that encloses it
+    bool hole = false;        ///< a hole point of the PLC lies in it
+};
+
+/// A hole or region point of a PLC.
+struct PlcSeed {
+    bool hole = true;
+    std::uint64_t number = 0;  ///< from 0, in the order of the file
+    std::int64_t region = -1;  ///< that holds it; -1: none
+    Mesh::Index facet = -1;    ///< that it lies on
+};
+
+struct SurfaceReport {
+    bool plc = false;          ///< facets, segments and points
+    std::uint64_t facets = 0;  ///< of the file: polygons, or facets of a PLC
+    std::uint64_t edges = 0;
+    std::uint64_t places = 0;  ///< nodes that triangles have, those at one place counted once
+    bool closed = false, manifold = false, oriented = false, outward = false;
+    std::uint64_t shell_count = 0;
+    std::vector<SurfaceShell> shells;    ///< the first 1000; without them if triangles intersect: `inside`, regions
+    std::vector<SurfaceRegion> regions;  ///< in the order of their lowest triangle
+    std::vector<PlcSeed> seeds;
+    std::uint64_t off_plane = 0;    ///< facets whose nodes are not exactly in one plane
+    double max_off_plane = 0;       ///< distance of a node from the plane of its facet, rounded
+    double relative_off_plane = 0;  ///< that over the extent of the PLC
+};
+
 struct CheckReport {
     int dimension = 3;
+    std::optional<SurfaceReport> surface;  ///< of a surface or PLC: `cells` are triangles
     std::uint64_t nodes = 0, cells = 0;
     int threads = 0;
     double seconds = 0;
@@ -406,6 +503,11 @@ struct CheckReport {
 };
 
 CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options = {});
+
+/// Takes `threads`, `examples`, `contacts`, `near`, `verdict_only` and `progress` of the options. Time O(n log n), and
+/// as check_mesh for pairs.
+CheckReport check_surface(const Surface& surface, const CheckOptions& options = {});
+CheckReport check_plc(const Plc& plc, const CheckOptions& options = {});
 
 // What has one right answer, made so.
 

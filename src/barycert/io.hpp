@@ -10,10 +10,12 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
+#include "barycert/surface.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert {
@@ -179,8 +181,8 @@ Status write_vtu(const Mesh& mesh, const std::string& path, VtkData data = VtkDa
 // Piecewise linear complexes (PLCs): polygons in space that bound and cut the region to be meshed.
 //
 // TetGen gets arrays: its own loaders read `010` as 8 and `1.0D+03` as 1, shift columns at a `nan`, ignore node numbers
-// and crash on truncated files. In: .poly .smesh (nodes in the file or in STEM.node), .off, .stl (text or binary), .ply
-// (text). Memory stays within a small multiple of the file's size. A number with which the file ends is refused, for
+// and crash on truncated files. In: .poly .smesh (nodes in the file or in STEM.node); .off, .obj; .stl and .ply, text
+// or binary. Memory stays within a small multiple of the file's size. A number with which the file ends is refused, for
 // more digits may have been cut. Indices in memory are 0-based.
 
 struct PlcFacet {
@@ -204,7 +206,7 @@ struct Plc {
     std::size_t point_count() const { return points.size() / 3; }
 };
 
-inline constexpr std::array<std::string_view, 5> plc_extensions{".poly", ".smesh", ".off", ".stl", ".ply"};
+inline constexpr std::array<std::string_view, 6> plc_extensions{".poly", ".smesh", ".off", ".stl", ".ply", ".obj"};
 
 /// An error of a whole file.
 inline Error file_error(std::string file, std::string what, std::string expected = {}, std::string found = {},
@@ -274,6 +276,22 @@ struct ReadOptions {
 /// and .meshb; VTK's .vtu, .vtk, .vtp, .pvtu, .vtm, .pvd and .vtu.series. The format is told by the first bytes, or
 /// else by the suffix. Error: a file of another format is named as what it is, with the command that converts it.
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options = {});
+
+/// Reads triangles in space.
+///
+/// - .stl (text or binary; corners of equal coordinates are one node), .ply (text or binary), .off, .obj; .poly and
+///   .smesh (read_plc); triangles of any file that read_mesh takes. Second-order triangles by their corners.
+/// - A polygon is cut into triangles of its own corners: four corners at the lower one, unless only the other diagonal
+///   leaves triangles that turn one way; more by a triangulation in the projection along the longest axis of its
+///   normal, whose signs are exact. So is a facet of a PLC, with its holes. What cannot be cut (it crosses itself, or
+///   is flat) is left out, and told. Surface::facets says which cells are of one polygon.
+/// - Properties of .ply files that are numbers, and fields of meshes, are fields.
+///
+/// Error: as in read_plc and read_mesh; tetrahedra; no triangles.
+Result<Surface> read_surface(const std::string& path, const ReadOptions& options = {});
+
+/// A mesh, or triangles in space: of files that either may be in, triangles with z = 0 throughout are a mesh.
+Result<std::variant<Mesh, Surface>> read_mesh_or_surface(const std::string& path, const ReadOptions& options = {});
 
 /// The paths of all files that read_mesh(path) may read.
 std::vector<std::string> mesh_files(const std::string& path);

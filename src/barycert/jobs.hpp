@@ -179,12 +179,12 @@ struct SampleReport : MeshReport {
 Result<SampleReport> sample_files(const SampleJob& job);
 Result<SampleReport> resample_files(const ResampleJob& job);
 
-// A mesh checked, and repaired if asked.
+// A mesh checked, and repaired if asked; or a surface, or a PLC (.poly, .smesh): then options of meshes are errors.
 
 struct CheckJob : MeshJob {
     CheckOptions options = {};  ///< but for plc and progress
     std::string plc;            ///< a PLC, whose facets are to be unions of faces of cells
-    std::string measures;       ///< a .vtu file: the mesh with measures and defects of each cell
+    std::string measures;       ///< a .vtu file: the mesh with measures and defects of each cell; .vtp: the surface
     /// Where to write a repaired copy, one of them at most: VTK's or Gmsh's file, or a stem of TetGen's. `fix` merges
     /// coincident nodes, drops degenerate and duplicate cells and turns negative ones; fix_orientation turns alone.
     std::string fix, fix_orientation;
@@ -202,7 +202,8 @@ struct FixedMesh {
 
 /// A mesh that was checked, and what was done with it.
 struct CheckedMesh {
-    Mesh mesh;
+    Mesh mesh;             ///< or
+    Surface surface;       ///< if report.surface is there; of a PLC, the triangles that its facets are cut into
     std::string name;      ///< what the user calls it, without the suffix of TetGen's files
     std::string artifact;  ///< the file that it is in: of several the first that is there
     CheckReport report;

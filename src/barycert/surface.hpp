@@ -53,7 +53,12 @@ struct Surface {
     std::vector<double> points;      ///< `dimension` coordinates a point
     std::vector<Mesh::Index> cells;  ///< `dimension` points a cell
 
-    std::vector<Field> point_fields, cell_fields;  ///< what was carried along
+    std::vector<Field> point_fields, cell_fields;  ///< what was carried along, or came with the file
+
+    /// Of each cell: the polygon of the file, or facet of the PLC, that it is part of; ascending. Empty: it is one.
+    std::vector<Mesh::Index> facets;
+    int index_base = 0;  ///< 0 or 1: the base of the file it came from
+    Notes notes;         ///< what its reader left out, converted or guessed
 
     // Where it comes from; empty if it comes from no mesh.
     std::vector<Mesh::Index> mesh_cells;  ///< of each cell: the cell of the mesh that it is in
@@ -63,6 +68,10 @@ struct Surface {
     std::size_t corners() const { return static_cast<std::size_t>(dimension); }
     std::size_t point_count() const { return points.size() / corners(); }
     std::size_t cell_count() const { return cells.size() / corners(); }
+    /// What users know the cell as.
+    Mesh::Index facet(Mesh::Index cell) const {
+        return facets.empty() || cell < 0 ? cell : facets[static_cast<std::size_t>(cell)];
+    }
 };
 
 /// What is carried along. Fields must fit the mesh.

@@ -19,7 +19,7 @@ int run_check(Arguments<CheckJob>& a) {
                           return check_text(c.report, c.mesh, c.name, style) + (fixed ? fix_text(*fixed, style) : "");
                       },
                   .ci = [&c] { return check_outcomes(c.report, c.mesh, c.name, c.artifact, measure_environment()); },
-                  .notes = c.mesh.notes,
+                  .notes = c.report.surface ? c.surface.notes : c.mesh.notes,
                   .curved = {c.report.curved},
                   .clean = c.certified(),
                   .written = c.written};
@@ -40,16 +40,21 @@ int run_check(Arguments<CheckJob>& a) {
 
 void add_check(const Options& program) {
     const auto& [o, a] = program.command(
-        "check", "Prove in exact arithmetic that a mesh is a partition of its domain, or report why it is not",
+        "check",
+        "Prove in exact arithmetic that a mesh is a partition of its domain, or a surface closed and without "
+        "self-intersections, or report why it is not",
         "Exit codes: 0 certified, 1 not certified, 2 usage or input error; with --fix by the copy,\nwhile --junit, "
         "--sarif and --annotations tell of the mesh as it was.\nCertified: any two cells meet in a common face or not "
         "at all, and the files .neigh and .face, if present, agree with\nthe cells. Second-order cells are checked "
-        "with straight sides.",
+        "with straight sides.\nA surface is certified if any two triangles meet in a common node or edge or not at "
+        "all, "
+        "and each edge has two or more;\na PLC, if it is valid and encloses a region: then TetGen can mesh it.",
         run_check);
     CheckJob& job = a.job;
     o.text("MESH", job.mesh,
            "A mesh: TetGen's .node/.ele (with .face and .neigh if present) or Triangle's, Gmsh's .msh, Medit's .mesh "
-           ".meshb, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series .vtp.series")
+           ".meshb, VTK's .vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series .vtp.series; or a surface: .stl .ply .off .obj, "
+           "triangles in space in any of these, or a PLC for TetGen: .poly .smesh")
         ->required();
     o.step(job.step);
     o.flag("--delaunay", job.options.delaunay, "Also test exactly whether every interior facet is locally Delaunay");
@@ -65,7 +70,8 @@ void add_check(const Options& program) {
     a.reports.file(
         o, "--html",
         "Write the report as an HTML page with histograms and pictures of cells; - is stdout and suppresses the table");
-    o.text("--vtu", job.measures, "Write the mesh with measures and defects of each cell as VTU, for ParaView");
+    o.text("--vtu", job.measures,
+           "Write the mesh with measures and defects of each cell as VTU (a surface: .vtp), for ParaView");
     auto* const all = o.text("--fix", job.fix,
                              "Write a copy with what has one right answer repaired, and check it: coincident nodes "
                              "merged, degenerate and duplicate cells dropped, negative cells turned: .vtu .vtk .msh, "

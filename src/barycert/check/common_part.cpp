@@ -9,6 +9,7 @@
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
+#include "barycert/check/surface/parts.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/simplex.hpp"
@@ -26,8 +27,10 @@ using base::cross, base::dot, base::minus;
 /// Coordinates as multiples of a power of two, one an axis.
 class Lattice {
 public:
-    Lattice(int d, const Corners& a, const Corners& b) : d_(static_cast<std::size_t>(d)) {
-        for (std::size_t i = 0; i <= d_; ++i) {
+    /// Of cells with so many corners.
+    Lattice(int d, std::size_t count, const Corners& a, const Corners& b)
+        : d_(static_cast<std::size_t>(d)), count_(count) {
+        for (std::size_t i = 0; i < count_; ++i) {
             for (std::size_t k = 0; k < d_; ++k) {
                 units_[k].add(core::scaled(a[i][k]));
                 units_[k].add(core::scaled(b[i][k]));
@@ -36,7 +39,7 @@ public:
     }
     std::vector<Vector> corners(const Corners& cell) const {
         std::vector<Vector> all;
-        for (std::size_t i = 0; i <= d_; ++i) all.push_back(at(cell[i]));
+        for (std::size_t i = 0; i < count_; ++i) all.push_back(at(cell[i]));
         return all;
     }
     /// The unit of an axis as a power of two; any if all is zero.
@@ -57,7 +60,7 @@ private:
         return v;
     }
 
-    std::size_t d_;
+    std::size_t d_, count_;
     std::array<core::Unit, 3> units_;
 };
 
@@ -68,13 +71,20 @@ struct Point {
 };
 
 /// [i][j]: corner j of `other` over the side of the cell opposite to corner i: not negative for all i if it is in the
-/// cell.
+/// cell. Of a triangle in space also over and under its plane.
 std::vector<std::vector<Number>> over_sides(const std::vector<Vector>& cell, const std::vector<Vector>& other) {
     const std::size_t n = cell.size();
     std::vector<std::vector<Number>> over(n);
+    const Vector up = n == 3 ? cross(minus(cell[1], cell[0]), minus(cell[2], cell[0])) : Vector();
+    if (n == 3) {  // in the plane all are zero
+        over.resize(5);
+        for (const Vector& p : other) {
+            over[3].push_back(dot(up, minus(p, cell[0])));
+            over[4].push_back(-over[3].back());
+        }
+    }
     for (std::size_t i = 0; i < n; ++i) {
         const Vector &a = cell[(i + 1) % n], &b = cell[(i + 2) % n];
-        const Vector up{0, 0, 1};
         Vector normal = cross(minus(b, a), n == 3 ? up : minus(cell[(i + 3) % n], a));
         if (dot(normal, minus(cell[i], a)) < 0) {
             for (Number& x : normal) x = -x;
@@ -93,7 +103,7 @@ void add_extreme_points(const std::vector<Vector>& a, const std::vector<Vector>&
     for (std::size_t i = 0; i < n; ++i) {
         if (std::ranges::all_of(over, [&](const auto& side) { return side[i] >= 0; })) points.push_back({a[i], 1});
         for (std::size_t j = 0; j < i; ++j) {
-            for (std::size_t s = 0; s < n; ++s) {
+            for (std::size_t s = 0; s < over.size(); ++s) {
                 const Number &u = over[s][i], &v = over[s][j];
                 if (u == v || (u > 0) == (v > 0)) continue;
                 const bool positive = u > v;
@@ -101,7 +111,8 @@ void add_extreme_points(const std::vector<Vector>& a, const std::vector<Vector>&
                     return positive ? at_j * u - at_i * v : at_i * v - at_j * u;
                 };
                 bool inside = true;
-                for (std::size_t t = 0; t < n && inside; ++t) inside = t == s || mean(over[t][i], over[t][j]) >= 0;
+                for (std::size_t t = 0; t < over.size() && inside; ++t)
+                    inside = t == s || mean(over[t][i], over[t][j]) >= 0;
                 if (!inside) continue;
                 Point x{{}, positive ? u - v : v - u};
                 for (std::size_t k = 0; k < 3; ++k) x.x[k] = mean(a[i][k], a[j][k]);
@@ -193,30 +204,28 @@ Fraction dyadic(double x) {
 }
 
 /// The rounded point itself lies in both cells; in both interiors if `inside`.
-bool lies_in(int d, const Corners& cell, const double* point, bool inside) {
-    const Simplex s = d == 2 ? Simplex::triangle : Simplex::tetrahedron;
+bool lies_in(Simplex s, const Corners& cell, const double* point, bool inside) {
+    const int d = space_dimension(s);
     double vertices[12];
-    for (int i = 0; i <= d; ++i) {
+    for (int i = 0; i < vertex_count(s); ++i) {
         for (int k = 0; k < d; ++k) vertices[i * d + k] = cell[static_cast<std::size_t>(i)][k];
     }
     const auto signs = checked_weight_signs(s, vertices, point);
+    if (s == Simplex::triangle3d && orient3d(vertices, vertices + 3, vertices + 6, point) != Sign::zero) return false;
     return signs && (inside ? signs->feature(s) == Feature::interior : signs->contains());
 }
 
-}  // namespace
-
-CellContact common_part(const Mesh& mesh, const CellPair& cells) {
-    const int d = mesh.dimension;
-    const Corners a = corner_points(mesh, static_cast<std::size_t>(cells[0]));
-    const Corners b = corner_points(mesh, static_cast<std::size_t>(cells[1]));
-    const Lattice lattice(d, a, b);
+CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a, const Corners& b) {
+    const int d = space_dimension(simplex);
+    const Lattice lattice(d, static_cast<std::size_t>(vertex_count(simplex)), a, b);
     const std::vector<Vector> p = lattice.corners(a), q = lattice.corners(b);
     std::vector<Point> all;
     add_extreme_points(p, q, all);
     add_extreme_points(q, p, all);
     const std::vector<Point> points = spanning(d, all);
     const int dimension = static_cast<int>(points.size()) - 1;
-    CellContact contact{cells, dimension == d, dimension, {}};
+    const int full = vertex_count(simplex) - 1;
+    CellContact contact{cells, dimension == full, dimension, {}};
     if (points.empty()) return contact;
     // What the two have in common is the convex hull of all points: the mean of some that span it is in its relative
     // interior. Over the product of their weights, each counts with the product of the others'.
@@ -239,13 +248,31 @@ CellContact common_part(const Mesh& mesh, const CellPair& cells) {
         finite = finite && std::isfinite(common.point[k]);
         short_enough = short_enough && mean.size() <= max_bits;
     }
-    common.exact = finite && lies_in(d, a, common.point.data(), contact.overlap) &&
-                   lies_in(d, b, common.point.data(), contact.overlap);
+    common.exact = finite && lies_in(simplex, a, common.point.data(), contact.overlap) &&
+                   lies_in(simplex, b, common.point.data(), contact.overlap);
     for (std::size_t k = 0; k < means.size(); ++k) {
         // Where the doubles do as well, nobody wants a number of thousands of digits.
         common.fraction[k] = !short_enough && common.exact ? dyadic(common.point[k]).text() : means[k].text();
     }
     return contact;
+}
+
+}  // namespace
+
+CellContact common_part(const Mesh& mesh, const CellPair& cells) {
+    return common_part(mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron, cells,
+                       corner_points(mesh, static_cast<std::size_t>(cells[0])),
+                       corner_points(mesh, static_cast<std::size_t>(cells[1])));
+}
+
+CellContact common_part(const Surface& surface, const CellPair& triangles) {
+    std::array<Corners, 2> at{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t k = 0; k < 3; ++k)
+            at[i][k] = &surface.points[3 * static_cast<std::size_t>(
+                                               surface.cells[3 * static_cast<std::size_t>(triangles[i]) + k])];
+    }
+    return common_part(Simplex::triangle3d, triangles, at[0], at[1]);
 }
 
 }  // namespace barycert::check

@@ -84,9 +84,15 @@ void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
     if (passes % 2 == 1) std::swap(items, other);
 }
 
+/// Coordinates of nodes, and corners of cells.
+struct Cells {
+    std::span<const double> points;
+    std::span<const Mesh::Index> cells;
+};
+
 /// The nodes that cells have, ascending: others may lie anywhere.
-std::vector<Mesh::Index> used_nodes(const Mesh& mesh) {
-    std::vector<std::uint8_t> used(mesh.point_count(), 0);
+std::vector<Mesh::Index> used_nodes(const Cells& mesh, std::size_t d) {
+    std::vector<std::uint8_t> used(mesh.points.size() / d, 0);
     base::parallel_for_each(mesh.cells.size(), grain, [&](std::size_t i) {
         std::atomic_ref(used[static_cast<std::size_t>(mesh.cells[i])]).store(1, std::memory_order_relaxed);
     });
@@ -100,7 +106,7 @@ std::vector<Mesh::Index> used_nodes(const Mesh& mesh) {
     return nodes;
 }
 
-void find_box(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, CellIndex& index) {
+void find_box(const Cells& mesh, const std::vector<Mesh::Index>& nodes, CellIndex& index) {
     const std::size_t d = index.dimension();
     for (std::size_t k = 0; k < d; ++k) {
         index.low[k] = std::numeric_limits<double>::infinity();
@@ -117,13 +123,13 @@ void find_box(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, CellIndex
 
 /// Copies nodes along the curve; returns the place of each node of the mesh.
 template <std::size_t d>
-Buffer<Place> place_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
+Buffer<Place> place_nodes(const Cells& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
     Buffer<KeyedPlace> order(used.size());
     base::parallel_for_each(order.size(), grain, [&](std::size_t i) {
         order[i] = {index.bins.of(&mesh.points[d * static_cast<std::size_t>(used[i])]), used[i]};
     });
     sort_by_key(order, index.bins.bits());
-    Buffer<Place> place(mesh.point_count());
+    Buffer<Place> place(mesh.points.size() / d);
     index.nodes = Buffer<NodeRecord>(order.size());
     index.original_node.resize(order.size());
     base::parallel_for_each(order.size(), grain, [&](std::size_t i) {
@@ -137,34 +143,34 @@ Buffer<Place> place_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& used
 }
 
 /// The cells along the curve, by the middles of their corners in whole numbers of the quantizer.
-template <std::size_t d>
-Buffer<KeyedPlace> order_cells(const Mesh& mesh, const Bins& bins) {
-    Buffer<std::array<std::int32_t, d>> nodes(mesh.point_count());
+template <std::size_t d, std::size_t corners>
+Buffer<KeyedPlace> order_cells(const Cells& mesh, const Bins& bins) {
+    Buffer<std::array<std::int32_t, d>> nodes(mesh.points.size() / d);
     base::parallel_for_each(nodes.size(), grain, [&](std::size_t i) {
         for (std::size_t k = 0; k < d; ++k) nodes[i][k] = bins.quantizer().at(k, mesh.points[d * i + k]);
     });
-    Buffer<KeyedPlace> cells(mesh.cell_count());
+    Buffer<KeyedPlace> cells(mesh.cells.size() / corners);
     base::parallel_for_each(cells.size(), grain, [&](std::size_t c) {
-        const Mesh::Index* const corner = mesh.cells.data() + (d + 1) * c;
+        const Mesh::Index* const corner = mesh.cells.data() + corners * c;
         std::array<std::int64_t, d> sum{};
-        for (std::size_t i = 0; i <= d; ++i) {
+        for (std::size_t i = 0; i < corners; ++i) {
             const auto& node = nodes[static_cast<std::size_t>(corner[i])];
             for (std::size_t k = 0; k < d; ++k) sum[k] += node[k];
         }
-        for (std::size_t k = 0; k < d; ++k) sum[k] /= static_cast<std::int64_t>(d + 1);
+        for (std::size_t k = 0; k < d; ++k) sum[k] /= static_cast<std::int64_t>(corners);
         cells[c] = {bins.of_quantized(sum), static_cast<Place>(c)};
     });
     sort_by_key(cells, bins.bits());
     return cells;
 }
 
-template <std::size_t d>
-void place_cells(const Mesh& mesh, const Buffer<KeyedPlace>& order, const Buffer<Place>& place_of_node,
+template <std::size_t corners>
+void place_cells(const Cells& mesh, const Buffer<KeyedPlace>& order, const Buffer<Place>& place_of_node,
                  CellIndex& index) {
     // Cells that are near in space are anywhere in the file: they are asked for some cells ahead.
     constexpr std::size_t ahead = 32;
     const auto corners_at = [&](std::size_t place) {
-        return mesh.cells.data() + (d + 1) * static_cast<std::size_t>(order[place].place);
+        return mesh.cells.data() + corners * static_cast<std::size_t>(order[place].place);
     };
     const auto bin_at = [&](std::size_t place) { return order[place].key >> CellIndex::part_bits; };
     base::parallel_for(order.size(), grain, [&](std::size_t first, std::size_t last) {
@@ -174,8 +180,9 @@ void place_cells(const Mesh& mesh, const Buffer<KeyedPlace>& order, const Buffer
             while (bin <= bin_at(place)) index.first[bin++] = static_cast<Place>(place);
             const Mesh::Index* const corner = corners_at(place);
             CellRecord& record = index.cells[place];
-            for (std::size_t i = 0; i <= d; ++i) record.node[i] = place_of_node[static_cast<std::size_t>(corner[i])];
-            if constexpr (d == 2) record.node[3] = record.node[0];
+            for (std::size_t i = 0; i < corners; ++i)
+                record.node[i] = place_of_node[static_cast<std::size_t>(corner[i])];
+            if constexpr (corners == 3) record.node[3] = record.node[0];
             record.next = {-1, -1, -1, -1};
             index.original[place] = order[place].place;
         }
@@ -185,10 +192,30 @@ void place_cells(const Mesh& mesh, const Buffer<KeyedPlace>& order, const Buffer
               static_cast<Place>(order.size()));
 }
 
-template <std::size_t d>
-void build(const Mesh& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
+template <std::size_t d, std::size_t corners>
+void build(const Cells& mesh, const std::vector<Mesh::Index>& used, CellIndex& index) {
     const Buffer<Place> place_of_node = place_nodes<d>(mesh, used, index);
-    place_cells<d>(mesh, order_cells<d>(mesh, index.bins), place_of_node, index);
+    place_cells<corners>(mesh, order_cells<d, corners>(mesh, index.bins), place_of_node, index);
+}
+
+CellIndex make_index(Simplex simplex, const Cells& mesh) {
+    CellIndex index;
+    index.simplex = simplex;
+    const std::size_t count = mesh.cells.size() / index.corners();
+    const std::vector<Mesh::Index> used = used_nodes(mesh, index.dimension());
+    find_box(mesh, used, index);
+    index.cells = Buffer<CellRecord>(count);
+    index.original = Buffer<Mesh::Index>(count);
+    if (count == 0) {
+        index.first.assign(2, 0);
+        return index;
+    }
+    index.bins = Bins(index.dimension(), index.low.data(), index.high.data(), count << CellIndex::part_bits);
+    index.first.resize((index.bins.count() >> CellIndex::part_bits) + 2);
+    simplex == Simplex::triangle     ? build<2, 3>(mesh, used, index)
+    : simplex == Simplex::triangle3d ? build<3, 3>(mesh, used, index)
+                                     : build<3, 4>(mesh, used, index);
+    return index;
 }
 
 }  // namespace
@@ -202,26 +229,16 @@ std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
     std::array<double, 12> vertices{};
     const auto at = index.corner_points(cell);
     const std::size_t d = index.dimension();
-    for (std::size_t i = 0; i <= d; ++i) std::copy_n(at[i], d, &vertices[d * i]);
+    for (std::size_t i = 0; i < index.corners(); ++i) std::copy_n(at[i], d, &vertices[d * i]);
     return vertices;
 }
 
 CellIndex make_cell_index(const Mesh& mesh) {
-    CellIndex index;
-    index.simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
-    const std::vector<Mesh::Index> used = used_nodes(mesh);
-    find_box(mesh, used, index);
-    index.cells = Buffer<CellRecord>(mesh.cell_count());
-    index.original = Buffer<Mesh::Index>(mesh.cell_count());
-    if (mesh.cell_count() == 0) {
-        index.first.assign(2, 0);
-        return index;
-    }
-    index.bins =
-        Bins(index.dimension(), index.low.data(), index.high.data(), mesh.cell_count() << CellIndex::part_bits);
-    index.first.resize((index.bins.count() >> CellIndex::part_bits) + 2);
-    mesh.dimension == 2 ? build<2>(mesh, used, index) : build<3>(mesh, used, index);
-    return index;
+    return make_index(mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron, {mesh.points, mesh.cells});
+}
+
+CellIndex make_triangle_index(std::span<const double> points, std::span<const Mesh::Index> triangles) {
+    return make_index(Simplex::triangle3d, {points, triangles});
 }
 
 }  // namespace barycert::index

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "barycert/index/bins.hpp"
@@ -18,7 +19,7 @@ namespace barycert::index {
 /// order find what they need in cache.
 using Place = std::int32_t;
 
-/// What a step of a walk reads of a cell: half of a cache line. In 2D the last corner repeats the first one.
+/// What a step of a walk reads of a cell: half of a cache line. The last corner of a triangle repeats the first one.
 struct alignas(32) CellRecord {
     std::array<Place, 4> node;
     std::array<Place, 4> next;  ///< the cell across the facet opposite to each corner, -1 where there is none
@@ -43,7 +44,7 @@ struct CellIndex {
     std::vector<Place> first;
 
     std::size_t dimension() const { return static_cast<std::size_t>(space_dimension(simplex)); }
-    std::size_t corners() const { return dimension() + 1; }
+    std::size_t corners() const { return static_cast<std::size_t>(vertex_count(simplex)); }
     std::size_t cell_count() const { return cells.size(); }
     std::size_t bytes() const;
 
@@ -78,5 +79,9 @@ std::array<double, 12> vertices_of(const CellIndex& index, Place cell);
 /// Without neighbours, see link_facets. Precondition: the mesh is consistent. Time O(cells), on the threads of the
 /// calling arena, which do not change the outcome.
 CellIndex make_cell_index(const Mesh& mesh);
+
+/// The same of triangles in space, three coordinates a point and three points a triangle. Precondition: there are such
+/// points, and they are finite.
+CellIndex make_triangle_index(std::span<const double> points, std::span<const Mesh::Index> triangles);
 
 }  // namespace barycert::index

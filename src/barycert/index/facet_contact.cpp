@@ -172,6 +172,23 @@ bool facets_conflict(int d, const PlacedFacet& f, const PlacedFacet& g) {
     return common == 1 ? meet_beyond_vertex(a, b) : meet_beyond_edge(a[0], a[1], a[2], b[2]);
 }
 
+bool segment_conflicts(const PlacedFacet& segment, const PlacedFacet& triangle) {
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (segment.nodes[i] != triangle.nodes[k]) continue;
+            // From the common node they go on together if the other end is in the plane, between the two sides there.
+            const Point v = triangle.at[k], b = triangle.at[(k + 1) % 3], c = triangle.at[(k + 2) % 3];
+            const Point a = segment.at[1 - i];
+            if (orient(v, b, c, a) != 0) return false;
+            const int axis = projection_of(triangle.at);
+            const Projected pv = project(v, axis), pb = project(b, axis), pc = project(c, axis), pa = project(a, axis);
+            const int turn = orient(pv.at, pb.at, pc.at);
+            return orient(pv.at, pb.at, pa.at) != -turn && orient(pv.at, pa.at, pc.at) != -turn;
+        }
+    }
+    return segment_meets_triangle(segment.at[0], segment.at[1], triangle.at);
+}
+
 std::array<Mesh::Index, 3> face_around(int d, const PlacedFacet& f, const double* point) {
     constexpr std::array<Mesh::Index, 3> none{-1, -1, -1};
     std::array<bool, 3> holds{};  // the nodes whose weights are not zero

@@ -23,6 +23,10 @@ bool proper(int d, const PlacedFacet& f);
 /// may be empty, a node or an edge). Preconditions: both proper, not of the same nodes, coordinates finite.
 bool facets_conflict(int d, const PlacedFacet& f, const PlacedFacet& g);
 
+/// The same of a segment in space, the first two nodes of `segment`, and a triangle. Preconditions: they do not have
+/// two nodes in common; the triangle is proper, coordinates finite.
+bool segment_conflicts(const PlacedFacet& segment, const PlacedFacet& triangle);
+
 /// Two facets by their numbers.
 struct FacetPair {
     std::uint32_t first, second;

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
@@ -85,6 +87,68 @@ private:
     std::vector<Blade> blades_;
 };
 
+/// Pairs of facets whose boxes meet and that no plane is known to separate.
+class Suspects {
+public:
+    Suspects(const CellIndex& index, const std::vector<PlacedFacet>& facets)
+        : facets_(facets), d_(static_cast<int>(index.dimension())) {
+        if (largest_fan(index.original_node.size(), facets) <= crowd) {
+            // Facets are in the order of their cells, which is that of space.
+            boxes_.emplace(facets.size(),
+                           [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
+            return;
+        }
+        items_.resize(facets.size());
+        for (std::size_t i = 0; i < facets.size(); ++i) items_[i] = item_of(facets[i], d_);
+        candidates_.emplace(d_, items_, crowd);
+    }
+
+    /// Parts of the work.
+    std::size_t count() const { return (facets_.size() + 7) / 8; }
+
+    /// use(part - first, i, j), i < j, for each pair of the parts, on all threads of the arena; each part on one.
+    template <class Use>
+    void for_each(std::size_t first, std::size_t last, Use use) const {
+        base::parallel_for(last - first, [&](std::size_t part) {
+            boxes_ ? of_boxes(first + part, [&](std::size_t i, std::size_t j) { use(part, i, j); })
+                   : of_items(first + part, [&](std::size_t i, std::size_t j) { use(part, i, j); });
+        });
+    }
+
+private:
+    template <class Use>
+    void of_boxes(std::size_t g, Use use) const {
+        std::array<FacetPair, 256> pairs;
+        std::size_t count = 0;
+        const auto ask_all = [&] {
+            std::span<FacetPair> left = std::span(pairs).first(count);
+            if (d_ == 3) left = without_separated(facets_, left);
+            for (const FacetPair& pair : left) use(pair.first, pair.second);
+            count = 0;
+        };
+        boxes_->for_each_pair(g, [&](std::size_t i, std::size_t j) {
+            pairs[count++] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)};
+            if (count == pairs.size()) ask_all();
+        });
+        ask_all();
+    }
+    template <class Use>
+    void of_items(std::size_t g, Use use) const {
+        for (std::size_t i = 8 * g; i < std::min(8 * g + 8, facets_.size()); ++i) {
+            candidates_->for_each(items_[i], [&](std::uint32_t j) {
+                if (j > i) use(i, j);
+                return true;
+            });
+        }
+    }
+
+    const std::vector<PlacedFacet>& facets_;
+    int d_;
+    std::optional<BoxGroups> boxes_;
+    std::vector<Item> items_;  ///< where a node has so many facets that boxes would name all pairs of them
+    std::optional<Candidates> candidates_;
+};
+
 }  // namespace
 
 Item item_of(const PlacedFacet& facet, int d) {
@@ -109,44 +173,37 @@ std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vect
     const auto d = static_cast<int>(index.dimension());
     std::vector<std::uint8_t> flags(facets.size(), 0);  // raised by any thread
     const auto flag = [&](std::size_t i) { return std::atomic_ref(flags[i]); };
-    const auto ask = [&](std::size_t i, std::size_t j) {
+    const Suspects suspects(index, facets);
+    suspects.for_each(0, suspects.count(), [&](std::size_t, std::size_t i, std::size_t j) {
         constexpr auto relaxed = std::memory_order_relaxed;
         if (flag(i).load(relaxed) != 0 && flag(j).load(relaxed) != 0) return;
         if (facets[i].nodes != facets[j].nodes && !facets_conflict(d, facets[i], facets[j])) return;
         flag(i).store(1, relaxed);
         flag(j).store(1, relaxed);
-    };
-    if (largest_fan(index.original_node.size(), facets) <= crowd) {
-        // Facets are in the order of their cells, which is that of space.
-        const BoxGroups boxes(facets.size(),
-                              [&](std::size_t f) { return box_of(index, facets[f].at.data(), index.dimension()); });
-        base::parallel_for((facets.size() + 7) / 8, [&](std::size_t g) {
-            std::array<FacetPair, 256> pairs;
-            std::size_t count = 0;
-            const auto ask_all = [&] {
-                std::span<FacetPair> left = std::span(pairs).first(count);
-                if (d == 3) left = without_separated(facets, left);
-                for (const FacetPair& pair : left) ask(pair.first, pair.second);
-                count = 0;
-            };
-            boxes.for_each_pair(g, [&](std::size_t i, std::size_t j) {
-                pairs[count++] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)};
-                if (count == pairs.size()) ask_all();
-            });
-            ask_all();
-        });
-        return flags;
-    }
-    std::vector<Item> items(facets.size());
-    for (std::size_t i = 0; i < facets.size(); ++i) items[i] = item_of(facets[i], d);
-    const Candidates candidates(d, items, crowd);
-    base::parallel_for(facets.size(), [&](std::size_t i) {
-        candidates.for_each(items[i], [&](std::uint32_t j) {
-            if (j > i) ask(i, j);
-            return true;
-        });
     });
     return flags;
+}
+
+std::vector<FacetPair> conflicting_pairs(const CellIndex& index, const std::vector<PlacedFacet>& facets,
+                                         std::size_t limit) {
+    const auto d = static_cast<int>(index.dimension());
+    const Suspects suspects(index, facets);
+    std::vector<FacetPair> all;
+    constexpr std::size_t wave = 4096;
+    for (std::size_t first = 0; first < suspects.count() && all.size() <= limit; first += wave) {
+        std::vector<std::vector<FacetPair>> found(std::min(wave, suspects.count() - first));
+        suspects.for_each(first, first + found.size(), [&](std::size_t part, std::size_t i, std::size_t j) {
+            // What has far more than anybody wants need not be asked to its end.
+            if (found[part].size() > limit) return;
+            if (facets[i].nodes == facets[j].nodes || facets_conflict(d, facets[i], facets[j]))
+                found[part].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+        });
+        for (auto& part : found) {
+            std::ranges::sort(part, {}, [](const FacetPair& p) { return std::pair(p.first, p.second); });
+            all.insert(all.end(), part.begin(), part.end());
+        }
+    }
+    return all;
 }
 
 std::vector<std::vector<std::uint32_t>> find_sheets(const CellIndex& index, const std::vector<CellFacet>& open,

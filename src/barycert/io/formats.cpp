@@ -290,22 +290,26 @@ void note_lost_names(const std::vector<std::string>& columns, const char* file, 
 
 namespace barycert {
 
-Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
-    const Result<io::MeshFormat> format = io::mesh_format(path);
+Result<Mesh> io::read_mesh_in_space(const std::string& path, const ReadOptions& options, InSpace* space) {
+    const Result<MeshFormat> format = mesh_format(path);
     if (!format) return format.error();
-    if (options.step.made() && *format != io::MeshFormat::vtk) return io::no_series(path);
+    if (options.step.made() && *format != MeshFormat::vtk) return no_series(path);
     switch (*format) {
-        case io::MeshFormat::gmsh:
-            return read_gmsh(path, {.step = {}, .threads = options.threads});
-        case io::MeshFormat::vtk:
-            return io::on_threads(options.threads, [&] { return read_vtk(path, options.step); });
-        case io::MeshFormat::medit:
-            return io::on_threads(options.threads, [&] { return io::read_medit(path, options); });
-        case io::MeshFormat::by_meshio:
-            return io::read_converted(path, io::meshio_format(path));
+        case MeshFormat::gmsh:
+            return read_gmsh_in_space(path, {.step = {}, .threads = options.threads}, space);
+        case MeshFormat::vtk:
+            return on_threads(options.threads, [&] { return read_vtk_in_space(path, options.step, space); });
+        case MeshFormat::medit:
+            return on_threads(options.threads, [&] { return read_medit(path, options, space); });
+        case MeshFormat::by_meshio:
+            return read_converted(path, meshio_format(path));
         default:
             return read_tetgen(path, options);
     }
+}
+
+Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
+    return io::read_mesh_in_space(path, options, nullptr);
 }
 
 std::vector<std::string> mesh_files(const std::string& path) {

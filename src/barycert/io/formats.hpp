@@ -121,6 +121,15 @@ std::unique_ptr<TableSink> open_npy_sink(const std::string& path, const TableFor
 /// Refuses rows whose spans and columns do not fit together and the format, and the feature degenerate.
 Status check_rows(const TableView& rows, const TableFormat& format, const std::string& path);
 
+/// Of a file of triangles that are not in the plane z = 0: what the mesh in the plane, of their x and y, has not.
+struct InSpace {
+    std::vector<double> points;       ///< 3 coordinates a node; empty: it is a mesh in the plane
+    std::vector<Mesh::Index> facets;  ///< as of Surface
+};
+Result<Mesh> read_mesh_in_space(const std::string& path, const ReadOptions& options, InSpace* space);
+Result<Mesh> read_vtk_in_space(const std::string& path, const StepChoice& step, InSpace* space);
+Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& options, InSpace* space);
+
 enum class MeshFormat : std::uint8_t {
     tetgen,  ///< and Triangle: several files of one stem
     vtk,

@@ -28,8 +28,8 @@ void check_job(const CheckJob& job) {
     const std::string& copy = copy_of(job);
     if (job.measures == "-")
         refuse("", "job.measures cannot write to stdout", "", "", "name a file: its data are binary");
-    if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtu"))
-        refuse(job.measures, "job.measures writes VTU files", "a name that ends in .vtu", "",
+    if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtu") && !io::has_suffix(job.measures, ".vtp"))
+        refuse(job.measures, "job.measures writes VTU files, and of surfaces VTP files", "a name that ends in .vtu", "",
                "choose another name; job.fix writes other formats");
     if (copy == "-")
         refuse("", member_of_copy(job) + " cannot write to stdout", "", "",
@@ -95,15 +95,73 @@ void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked)
     checked.copied = true;
 }
 
+bool is_plc(const std::string& path) {
+    return io::has_suffix(path, ".poly") || io::has_suffix(path, ".smesh");
+}
+
+void refuse_options_of_meshes(const CheckJob& job, const char* what) {
+    const auto refuse_one = [&](bool given, const std::string& member) {
+        if (given) refuse(job.mesh, member + " is for meshes", "", what, "leave it out");
+    };
+    refuse_one(job.options.delaunay, "job.options.delaunay");
+    refuse_one(!job.plc.empty(), "job.plc");
+    refuse_one(!copy_of(job).empty(), member_of_copy(job));
+    if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtp"))
+        refuse(job.measures, "job.measures writes VTP files of surfaces", "a name that ends in .vtp", "",
+               "choose another name");
+}
+
+/// The triangles with the sets of their defects, as cells of meshes have them, and the polygons that they are of.
+void write_marks(const CheckJob& job, CheckedMesh& checked) {
+    Surface surface = checked.surface;
+    const std::vector<DefectSet>& defects = checked.report.measures.defects;
+    surface.cell_fields.push_back({"problems", 1, {defects.begin(), defects.end()}});
+    if (!surface.facets.empty())
+        surface.cell_fields.push_back({"facet", 1, {surface.facets.begin(), surface.facets.end()}});
+    const Result<SurfaceFile> written = write_surface(surface, job.measures, job.vtk_data.value_or(VtkData::raw));
+    if (!written) checked.written = written.error();
+}
+
+void check_it(const CheckJob& job, CheckedMesh& checked, const Plc* plc) {
+    refuse_options_of_meshes(job, plc != nullptr ? "a PLC" : "a surface");
+    CheckOptions options = job.options;
+    options.progress = [&](const char* text) { jobs::tell_stage(job, std::string("checking: ") + text); };
+    checked.name = checked.artifact = job.mesh;
+    checked.report = plc != nullptr ? check_plc(*plc, options) : check_surface(checked.surface, options);
+    if (!job.measures.empty()) write_marks(job, checked);
+}
+
 }  // namespace
 
 Result<CheckedMesh> check_files(const CheckJob& job) try {
     check_job(job);
     jobs::tell_stage(job, "checking: reading");
     CheckedMesh checked;
-    checked.mesh =
-        read_mesh(job.mesh, {.faces = true, .neighbours = true, .threads = job.options.threads, .step = job.step})
-            .value();
+    std::optional<Plc> polygons;
+    if (is_plc(job.mesh)) {
+        polygons = read_plc(job.mesh).value();
+        checked.surface = read_surface(job.mesh).value();
+    } else {
+        std::variant<Mesh, Surface> read =
+            read_mesh_or_surface(job.mesh,
+                                 {.faces = true, .neighbours = true, .threads = job.options.threads, .step = job.step})
+                .value();
+        if (auto* const surface = std::get_if<Surface>(&read)) {
+            checked.surface = std::move(*surface);
+            // Polygons that are no triangles may be at fault themselves.
+            if (!checked.surface.facets.empty() && io::has_suffix(job.mesh, ".off"))
+                polygons = read_plc(job.mesh).value();
+        } else {
+            checked.mesh = std::move(std::get<Mesh>(read));
+        }
+    }
+    if (polygons || !checked.surface.cells.empty()) {
+        check_it(job, checked, polygons ? &*polygons : nullptr);
+        return checked;
+    }
+    if (io::has_suffix(job.measures, ".vtp"))
+        refuse(job.measures, "job.measures writes VTU files of meshes", "a name that ends in .vtu", "",
+               "choose another name");
     const Mesh& mesh = checked.mesh;
     if (job.curved == Curved::refuse) take_as_straight(checked.mesh, job.mesh, job.curved).value();
     check_nothing_in_the_way(job, mesh);

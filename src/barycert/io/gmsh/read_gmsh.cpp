@@ -238,7 +238,7 @@ void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes
     }
 }
 
-Mesh read_whole(const MshFile& file, const GmshReadOptions& options) {
+Mesh read_whole(const MshFile& file, const GmshReadOptions& options, InSpace* space) {
     MshNodes nodes = read_msh_nodes(file);
     const MshElements elements = find_msh_elements(file);
     MshCells cells = read_msh_cells(file, elements, nodes);
@@ -255,7 +255,7 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options) {
     mesh.index_base = 1;
     if (mesh.dimension == 2)
         mesh.points =
-            to_points(std::move(mesh.points), 2, file.path(), mesh.mid_nodes.empty() ? file.path() : "", "node");
+            to_points(std::move(mesh.points), 2, file.path(), mesh.mid_nodes.empty() ? file.path() : "", "node", space);
     note_cells(cells, groups.partitioned, file.path());
     read_msh_fields(file, views, MshView::Of::nodes, {nodes.index, mesh.point_count(), "node", "nodes"}, options.step,
                     mesh.point_fields, mesh.notes);
@@ -275,11 +275,16 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options) {
 }
 
 }  // namespace
+
+Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& options, InSpace* space) {
+    return read_guarded(path,
+                        [&]() -> Result<Mesh> { return read_whole(MshFile(path, options.threads), options, space); });
+}
+
 }  // namespace io
 
 Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options) {
-    return io::read_guarded(
-        path, [&]() -> Result<Mesh> { return io::read_whole(io::MshFile(path, options.threads), options); });
+    return io::read_gmsh_in_space(path, options, nullptr);
 }
 
 Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {

@@ -108,7 +108,7 @@ bool is_medit(std::string_view head);
 ///
 /// Error: what the format does not have; a coordinate that is not finite; a node that there is not; cells of other
 /// types or of both orders, which are named; no cells; triangles off the plane z = 0.
-Result<Mesh> read_medit(const std::string& path, const ReadOptions& options);
+Result<Mesh> read_medit(const std::string& path, const ReadOptions& options, InSpace* space = nullptr);
 
 /// The fields of .sol and .solb files for a mesh of that dimension, and notes, in a mesh without nodes and cells: those
 /// of nodes, and those of triangles or tetrahedra, are solution0, solution1, ... each.

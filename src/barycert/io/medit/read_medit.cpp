@@ -72,7 +72,8 @@ bool is_simplex(const MeditKeyword& cell, int order) {
 
 class MeditReader {
 public:
-    MeditReader(const MeditFile& file, const ReadOptions& options) : file_(file), options_(options) {}
+    MeditReader(const MeditFile& file, const ReadOptions& options, InSpace* space)
+        : file_(file), options_(options), space_(space) {}
 
     Mesh read() {
         choose();
@@ -139,8 +140,8 @@ private:
         mesh_.point_markers = references(std::move(rows.integers));
         mesh_.points = std::move(rows.reals);
         if (mesh_.dimension < file_.dimension())
-            mesh_.points =
-                to_points(std::move(mesh_.points), 2, file_.path(), is_simplex(cells_->keyword, 1) ? file_.path() : "");
+            mesh_.points = to_points(std::move(mesh_.points), 2, file_.path(),
+                                     is_simplex(cells_->keyword, 1) ? file_.path() : "", "point", space_);
         if (file_.narrow()) note(Note::Kind::converted, "float32 to double: the coordinates");
     }
 
@@ -263,6 +264,7 @@ private:
 
     const MeditFile& file_;
     const ReadOptions& options_;
+    InSpace* space_;
     const MeditSection *nodes_ = nullptr, *cells_ = nullptr;
     std::vector<const MeditSection*> lower_;
     Mesh mesh_;
@@ -270,8 +272,8 @@ private:
 
 }  // namespace
 
-Result<Mesh> read_medit(const std::string& path, const ReadOptions& options) {
-    return read_guarded(path, [&]() -> Result<Mesh> { return MeditReader(MeditFile(path), options).read(); });
+Result<Mesh> read_medit(const std::string& path, const ReadOptions& options, InSpace* space) {
+    return read_guarded(path, [&]() -> Result<Mesh> { return MeditReader(MeditFile(path), options, space).read(); });
 }
 
 Result<Mesh> read_medit_fields(const std::string& path, int dimension) {

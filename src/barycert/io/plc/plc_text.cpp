@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/polygons/polygons.hpp"
 
 namespace barycert::io {
 
@@ -39,9 +42,9 @@ std::string_view PlcText::take_whole(std::string_view expected) {
     return text;
 }
 
-std::int32_t PlcText::take_integer(std::string_view expected) {
+std::int32_t PlcText::take_integer(std::string_view expected, char end) {
     const std::string_view text = take_whole(expected);
-    std::string_view digits = text;
+    std::string_view digits = text.substr(0, text.find(end));
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     const std::optional<std::int32_t> value = whole_number<std::int32_t>(digits);
     if (!value) fail("cannot read", expected, text);
@@ -52,6 +55,13 @@ double PlcText::take_number(std::string_view expected) {
     const std::string_view text = take_whole(expected);
     const std::optional<double> value = base::parse_double(text);
     if (!value || !std::isfinite(*value)) fail("cannot read", std::string(expected) + ", a finite number", text);
+    return *value;
+}
+
+double PlcText::take_any_number(std::string_view expected) {
+    const std::string_view text = take_whole(expected);
+    const std::optional<double> value = base::parse_double(text);
+    if (!value) fail("cannot read", std::string(expected) + ", a number", text);
     return *value;
 }
 
@@ -74,6 +84,38 @@ void PlcText::fail(std::string_view what, std::string_view expected, std::string
                      .expected = std::string(expected),
                      .found = std::move(shown),
                      .remedy = std::string(remedy)});
+}
+
+std::string read_surface_text(const std::string& path, const std::function<void(PlcText&)>& check) {
+    std::error_code code;
+    const std::filesystem::file_status status = std::filesystem::status(path, code);
+    if (code == std::errc::permission_denied)
+        refuse_file(path, "cannot read", "a file in a folder that you may search", "permission denied");
+    if (!std::filesystem::exists(status)) refuse_file(path, "no such file");
+    if (std::filesystem::is_directory(status)) refuse_file(path, "cannot read", "a file", "a directory");
+    // A binary file may begin with zeros; its beginning, or its size, tells at once whether it is one.
+    bool binary = false;
+    if (const Result<base::InputFile> file = base::InputFile::open(path); file) {
+        std::string block(base::first_block, '\0');
+        if (const Result<std::size_t> size = file->read_at(0, block, path); size)
+            binary = is_binary_surface(path, std::string_view(block).substr(0, *size), file->size());
+    }
+    const auto header = [&](std::string_view block, std::uint64_t size) {
+        // It ends in the middle of a line: what is wrong with the whole ones is told.
+        block = block.substr(0, block.rfind('\n') + 1);
+        if (block.starts_with("\xEF\xBB\xBF")) block.remove_prefix(3);
+        PlcText in(path, block, size);
+        const Status read = status_of([&] { check(in); });
+        return in.rest().empty() ? Status(Done{}) : read;
+    };
+    const bool text_is_certain = !binary && !has_suffix(path, ".stl");
+    std::string text = text_is_certain ? base::read_file(path, base::longest_pipe, base::Text::all, header).value()
+                                       : base::read_file(path, base::longest_pipe, base::Text::none).value();
+    if (text.empty()) refuse_file(path, "cannot read", "a surface", "an empty file");
+    if (const OtherFormat* packed = packed_format(text); packed != nullptr)
+        throw Exception(other_format_error(*packed, path));
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark
+    return text;
 }
 
 }  // namespace barycert::io

@@ -1,11 +1,13 @@
-/// A PLC file's lines as words, with errors that know where they are.
+/// The lines of a file of polygons as words, with errors that know where they are.
 ///
-/// For use within read_plc: errors are thrown as Exception and turned into a Result there.
+/// Errors are thrown as Exception.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "barycert/io.hpp"
@@ -27,6 +29,12 @@ public:
     bool next_line();
     /// As next_line(), but the end of the file is an error: `expected` says what is missing.
     void need_line(std::string_view expected);
+    /// The same, with the words made when they are needed.
+    template <class Expected>
+    requires std::is_invocable_v<Expected>
+    void need_line(Expected expected) {
+        if (!next_line()) need_line(std::string_view(expected()));
+    }
 
     std::size_t word_count() const { return words_.size(); }
     std::size_t words_left() const { return words_.size() - at_; }
@@ -35,8 +43,10 @@ public:
 
     /// The next word of the line as a string, a decimal integer, or a finite number; `expected` names it in errors.
     std::string_view take(std::string_view expected);
-    std::int32_t take_integer(std::string_view expected);
+    /// `end`: a character at which the word ends for this purpose.
+    std::int32_t take_integer(std::string_view expected, char end = ' ');
     double take_number(std::string_view expected);
+    double take_any_number(std::string_view expected);  ///< or NaN or infinite
 
     /// A count of things that take at least two bytes each: one that the file cannot hold is an error.
     std::size_t take_count(std::string_view expected);
@@ -58,10 +68,8 @@ private:
     std::size_t at_ = 0;
 };
 
-Plc read_off(PlcText& in);
-Plc read_stl(PlcText& in);
-/// Throws Exception if the file is an .stl neither as text nor, by its size, in binary form.
-void check_stl_size(const std::string& path);
-Plc read_ply(PlcText& in);
+/// The whole file as text. `check`: of a beginning in whole lines, and the file's size, throws what is wrong there
+/// already. Throws an Exception if the file cannot be read.
+std::string read_surface_text(const std::string& path, const std::function<void(PlcText&)>& check);
 
 }  // namespace barycert::io

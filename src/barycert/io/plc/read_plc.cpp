@@ -11,6 +11,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/plc/plc_text.hpp"
+#include "barycert/io/polygons/polygons.hpp"
 
 namespace barycert::io {
 namespace {
@@ -18,6 +19,15 @@ namespace {
 /// STEM.node, where the nodes of STEM.poly and STEM.smesh may be.
 std::string node_path_of(const std::string& path) {
     return std::filesystem::path(path).replace_extension(".node").string();
+}
+
+bool read_nodes(PlcText& in, Plc& plc);
+
+std::string read_text(const std::string& path) {
+    return read_surface_text(path, [](PlcText& in) {
+        Plc ignored;
+        read_nodes(in, ignored);
+    });
 }
 
 /// Appends nodes: their header and then their rows. False: the header tells that they stand in a file of their own.
@@ -51,47 +61,6 @@ bool read_nodes(PlcText& in, Plc& plc) {
                     "state attributes and markers in the header");
     }
     return nodes > 0;
-}
-
-/// Of the first block, which ends in the middle: what is wrong there in whole lines.
-Status check_beginning_of(std::string_view block, std::size_t size, const std::string& path) {
-    block = block.substr(0, block.rfind('\n') + 1);
-    if (block.starts_with("\xEF\xBB\xBF")) block.remove_prefix(3);
-    PlcText in(path, block, size);
-    Plc ignored;
-    const Status read = status_of([&] {
-        if (has_suffix(path, ".off")) {
-            read_off(in);
-        } else if (has_suffix(path, ".ply")) {
-            read_ply(in);
-        } else {
-            read_nodes(in, ignored);
-        }
-    });
-    return in.rest().empty() ? Status(Done{}) : read;
-}
-
-/// Throws an Exception if it cannot be read.
-std::string read_whole_file(const std::string& path) {
-    std::error_code code;
-    const std::filesystem::file_status status = std::filesystem::status(path, code);
-    if (code == std::errc::permission_denied)
-        refuse_file(path, "cannot read", "a file in a folder that you may search", "permission denied");
-    if (!std::filesystem::exists(status)) refuse_file(path, "no such file");
-    if (std::filesystem::is_directory(status)) refuse_file(path, "cannot read", "a file", "a directory");
-    // A binary .stl may begin with zeros; its size tells at once whether it is one.
-    const bool stl = has_suffix(path, ".stl");
-    if (stl) check_stl_size(path);
-    const auto header = [&](std::string_view block, std::uint64_t size) {
-        return check_beginning_of(block, size, path);
-    };
-    std::string text =
-        base::read_file(path, base::longest_pipe, stl ? base::Text::none : base::Text::all, header).value();
-    if (text.empty()) refuse_file(path, "cannot read", "a PLC", "an empty file");
-    if (const OtherFormat* packed = packed_format(text); packed != nullptr)
-        throw Exception(other_format_error(*packed, path));
-    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark
-    return text;
 }
 
 /// A ring of nodes; it may run over several lines.
@@ -145,10 +114,24 @@ PlcFacet read_facet(PlcText& in, const Plc& plc, bool one_polygon) {
     return facet;
 }
 
+Plc plc_of(Polygons polygons) {
+    Plc plc;
+    plc.facets.resize(polygons.count());
+    auto corner = polygons.corners.begin();
+    for (std::size_t i = 0; i < plc.facets.size(); ++i) {
+        const auto end = corner + static_cast<std::ptrdiff_t>(polygons.corners_of(i));
+        plc.facets[i].polygons.emplace_back(corner, end);
+        corner = end;
+    }
+    plc.points = std::move(polygons.points);
+    plc.index_base = polygons.index_base;
+    return plc;
+}
+
 Plc read_poly(PlcText& in, bool one_polygon_a_facet) {
     Plc plc;
     if (!read_nodes(in, plc)) {
-        const std::string path = node_path_of(in.path()), text = read_whole_file(path);
+        const std::string path = node_path_of(in.path()), text = read_text(path);
         PlcText nodes(path, text, text.size());
         read_nodes(nodes, plc);
         plc.nodes_apart = true;
@@ -180,15 +163,14 @@ Result<Plc> read_plc(const std::string& path) {
     const ExactEnvironment environment;
     const std::string extension = std::filesystem::path(without_gz(path)).extension().string();
     if (std::find(plc_extensions.begin(), plc_extensions.end(), extension) == plc_extensions.end())
-        return file_error(path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply",
+        return file_error(path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply .obj",
                           extension.empty() ? "no extension" : extension);
     try {
-        const std::string text = read_whole_file(path);
+        const bool polygons = extension != ".poly" && extension != ".smesh";
+        const std::string text =
+            polygons ? read_surface_text(path, [](PlcText& in) { read_polygons(in); }) : read_text(path);
         PlcText in(path, text, text.size());
-        Plc plc = extension == ".off"   ? read_off(in)
-                  : extension == ".stl" ? read_stl(in)
-                  : extension == ".ply" ? read_ply(in)
-                                        : read_poly(in, extension == ".smesh");
+        Plc plc = polygons ? plc_of(read_polygons(in)) : read_poly(in, extension == ".smesh");
         if (plc.facets.empty()) return file_error(path, "nothing to mesh: the PLC has no facets");
         if (plc.point_count() < 4) return file_error(path, "nothing to mesh: a PLC needs four nodes");
         return plc;

@@ -8,6 +8,7 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/surface/facet_triangles.hpp"
 
 namespace barycert::io {
 namespace {
@@ -43,6 +44,91 @@ TypeCounts count_types(const RawGrid& grid) {
     }
     for (const std::uint8_t type : grid.types) ++counts[type];
     return counts;
+}
+
+/// The rings of a polygon, by its corners; those of a strip are triangles.
+void add_rings(std::uint8_t type, std::span<const std::int32_t> nodes, std::vector<std::vector<Mesh::Index>>& rings) {
+    std::vector<Mesh::Index> ring(nodes.begin(), nodes.end());
+    const std::string& name = cell_types()[type].name;
+    if (type == vtk_triangle_strip) {
+        for (std::size_t i = 0; i + 2 < ring.size(); ++i)
+            rings.push_back({ring[i + i % 2], ring[i + 1 - i % 2], ring[i + 2]});
+        return;
+    }
+    const bool quadratic_polygon = name == "vtkQuadraticPolygon";
+    const std::size_t corners = type == vtk_polygon                          ? ring.size()
+                                : quadratic_polygon                          ? ring.size() / 2
+                                : name.find("Triangle") != std::string::npos ? 3
+                                                                             : 4;
+    ring.resize(std::min(corners, ring.size()));
+    if (name == "vtkPixel" && ring.size() == 4) std::swap(ring[2], ring[3]);
+    rings.push_back(std::move(ring));
+}
+
+/// Makes triangles of all polygons, by their corners, where there are no cells that fill space.
+void cut_polygons(RawGrid& grid, const std::string& path, InSpace& space) {
+    const auto is = [&](CellKind kind) {
+        return [kind](std::uint8_t type) { return cell_types()[type].kind == kind; };
+    };
+    const auto curved = [](std::uint8_t type) { return type == vtk_quadratic_triangle; };
+    const auto fills = [&](std::uint8_t type) { return is(CellKind::tetrahedron)(type) || is(CellKind::other)(type); };
+    if (std::ranges::any_of(grid.types, fills)) return;
+    const auto polygons = std::ranges::count_if(grid.types, is(CellKind::surface));
+    const bool mixed = std::ranges::any_of(grid.types, curved) &&
+                       std::ranges::any_of(grid.types, [](std::uint8_t type) { return type == vtk_triangle; });
+    if (polygons == 0 && !mixed) return;
+    RawCells cells;
+    std::vector<std::uint8_t> types;
+    std::vector<std::int32_t> rows;
+    std::size_t uncut = 0, by_corners = 0;
+    std::int64_t begin = 0;
+    for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
+        const std::uint8_t type = grid.types[cell];
+        const auto nodes =
+            std::span(grid.cells.connectivity)
+                .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(grid.cells.ends[cell] - begin));
+        begin = grid.cells.ends[cell];
+        if (cell_types()[type].kind == CellKind::lower) continue;
+        std::vector<std::vector<Mesh::Index>> rings;
+        add_rings(type == vtk_triangle || curved(type) ? std::uint8_t{vtk_triangle} : type, nodes, rings);
+        by_corners += nodes.size() > rings.size() * 4 && type != vtk_polygon && type != vtk_triangle_strip ? 1 : 0;
+        for (const auto& ring : rings) {
+            const auto triangles = surface::triangles_of_facet(grid.points, {&ring, 1}, {}).triangles;
+            uncut += triangles.empty() ? 1 : 0;
+            for (const auto& t : triangles) {
+                cells.connectivity.insert(cells.connectivity.end(), t.begin(), t.end());
+                cells.ends.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
+                types.push_back(vtk_triangle);
+                rows.push_back(static_cast<std::int32_t>(cell));
+            }
+        }
+    }
+    if (rows.empty()) return;
+    const auto note = [&](std::size_t count, const char* what, Note::Kind kind) {
+        if (count != 0) grid.notes.push_back({kind, std::to_string(count) + what, path, true});
+    };
+    note(static_cast<std::size_t>(polygons), " polygons, which are cut into triangles of their corners",
+         Note::Kind::converted);
+    note(by_corners, " polygons of a higher order: they are taken by their corners", Note::Kind::converted);
+    note(uncut, " polygons that are no simple ones, and cannot be cut", Note::Kind::left_out);
+    grid.cells = std::move(cells);
+    grid.types = std::move(types);
+    for (RawArray& array : grid.cell_arrays) {
+        if (!array.fault.empty()) continue;
+        const auto width = static_cast<std::size_t>(array.components);
+        std::visit(
+            [&](auto& values) {
+                std::remove_reference_t<decltype(values)> all;
+                for (const std::int32_t row : rows) {
+                    const auto first =
+                        values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row) * width);
+                    all.insert(all.end(), first, first + array.components);
+                }
+                values = std::move(all);
+            },
+            array.values);
+    }
+    space.facets = std::move(rows);
 }
 
 /// The type of the cells that make the mesh.
@@ -164,7 +250,7 @@ void make_field(RawArray& array) {
 }  // namespace
 
 std::vector<double> to_points(std::vector<double> points, int dimension, const std::string& path,
-                              const std::string& triangles, const std::string& one) {
+                              const std::string& triangles, const std::string& one, InSpace* space) {
     const auto refuse = [&](std::size_t number, const char* expected, const std::string& remedy) {
         constexpr std::array<const char*, 3> names{"x", "y", "z"};
         refuse_file(path,
@@ -174,8 +260,10 @@ std::vector<double> to_points(std::vector<double> points, int dimension, const s
     if (!base::all_finite(points)) refuse(base::first_not_finite(points), "a finite number", "correct the point");
     if (dimension == 3) return points;
     std::size_t to = 0;
+    const bool in_space = space != nullptr && !in_plane(points);
+    if (in_space) space->points = points;
     for (std::size_t i = 0; i < points.size(); i += 3) {
-        if (points[i + 2] != 0)  // those before have lost their z
+        if (points[i + 2] != 0 && !in_space)  // those before have lost their z
             refuse(i + 2, "0, as the mesh is 2D", plane_remedy(i == 0 ? points : std::vector<double>(), triangles));
         points[to++] = points[i];
         points[to++] = points[i + 1];
@@ -217,7 +305,8 @@ void note_narrow_points(const RawGrid& grid, const std::string& path, Notes& not
     if (grid.narrow_points) notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", path});
 }
 
-Mesh to_mesh(RawGrid grid, const std::string& path) {
+Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space) {
+    if (space != nullptr) cut_polygons(grid, path, *space);
     const TypeCounts counts = count_types(grid);
     const CellType& type = choose(counts, grid, path);
     check_cells(grid, path);
@@ -242,7 +331,8 @@ Mesh to_mesh(RawGrid grid, const std::string& path) {
     copy_cells(grid, type.nodes, cells, mesh);
     if (type.nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
     grid.cells.connectivity = {};
-    mesh.points = to_points(std::move(grid.points), mesh.dimension, path, mesh.mid_nodes.empty() ? path : "");
+    mesh.points =
+        to_points(std::move(grid.points), mesh.dimension, path, mesh.mid_nodes.empty() ? path : "", "point", space);
     if (!mesh.cell_numbers.empty()) {
         keep_rows(grid.cell_arrays, mesh.cell_numbers);
         std::ranges::for_each(grid.cell_arrays, make_field);

@@ -18,6 +18,8 @@
 
 namespace barycert::io {
 
+struct InSpace;
+
 /// VTK's types of cells that have a name here, by their numbers (vtkCellType.h).
 enum VtkCell : std::uint8_t {
     vtk_vertex = 1,
@@ -166,13 +168,16 @@ void check_legacy_head(std::string_view bytes, const std::string& path);
 /// The whole file.
 RawGrid read_legacy(std::string_view bytes, const std::string& path, Part part);
 
-/// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages.
-Mesh to_mesh(RawGrid grid, const std::string& path);
+/// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages. `space`: as
+/// for to_points; then polygons are triangles, too.
+Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space = nullptr);
 
 /// The coordinates in that dimension, all finite. Error: one is not; or z is not 0 in dimension 2, with a remedy for
-/// the file of linear triangles `triangles`, if that is not empty. `one`: of what they are.
+/// the file of linear triangles `triangles`, if that is not empty. `one`: of what they are. `space`: takes points that
+/// are not all in that plane, of which x and y are returned.
 std::vector<double> to_points(std::vector<double> points, int dimension, const std::string& path,
-                              const std::string& triangles = {}, const std::string& one = "point");
+                              const std::string& triangles = {}, const std::string& one = "point",
+                              InSpace* space = nullptr);
 
 /// Fields of what can be one; what cannot, and what was widened, is noted. `what`: "point array".
 void take_fields(std::vector<RawArray>& arrays, const std::string& what, const std::string& path,

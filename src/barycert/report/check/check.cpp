@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "barycert/report/check/check_pictures.hpp"
+#include "barycert/report/check/check_surface.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/document.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr std::size_t max_contacts = 8;
 
 void tell_verdict(Document& d, const CheckReport& r, const std::string& name) {
+    if (r.surface) return tell_surface_verdict(d, r, name);
     const std::string of(for_straight_sides(r.curved));
     if (r.certified()) {
         if (r.cells == 0) return d.add(Headline{Tone::good, name, "certified, trivially: the mesh has no cells"});
@@ -59,13 +61,14 @@ void tell_conditions(Document& d, const CheckReport& r, const Mesh& mesh) {
                                              : Tone::plain});
     }
     d.table(std::move(table), "What was checked");
-    if (std::any_of(r.defects.begin(), r.defects.end(), leaves_cells_out))
+    if (!r.surface && std::any_of(r.defects.begin(), r.defects.end(), leaves_cells_out))
         d.say("P2 to P5 leave out cells with an invalid index, a non-finite coordinate or a repeated node.");
 }
 
 /// The listed places of a defect. Where each is just one cell or one node, "cells" or "nodes" is said once.
 Item::Places places_of(const CheckReport& r, const Defect& f) {
     const auto alone = [](const auto& all) { return all[0] >= 0 && (all[1] < 0 || all[1] == all[0]); };
+    const std::string cell = cell_word(r);
     const auto each_is = [&](auto here, auto not_here) {
         return std::ranges::all_of(f.places, [&](const DefectPlace& p) {
             return *p.detail == '\0' && alone(p.*here) && (p.*not_here)[0] < 0;
@@ -76,7 +79,7 @@ Item::Places places_of(const CheckReport& r, const Defect& f) {
     Item::Places all{.count = f.count, .at_least = f.at_least, .between = plain ? ',' : ';'};
     for (const DefectPlace& p : f.places) {
         std::string text = place_text(r, f.kind, p);
-        const std::size_t word = 4;  // "cell", "node"
+        const std::size_t word = text.starts_with("node") ? 4 : cell.size();
         if (plain && !all.shown.empty()) text.erase(0, word + 1);
         if (plain && all.shown.empty() && f.places.size() > 1) text.insert(word, "s");
         all.shown.push_back(std::move(text));
@@ -114,13 +117,15 @@ std::string shortened(const std::string& fraction, bool& cut) {
 
 void tell_contacts(Document& d, const CheckReport& r) {
     if (r.contacts.empty()) return;
-    d.section(counted(r.contacts.size(), "pair") + " of cells that meet where they must not, each with a common point");
+    const std::string word = cell_word(r);
+    d.section(counted(r.contacts.size(), "pair") + " of " + word +
+              "s that meet where they must not, each with a common point");
     bool cut = false;
     for (std::size_t i = 0; i < r.contacts.size(); ++i) {
         const CellContact& c = r.contacts[i];
         const auto cells = r.cell_number(c.cells);
-        Item item{.text =
-                      fmt::format("cells {} and {} {}:", cells[0], cells[1], c.overlap ? "overlap" : touch_text(c))};
+        Item item{
+            .text = fmt::format("{}s {} and {} {}:", word, cells[0], cells[1], c.overlap ? "overlap" : touch_text(c))};
         const std::string point =
             fmt::format("({}){}", coordinates(c.common.point, r.dimension), c.common.exact ? "" : ", rounded");
         if (item.text.size() + 1 + point.size() <= 100)
@@ -198,7 +203,7 @@ Document fix_document(const FixedMesh& fixed) {
 Document check_document(const CheckReport& r, const Mesh& mesh, const std::string& name, const FixedMesh* fixed) {
     Document d;
     d.title = name + (r.certified() ? fmt::format(": certified{}", for_straight_sides(r.curved)) : ": NOT certified");
-    d.heading = "Mesh certificate of " + name;
+    d.heading = (r.surface ? "Surface certificate of " : "Mesh certificate of ") + name;
     d.style = check_style;
     // Without a structure there is nothing that could be drawn.
     const bool drawn = r.find(DefectKind::bad_structure) == nullptr && r.cells != 0 &&
@@ -207,15 +212,20 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
     d.curved(r.curved);
     tell_verdict(d, r, name);
     if (!r.defects.empty() || r.cells != 0)
-        d.say(fmt::format("Cells and nodes are numbered from 0 in file order{}{}.",
-                          r.cell_numbers.empty() ? "" : ", cells that were left out included",
+        d.say(fmt::format("{}s and nodes are numbered from 0 in file order{}{}.",
+                          !r.surface       ? "Cell"
+                          : r.surface->plc ? "Facet"
+                                           : "Triangle",
+                          r.surface || r.cell_numbers.empty() ? "" : ", cells that were left out included",
                           mesh.index_base == 1 ? " (the file itself numbers from 1)" : ""));
     tell_conditions(d, r, mesh);
     tell_defects(d, r, true, "Defects and remedies");
     if (fixed != nullptr) d.append(fix_document(*fixed), For::page);
     if (drawn) d.add(Pictures{[&r, &mesh] { return exhibits(r, mesh); }}, For::page);
     tell_contacts(d, r);
-    if (r.cells != 0) {
+    if (r.surface && r.cells != 0) {
+        tell_surface(d, r);
+    } else if (r.cells != 0) {
         tell_whole_mesh(d, r);
         tell_measures(d, r);
     }
@@ -228,15 +238,14 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
         d.part("The files");
         d.add(Named{"read", std::move(notes)});
     }
-    const std::string checked =
-        fmt::format("{}, {}; checked in {:.3g} s on {}", counted(r.nodes, "node"), counted(r.cells, "cell"), r.seconds,
-                    counted(static_cast<std::uint64_t>(r.threads), "thread"));
+    const std::string checked = fmt::format("{}, {}; checked in {:.3g} s on {}", counted(r.nodes, "node"),
+                                            counted(r.cells, r.surface ? "triangle" : "cell"), r.seconds,
+                                            counted(static_cast<std::uint64_t>(r.threads), "thread"));
     d.part();
     d.say(checked, Tone::plain, For::terminal);
     d.footer = fmt::format(
-        "Made by barycert {} check: {}. Signs, counts, contacts and the verdict are exact; angles and ratios are plain "
-        "double precision.",
-        measure_environment().version, checked);
+        "Made by barycert {} check: {}. Signs, counts, contacts and the verdict are exact; {} plain double precision.",
+        measure_environment().version, checked, r.surface ? "areas and distances are" : "angles and ratios are");
     return d;
 }
 

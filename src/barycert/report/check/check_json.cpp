@@ -15,6 +15,9 @@ JSON_OF(BoundaryReport, facets, pieces, closed, manifold, cavities, tunnels)
 JSON_OF(VolumeReport, cells, boundary, equal)
 JSON_OF(ViolatedFacet, facet, covered)
 JSON_OF(MergedNode, node, into, moved)
+JSON_OF(SurfaceRegion, volume, shell, hole)
+JSON_OF(PlcSeed, hole, number, region, facet)
+JSON_OF(SurfaceShell, triangles, closed, volume, area, inside, first)
 
 inline void to_json(Json& j, const DroppedCell& c) {
     put(j, MEMBERS(c, cell), "why", defect_text(c.why).name);
@@ -125,6 +128,14 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
                defects_json(r), "contacts", list(r.contacts, [&](const CellContact& c) { return contact_json(r, c); }),
                "orientation", record(MEMBERS(r, positive, negative, degenerate)), MEMBERS(r, parts, boundary, volume),
                "measures", measures_json(r));
+    if (const auto& s = r.surface) {
+        for (const char* of_cells : {"orientation", "parts", "boundary", "volume", "measures"}) j.erase(of_cells);
+        put(j, "surface",
+            record("kind", s->plc ? "plc" : "triangles",
+                   MEMBERS(*s, facets, edges, places, closed, manifold, oriented, outward, shell_count, shells, regions,
+                           seeds, off_plane, max_off_plane, relative_off_plane),
+                   "tetgen", tetgen_sentence(r)));
+    }
     if (const auto& d = r.delaunay) {
         const auto index = [](std::int64_t i) { return i < 0 ? Json() : Json(i); };
         put(j, "delaunay",

@@ -28,6 +28,7 @@ void tell_differing(std::vector<std::string>& all, const std::vector<MergedField
 }  // namespace
 
 std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& mesh) {
+    if (report.surface) return surface_condition_rows(report);
     const bool plane = report.dimension == 2;
     std::vector<ConditionRow> rows{
         {"P1", plane ? "every cell has 3 different nodes, finite coordinates and an area"
@@ -55,6 +56,28 @@ std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& 
     return rows;
 }
 
+/// As those of a mesh; what cells and surfaces have in common has the names of P1.
+std::vector<ConditionRow> surface_condition_rows(const CheckReport& report) {
+    const bool plc = report.surface->plc;
+    std::vector<ConditionRow> rows{
+        {"S1", plc ? "every facet is simple, with finite coordinates and an area"
+                   : "every triangle has 3 different nodes, finite coordinates and an area"},
+        {"S2", plc ? "facets, segments and nodes meet only in nodes and segments that they share"
+                   : "triangles meet only in nodes and edges that they share"},
+        {"S3", plc ? "the facets enclose a region" : "the surface is closed: each edge has two triangles or more"}};
+    for (ConditionRow& row : rows) {
+        for (const Defect& f : report.defects) {
+            const std::string_view of = defect_text(f.kind).condition;
+            if (!f.breaks() || (of != row.name && !(of == "P1" && row.name == "S1"))) continue;
+            row.count += f.count;
+            row.at_least |= f.at_least;
+        }
+        row.instead = report.find(DefectKind::bad_structure) != nullptr ? "not checked" : "ok";
+    }
+    if (rows[2].count == 0 && !report.surface->closed) rows[2].instead = "not checked";
+    return rows;
+}
+
 std::string reason(const Defect& defect) {
     const DefectText& text = defect_text(defect.kind);
     return (defect.at_least ? "at least " : "") + counted(defect.count, text.one, text.more);
@@ -68,9 +91,10 @@ std::string_view touch_text(const CellContact& contact) {
 
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& p) {
     const auto cells = used(report.cell_number(p.cells));
+    const char* const cell = cell_word(report);
     auto nodes = used(p.nodes), others = used(p.other_nodes);
-    const std::string on = fmt::format("{} {} of cell {}", others.size() == 2 ? "edge" : "facet",
-                                       fmt::join(others, " "), fmt::join(cells, " "));
+    const std::string on = fmt::format("{} {} of {} {}", others.size() == 2 ? "edge" : "facet", fmt::join(others, " "),
+                                       cell, fmt::join(cells, " "));
     if (kind == DefectKind::hanging_node) return fmt::format("node {} within {}", fmt::join(nodes, " "), on);
     if (kind == DefectKind::near_hanging)
         return fmt::format("node {}, {:.3g} off {} ({:.3g} of an edge)", fmt::join(nodes, " "), p.distance, on,
@@ -80,7 +104,10 @@ std::string place_text(const CheckReport& report, DefectKind kind, const DefectP
                            p.relative);
     if (kind == DefectKind::missing_cell) nodes.insert(nodes.end(), others.begin(), others.end()), others.clear();
     std::string out;
-    if (!cells.empty()) out += fmt::format("cell{} {}", cells.size() == 1 ? "" : "s", fmt::join(cells, " and "));
+    if (kind == DefectKind::facet_off_plane)
+        return fmt::format("{} {}, by {:.3g} ({:.3g} of the extent)", cell, fmt::join(cells, " "), p.distance,
+                           p.relative);
+    if (!cells.empty()) out += fmt::format("{}{} {}", cell, cells.size() == 1 ? "" : "s", fmt::join(cells, " and "));
     if (!nodes.empty())
         out += fmt::format("{}node{} {}{}{}", out.empty() ? "" : ", ", nodes.size() == 1 ? "" : "s",
                            fmt::join(nodes, " "), others.empty() ? "" : " and ", fmt::join(others, " "));

@@ -14,6 +14,14 @@ struct ConditionRow {
     std::string_view instead = {};  ///< without violations: "ok", "not provided" or "not checked"
 };
 std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& mesh);
+std::vector<ConditionRow> surface_condition_rows(const CheckReport& report);
+
+/// What the report counts: cells, triangles, or facets of a PLC.
+inline const char* cell_word(const CheckReport& report) {
+    return !report.surface ? "cell" : report.surface->plc ? "facet" : "triangle";
+}
+/// Whether TetGen gets what it needs, and why not. Of surfaces.
+std::string tetgen_sentence(const CheckReport& report);
 
 /// Cells with it took no part in P2 to P5, and may have no place in space.
 inline bool leaves_cells_out(const Defect& f) {

@@ -1,0 +1,144 @@
+// What a PLC has besides triangles: segments and nodes of its own, and how flat its facets are.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "barycert/check/plc_facet.hpp"
+#include "barycert/check/surface/parts.hpp"
+
+namespace barycert::check {
+namespace {
+
+using Segment = std::array<Mesh::Index, 2>;
+
+/// The segments of a facet, the lower node first.
+std::vector<Segment> segments_of(const PlcFacet& facet) {
+    std::vector<Segment> all;
+    for (const auto& polygon : facet.polygons) {
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const Mesh::Index a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+            if (a != b) all.push_back({std::min(a, b), std::max(a, b)});
+        }
+    }
+    return all;
+}
+
+class Segments {
+public:
+    Segments(SurfaceParts& s, const Plc& plc) : s_(s), plc_(plc) {
+        for (std::size_t i = 0; i < plc.facets.size(); ++i) {
+            for (const Segment& segment : segments_of(plc.facets[i])) facets_of_[segment].insert(i);
+        }
+    }
+
+    /// Segments that are edges of triangles inside facets that do not have them; others are forgotten.
+    void find_inner() {
+        for_each_ridge(s_.edges, [&](std::span<const Ridge> edge) {
+            const auto [u, v] = s_.ends(edge[0]);
+            const Segment segment{std::min(s_.node(u), s_.node(v)), std::max(s_.node(u), s_.node(v))};
+            const auto found = facets_of_.find(segment);
+            if (found == facets_of_.end()) return;
+            for (const Ridge& r : edge) {
+                const auto facet = static_cast<std::size_t>(s_.surface.facet(s_.triangle[r.facet]));
+                if (found->second.contains(facet)) continue;
+                s_.defects.add_marked(DefectKind::segment_in_facet,
+                                      {.cells = {s_.triangle[r.facet], -1}, .nodes = {segment[0], segment[1], -1}});
+                break;
+            }
+            facets_of_.erase(found);
+        });
+    }
+
+    /// Segments and nodes of no triangle, on triangles or across them.
+    void find_loose() {
+        std::vector<std::uint8_t> used(s_.surface.point_count(), 0);
+        std::map<Mesh::Index, Mesh::Index> place;
+        for (std::size_t i = 0; i < s_.index.original_node.size(); ++i)
+            used[static_cast<std::size_t>(s_.index.original_node[i])] = 1;
+        if (facets_of_.empty() && std::ranges::find(used, 0) == used.end()) return;
+        for (std::size_t i = 0; i < s_.index.original_node.size(); ++i)
+            place[s_.index.original_node[i]] = static_cast<Mesh::Index>(i);
+        const BoxGroups boxes(s_.facets.size(),
+                              [&](std::size_t f) { return box_of(s_.index, s_.facets[f].at.data(), 3); });
+        const auto point = [&](Mesh::Index n) { return &s_.surface.points[3 * static_cast<std::size_t>(n)]; };
+        for (const auto& [segment, facets] : facets_of_) {
+            PlacedFacet f;
+            for (std::size_t k = 0; k < 2; ++k) {
+                const auto found = place.find(segment[k]);
+                f.nodes[k] = found == place.end() ? -2 - static_cast<Mesh::Index>(k) : found->second;
+                f.at[k] = point(segment[k]);
+            }
+            if (std::equal(f.at[0], f.at[0] + 3, f.at[1])) continue;
+            boxes.for_each_meeting(box_of(s_.index, f.at.data(), 2), [&](std::size_t t) {
+                if (!segment_conflicts(f, s_.facets[t])) return true;
+                s_.defects.add_marked(DefectKind::segment_in_facet,
+                                      {.cells = {s_.triangle[t], -1}, .nodes = {segment[0], segment[1], -1}});
+                return false;
+            });
+        }
+        for (std::size_t n = 0; n < used.size(); ++n) {
+            const double* const p = point(static_cast<Mesh::Index>(n));
+            if (used[n] != 0 || !s_.index.box_holds(p)) continue;
+            boxes.for_each_meeting(box_of(s_.index, &p, 1), [&](std::size_t t) {
+                const auto face = face_around(3, s_.facets[t], p);
+                if (face[1] < 0) return true;  // at a node of it is a coincident node
+                s_.defects.add_marked(DefectKind::node_on_facet,
+                                      {.cells = {s_.triangle[t], -1}, .nodes = {static_cast<Mesh::Index>(n), -1, -1}});
+                return false;
+            });
+        }
+    }
+
+    void measure_planes() {
+        Box box = empty_box;
+        for (const Mesh::Index n : s_.index.original_node) {
+            const double* const p = &plc_.points[3 * static_cast<std::size_t>(n)];
+            box.add({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
+        }
+        double extent = 0;
+        for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, box.high[k] / 2 - box.low[k] / 2);
+        int exponent = 0;
+        std::frexp(extent, &exponent);
+        for (std::size_t i = 0; i < plc_.facets.size(); ++i) {
+            const PlcFacet& facet = plc_.facets[i];
+            if (facet.polygons.size() == 1 && facet.polygons[0].size() < 4) continue;
+            const PlcRegion region(plc_, facet, exponent);
+            if (!region.proper()) continue;
+            double farthest = 0;
+            bool flat = true;
+            for (const double* const p : region.vertices()) {
+                flat = flat && region.in_plane(p);
+                farthest = std::max(farthest, region.distance(p));
+            }
+            if (flat) continue;
+            ++s_.found.off_plane;
+            const double distance = std::ldexp(farthest, exponent), relative = distance / 2 / extent;
+            s_.found.max_off_plane = std::max(s_.found.max_off_plane, distance);
+            s_.found.relative_off_plane = std::max(s_.found.relative_off_plane, relative);
+            const auto triangle = std::ranges::lower_bound(s_.surface.facets, static_cast<Mesh::Index>(i));
+            if (triangle == s_.surface.facets.end() || *triangle != static_cast<Mesh::Index>(i)) continue;
+            s_.defects.add(DefectKind::facet_off_plane,
+                           {.cells = {static_cast<Mesh::Index>(triangle - s_.surface.facets.begin()), -1},
+                            .distance = distance,
+                            .relative = relative});
+        }
+    }
+
+private:
+    SurfaceParts& s_;
+    const Plc& plc_;
+    std::map<Segment, std::set<std::size_t>> facets_of_;
+};
+
+}  // namespace
+
+void check_segments(SurfaceParts& s, const Plc& plc) {
+    Segments segments(s, plc);
+    segments.find_inner();
+    segments.find_loose();
+    segments.measure_planes();
+}
+
+}  // namespace barycert::check

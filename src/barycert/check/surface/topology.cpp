@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "barycert/check/surface/parts.hpp"
+
+namespace barycert::check {
+namespace {
+
+/// Triangles at an edge in the order of a turn around it, from its lower node to its higher one counterclockwise.
+class Fan {
+public:
+    explicit Fan(const SurfaceParts& s) : s_(s) {}
+
+    std::span<const Ridge> sorted(std::span<const Ridge> edge) {
+        if (edge.size() < 3) return edge;  // either order is one
+        order_.assign(edge.begin(), edge.end());
+        const Ridge first = order_.front();
+        const auto half = [&](const Ridge& r) {  // of a turn from the first one
+            if (r.facet == first.facet) return 0;
+            const int t = turn(first, r);
+            return t > 0 ? 1 : t == 0 ? 2 : 3;
+        };
+        std::ranges::sort(order_, [&](const Ridge& a, const Ridge& b) {
+            const int x = half(a), y = half(b);
+            return x != y ? x < y : a.facet != b.facet && turn(a, b) > 0;
+        });
+        return order_;
+    }
+
+private:
+    int turn(const Ridge& a, const Ridge& b) const {
+        const PlacedFacet &f = s_.facets[a.facet], &g = s_.facets[b.facet];
+        const double *const u = f.at[a.other == 0 ? 1 : 0], *const v = f.at[a.other == 2 ? 1 : 2];
+        return static_cast<int>(orient3d(u, v, f.at[a.other], g.at[b.other]));
+    }
+
+    const SurfaceParts& s_;
+    std::vector<Ridge> order_;
+};
+
+/// Joins the triangles at a node that are connected over edges there; finds nodes with several fans.
+void find_fans(SurfaceParts& s) {
+    base::DisjointSets corners(3 * s.facets.size());
+    const auto corner = [&](std::uint32_t facet, Mesh::Index node) {
+        return 3 * std::size_t{facet} +
+               static_cast<std::size_t>(std::ranges::find(s.facets[facet].nodes, node) - s.facets[facet].nodes.begin());
+    };
+    for_each_ridge(s.edges, [&](std::span<const Ridge> edge) {
+        for (std::size_t i = 1; i < edge.size(); ++i) {
+            for (const Mesh::Index node : s.ends(edge[0]))
+                corners.join(corner(edge[0].facet, node), corner(edge[i].facet, node));
+        }
+    });
+    std::vector<std::uint8_t> seen(s.index.original_node.size(), 0);
+    for (std::size_t i = 0; i < 3 * s.facets.size(); ++i) {
+        if (corners.find(i) != i) continue;
+        const Mesh::Index place = s.facets[i / 3].nodes[i % 3];
+        std::uint8_t& fans = seen[static_cast<std::size_t>(place)];
+        if (++fans == 2) {
+            s.found.manifold = false;
+            s.defects.add_marked(DefectKind::nonmanifold_node,
+                                 {.cells = {s.triangle[i / 3], -1}, .nodes = {s.node(place), -1, -1}});
+        }
+        fans = std::min<std::uint8_t>(fans, 2);
+    }
+}
+
+}  // namespace
+
+void connect_triangles(SurfaceParts& s) {
+    s.edges = ridges_of(3, s.facets);
+    s.shells = base::DisjointSets(s.facets.size());
+    s.sides = base::DisjointSets(2 * s.facets.size());
+    s.found.closed = s.found.manifold = s.found.oriented = true;
+    Fan fan(s);
+    for_each_ridge(s.edges, [&](std::span<const Ridge> edge) {
+        ++s.found.edges;
+        const auto ascending =
+            static_cast<std::size_t>(std::ranges::count_if(edge, [&](const Ridge& r) { return s.ascends(r); }));
+        if (2 * ascending != edge.size()) s.found.oriented = false;
+        if (edge.size() == 1) {
+            s.found.closed = false;
+            s.defects.add_marked(DefectKind::open_edge, s.place_of(edge[0]));
+        } else if (edge.size() > 2) {
+            s.found.manifold = false;
+            s.defects.add_marked(DefectKind::nonmanifold_edge, s.place_of(edge[0]));
+        } else if (ascending != 1 && !s.found.plc) {
+            DefectPlace place = s.place_of(edge[0]);
+            place.cells[1] = s.triangle[edge[1].facet];
+            s.defects.add_marked(DefectKind::misoriented_edge, place);
+        }
+        for (std::size_t i = 1; i < edge.size(); ++i) s.shells.join(edge[0].facet, edge[i].facet);
+        if (!s.embedded) return;
+        // Of a triangle that ascends, the side where its normal points looks forward in the turn.
+        const std::span<const Ridge> ring = fan.sorted(edge);
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Ridge &a = ring[i], &b = ring[(i + 1) % ring.size()];
+            s.sides.join(2 * std::size_t{a.facet} + (s.ascends(a) ? 0 : 1),
+                         2 * std::size_t{b.facet} + (s.ascends(b) ? 1 : 0));
+        }
+    });
+    find_fans(s);
+}
+
+void find_surface_cracks(SurfaceParts& s) {
+    std::vector<Ridge> open;
+    for_each_ridge(s.edges, [&](std::span<const Ridge> edge) {
+        if (edge.size() == 1) open.push_back(edge[0]);
+    });
+    if (open.empty() || s.options.near == 0) return;
+    Mesh places;
+    places.points = s.surface.points;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    std::vector<double> shortest(s.surface.point_count(), none);
+    std::vector<Mesh::Index> nodes;
+    for (const Ridge& edge : open) {
+        const auto [a, b] = s.ends(edge);
+        const double length = node_distance(places, s.node(a), s.node(b));
+        for (const Mesh::Index n : {s.node(a), s.node(b)}) {
+            double& kept = shortest[static_cast<std::size_t>(n)];
+            if (kept == none) nodes.push_back(n);
+            kept = std::min(kept, length);
+        }
+    }
+    std::ranges::sort(nodes);
+    std::vector<double> radius;
+    for (const Mesh::Index n : nodes) radius.push_back(s.options.near * shortest[static_cast<std::size_t>(n)]);
+    base::DisjointSets same(s.surface.point_count());
+    const bool complete = for_each_near(places, nodes, radius, 100 * pair_limit, [&](const NearPair& p) {
+        const double edge =
+            std::min(shortest[static_cast<std::size_t>(p.first)], shortest[static_cast<std::size_t>(p.second)]);
+        s.defects.add(DefectKind::near_nodes, {.nodes = {std::min(p.first, p.second), std::max(p.first, p.second), -1},
+                                               .distance = p.distance,
+                                               .relative = p.distance / edge});
+        same.join(static_cast<std::size_t>(p.first), static_cast<std::size_t>(p.second));
+    });
+    if (!complete) s.defects[DefectKind::near_nodes].at_least = true;
+    // Open edges that become one.
+    std::vector<std::pair<std::array<std::uint32_t, 2>, std::size_t>> keys;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        const auto [a, b] = s.ends(open[i]);
+        std::array<std::uint32_t, 2> key{same.find(static_cast<std::size_t>(s.node(a))),
+                                         same.find(static_cast<std::size_t>(s.node(b)))};
+        std::ranges::sort(key);
+        if (key[0] != key[1]) keys.emplace_back(key, i);
+    }
+    std::ranges::sort(keys);
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        if (keys[i - 1].first != keys[i].first) continue;
+        const Ridge &f = open[keys[i - 1].second], &g = open[keys[i].second];
+        DefectPlace place = s.place_of(f);
+        place.cells[1] = s.triangle[g.facet];
+        place.other_nodes = s.place_of(g).nodes;
+        s.defects.add_marked(DefectKind::crack, place);
+    }
+}
+
+}  // namespace barycert::check

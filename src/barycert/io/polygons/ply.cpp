@@ -1,0 +1,248 @@
+// G. Turk, "The PLY Polygon File Format", 1994.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "barycert/io/formats.hpp"
+#include "barycert/io/polygons/polygons.hpp"
+#include "barycert/io/vtk/numbers.hpp"
+
+namespace barycert::io {
+namespace {
+
+struct Property {
+    std::string name;
+    NumberType type = NumberType::float64;
+    std::optional<NumberType> count = {};  ///< of a list
+};
+
+struct Element {
+    std::string name;
+    std::size_t count = 0;
+    std::vector<Property> properties;
+};
+
+struct Header {
+    enum class Form : std::uint8_t { text, little, big };
+    std::optional<Form> form;
+    std::vector<Element> elements;
+};
+
+NumberType take_type(PlcText& in) {
+    constexpr std::array<std::pair<std::string_view, NumberType>, 16> types{{{"char", NumberType::int8},
+                                                                             {"int8", NumberType::int8},
+                                                                             {"uchar", NumberType::uint8},
+                                                                             {"uint8", NumberType::uint8},
+                                                                             {"short", NumberType::int16},
+                                                                             {"int16", NumberType::int16},
+                                                                             {"ushort", NumberType::uint16},
+                                                                             {"uint16", NumberType::uint16},
+                                                                             {"int", NumberType::int32},
+                                                                             {"int32", NumberType::int32},
+                                                                             {"uint", NumberType::uint32},
+                                                                             {"uint32", NumberType::uint32},
+                                                                             {"float", NumberType::float32},
+                                                                             {"float32", NumberType::float32},
+                                                                             {"double", NumberType::float64},
+                                                                             {"float64", NumberType::float64}}};
+    const std::string_view name = in.take("a type");
+    const auto* const found = std::ranges::find(types, name, &std::pair<std::string_view, NumberType>::first);
+    if (found == types.end()) in.fail("cannot read", "a type of numbers, such as float", name);
+    return found->second;
+}
+
+Header read_header(PlcText& in) {
+    Header header;
+    in.need_line("ply");
+    if (in.take("ply") != "ply") in.fail("cannot read", "ply", in.line());
+    for (in.need_line("end_header"); in.word(0) != "end_header"; in.need_line("end_header")) {
+        const std::string_view key = in.take("a keyword");
+        if (key == "format") {
+            const std::string_view format = in.take("a format");
+            if (format == "ascii") header.form = Header::Form::text;
+            if (format == "binary_little_endian") header.form = Header::Form::little;
+            if (format == "binary_big_endian") header.form = Header::Form::big;
+            if (!header.form) in.fail("cannot read", "ascii, binary_little_endian or binary_big_endian", format);
+        } else if (key == "element") {
+            const std::string name(in.take("an element's name"));
+            // Each takes a byte or more, but for those without properties.
+            header.elements.push_back({name, in.take_count("a count"), {}});
+        } else if (key == "property") {
+            if (header.elements.empty()) in.fail("cannot read", "an element before its properties", in.line());
+            Property property;
+            if (in.word(1) == "list") {
+                in.take("list");
+                property.count = take_type(in);
+                if (*property.count >= NumberType::float32)
+                    in.fail("cannot read", "a count of whole numbers", in.line());
+            }
+            property.type = take_type(in);
+            property.name = in.take("a property's name");
+            header.elements.back().properties.push_back(std::move(property));
+        }
+    }
+    if (!header.form) in.fail("cannot read", "format ascii 1.0, or a binary one");
+    return header;
+}
+
+/// The numbers of the elements, one after the other, as doubles: all types are exact there.
+class Numbers {
+public:
+    Numbers(PlcText& in, Header::Form form) : in_(in), form_(form) {
+        if (form != Header::Form::text) bytes_ = in.rest();
+    }
+
+    void begin(const Element& element, std::size_t i) {
+        if (form_ == Header::Form::text)
+            in_.need_line(
+                [&] { return element.name + " " + std::to_string(i) + " of " + std::to_string(element.count); });
+    }
+    double take(NumberType type, std::string_view what) {
+        if (form_ == Header::Form::text) return in_.take_any_number(what);
+        const std::size_t size = number_bytes(type);
+        if (bytes_.size() < size) in_.fail("the file is truncated", what, "the end of the file");
+        const char* const at = bytes_.data();
+        bytes_.remove_prefix(size);
+        const bool swap = (form_ == Header::Form::big) != (std::endian::native == std::endian::big);
+        switch (type) {
+            case NumberType::int8:
+                return static_cast<double>(number_at<std::int8_t>(at, swap));
+            case NumberType::uint8:
+                return static_cast<double>(number_at<std::uint8_t>(at, swap));
+            case NumberType::int16:
+                return static_cast<double>(number_at<std::int16_t>(at, swap));
+            case NumberType::uint16:
+                return static_cast<double>(number_at<std::uint16_t>(at, swap));
+            case NumberType::int32:
+                return static_cast<double>(number_at<std::int32_t>(at, swap));
+            case NumberType::uint32:
+                return static_cast<double>(number_at<std::uint32_t>(at, swap));
+            case NumberType::float32:
+                return static_cast<double>(number_at<float>(at, swap));
+            default:
+                return number_at<double>(at, swap);
+        }
+    }
+    /// The corners of a list, or how many numbers it has.
+    std::size_t take_list(const Property& list, std::vector<Mesh::Index>* corners) {
+        const double count = take(*list.count, "the number of a polygon's corners");
+        if (!(count >= 0 && count <= 1e9) || count != std::floor(count))
+            in_.fail("cannot read", "the number of a polygon's corners", std::to_string(count));
+        for (double i = 0; i < count; ++i) {
+            const double corner = take(list.type, "a polygon's corner");
+            if (corners == nullptr) continue;
+            if (!(corner >= 0 && corner <= INT32_MAX) || corner != std::floor(corner))
+                in_.fail("no such node", "a number from 0", std::to_string(corner));
+            corners->push_back(static_cast<Mesh::Index>(corner));
+        }
+        return static_cast<std::size_t>(count);
+    }
+
+private:
+    PlcText& in_;
+    Header::Form form_;
+    std::string_view bytes_;
+};
+
+/// Vertices: coordinates, and other properties as fields.
+void read_vertices(PlcText& in, Numbers& numbers, const Element& element, Polygons& all) {
+    std::vector<std::pair<std::size_t, std::size_t>> to;  // an axis and 0, or 3 and a field
+    std::array<bool, 3> found{};
+    for (const Property& property : element.properties) {
+        if (property.count) in.fail("cannot read a list at a vertex", "numbers", property.name);
+        const std::size_t axis = property.name.size() == 1 ? std::string_view("xyz").find(property.name[0]) : 3;
+        if (axis < 3) {
+            found[axis] = true;
+            to.emplace_back(axis, 0);
+            continue;
+        }
+        to.emplace_back(3, all.point_fields.size());
+        all.point_fields.push_back({property.name, 1, {}});
+    }
+    if (!found[0] || !found[1] || !found[2]) in.fail("cannot read", "properties x, y and z");
+    for (std::size_t i = 0; i < element.count; ++i) {
+        numbers.begin(element, i);
+        std::array<double, 3> at{};
+        for (std::size_t k = 0; k < to.size(); ++k) {
+            const double x = numbers.take(element.properties[k].type, "a property of a node");
+            if (to[k].first < 3) {
+                at[to[k].first] = x;
+            } else {
+                all.point_fields[to[k].second].data.push_back(x);
+            }
+        }
+        if (!std::isfinite(at[0] + at[1] + at[2]) &&
+            !std::ranges::all_of(at, [](double x) { return std::isfinite(x); }))
+            in.fail("a coordinate of node " + std::to_string(i) + " is not finite");
+        all.points.insert(all.points.end(), at.begin(), at.end());
+    }
+}
+
+/// Faces: the list of their corners, and other properties as fields.
+void read_faces(PlcText& in, Numbers& numbers, const Element& element, Polygons& all) {
+    const auto is_corners = [](const Property& p) {
+        return p.count && (p.name == "vertex_indices" || p.name == "vertex_index");
+    };
+    if (std::ranges::count_if(element.properties, is_corners) != 1)
+        in.fail("cannot read faces", "a list vertex_indices", element.properties.empty() ? "none" : "others");
+    for (const Property& property : element.properties) {
+        if (!property.count) all.cell_fields.push_back({property.name, 1, {}});
+        if (property.count && !is_corners(property))
+            all.notes.push_back({Note::Kind::left_out, "a list of each face: " + property.name, in.path()});
+    }
+    for (std::size_t i = 0; i < element.count; ++i) {
+        numbers.begin(element, i);
+        std::size_t field = 0;
+        for (const Property& property : element.properties) {
+            if (!property.count) {
+                all.cell_fields[field++].data.push_back(numbers.take(property.type, "a property of a face"));
+                continue;
+            }
+            const std::size_t n = numbers.take_list(property, is_corners(property) ? &all.corners : nullptr);
+            if (!is_corners(property)) continue;
+            if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
+            all.end_polygon(n);
+        }
+    }
+}
+
+}  // namespace
+
+Polygons read_ply(PlcText& in) {
+    const Header header = read_header(in);
+    Polygons all;
+    Numbers numbers(in, *header.form);
+    bool vertices = false;
+    for (const Element& element : header.elements) {
+        if (element.name == "vertex") {
+            read_vertices(in, numbers, element, all);
+            vertices = true;
+        } else if (element.name == "face" && vertices) {
+            read_faces(in, numbers, element, all);
+        } else if (element.name == "face" || element.name == "tristrips") {
+            in.fail("cannot read these elements", "vertex, then face", element.name);
+        } else {
+            for (std::size_t i = 0; i < element.count; ++i) {
+                numbers.begin(element, i);
+                for (const Property& property : element.properties) {
+                    if (property.count) {
+                        numbers.take_list(property, nullptr);
+                    } else {
+                        numbers.take(property.type, "a property");
+                    }
+                }
+            }
+            if (element.count != 0)
+                all.notes.push_back(
+                    {Note::Kind::left_out, std::to_string(element.count) + " elements " + element.name, in.path()});
+        }
+    }
+    check_corners(in, all);
+    return all;
+}
+
+}  // namespace barycert::io

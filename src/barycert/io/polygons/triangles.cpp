@@ -1,0 +1,154 @@
+#include "barycert/io/polygons/triangles.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <utility>
+
+namespace barycert::io {
+namespace {
+
+bool is_polygons_file(const std::string& path) {
+    return std::ranges::any_of(plc_extensions, [&](std::string_view one) { return has_suffix(path, one); });
+}
+
+bool is_plc_file(const std::string& path) {
+    return has_suffix(path, ".poly") || has_suffix(path, ".smesh");
+}
+
+void add(Surface& surface, std::size_t facet, const surface::FacetTriangles& cut) {
+    for (const auto& t : cut.triangles) {
+        surface.cells.insert(surface.cells.end(), t.begin(), t.end());
+        surface.facets.push_back(static_cast<Mesh::Index>(facet));
+    }
+}
+
+/// Forgets the facets if each is one triangle.
+void settle(Surface& surface, std::size_t facets) {
+    if (surface.facets.size() == facets && std::ranges::adjacent_find(surface.facets) == surface.facets.end())
+        surface.facets.clear();
+}
+
+void note_uncut(Surface& surface, std::size_t count, const char* what, const std::string& path) {
+    if (count == 0) return;
+    surface.notes.push_back(
+        {Note::Kind::left_out,
+         std::to_string(count) + " " + what + " that cross themselves or are flat: no triangles fill them", path,
+         true});
+}
+
+}  // namespace
+
+Surface surface_of(Mesh mesh, InSpace space) {
+    Surface surface;
+    if (space.points.empty()) {
+        for (std::size_t i = 0; i < mesh.point_count(); ++i)
+            surface.points.insert(surface.points.end(), {mesh.points[2 * i], mesh.points[2 * i + 1], 0});
+    } else {
+        surface.points = std::move(space.points);
+    }
+    surface.cells = std::move(mesh.cells);
+    surface.point_fields = std::move(mesh.point_fields);
+    surface.cell_fields = std::move(mesh.cell_fields);
+    surface.facets = space.facets.empty() ? std::move(mesh.cell_numbers) : std::move(space.facets);
+    surface.notes = std::move(mesh.notes);
+    surface.index_base = mesh.index_base;
+    if (!mesh.mid_nodes.empty())
+        surface.notes.push_back(
+            {Note::Kind::converted, "triangles of second order: they are taken by their corners", {}, true});
+    return surface;
+}
+
+PlcTriangles triangles_of(const Plc& plc) {
+    PlcTriangles all;
+    all.surface.points = plc.points;
+    all.surface.index_base = plc.index_base;
+    for (std::size_t i = 0; i < plc.facets.size(); ++i) {
+        const PlcFacet& facet = plc.facets[i];
+        const surface::FacetTriangles cut = surface::triangles_of_facet(plc.points, facet.polygons, facet.holes);
+        for (const surface::FacetFault& fault : cut.faults) all.faults.push_back({i, fault});
+        add(all.surface, i, cut);
+    }
+    settle(all.surface, plc.facets.size());
+    return all;
+}
+
+Surface surface_of(Polygons polygons, const std::string& path) {
+    Surface surface;
+    std::size_t uncut = 0;
+    if (polygons.counts.empty()) {
+        surface.cells = std::move(polygons.corners);
+    } else {
+        auto corner = polygons.corners.begin();
+        for (std::size_t i = 0; i < polygons.count(); ++i) {
+            const auto end = corner + polygons.counts[i];
+            const std::vector<Mesh::Index> ring(corner, end);
+            const surface::FacetTriangles cut = surface::triangles_of_facet(polygons.points, {&ring, 1}, {});
+            uncut += cut.triangles.empty() ? 1 : 0;
+            add(surface, i, cut);
+            corner = end;
+        }
+        settle(surface, polygons.count());
+        for (Field& field : polygons.cell_fields) {
+            std::vector<double> rows;
+            for (std::size_t c = 0; c < surface.cell_count(); ++c)
+                rows.push_back(field.data[static_cast<std::size_t>(surface.facet(static_cast<Mesh::Index>(c)))]);
+            field.data = std::move(rows);
+        }
+    }
+    surface.points = std::move(polygons.points);
+    surface.point_fields = std::move(polygons.point_fields);
+    surface.cell_fields = std::move(polygons.cell_fields);
+    surface.index_base = polygons.index_base;
+    surface.notes = std::move(polygons.notes);
+    note_uncut(surface, uncut, "polygons", path);
+    return surface;
+}
+
+Surface surface_of(const Plc& plc, const std::string& path) {
+    PlcTriangles cut = triangles_of(plc);
+    const auto uncut = std::ranges::count_if(
+        cut.faults, [](const PlcTriangles::Fault& f) { return f.fault.kind != surface::FacetFault::Kind::on_segment; });
+    note_uncut(cut.surface, static_cast<std::size_t>(uncut), "facets", path);
+    return std::move(cut.surface);
+}
+
+}  // namespace barycert::io
+
+namespace barycert {
+
+Result<Surface> read_surface(const std::string& path, const ReadOptions& options) {
+    Result<std::variant<Mesh, Surface>> read = read_mesh_or_surface(path, options);
+    if (!read) return read.error();
+    if (auto* const surface = std::get_if<Surface>(&*read)) return std::move(*surface);
+    Mesh& mesh = std::get<Mesh>(*read);
+    if (mesh.dimension == 3)
+        return file_error(path, "this is a mesh of tetrahedra, not a surface", "triangles", {},
+                          "take its boundary: `barycert render boundary`");
+    return io::surface_of(std::move(mesh), io::InSpace());
+}
+
+Result<std::variant<Mesh, Surface>> read_mesh_or_surface(const std::string& path, const ReadOptions& options) {
+    using Either = std::variant<Mesh, Surface>;
+    if (!io::is_polygons_file(path)) {
+        io::InSpace space;
+        Result<Mesh> mesh = io::read_mesh_in_space(path, options, &space);
+        if (!mesh) return mesh.error();
+        if (space.points.empty() && space.facets.empty()) return Either(std::move(*mesh));
+        return Either(io::surface_of(std::move(*mesh), std::move(space)));
+    }
+    if (io::is_plc_file(path)) {
+        const Result<Plc> plc = read_plc(path);
+        if (!plc) return plc.error();
+        return Either(io::surface_of(*plc, path));
+    }
+    return io::read_guarded(path, [&]() -> Result<Either> {
+        const std::string text = io::read_surface_text(path, [](io::PlcText& in) { io::read_polygons(in); });
+        io::PlcText in(path, text, text.size());
+        Surface surface = io::surface_of(io::read_polygons(in), path);
+        if (surface.cells.empty()) return file_error(path, "the surface has no triangles");
+        return Either(std::move(surface));
+    });
+}
+
+}  // namespace barycert

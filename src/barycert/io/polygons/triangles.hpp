@@ -1,0 +1,31 @@
+/// Triangles of polygons and PLCs.
+#pragma once
+
+#include <vector>
+
+#include "barycert/io/formats.hpp"
+#include "barycert/io/polygons/polygons.hpp"
+#include "barycert/surface/facet_triangles.hpp"
+
+namespace barycert::io {
+
+/// The facets of a PLC cut into triangles.
+struct PlcTriangles {
+    struct Fault {
+        std::size_t facet;
+        surface::FacetFault fault;
+    };
+    Surface surface;  ///< of the facets without faults; points are those of the PLC
+    std::vector<Fault> faults;
+};
+
+PlcTriangles triangles_of(const Plc& plc);
+
+/// Of a mesh of triangles.
+Surface surface_of(Mesh mesh, InSpace space);
+
+/// What cannot be cut is left out, and noted.
+Surface surface_of(Polygons polygons, const std::string& path);
+Surface surface_of(const Plc& plc, const std::string& path);
+
+}  // namespace barycert::io
