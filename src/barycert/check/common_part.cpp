@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -10,8 +9,7 @@
 #include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/check/surface/parts.hpp"
-#include "barycert/core/quotient.hpp"
-#include "barycert/core/scaled_double.hpp"
+#include "barycert/core/whole_points.hpp"
 #include "barycert/simplex.hpp"
 
 namespace barycert::check {
@@ -177,19 +175,7 @@ public:
 
     std::string text() const { return numerator_.str() + (denominator_ == 1 ? "" : "/" + denominator_.str()); }
 
-    double rounded() const {
-        if (numerator_ == 0) return 0;
-        // A quotient of 63 or 64 bits, and one that tells whether anything was cut off.
-        const Number magnitude = abs(numerator_);
-        const int shift = 63 + static_cast<int>(msb(denominator_)) - static_cast<int>(msb(magnitude));
-        Number dividend = magnitude, divisor = denominator_, quotient, rest;
-        (shift >= 0 ? dividend : divisor) <<= static_cast<unsigned>(std::abs(shift));
-        divide_qr(dividend, divisor, quotient, rest);
-        const std::array<std::uint64_t, 2> limbs{
-            static_cast<std::uint64_t>(quotient << 1 & ~std::uint64_t{0}) | (rest != 0 ? 1U : 0U),
-            static_cast<std::uint64_t>(quotient >> 63)};
-        return core::round_integer(core::Integer(numerator_ < 0, limbs), -shift - 1);
-    }
+    double rounded() const { return core::rounded_quotient(numerator_, denominator_, 0); }
 
 private:
     Number numerator_, denominator_;

@@ -126,7 +126,7 @@ public:
         for (std::size_t i = 0; i < n_; ++i) {
             for (std::size_t j = i + 1; j < n_; ++j) {
                 try_edge(i, j);
-                for (std::size_t k = j + 1; k < n_ && n_ == 4; ++k) try_face(i, j, k);
+                for (std::size_t k = j + 1; k < n_ && (n_ == 4 || cell.in_space); ++k) try_face(i, j, k);
             }
         }
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -11,8 +10,7 @@
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/quotient.hpp"
-#include "barycert/core/scaled_double.hpp"
+#include "barycert/core/whole_points.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 
@@ -26,27 +24,30 @@ namespace {
 //   face abc:   p projects to the inside of abc, and does not lie on the cell's side of it.
 // For x is nearest if and only if (p - x).(c - x) <= 0 for all corners c, and all these are signs of such products:
 // with x on ab and p - x normal to it, that of c has the sign of the weight of c of p's projection to abc. In the plane
-// the edges are what faces are here. All of it are signs of weights.
+// the edges are what faces are here. All of it are signs of weights. Of a triangle in space
+//   face abc:   p projects to the inside of abc.
 
 class Classifier {
 public:
     Classifier(const NearCell& cell, const Point3& p) : cell_(cell), p_(p) {
+        if (cell.in_space) return;
         std::array<double, 12> vertices{};
         const auto n = static_cast<std::size_t>(cell.count), d = n - 1;
         for (std::size_t i = 0; i < n; ++i) std::copy_n(cell.at[i].begin(), d, &vertices[d * i]);
         sides_ = weight_signs(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), p.data());
     }
 
-    bool degenerate() const { return sides_.degenerate(); }
-    bool inside() const { return sides_.region() == Region::interior; }
+    bool degenerate() const { return !cell_.in_space && sides_.degenerate(); }
+    bool inside() const { return !cell_.in_space && sides_.region() == Region::interior; }
 
     bool nearest(unsigned mask) {
         const int corners = std::popcount(mask);
-        if (corners == cell_.count - 1 && sides_.sign(std::countr_one(mask)) == Sign::positive) return false;
+        const int most = cell_.in_space ? cell_.count : cell_.count - 1;
+        if (!cell_.in_space && corners == most && sides_.sign(std::countr_one(mask)) == Sign::positive) return false;
         for (int i = 0; i < cell_.count; ++i) {
             // What lies within it, and on the faces of one dimension more.
             if (corners > 1 && (mask >> i & 1) != 0 && !positive(mask, i)) return false;
-            if (corners < cell_.count - 1 && (mask >> i & 1) == 0 && positive(mask | 1U << i, i)) return false;
+            if (corners < most && (mask >> i & 1) == 0 && positive(mask | 1U << i, i)) return false;
         }
         return true;
     }
@@ -79,31 +80,14 @@ using Number =
 using Vector = base::Vector3<Number>;
 using base::cross, base::dot, base::minus;
 
-/// Points as whole multiples of 2^(unit.exponent - 1074).
-class Lattice {
+class Lattice : public core::WholePoints<Number> {
 public:
-    void add(const Point3& p) {
-        for (const double x : p) unit_.add(core::scaled(x));
-    }
+    using core::WholePoints<Number>::add, core::WholePoints<Number>::at;
+    void add(const Point3& p) { add(p.data()); }
     void add(const NearFeature& f) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(f.count); ++i) add(f.at[i]);
     }
-    Vector at(const Point3& p) const {
-        Vector v;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const core::ScaledDouble x = core::scaled(p[k]);
-            if (x.mantissa == 0) continue;
-            v[k] = x.mantissa;
-            v[k] <<= static_cast<unsigned>(x.exponent - unit_.exponent);
-            if (x.negative) v[k] = -v[k];
-        }
-        return v;
-    }
-    /// Of the unit, as a power of two; 0 if all is zero.
-    int exponent() const { return unit_.exponent == core::ScaledDouble::none ? 0 : unit_.exponent - 1074; }
-
-private:
-    core::Unit unit_;
+    Vector at(const Point3& p) const { return at(p.data()); }
 };
 
 /// Of a distance: numerator / denominator.
@@ -159,7 +143,7 @@ bool nearest_feature(const NearCell& cell, const Point3& p, unsigned guess, Near
     }
     const unsigned all = (1U << cell.count) - 1;
     unsigned found = is.nearest(guess) ? guess : 0;
-    for (unsigned mask = 1; found == 0 && mask < all; ++mask) {
+    for (unsigned mask = 1; found == 0 && mask < all + (cell.in_space ? 1U : 0U); ++mask) {
         if (is.nearest(mask)) found = mask;
     }
     out = cell.feature(found);
@@ -208,6 +192,22 @@ double distance_to(const Point3& p, const NearFeature& f) {
     const std::uint64_t root = root_of(q);
     const bool inexact = rest != 0 || static_cast<core::UInt128>(root) * root != q;
     return core::round_integer(core::Integer(false, root << 1 | (inexact ? 1 : 0), 0), lattice.exponent() - shift - 1);
+}
+
+Point3 projection_on(const Point3& p, const NearFeature& f) {
+    if (f.count == 1) return f.at[0];
+    Lattice lattice;
+    lattice.add(p);
+    lattice.add(f);
+    // a + e (q.e) / (e.e) on an edge; p - n (q.n) / (n.n) on a face.
+    const Vector a = lattice.at(f.at[0]), at_p = lattice.at(p), q = minus(at_p, a), e = minus(lattice.at(f.at[1]), a);
+    const Vector n = f.count == 2 ? e : cross(e, minus(lattice.at(f.at[2]), a));
+    const Number along = f.count == 2 ? dot(q, n) : Number(-dot(q, n)), square = dot(n, n);
+    Point3 x{};
+    for (std::size_t k = 0; k < 3; ++k)
+        x[k] = core::rounded_quotient<Number>((f.count == 2 ? a : at_p)[k] * square + along * n[k], square,
+                                              lattice.exponent());
+    return x;
 }
 
 }  // namespace barycert::locate

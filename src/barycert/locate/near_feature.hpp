@@ -33,7 +33,8 @@ struct NearFeature {
 
 /// The corners of a cell by ascending node.
 struct NearCell {
-    int count = 0;  ///< d + 1
+    int count = 0;          ///< d + 1; of a triangle in space 3
+    bool in_space = false;  ///< it is a triangle in space
     std::array<Mesh::Index, 4> nodes{};
     std::array<Point3, 4> at{};
 
@@ -42,7 +43,8 @@ struct NearCell {
 };
 
 /// Finds the feature of the closed cell on which its point nearest to p lies; of a point inside, the point itself.
-/// `guess` is a feature to try first, a mask. Returns false if the cell is degenerate.
+/// `guess` is a feature to try first, a mask. Returns false if the cell is degenerate. Precondition: a triangle in
+/// space is not.
 bool nearest_feature(const NearCell& cell, const Point3& p, unsigned guess, NearFeature& out);
 
 /// -1, 0, 1 as p is nearer to the projection on f than to that on g, as near, or farther.
@@ -53,5 +55,8 @@ double distance_to(const Point3& p, const NearFeature& f);
 
 /// The weights of the projection of p on f, each correctly rounded.
 std::array<double, 3> weights_of(const Point3& p, const NearFeature& f);
+
+/// The projection of p on f, each coordinate correctly rounded.
+Point3 projection_on(const Point3& p, const NearFeature& f);
 
 }  // namespace barycert::locate

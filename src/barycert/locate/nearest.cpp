@@ -34,10 +34,9 @@ struct Open {
 
 class Search {
 public:
-    Search(const LocatorData& data, const double* point, double limit, NearestWork& work)
-        : data_(data),
-          index_(data.index),
-          tree_(data.nearest_tree()),
+    Search(const CellIndex& index, const NearestTree& tree, const double* point, double limit, NearestWork& work)
+        : index_(index),
+          tree_(tree),
           work_(work),
           limited_(limit < infinity),
           limit_(limited_ ? limit + 0x1p-1074L : 0) {
@@ -132,6 +131,7 @@ private:
     NearCell cell_at(std::size_t i) const {
         NearCell cell;
         cell.count = static_cast<int>(index_.corners());
+        cell.in_space = index_.corners() == index_.dimension();
         std::array<Place, 4> places{};
         std::copy_n(index_.cells[i].node.begin(), index_.corners(), places.begin());
         const auto node = [&](Place q) { return index_.original_node[static_cast<std::size_t>(q)]; };
@@ -148,7 +148,6 @@ private:
         return cell;
     }
 
-    const LocatorData& data_;
     const CellIndex& index_;
     const NearestTree& tree_;
     NearestWork& work_;
@@ -178,12 +177,18 @@ NearestTree::NearestTree(const CellIndex& index) {
     begin_.push_back(boxes_.size());
 }
 
-Nearest find_nearest(const LocatorData& data, const double* point, double limit, NearestWork* work) {
+Nearest find_nearest(const CellIndex& index, const NearestTree& tree, const double* point, double limit,
+                     NearestWork* work) {
     const Nearest none{.distance = infinity};
-    if (!(limit >= 0) || data.index.cell_count() == 0) return none;
+    if (!(limit >= 0)) return none;
     NearestWork unasked;
-    const Nearest found = Search(data, point, limit, work != nullptr ? *work : unasked).run();
+    const Nearest found = Search(index, tree, point, limit, work != nullptr ? *work : unasked).run();
     return found.distance <= limit ? found : none;
+}
+
+Nearest find_nearest(const LocatorData& data, const double* point, double limit, NearestWork* work) {
+    if (data.index.cell_count() == 0) return {.distance = infinity};
+    return find_nearest(data.index, data.nearest_tree(), point, limit, work);
 }
 
 }  // namespace locate

@@ -41,7 +41,9 @@ struct NearestWork {
     std::uint64_t comparisons = 0;  ///< in integers
 };
 
-/// As Locator::nearest. Precondition: coordinates are finite.
+/// As Locator::nearest, of cells or triangles in space. Preconditions: coordinates are finite; there is a cell.
+Nearest find_nearest(const CellIndex& index, const NearestTree& tree, const double* point, double limit,
+                     NearestWork* work = nullptr);
 Nearest find_nearest(const LocatorData& data, const double* point, double limit, NearestWork* work = nullptr);
 
 }  // namespace barycert::locate

@@ -10,6 +10,7 @@
 #include "barycert/index/cell_tree.hpp"
 #include "barycert/index/open_sheets.hpp"
 #include "barycert/index/ridges.hpp"
+#include "barycert/index/triangles.hpp"
 
 namespace barycert::check {
 
@@ -21,40 +22,25 @@ struct SurfaceParts {
     DefectList& defects;
     SurfaceReport& found = *report.surface;
 
-    CellIndex index = {};                    ///< of the triangles
-    std::vector<Mesh::Index> triangle = {};  ///< of each that is proper, in the order of space
-    std::vector<PlacedFacet> facets = {};    ///< of each: nodes by their place in the index, ascending
-    std::vector<std::uint8_t> odd = {};      ///< its nodes in that order turn it round
+    Triangles triangles = {};
     std::vector<Ridge> edges = {};
     bool embedded = false;                  ///< S1 and S2 hold
     base::DisjointSets shells{0};           ///< of places, connected over edges
     base::DisjointSets sides{0};            ///< 2 * place: where its normal points, and the other one; of one region
     std::unique_ptr<BoxGroups> boxes = {};  ///< of places
 
-    Mesh::Index node(Mesh::Index place) const { return index.original_node[static_cast<std::size_t>(place)]; }
-    std::array<Mesh::Index, 3> nodes(std::size_t place) const {
-        const auto& n = facets[place].nodes;
-        return {node(n[0]), node(n[1]), node(n[2])};
-    }
-    /// Corners as the surface turns them.
-    std::array<const double*, 3> turned(std::size_t place) const {
-        const auto& at = facets[place].at;
-        return odd[place] != 0 ? std::array{at[1], at[0], at[2]} : at;
-    }
-    /// The edge goes from its lower to its higher node as the surface turns the triangle.
-    bool ascends(const Ridge& edge) const { return (edge.other == 1) == (odd[edge.facet] != 0); }
     std::array<Mesh::Index, 2> ends(const Ridge& edge) const {
         return {static_cast<Mesh::Index>(edge.nodes >> 32), static_cast<Mesh::Index>(edge.nodes & 0xFFFFFFFFU)};
     }
     DefectPlace place_of(const Ridge& edge) const {
         const auto [a, b] = ends(edge);
-        return {.cells = {triangle[edge.facet], -1}, .nodes = {node(a), node(b), -1}};
+        return {.cells = {triangles.number[edge.facet], -1}, .nodes = {triangles.node(a), triangles.node(b), -1}};
     }
 };
 
 /// S1 of triangles. Finds index_out_of_range, not_finite, repeated_node, degenerate_triangle, coincident_nodes,
 /// unused_node. False if nothing else can be asked.
-bool place_triangles(SurfaceParts& s);
+bool check_triangles(SurfaceParts& s);
 
 /// S2 of triangles. Finds duplicate_triangle, self_intersection and hanging_node; returns the pairs that intersect.
 std::vector<CellPair> find_intersections(SurfaceParts& s);

@@ -35,25 +35,25 @@ public:
     explicit Regions(SurfaceParts& s) : s_(s), volumes_(3, s.surface.points) {}
 
     void measure_shells() {
-        std::vector<std::uint32_t> number(s_.facets.size());
+        std::vector<std::uint32_t> number(s_.triangles.facets.size());
         std::vector<long double> areas;
         std::vector<std::int64_t> balance;
-        for (std::size_t f = 0; f < s_.facets.size(); ++f) {
+        for (std::size_t f = 0; f < s_.triangles.facets.size(); ++f) {
             const std::uint32_t root = s_.shells.find(f);
             if (root == f) {
                 number[f] = static_cast<std::uint32_t>(s_.found.shells.size());
-                s_.found.shells.emplace_back().first = s_.triangle[f];
+                s_.found.shells.emplace_back().first = s_.triangles.number[f];
                 areas.push_back(0);
             }
             number[f] = number[root];
             SurfaceShell& shell = s_.found.shells[number[f]];
             ++shell.triangles;
-            shell.first = std::min(shell.first, s_.triangle[f]);
-            areas[number[f]] += area_of(s_.facets[f].at);
+            shell.first = std::min(shell.first, s_.triangles.number[f]);
+            areas[number[f]] += area_of(s_.triangles.facets[f].at);
         }
         std::vector<std::uint8_t> balanced(areas.size(), 1);
         for_each_ridge(s_.edges, [&](std::span<const Ridge> edge) {
-            const auto up = std::ranges::count_if(edge, [&](const Ridge& r) { return s_.ascends(r); });
+            const auto up = std::ranges::count_if(edge, [&](const Ridge& r) { return s_.triangles.ascends(r); });
             const std::uint32_t shell = number[edge[0].facet];
             if (edge.size() == 1) s_.found.shells[shell].closed = false;
             if (2 * static_cast<std::size_t>(up) != edge.size()) balanced[shell] = 0;
@@ -73,7 +73,7 @@ public:
     /// Preconditions: embedded; measure_shells().
     void find_chambers() {
         std::map<std::uint32_t, std::size_t> of_root;
-        chamber_.resize(2 * s_.facets.size());
+        chamber_.resize(2 * s_.triangles.facets.size());
         for (std::size_t side = 0; side < chamber_.size(); ++side) {
             const std::uint32_t root = s_.sides.find(side);
             if (root == side) {
@@ -83,23 +83,24 @@ public:
             chamber_[side] = chamber_[root];
         }
         std::vector<Integer> out(chambers_.size()), in(chambers_.size());
-        std::vector<std::uint32_t> of_front(s_.facets.size()), of_back(s_.facets.size());
-        for (std::size_t f = 0; f < s_.facets.size(); ++f) {
+        std::vector<std::uint32_t> of_front(s_.triangles.facets.size()), of_back(s_.triangles.facets.size());
+        for (std::size_t f = 0; f < s_.triangles.facets.size(); ++f) {
             of_front[f] = chamber_[2 * f];
             of_back[f] = chamber_[2 * f + 1];
         }
         add_cones(of_back, out);
         add_cones(of_front, in);
         for (std::size_t c = 0; c < chambers_.size(); ++c) chambers_[c].six = out[c] - in[c];
-        s_.boxes = std::make_unique<BoxGroups>(
-            s_.facets.size(), [&](std::size_t f) { return box_of(s_.index, s_.facets[f].at.data(), 3); });
+        s_.boxes = std::make_unique<BoxGroups>(s_.triangles.facets.size(), [&](std::size_t f) {
+            return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3);
+        });
     }
 
     /// The chamber that holds a point on no triangle, other than those of `without`; nothing outside of all.
     std::optional<std::size_t> chamber_at(const double* p, std::optional<std::uint32_t> without = {}) const {
         std::map<std::uint32_t, int> winding;
         for_each_on_ray(p, [&](std::size_t f) {
-            const int c = without && shell_of_[f] == *without ? 0 : crossing(s_.turned(f), p);
+            const int c = without && shell_of_[f] == *without ? 0 : crossing(s_.triangles.turned(f), p);
             winding[chamber_[2 * f + 1]] += c;
             winding[chamber_[2 * f]] -= c;
         });
@@ -114,7 +115,7 @@ public:
     void nest() {
         std::vector<std::uint8_t> outermost(s_.found.shell_count, 1);
         std::vector<std::optional<std::size_t>> around(s_.found.shell_count);
-        for (std::size_t f = 0; f < s_.facets.size(); ++f) {
+        for (std::size_t f = 0; f < s_.triangles.facets.size(); ++f) {
             if (s_.shells.find(f) == f) around[shell_of_[f]] = chamber_at(own_node(f), shell_of_[f]);
         }
         std::vector<Integer> left;
@@ -150,10 +151,11 @@ public:
 private:
     void place_seed(bool hole, std::size_t number, const double* p) {
         PlcSeed seed{hole, number, -1, -1};
-        const CellBox at = box_of(s_.index, &p, 1);
-        if (s_.index.box_holds(p)) {
+        const CellBox at = box_of(s_.triangles.index, &p, 1);
+        if (s_.triangles.index.box_holds(p)) {
             s_.boxes->for_each_meeting(at, [&](std::size_t f) {
-                if (face_around(3, s_.facets[f], p)[0] >= 0) seed.facet = s_.surface.facet(s_.triangle[f]);
+                if (face_around(3, s_.triangles.facets[f], p)[0] >= 0)
+                    seed.facet = s_.surface.facet(s_.triangles.number[f]);
                 return seed.facet < 0;
             });
         }
@@ -173,26 +175,27 @@ private:
     /// A node of the triangle's shell that no other shell has, if there is one; else one of the triangle's.
     const double* own_node(std::size_t f) {
         if (shells_at_.empty()) {
-            shells_at_.assign(s_.index.original_node.size(), -1);
-            for (std::size_t g = 0; g < s_.facets.size(); ++g) {
-                for (const Mesh::Index n : s_.facets[g].nodes) {
+            shells_at_.assign(s_.triangles.index.original_node.size(), -1);
+            for (std::size_t g = 0; g < s_.triangles.facets.size(); ++g) {
+                for (const Mesh::Index n : s_.triangles.facets[g].nodes) {
                     std::int64_t& shell = shells_at_[static_cast<std::size_t>(n)];
                     shell = shell == -1 || shell == shell_of_[g] ? shell_of_[g] : -2;
                 }
             }
             own_.assign(s_.found.shell_count, nullptr);
             for (std::size_t n = 0; n < shells_at_.size(); ++n) {
-                if (shells_at_[n] >= 0) own_[static_cast<std::size_t>(shells_at_[n])] = s_.index.nodes[n].at.data();
+                if (shells_at_[n] >= 0)
+                    own_[static_cast<std::size_t>(shells_at_[n])] = s_.triangles.index.nodes[n].at.data();
             }
         }
         const double* const own = own_[shell_of_[f]];
-        return own != nullptr ? own : s_.facets[f].at[0];
+        return own != nullptr ? own : s_.triangles.facets[f].at[0];
     }
 
     template <class Use>
     void for_each_on_ray(const double* p, Use use) const {
-        if (!s_.index.box_holds(p)) return;
-        CellBox ray = box_of(s_.index, &p, 1);
+        if (!s_.triangles.index.box_holds(p)) return;
+        CellBox ray = box_of(s_.triangles.index, &p, 1);
         ray.high[0] = Quantizer::max;
         s_.boxes->for_each_meeting(ray, [&](std::size_t f) {
             use(f);
@@ -202,12 +205,12 @@ private:
 
     /// Adds det(a, b, c) of each triangle to the sum of its number.
     void add_cones(const std::vector<std::uint32_t>& number, std::vector<Integer>& sums) {
-        const std::size_t blocks = sums.size() > 64 ? 1 : 64, block = s_.facets.size() / blocks + 1;
+        const std::size_t blocks = sums.size() > 64 ? 1 : 64, block = s_.triangles.facets.size() / blocks + 1;
         std::vector<std::vector<Integer>> parts(blocks, sums);
         base::parallel_for(blocks, [&](std::size_t i) {
-            for (std::size_t f = i * block; f < std::min(s_.facets.size(), (i + 1) * block); ++f) {
+            for (std::size_t f = i * block; f < std::min(s_.triangles.facets.size(), (i + 1) * block); ++f) {
                 Integer& sum = parts[i][number[f]];
-                sum = sum + volumes_.cone(s_.turned(f).data());
+                sum = sum + volumes_.cone(s_.triangles.turned(f).data());
             }
         });
         for (const auto& part : parts) {

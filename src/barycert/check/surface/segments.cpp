@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "barycert/check/plc_facet.hpp"
@@ -28,8 +29,17 @@ std::vector<Segment> segments_of(const PlcFacet& facet) {
 class Segments {
 public:
     Segments(SurfaceParts& s, const Plc& plc) : s_(s), plc_(plc) {
+        std::vector<Mesh::Index> same(plc.point_count());
+        std::iota(same.begin(), same.end(), 0);
+        for (std::size_t i = 0; i < s.triangles.same.size(); ++i)
+            same[static_cast<std::size_t>(s.triangles.node(static_cast<Place>(i)))] =
+                s.triangles.node(s.triangles.same[i]);
         for (std::size_t i = 0; i < plc.facets.size(); ++i) {
-            for (const Segment& segment : segments_of(plc.facets[i])) facets_of_[segment].insert(i);
+            for (Segment segment : segments_of(plc.facets[i])) {
+                for (Mesh::Index& node : segment) node = same[static_cast<std::size_t>(node)];
+                std::ranges::sort(segment);
+                if (segment[0] != segment[1]) facets_of_[segment].insert(i);
+            }
         }
     }
 
@@ -37,14 +47,15 @@ public:
     void find_inner() {
         for_each_ridge(s_.edges, [&](std::span<const Ridge> edge) {
             const auto [u, v] = s_.ends(edge[0]);
-            const Segment segment{std::min(s_.node(u), s_.node(v)), std::max(s_.node(u), s_.node(v))};
+            const Segment segment{std::min(s_.triangles.node(u), s_.triangles.node(v)),
+                                  std::max(s_.triangles.node(u), s_.triangles.node(v))};
             const auto found = facets_of_.find(segment);
             if (found == facets_of_.end()) return;
             for (const Ridge& r : edge) {
-                const auto facet = static_cast<std::size_t>(s_.surface.facet(s_.triangle[r.facet]));
+                const auto facet = static_cast<std::size_t>(s_.surface.facet(s_.triangles.number[r.facet]));
                 if (found->second.contains(facet)) continue;
-                s_.defects.add_marked(DefectKind::segment_in_facet,
-                                      {.cells = {s_.triangle[r.facet], -1}, .nodes = {segment[0], segment[1], -1}});
+                s_.defects.add_marked(DefectKind::segment_in_facet, {.cells = {s_.triangles.number[r.facet], -1},
+                                                                     .nodes = {segment[0], segment[1], -1}});
                 break;
             }
             facets_of_.erase(found);
@@ -55,13 +66,14 @@ public:
     void find_loose() {
         std::vector<std::uint8_t> used(s_.surface.point_count(), 0);
         std::map<Mesh::Index, Mesh::Index> place;
-        for (std::size_t i = 0; i < s_.index.original_node.size(); ++i)
-            used[static_cast<std::size_t>(s_.index.original_node[i])] = 1;
+        for (std::size_t i = 0; i < s_.triangles.index.original_node.size(); ++i)
+            used[static_cast<std::size_t>(s_.triangles.index.original_node[i])] = 1;
         if (facets_of_.empty() && std::ranges::find(used, 0) == used.end()) return;
-        for (std::size_t i = 0; i < s_.index.original_node.size(); ++i)
-            place[s_.index.original_node[i]] = static_cast<Mesh::Index>(i);
-        const BoxGroups boxes(s_.facets.size(),
-                              [&](std::size_t f) { return box_of(s_.index, s_.facets[f].at.data(), 3); });
+        for (std::size_t i = 0; i < s_.triangles.index.original_node.size(); ++i)
+            place[s_.triangles.index.original_node[i]] = s_.triangles.same[i];
+        const BoxGroups boxes(s_.triangles.facets.size(), [&](std::size_t f) {
+            return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3);
+        });
         const auto point = [&](Mesh::Index n) { return &s_.surface.points[3 * static_cast<std::size_t>(n)]; };
         for (const auto& [segment, facets] : facets_of_) {
             PlacedFacet f;
@@ -71,21 +83,21 @@ public:
                 f.at[k] = point(segment[k]);
             }
             if (std::equal(f.at[0], f.at[0] + 3, f.at[1])) continue;
-            boxes.for_each_meeting(box_of(s_.index, f.at.data(), 2), [&](std::size_t t) {
-                if (!segment_conflicts(f, s_.facets[t])) return true;
+            boxes.for_each_meeting(box_of(s_.triangles.index, f.at.data(), 2), [&](std::size_t t) {
+                if (!segment_conflicts(f, s_.triangles.facets[t])) return true;
                 s_.defects.add_marked(DefectKind::segment_in_facet,
-                                      {.cells = {s_.triangle[t], -1}, .nodes = {segment[0], segment[1], -1}});
+                                      {.cells = {s_.triangles.number[t], -1}, .nodes = {segment[0], segment[1], -1}});
                 return false;
             });
         }
         for (std::size_t n = 0; n < used.size(); ++n) {
             const double* const p = point(static_cast<Mesh::Index>(n));
-            if (used[n] != 0 || !s_.index.box_holds(p)) continue;
-            boxes.for_each_meeting(box_of(s_.index, &p, 1), [&](std::size_t t) {
-                const auto face = face_around(3, s_.facets[t], p);
+            if (used[n] != 0 || !s_.triangles.index.box_holds(p)) continue;
+            boxes.for_each_meeting(box_of(s_.triangles.index, &p, 1), [&](std::size_t t) {
+                const auto face = face_around(3, s_.triangles.facets[t], p);
                 if (face[1] < 0) return true;  // at a node of it is a coincident node
-                s_.defects.add_marked(DefectKind::node_on_facet,
-                                      {.cells = {s_.triangle[t], -1}, .nodes = {static_cast<Mesh::Index>(n), -1, -1}});
+                s_.defects.add_marked(DefectKind::node_on_facet, {.cells = {s_.triangles.number[t], -1},
+                                                                  .nodes = {static_cast<Mesh::Index>(n), -1, -1}});
                 return false;
             });
         }
@@ -93,7 +105,7 @@ public:
 
     void measure_planes() {
         Box box = empty_box;
-        for (const Mesh::Index n : s_.index.original_node) {
+        for (const Mesh::Index n : s_.triangles.index.original_node) {
             const double* const p = &plc_.points[3 * static_cast<std::size_t>(n)];
             box.add({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
         }

@@ -70,7 +70,7 @@ private:
 
     void check_all() {
         stage("triangles");
-        if (!place_triangles(parts_) || enough()) return;
+        if (!check_triangles(parts_) || enough()) return;
         stage("intersections");
         const std::vector<CellPair> pairs = find_intersections(parts_);
         if (enough()) return;

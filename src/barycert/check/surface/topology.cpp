@@ -30,7 +30,7 @@ public:
 
 private:
     int turn(const Ridge& a, const Ridge& b) const {
-        const PlacedFacet &f = s_.facets[a.facet], &g = s_.facets[b.facet];
+        const PlacedFacet &f = s_.triangles.facets[a.facet], &g = s_.triangles.facets[b.facet];
         const double *const u = f.at[a.other == 0 ? 1 : 0], *const v = f.at[a.other == 2 ? 1 : 2];
         return static_cast<int>(orient3d(u, v, f.at[a.other], g.at[b.other]));
     }
@@ -41,10 +41,11 @@ private:
 
 /// Joins the triangles at a node that are connected over edges there; finds nodes with several fans.
 void find_fans(SurfaceParts& s) {
-    base::DisjointSets corners(3 * s.facets.size());
+    base::DisjointSets corners(3 * s.triangles.facets.size());
     const auto corner = [&](std::uint32_t facet, Mesh::Index node) {
         return 3 * std::size_t{facet} +
-               static_cast<std::size_t>(std::ranges::find(s.facets[facet].nodes, node) - s.facets[facet].nodes.begin());
+               static_cast<std::size_t>(std::ranges::find(s.triangles.facets[facet].nodes, node) -
+                                        s.triangles.facets[facet].nodes.begin());
     };
     for_each_ridge(s.edges, [&](std::span<const Ridge> edge) {
         for (std::size_t i = 1; i < edge.size(); ++i) {
@@ -52,15 +53,15 @@ void find_fans(SurfaceParts& s) {
                 corners.join(corner(edge[0].facet, node), corner(edge[i].facet, node));
         }
     });
-    std::vector<std::uint8_t> seen(s.index.original_node.size(), 0);
-    for (std::size_t i = 0; i < 3 * s.facets.size(); ++i) {
+    std::vector<std::uint8_t> seen(s.triangles.index.original_node.size(), 0);
+    for (std::size_t i = 0; i < 3 * s.triangles.facets.size(); ++i) {
         if (corners.find(i) != i) continue;
-        const Mesh::Index place = s.facets[i / 3].nodes[i % 3];
+        const Mesh::Index place = s.triangles.facets[i / 3].nodes[i % 3];
         std::uint8_t& fans = seen[static_cast<std::size_t>(place)];
         if (++fans == 2) {
             s.found.manifold = false;
-            s.defects.add_marked(DefectKind::nonmanifold_node,
-                                 {.cells = {s.triangle[i / 3], -1}, .nodes = {s.node(place), -1, -1}});
+            s.defects.add_marked(DefectKind::nonmanifold_node, {.cells = {s.triangles.number[i / 3], -1},
+                                                                .nodes = {s.triangles.node(place), -1, -1}});
         }
         fans = std::min<std::uint8_t>(fans, 2);
     }
@@ -69,16 +70,16 @@ void find_fans(SurfaceParts& s) {
 }  // namespace
 
 void connect_triangles(SurfaceParts& s) {
-    s.edges = ridges_of(3, s.facets);
-    s.shells = base::DisjointSets(s.facets.size());
-    s.sides = base::DisjointSets(2 * s.facets.size());
+    s.edges = ridges_of(3, s.triangles.facets);
+    s.shells = base::DisjointSets(s.triangles.facets.size());
+    s.sides = base::DisjointSets(2 * s.triangles.facets.size());
     s.found.closed = s.found.manifold = s.found.oriented = true;
     Fan fan(s);
     for_each_ridge(s.edges, [&](std::span<const Ridge> edge) {
         ++s.found.edges;
-        const auto ascending =
-            static_cast<std::size_t>(std::ranges::count_if(edge, [&](const Ridge& r) { return s.ascends(r); }));
-        if (2 * ascending != edge.size()) s.found.oriented = false;
+        const auto ascending = static_cast<std::size_t>(
+            std::ranges::count_if(edge, [&](const Ridge& r) { return s.triangles.ascends(r); }));
+        if (edge.size() > 1 && 2 * ascending != edge.size()) s.found.oriented = false;
         if (edge.size() == 1) {
             s.found.closed = false;
             s.defects.add_marked(DefectKind::open_edge, s.place_of(edge[0]));
@@ -87,7 +88,7 @@ void connect_triangles(SurfaceParts& s) {
             s.defects.add_marked(DefectKind::nonmanifold_edge, s.place_of(edge[0]));
         } else if (ascending != 1 && !s.found.plc) {
             DefectPlace place = s.place_of(edge[0]);
-            place.cells[1] = s.triangle[edge[1].facet];
+            place.cells[1] = s.triangles.number[edge[1].facet];
             s.defects.add_marked(DefectKind::misoriented_edge, place);
         }
         for (std::size_t i = 1; i < edge.size(); ++i) s.shells.join(edge[0].facet, edge[i].facet);
@@ -96,8 +97,8 @@ void connect_triangles(SurfaceParts& s) {
         const std::span<const Ridge> ring = fan.sorted(edge);
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const Ridge &a = ring[i], &b = ring[(i + 1) % ring.size()];
-            s.sides.join(2 * std::size_t{a.facet} + (s.ascends(a) ? 0 : 1),
-                         2 * std::size_t{b.facet} + (s.ascends(b) ? 1 : 0));
+            s.sides.join(2 * std::size_t{a.facet} + (s.triangles.ascends(a) ? 0 : 1),
+                         2 * std::size_t{b.facet} + (s.triangles.ascends(b) ? 1 : 0));
         }
     });
     find_fans(s);
@@ -116,8 +117,8 @@ void find_surface_cracks(SurfaceParts& s) {
     std::vector<Mesh::Index> nodes;
     for (const Ridge& edge : open) {
         const auto [a, b] = s.ends(edge);
-        const double length = node_distance(places, s.node(a), s.node(b));
-        for (const Mesh::Index n : {s.node(a), s.node(b)}) {
+        const double length = node_distance(places, s.triangles.node(a), s.triangles.node(b));
+        for (const Mesh::Index n : {s.triangles.node(a), s.triangles.node(b)}) {
             double& kept = shortest[static_cast<std::size_t>(n)];
             if (kept == none) nodes.push_back(n);
             kept = std::min(kept, length);
@@ -140,8 +141,8 @@ void find_surface_cracks(SurfaceParts& s) {
     std::vector<std::pair<std::array<std::uint32_t, 2>, std::size_t>> keys;
     for (std::size_t i = 0; i < open.size(); ++i) {
         const auto [a, b] = s.ends(open[i]);
-        std::array<std::uint32_t, 2> key{same.find(static_cast<std::size_t>(s.node(a))),
-                                         same.find(static_cast<std::size_t>(s.node(b)))};
+        std::array<std::uint32_t, 2> key{same.find(static_cast<std::size_t>(s.triangles.node(a))),
+                                         same.find(static_cast<std::size_t>(s.triangles.node(b)))};
         std::ranges::sort(key);
         if (key[0] != key[1]) keys.emplace_back(key, i);
     }
@@ -150,7 +151,7 @@ void find_surface_cracks(SurfaceParts& s) {
         if (keys[i - 1].first != keys[i].first) continue;
         const Ridge &f = open[keys[i - 1].second], &g = open[keys[i].second];
         DefectPlace place = s.place_of(f);
-        place.cells[1] = s.triangle[g.facet];
+        place.cells[1] = s.triangles.number[g.facet];
         place.other_nodes = s.place_of(g).nodes;
         s.defects.add_marked(DefectKind::crack, place);
     }

@@ -1,0 +1,234 @@
+// The nearest triangle: floating point leaves those that it cannot tell apart, and says what is certain of them; the
+// rest is decided and rounded exactly.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "barycert/locate/near_bounds.hpp"
+#include "barycert/locate/surface/near_round.hpp"
+#include "barycert/locate/surface/surface_data.hpp"
+
+namespace barycert::locate {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+NearCell cell_of(const Triangles& triangles, std::size_t t) {
+    NearCell cell{.count = 3, .in_space = true};
+    const PlacedFacet& f = triangles.facets[t];
+    std::array<std::size_t, 3> order{0, 1, 2};
+    const std::array<Mesh::Index, 3> nodes = triangles.nodes(t);
+    for (const auto& [a, b] : {std::pair(0U, 1U), {1U, 2U}, {0U, 1U}}) {
+        if (nodes[order[b]] < nodes[order[a]]) std::swap(order[a], order[b]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        cell.nodes[k] = nodes[order[k]];
+        std::copy_n(f.at[order[k]], 3, cell.at[k].begin());
+    }
+    return cell;
+}
+
+/// Points side by side in space, at most `most` of them.
+class Block {
+public:
+    static constexpr std::size_t most = 512;
+
+    Block(const SurfaceData& data, double limit)
+        : data_(data), groups_(data.near_groups()), numbers_(data.triangles.number), limit_(limit) {
+        // The limit is that of rounded distances.
+        const double reach = std::ldexp(limit, groups_.exponent) * (1 + 0x1p-50) + 0x1p-500;
+        square_ = reach * reach * (1 + 0x1p-50);
+    }
+
+    void add(const double* point, SurfaceNearest* to) {
+        Query query{point, to, pairs_.size(), 0};
+        NearPair pair{};
+        NearCandidates found;
+        const bool taken =
+            groups_.take(point, pair.point) && find_candidates(groups_, pair.point, square_, hint_, found);
+        *to = SurfaceNearest{};
+        to->distance = infinity;
+        if (!taken) return far(query);
+        for (std::size_t i = 0; i < found.count; ++i) {
+            const std::size_t t = found.number[i];
+            for (std::size_t c = 0; c < 3; ++c) {
+                for (std::size_t k = 0; k < 3; ++k) pair.at[c][k] = groups_.triangles[t / 8].at[c][k][t % 8];
+            }
+            pairs_.push_back(pair);
+            places_.push_back(groups_.order[t]);
+        }
+        query.count = found.count;
+        queries_.push_back(query);
+    }
+    bool full() const { return queries_.size() >= most; }
+
+    void finish() {
+        masks_.resize(pairs_.size());
+        if (!pairs_.empty()) classify_nearest(pairs_.data(), pairs_.size(), masks_.data());
+        for (const Query& query : queries_) {
+            if (query.count == 0) continue;
+            if (!settle(query)) exact(query);
+        }
+        for (std::size_t corners = 1; corners <= 3; ++corners) round(corners);
+        queries_.clear();
+        pairs_.clear();
+        places_.clear();
+    }
+
+private:
+    struct Query {
+        const double* point;
+        SurfaceNearest* to;
+        std::size_t first, count;  ///< its pairs
+    };
+    struct Settled {
+        Query query;
+        std::size_t pair;
+        std::array<std::uint8_t, 3> corners;  ///< of the feature, by ascending node
+    };
+
+    /// Which nodes: of each candidate, if they are certain.
+    std::array<Mesh::Index, 3> nodes_of(std::size_t pair, std::array<std::uint8_t, 3>& order) const {
+        std::array<Mesh::Index, 3> nodes{-1, -1, -1};
+        const auto& corner = data_.triangles.index.cells[places_[pair]].node;
+        std::size_t n = 0;
+        for (std::uint8_t c = 0; c < 3; ++c) {
+            if ((masks_[pair] >> c & 1) == 0) continue;
+            const Mesh::Index node = data_.triangles.node(corner[c]);
+            std::size_t at = n++;
+            for (; at > 0 && nodes[at - 1] > node; --at) nodes[at] = nodes[at - 1], order[at] = order[at - 1];
+            nodes[at] = node;
+            order[at] = c;
+        }
+        return nodes;
+    }
+
+    /// All candidates have the same certain feature, or there is but one.
+    bool settle(const Query& query) {
+        std::array<std::uint8_t, 3> order{}, ignored{};
+        if (masks_[query.first] == 0) return false;
+        const std::array<Mesh::Index, 3> nodes = nodes_of(query.first, order);
+        Mesh::Index lowest = numbers_[places_[query.first]];
+        for (std::size_t i = query.first + 1; i < query.first + query.count; ++i) {
+            if (masks_[i] == 0 || nodes_of(i, ignored) != nodes) return false;
+            lowest = std::min(lowest, numbers_[places_[i]]);
+        }
+        query.to->cell = lowest;
+        query.to->nodes = nodes;
+        settled_[static_cast<std::size_t>(std::popcount(masks_[query.first])) - 1].push_back(
+            {query, query.first, order});
+        return true;
+    }
+
+    void round(std::size_t corners) {
+        std::vector<Settled>& all = settled_[corners - 1];
+        rounded_.resize(all.size());
+        in_order_.resize(all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const NearPair& from = pairs_[all[i].pair];
+            std::copy_n(from.point, 3, in_order_[i].point);
+            for (std::size_t c = 0; c < 3; ++c)
+                std::copy_n(from.at[c < corners ? all[i].corners[c] : all[i].corners[0]], 3, in_order_[i].at[c]);
+        }
+        if (!all.empty()) round_nearest(in_order_.data(), all.size(), static_cast<int>(corners), rounded_.data());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            SurfaceNearest& to = *all[i].query.to;
+            const NearRounded& from = rounded_[i];
+            bool exact_unit = from.certain && from.distance >= 0x1p-900;
+            const auto out = [&](double x) {
+                const double in_own_unit = x * groups_.from_unit;
+                exact_unit = exact_unit && in_own_unit * groups_.to_unit == x;
+                return in_own_unit;
+            };
+            to.distance = out(from.distance);
+            for (std::size_t k = 0; k < 3; ++k) to.point[k] = out(from.at[k]) + 0.0;
+            std::copy_n(from.weights, 3, to.weights.begin());
+            if (!exact_unit) round_exactly(all[i].query);
+            keep_within(to);
+        }
+        all.clear();
+    }
+
+    void keep_within(SurfaceNearest& to) const {
+        if (to.distance <= limit_) return;
+        to = SurfaceNearest{};
+        to.distance = infinity;
+    }
+
+    /// Of a query whose triangle and nodes are known.
+    void round_exactly(const Query& query) const {
+        NearFeature f;
+        for (const Mesh::Index node : query.to->nodes) {
+            if (node < 0) continue;
+            const auto at = &data_.surface->points[3 * static_cast<std::size_t>(node)];
+            f.nodes[static_cast<std::size_t>(f.count)] = node;
+            f.at[static_cast<std::size_t>(f.count++)] = {at[0], at[1], at[2]};
+        }
+        const Point3 p{query.point[0], query.point[1], query.point[2]};
+        query.to->distance = distance_to(p, f);
+        query.to->point = projection_on(p, f);
+        for (double& x : query.to->point) x += 0.0;  // a zero has no sign
+        query.to->weights = weights_of(p, f);
+    }
+
+    void exact(const Query& query) const {
+        const Point3 p{query.point[0], query.point[1], query.point[2]};
+        NearFeature best;
+        for (std::size_t i = query.first; i < query.first + query.count; ++i) {
+            const Mesh::Index number = numbers_[places_[i]];
+            const NearCell cell = cell_of(data_.triangles, places_[i]);
+            NearFeature feature;
+            nearest_feature(cell, p, masks_[i] != 0 ? 0 : guess_nearest(cell, p).mask, feature);
+            if (query.to->cell >= 0) {
+                const int order = feature.nodes == best.nodes ? 0 : compare_distances(p, feature, best);
+                // Of two features at one place, that of the lowest triangle.
+                if (order > 0 || (order == 0 && number > query.to->cell)) continue;
+            }
+            query.to->cell = number;
+            best = feature;
+        }
+        query.to->nodes = best.nodes;
+        round_exactly(query);
+        keep_within(*query.to);
+    }
+
+    /// Of points that are far away, or not exact in the unit.
+    void far(const Query& query) const {
+        static_cast<Nearest&>(*query.to) = find_nearest(data_.triangles.index, data_.far_tree(), query.point, limit_);
+        if (query.to->cell >= 0) round_exactly(query);
+    }
+
+    const SurfaceData& data_;
+    const NearGroups& groups_;
+    const std::vector<Mesh::Index>& numbers_;
+    double limit_, square_ = 0;
+    std::uint32_t hint_ = UINT32_MAX;
+    std::vector<Query> queries_;
+    std::vector<NearPair> pairs_, in_order_;
+    std::vector<std::uint32_t> places_;  ///< triangles of the pairs
+    std::vector<std::uint8_t> masks_;
+    std::array<std::vector<Settled>, 3> settled_;
+    std::vector<NearRounded> rounded_;
+};
+
+}  // namespace
+
+void SurfaceData::nearest(std::span<const double* const> points, double limit,
+                          std::span<SurfaceNearest* const> to) const {
+    if (empty() || !(limit >= 0)) {
+        for (SurfaceNearest* const one : to) {
+            *one = SurfaceNearest{};
+            one->distance = infinity;
+        }
+        return;
+    }
+    Block block(*this, limit);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        block.add(points[i], to[i]);
+        if (block.full()) block.finish();
+    }
+    block.finish();
+}
+
+}  // namespace barycert::locate

@@ -1,0 +1,162 @@
+#include "barycert/surface_locator.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "barycert/base/finite.hpp"
+#include "barycert/environment.hpp"
+#include "barycert/locate/batch.hpp"
+#include "barycert/locate/surface/surface_data.hpp"
+
+namespace barycert {
+namespace locate {
+namespace {
+
+Error inconsistent(std::string found) {
+    return {
+        .what = "the surface is inconsistent", .found = std::move(found), .remedy = "correct the surface in memory"};
+}
+
+Status check(const Surface& s) {
+    if (s.dimension != 3) return inconsistent("segments in the plane");
+    if (s.points.size() % 3 != 0 || s.cells.size() % 3 != 0)
+        return inconsistent("points or triangles that are not whole");
+    if (s.point_count() > INT32_MAX || s.cell_count() > std::size_t{1} << 29)
+        return inconsistent("more than 2147483647 points or 536870912 triangles");
+    if (!base::all_finite(s.points)) return inconsistent("a coordinate that is not finite");
+    const auto is_point = [&](Mesh::Index i) { return i >= 0 && static_cast<std::size_t>(i) < s.point_count(); };
+    if (!std::ranges::all_of(s.cells, is_point)) return inconsistent("a corner of a triangle that is no point");
+    return Done{};
+}
+
+/// How edges tell the two sides apart. What is degenerate counts for nothing.
+Turned turned_of(const Triangles& triangles) {
+    bool even = true, alike = true;
+    const std::vector<Ridge> edges = index::ridges_of(3, triangles.facets);
+    index::for_each_ridge(edges, [&](std::span<const Ridge> edge) {
+        const auto up = std::ranges::count_if(edge, [&](const Ridge& r) { return triangles.ascends(r); });
+        alike = alike && 2 * static_cast<std::size_t>(up) == edge.size();
+        even = even && edge.size() % 2 == 0;
+    });
+    return alike ? Turned::alike : even ? Turned::even : Turned::open;
+}
+
+/// use(numbers) for blocks of points, those near each other one after the other, on some threads.
+template <class Use>
+void in_order_of_space(const SurfaceData& data, std::span<const double> points, Use use) {
+    const std::size_t count = points.size() / 3;
+    const std::size_t block = block_of(count, data.triangles.size());
+    base::parallel_for((count + block - 1) / block, [&](std::size_t b) {
+        const std::size_t first = b * block, last = std::min(count, first + block);
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> order(last - first);
+        for (std::size_t i = first; i < last; ++i)
+            order[i - first] = {data.triangles.index.bins.of(&points[3 * i]), static_cast<std::uint32_t>(i - first)};
+        std::ranges::sort(order);
+        std::vector<std::size_t> numbers(order.size());
+        for (std::size_t i = 0; i < order.size(); ++i) numbers[i] = first + order[i].second;
+        use(numbers);
+    });
+}
+
+}  // namespace
+}  // namespace locate
+
+using namespace locate;
+
+SurfaceLocator::SurfaceLocator(std::unique_ptr<SurfaceData> data) : data_(std::move(data)) {}
+SurfaceLocator::SurfaceLocator(SurfaceLocator&&) noexcept = default;
+SurfaceLocator& SurfaceLocator::operator=(SurfaceLocator&&) noexcept = default;
+SurfaceLocator::~SurfaceLocator() = default;
+
+Result<SurfaceLocator> SurfaceLocator::build(const Surface& surface, const BuildOptions& options) {
+    const ExactEnvironment environment;
+    if (const Status good = check(surface); !good) return good.error();
+    auto data = std::make_unique<SurfaceData>();
+    data->surface = &surface;
+    data->threads = options.threads;
+    base::in_arena(options.threads, surface.cell_count(), [&] {
+        std::vector<Mesh::Index> numbers(surface.cell_count());
+        std::iota(numbers.begin(), numbers.end(), 0);
+        data->triangles = index::place_triangles(surface.points, surface.cells, numbers);
+        if (data->empty()) return;
+        data->turned = turned_of(data->triangles);
+        data->boxes = std::make_unique<BoxGroups>(make_cell_tree(data->triangles.index));
+    });
+    return SurfaceLocator(std::move(data));
+}
+
+const Surface& SurfaceLocator::surface() const {
+    return *data_->surface;
+}
+Turned SurfaceLocator::turned() const {
+    return data_->turned;
+}
+std::size_t SurfaceLocator::bytes() const {
+    return data_->bytes();
+}
+
+Result<SurfaceLocation> SurfaceLocator::locate(const double* point) const {
+    const ExactEnvironment environment;
+    if (Status status = check_finite({point, 3}, 3); !status) return status.error();
+    return data_->locate(point);
+}
+
+Status SurfaceLocator::locate(std::span<const double> points, std::span<SurfaceLocation> found, int threads) const {
+    const ExactEnvironment environment;
+    if (Status status = check_size(points, 3); !status) return status.error();
+    if (found.size() != points.size() / 3) return Error{.what = "as many places for results as points"};
+    if (Status status = check_finite(points, 3); !status) return status.error();
+    base::in_arena(threads, found.size(), [&] {
+        // A map pays for itself once there are as many points as a fraction of the triangles.
+        const bool map = !data_->empty() && data_->turned != Turned::open && 4 * found.size() > data_->triangles.size();
+        if (map) data_->side_map();
+        base::parallel_for_each(found.size(), 512, [&](std::size_t i) {
+            found[i] = map ? data_->locate_by_map(&points[3 * i]) : data_->locate(&points[3 * i]);
+        });
+    });
+    return Done{};
+}
+
+Result<SurfaceNearest> SurfaceLocator::nearest(const double* point, double limit) const {
+    const ExactEnvironment environment;
+    if (Status status = check_finite({point, 3}, 3); !status) return status.error();
+    SurfaceNearest found;
+    SurfaceNearest* const to = &found;
+    data_->nearest({&point, 1}, base::held(limit), {&to, 1});
+    return found;
+}
+
+Status SurfaceLocator::nearest(std::span<const double> points, double limit, std::span<SurfaceNearest> found,
+                               int threads) const {
+    const ExactEnvironment environment;
+    if (Status status = check_size(points, 3); !status) return status.error();
+    if (found.size() != points.size() / 3) return Error{.what = "as many places for results as points"};
+    if (Status status = check_finite(points, 3); !status) return status.error();
+    limit = base::held(limit);
+    base::in_arena(threads, found.size(), [&] {
+        if (!data_->empty()) data_->near_groups();
+        in_order_of_space(*data_, points, [&](const std::vector<std::size_t>& numbers) {
+            std::vector<const double*> from;
+            std::vector<SurfaceNearest*> to;
+            for (const std::size_t i : numbers) {
+                from.push_back(&points[3 * i]);
+                to.push_back(&found[i]);
+            }
+            data_->nearest(from, limit, to);
+        });
+    });
+    return Done{};
+}
+
+Result<std::vector<SurfaceHit>> SurfaceLocator::hits(const double* a, const double* b, bool ray) const {
+    const ExactEnvironment environment;
+    for (const double* const end : {a, b}) {
+        if (Status status = check_finite({end, 3}, 3); !status) return status.error();
+    }
+    if (std::equal(a, a + 3, b))
+        return Error{.what = "the ends of a segment", .expected = "two points", .found = "one"};
+    return data_->hits(a, b, ray);
+}
+
+}  // namespace barycert

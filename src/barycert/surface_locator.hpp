@@ -1,0 +1,101 @@
+/// Exact queries of points and segments to a surface of triangles in space.
+///
+/// Input: a Surface (read_surface), in any unit, and points in the same. Triangles of zero area count for nothing;
+/// nodes at one place are one. Output: on which triangle a point lies, or on which side; the nearest triangle and point
+/// of it; where a segment or ray meets the surface.
+///
+/// What holds, for every finite point (each law is a test of that name in tests/locate):
+///   W1  A point that lies on a triangle is always found there, on its face, edge or vertex; of several triangles it is
+///       the lowest.
+///   W2  The winding number of every other point is exact: how many times the surface goes around it, counted positive
+///       where normals (right hand) point away from it. A surface has one if each edge has as many triangles one way as
+///       the other: Turned::alike. A surface whose edges have an even number of triangles has the parity, 0 or 1, in
+///       its place: Turned::even. A point is inside if it is not 0.
+///   N1  `nearest` is exact: no point of the surface is nearer than the one returned, and its triangle is the lowest
+///   among
+///       all that have a point as near. Distance and coordinates are correctly rounded, and so are the weights of the
+///       vertex, edge or face whose projection it is: a value of the surface there is a mean by these weights.
+///   H1  `hits` are all triangles that a segment meets, in their exact order along it, ties by triangle.
+///   D1  Results depend on the points and the surface alone, not on threads, SIMD target or the order of points.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "barycert/locator.hpp"
+#include "barycert/surface.hpp"
+
+namespace barycert {
+
+namespace locate {
+struct SurfaceData;
+}
+
+/// What there is to tell the two sides apart.
+enum class Turned : std::uint8_t {
+    open,   ///< an edge has an odd number of triangles: there is no inside
+    even,   ///< parity
+    alike,  ///< winding numbers
+};
+
+struct SurfaceLocation {
+    Mesh::Index triangle = -1;           ///< that holds the point; -1: none does
+    Feature feature = Feature::outside;  ///< of the triangle; or `interior`, or `outside`
+    int winding = 0;                     ///< of a point on no triangle
+
+    friend bool operator==(const SurfaceLocation&, const SurfaceLocation&) = default;
+};
+
+/// As Nearest, where `cell` is the triangle; `nodes` always has those of the vertex, edge or face.
+struct SurfaceNearest : Nearest {
+    std::array<double, 3> point{};    ///< the nearest point
+    std::array<double, 3> weights{};  ///< of `nodes`
+};
+
+/// A triangle that a segment meets.
+struct SurfaceHit {
+    Mesh::Index triangle = -1;
+    Feature feature = Feature::outside;  ///< of the triangle; `degenerate`: the segment lies in its plane
+    double parameter = 0;  ///< 0 at the first end, 1 at the second; correctly rounded; of several the first
+    int side = 0;          ///< 1 if it leaves on the side of the normal, -1 on the other, 0 in the plane
+};
+
+/// Thread-safe.
+class SurfaceLocator {
+public:
+    /// The surface must stay as it is and outlive the locator. Time O(n log n). Error: not triangles in space; an index
+    /// that is no node; a coordinate that is not finite. Takes `threads` of the options.
+    static Result<SurfaceLocator> build(const Surface& surface, const BuildOptions& options = {});
+    static Result<SurfaceLocator> build(Surface&&, const BuildOptions& = {}) = delete;
+
+    SurfaceLocator(SurfaceLocator&&) noexcept;
+    SurfaceLocator& operator=(SurfaceLocator&&) noexcept;
+    ~SurfaceLocator();
+
+    const Surface& surface() const;
+    Turned turned() const;
+    std::size_t bytes() const;  ///< of memory besides the surface
+
+    /// W1, W2. Of an open surface only W1 holds: points on no triangle are outside. Error: a coordinate is not finite.
+    Result<SurfaceLocation> locate(const double* point) const;
+    Status locate(std::span<const double> points, std::span<SurfaceLocation> found, int threads = 0) const;
+
+    /// N1, if the rounded distance is at most `limit`; else cell -1. Error: a coordinate is not finite; the limit is
+    /// NaN.
+    Result<SurfaceNearest> nearest(const double* point, double limit) const;
+    Status nearest(std::span<const double> points, double limit, std::span<SurfaceNearest> found,
+                   int threads = 0) const;
+
+    /// H1, of the closed segment from a to b, or the ray from a through b. A triangle in whose plane the segment lies
+    /// is given once, at the first of its points that they have in common. Error: a coordinate is not finite; a is b.
+    Result<std::vector<SurfaceHit>> hits(const double* a, const double* b, bool ray = false) const;
+
+private:
+    explicit SurfaceLocator(std::unique_ptr<locate::SurfaceData> data);
+    std::unique_ptr<locate::SurfaceData> data_;
+};
+
+}  // namespace barycert
