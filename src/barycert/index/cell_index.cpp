@@ -174,7 +174,7 @@ void place_cells(const Cells& mesh, const Buffer<KeyedPlace>& order, const Buffe
     };
     const auto bin_at = [&](std::size_t place) { return order[place].key >> CellIndex::part_bits; };
     base::parallel_for(order.size(), grain, [&](std::size_t first, std::size_t last) {
-        std::size_t bin = first == 0 ? 0 : std::size_t{bin_at(first - 1)} + 1;
+        std::size_t bin = index.first.empty() ? SIZE_MAX : first == 0 ? 0 : std::size_t{bin_at(first - 1)} + 1;
         for (std::size_t place = first; place < last; ++place) {
             if (place + ahead < last) __builtin_prefetch(corners_at(place + ahead));
             while (bin <= bin_at(place)) index.first[bin++] = static_cast<Place>(place);
@@ -187,6 +187,7 @@ void place_cells(const Cells& mesh, const Buffer<KeyedPlace>& order, const Buffe
             index.original[place] = order[place].place;
         }
     });
+    if (index.first.empty()) return;
     const std::size_t end = std::size_t{bin_at(order.size() - 1)} + 1;
     std::fill(index.first.begin() + static_cast<std::ptrdiff_t>(end), index.first.end(),
               static_cast<Place>(order.size()));
@@ -210,8 +211,11 @@ CellIndex make_index(Simplex simplex, const Cells& mesh) {
         index.first.assign(2, 0);
         return index;
     }
-    index.bins = Bins(index.dimension(), index.low.data(), index.high.data(), count << CellIndex::part_bits);
-    index.first.resize((index.bins.count() >> CellIndex::part_bits) + 2);
+    // A surface goes through few of the bins of its box.
+    const bool surface = simplex == Simplex::triangle3d;
+    index.bins =
+        Bins(index.dimension(), index.low.data(), index.high.data(), count << (surface ? 7 : CellIndex::part_bits));
+    if (!surface) index.first.resize((index.bins.count() >> CellIndex::part_bits) + 2);
     simplex == Simplex::triangle     ? build<2, 3>(mesh, used, index)
     : simplex == Simplex::triangle3d ? build<3, 3>(mesh, used, index)
                                      : build<3, 4>(mesh, used, index);

@@ -40,7 +40,7 @@ struct CellIndex {
     Buffer<Mesh::Index> original;  ///< cell of the mesh by place
     Buffer<NodeRecord> nodes;
     std::vector<Mesh::Index> original_node;  ///< node of the mesh by place; those of no cell have none
-    /// By bin, without its last part_bits bits: the first cell there or later; one more at the end.
+    /// By bin, without its last part_bits bits: the first cell there or later; one more at the end. Empty of surfaces.
     std::vector<Place> first;
 
     std::size_t dimension() const { return static_cast<std::size_t>(space_dimension(simplex)); }

@@ -6,11 +6,14 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/index/buffer.hpp"
 #include "barycert/index/cell_index.hpp"
+#include "barycert/index/facet_contact.hpp"
 
 namespace barycert::index {
 
@@ -91,37 +94,15 @@ public:
         descend(0, box, found);
     }
 
-    /// use(i, j) for each pair i < j of boxes that meet, i in the group g of the lowest level.
-    template <class Use>
-    void for_each_pair(std::size_t g, Use use) const {
-        const BoxGroup& mine = level(0)[g];
-        const CellBox all = mine.box_of_all();
-        const auto with_group = [&](std::size_t h) {
-            // Few boxes of another group meet any of this one.
-            const BoxGroup& other = level(0)[h];
-            std::array<std::uint32_t, 8> meeting{};  // by box of the other one: which of this one
-            std::uint32_t met = 0;
-            for (std::uint32_t theirs = other.meeting(all); theirs != 0; theirs &= theirs - 1) {
-                const auto j = static_cast<std::size_t>(std::countr_zero(theirs));
-                meeting[j] = mine.meeting(other.box(j));
-                if (h == g) meeting[j] &= (1U << j) - 1;
-                met |= meeting[j];
-            }
-            for (; met != 0; met &= met - 1) {
-                const auto i = static_cast<std::size_t>(std::countr_zero(met));
-                for (std::size_t j = 0; j < 8; ++j) {
-                    if ((meeting[j] >> i & 1U) != 0) use(8 * g + i, 8 * h + j);
-                }
-            }
-            return true;
-        };
-        levels() == 1 ? void(with_group(0)) : descend(1, all, with_group, g);
-    }
+    using TakePairs = std::function<void(std::span<FacetPair>)>;
+    /// take() for all pairs of boxes that meet, the lower number first, in the group g of the lowest level: some at a
+    /// time, in an order that depends on the boxes alone (box_lanes.cpp).
+    void for_pairs(std::size_t g, const TakePairs& take) const;
 
 private:
-    /// found(i) for each box i of level l, from number `first` on, that meets `box`, until it returns false.
+    /// found(i) for each box i of level l that meets `box`, until it returns false.
     template <class Found>
-    void descend(std::size_t l, const CellBox& box, Found found, std::size_t first = 0) const {
+    void descend(std::size_t l, const CellBox& box, Found found) const {
         struct Open {
             std::size_t level, group;
         };
@@ -132,7 +113,6 @@ private:
             const Open open = stack[--top];
             for (std::uint32_t bits = level(open.level)[open.group].meeting(box); bits != 0; bits &= bits - 1) {
                 const std::size_t i = 8 * open.group + static_cast<std::size_t>(std::countr_zero(bits));
-                if ((i + 1) << 3 * (open.level - l) <= first) continue;
                 if (open.level > l) {
                     stack[top++] = {open.level - 1, i};
                 } else if (!found(i)) {

@@ -118,19 +118,10 @@ public:
 private:
     template <class Use>
     void of_boxes(std::size_t g, Use use) const {
-        std::array<FacetPair, 256> pairs;
-        std::size_t count = 0;
-        const auto ask_all = [&] {
-            std::span<FacetPair> left = std::span(pairs).first(count);
-            if (d_ == 3) left = without_separated(facets_, left);
-            for (const FacetPair& pair : left) use(pair.first, pair.second);
-            count = 0;
-        };
-        boxes_->for_each_pair(g, [&](std::size_t i, std::size_t j) {
-            pairs[count++] = {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)};
-            if (count == pairs.size()) ask_all();
+        boxes_->for_pairs(g, [&](std::span<FacetPair> pairs) {
+            if (d_ == 3) pairs = without_separated(facets_, pairs);
+            for (const FacetPair& pair : pairs) use(pair.first, pair.second);
         });
-        ask_all();
     }
     template <class Use>
     void of_items(std::size_t g, Use use) const {

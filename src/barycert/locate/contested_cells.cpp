@@ -41,13 +41,17 @@ ContestedCells::Lists ContestedCells::make_lists() const {
     base::parallel_for(groups, [&](std::size_t g) {
         if (count.load(std::memory_order_relaxed) > most) return;
         std::size_t pairs = 0;
-        tree_.for_each_pair(g, [&](std::size_t i, std::size_t j) {
-            const auto original = [&](std::size_t c) { return index_.original[static_cast<std::size_t>(cells_[c])]; };
-            if (original(i) < original(j)) std::swap(i, j);
-            ++pairs;
-            if (may_overlap(static_cast<int>(index_.dimension()), index_.corner_points(cells_[i]),
-                            index_.corner_points(cells_[j])))
-                found[g].push_back({static_cast<std::uint32_t>(i), cells_[j]});
+        tree_.for_pairs(g, [&](std::span<index::FacetPair> some) {
+            pairs += some.size();
+            for (auto [i, j] : some) {
+                const auto original = [&](std::uint32_t c) {
+                    return index_.original[static_cast<std::size_t>(cells_[c])];
+                };
+                if (original(i) < original(j)) std::swap(i, j);
+                if (may_overlap(static_cast<int>(index_.dimension()), index_.corner_points(cells_[i]),
+                                index_.corner_points(cells_[j])))
+                    found[g].push_back({i, cells_[j]});
+            }
         });
         count.fetch_add(pairs, std::memory_order_relaxed);
     });

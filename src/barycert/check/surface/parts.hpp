@@ -24,8 +24,10 @@ struct SurfaceParts {
 
     Triangles triangles = {};
     std::vector<Ridge> edges = {};
-    bool embedded = false;                  ///< S1 and S2 hold
-    base::DisjointSets shells{0};           ///< of places, connected over edges
+    std::vector<Ridge> unbalanced = {};  ///< one of each edge without as many triangles one way as the other
+    std::vector<std::array<Place, 2>> pinched = {};  ///< nodes with several fans of triangles, and one of these
+    bool embedded = false;                           ///< S1 and S2 hold
+    base::DisjointSets shells{0};                    ///< of places, connected over edges
     base::DisjointSets sides{0};            ///< 2 * place: where its normal points, and the other one; of one region
     std::unique_ptr<BoxGroups> boxes = {};  ///< of places
 
@@ -45,7 +47,10 @@ bool check_triangles(SurfaceParts& s);
 /// S2 of triangles. Finds duplicate_triangle, self_intersection and hanging_node; returns the pairs that intersect.
 std::vector<CellPair> find_intersections(SurfaceParts& s);
 
-/// Edges, nodes, shells and sides. Finds open_edge, nonmanifold_edge, nonmanifold_node, misoriented_edge.
+/// Edges and nodes. Touches nothing that find_intersections() does.
+void link_triangles(SurfaceParts& s);
+
+/// Shells and sides. Finds open_edge, nonmanifold_edge, nonmanifold_node, misoriented_edge.
 void connect_triangles(SurfaceParts& s);
 
 /// Open edges whose ends nearly coincide. Finds near_nodes and crack.

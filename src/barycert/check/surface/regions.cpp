@@ -18,12 +18,11 @@ long double area_of(const std::array<const double*, 3>& t) {
         v[k] = static_cast<long double>(t[2][k]) - t[0][k];
     }
     const long double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
-    return std::hypot(x, y, z) / 2;
+    return std::sqrt(x * x + y * y + z * z) / 2;  // whose range is wide enough where long double is
 }
 
 /// The sides of triangles that look into one part of space: with normals away from it, a closed surface around it.
 struct Chamber {
-    std::uint32_t side = 0;  ///< the lowest of them
     std::uint32_t shell = 0;
     Integer six = {};  ///< six times the volume within, negative if it lies around its shell
 
@@ -34,66 +33,41 @@ class Regions {
 public:
     explicit Regions(SurfaceParts& s) : s_(s), volumes_(3, s.surface.points) {}
 
-    void measure_shells() {
-        std::vector<std::uint32_t> number(s_.triangles.facets.size());
-        std::vector<long double> areas;
-        std::vector<std::int64_t> balance;
-        for (std::size_t f = 0; f < s_.triangles.facets.size(); ++f) {
-            const std::uint32_t root = s_.shells.find(f);
-            if (root == f) {
-                number[f] = static_cast<std::uint32_t>(s_.found.shells.size());
-                s_.found.shells.emplace_back().first = s_.triangles.number[f];
-                areas.push_back(0);
-            }
-            number[f] = number[root];
-            SurfaceShell& shell = s_.found.shells[number[f]];
+    /// Areas and volumes. Chambers if the surface is embedded.
+    void measure() {
+        const std::size_t count = s_.triangles.size();
+        number_sets(s_.shells, count, shell_of_);
+        if (s_.embedded) number_sets(s_.sides, 2 * count, chamber_);
+        const auto sets = [](const std::vector<std::uint32_t>& of) {
+            return of.empty() ? 0 : std::size_t{*std::ranges::max_element(of)} + 1;
+        };
+        s_.found.shell_count = sets(shell_of_);
+        const Sums sums = add_up(s_.found.shell_count, sets(chamber_));
+        std::vector<std::uint8_t> balanced(s_.found.shell_count, 1);
+        s_.found.shells.resize(s_.found.shell_count);
+        for (std::size_t f = 0; f < count; ++f) {
+            SurfaceShell& shell = s_.found.shells[shell_of_[f]];
+            const Mesh::Index number = s_.triangles.number[f];
+            shell.first = shell.first < 0 ? number : std::min(shell.first, number);
             ++shell.triangles;
-            shell.first = std::min(shell.first, s_.triangles.number[f]);
-            areas[number[f]] += area_of(s_.triangles.facets[f].at);
         }
-        std::vector<std::uint8_t> balanced(areas.size(), 1);
+        for (const Ridge& edge : s_.unbalanced) balanced[shell_of_[edge.facet]] = 0;
         for_each_ridge(s_.edges, [&](std::span<const Ridge> edge) {
-            const auto up = std::ranges::count_if(edge, [&](const Ridge& r) { return s_.triangles.ascends(r); });
-            const std::uint32_t shell = number[edge[0].facet];
-            if (edge.size() == 1) s_.found.shells[shell].closed = false;
-            if (2 * static_cast<std::size_t>(up) != edge.size()) balanced[shell] = 0;
+            if (edge.size() == 1) s_.found.shells[shell_of_[edge[0].facet]].closed = false;
         });
-        std::vector<Integer> six(areas.size());
-        add_cones(number, six);
-        for (std::size_t i = 0; i < areas.size(); ++i) {
+        for (std::size_t i = 0; i < balanced.size(); ++i) {
             SurfaceShell& shell = s_.found.shells[i];
-            shell.area = static_cast<double>(areas[i]);
-            if (balanced[i] != 0) shell.volume = volumes_.rounded(six[i]);
-            signs_.push_back(balanced[i] != 0 ? six[i].sign() : 0);
+            shell.area = static_cast<double>(sums.area[i]);
+            if (balanced[i] != 0) shell.volume = volumes_.rounded(sums.shell[i]);
+            signs_.push_back(balanced[i] != 0 ? sums.shell[i].sign() : 0);
         }
-        s_.found.shell_count = s_.found.shells.size();
-        shell_of_ = std::move(number);
-    }
-
-    /// Preconditions: embedded; measure_shells().
-    void find_chambers() {
-        std::map<std::uint32_t, std::size_t> of_root;
-        chamber_.resize(2 * s_.triangles.facets.size());
-        for (std::size_t side = 0; side < chamber_.size(); ++side) {
-            const std::uint32_t root = s_.sides.find(side);
-            if (root == side) {
-                chamber_[side] = static_cast<std::uint32_t>(chambers_.size());
-                chambers_.push_back({root, shell_of_[side / 2], {}});
-            }
-            chamber_[side] = chamber_[root];
-        }
-        std::vector<Integer> out(chambers_.size()), in(chambers_.size());
-        std::vector<std::uint32_t> of_front(s_.triangles.facets.size()), of_back(s_.triangles.facets.size());
-        for (std::size_t f = 0; f < s_.triangles.facets.size(); ++f) {
-            of_front[f] = chamber_[2 * f];
-            of_back[f] = chamber_[2 * f + 1];
-        }
-        add_cones(of_back, out);
-        add_cones(of_front, in);
-        for (std::size_t c = 0; c < chambers_.size(); ++c) chambers_[c].six = out[c] - in[c];
-        s_.boxes = std::make_unique<BoxGroups>(s_.triangles.facets.size(), [&](std::size_t f) {
-            return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3);
-        });
+        chambers_.resize(sums.chamber.size());
+        for (std::size_t side = 0; side < chamber_.size(); ++side)
+            chambers_[chamber_[side]].shell = shell_of_[side / 2];
+        for (std::size_t c = 0; c < chambers_.size(); ++c) chambers_[c].six = sums.chamber[c];
+        if (!s_.embedded) return;
+        s_.boxes = std::make_unique<BoxGroups>(
+            count, [&](std::size_t f) { return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3); });
     }
 
     /// The chamber that holds a point on no triangle, other than those of `without`; nothing outside of all.
@@ -113,7 +87,6 @@ public:
     }
 
     void nest() {
-        std::vector<std::uint8_t> outermost(s_.found.shell_count, 1);
         std::vector<std::optional<std::size_t>> around(s_.found.shell_count);
         for (std::size_t f = 0; f < s_.triangles.facets.size(); ++f) {
             if (s_.shells.find(f) == f) around[shell_of_[f]] = chamber_at(own_node(f), shell_of_[f]);
@@ -203,18 +176,63 @@ private:
         });
     }
 
-    /// Adds det(a, b, c) of each triangle to the sum of its number.
-    void add_cones(const std::vector<std::uint32_t>& number, std::vector<Integer>& sums) {
-        const std::size_t blocks = sums.size() > 64 ? 1 : 64, block = s_.triangles.facets.size() / blocks + 1;
-        std::vector<std::vector<Integer>> parts(blocks, sums);
+    /// By shell and chamber: areas, and determinants of the triangles, those that look into a chamber taken off it.
+    struct Sums {
+        std::vector<long double> area;
+        std::vector<Integer> shell, chamber;
+    };
+    Sums add_up(std::size_t shells, std::size_t chambers) const {
+        // Most triangles have the shell and the chambers of the one before them.
+        using Kind = std::array<std::uint32_t, 3>;
+        std::map<Kind, std::uint32_t> numbers;
+        std::vector<Kind> kinds;
+        const std::size_t count = s_.triangles.size();
+        std::vector<std::uint32_t> kind_of(count);
+        for (std::size_t f = 0; f < count; ++f) {
+            const Kind kind{shell_of_[f], chambers == 0 ? 0 : chamber_[2 * f], chambers == 0 ? 0 : chamber_[2 * f + 1]};
+            if (f != 0 && kind == kinds[kind_of[f - 1]]) {
+                kind_of[f] = kind_of[f - 1];
+                continue;
+            }
+            const auto [at, fresh] = numbers.try_emplace(kind, static_cast<std::uint32_t>(kinds.size()));
+            if (fresh) kinds.push_back(kind);
+            kind_of[f] = at->second;
+        }
+        struct Part {
+            std::vector<long double> area;
+            std::vector<Integer> six;
+        };
+        const std::size_t blocks = kinds.size() > 64 ? 1 : 64, block = count / blocks + 1;
+        std::vector<Part> parts(blocks, {std::vector<long double>(kinds.size()), std::vector<Integer>(kinds.size())});
         base::parallel_for(blocks, [&](std::size_t i) {
-            for (std::size_t f = i * block; f < std::min(s_.triangles.facets.size(), (i + 1) * block); ++f) {
-                Integer& sum = parts[i][number[f]];
-                sum = sum + volumes_.cone(s_.triangles.turned(f).data());
+            for (std::size_t f = i * block; f < std::min(count, (i + 1) * block); ++f) {
+                const auto at = s_.triangles.turned(f);
+                parts[i].area[kind_of[f]] += area_of(at);
+                Integer& sum = parts[i].six[kind_of[f]];
+                sum = sum + volumes_.cone(at.data());
             }
         });
-        for (const auto& part : parts) {
-            for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = sums[i] + part[i];
+        Sums all{std::vector<long double>(shells), std::vector<Integer>(shells), std::vector<Integer>(chambers)};
+        for (const Part& part : parts) {
+            for (std::size_t k = 0; k < kinds.size(); ++k) {
+                const auto& [shell, front, back] = kinds[k];
+                all.area[shell] += part.area[k];
+                all.shell[shell] = all.shell[shell] + part.six[k];
+                if (chambers == 0) continue;
+                all.chamber[front] = all.chamber[front] - part.six[k];
+                all.chamber[back] = all.chamber[back] + part.six[k];
+            }
+        }
+        return all;
+    }
+
+    /// Numbers sets from 0 in the order of their lowest members.
+    static void number_sets(base::DisjointSets& sets, std::size_t count, std::vector<std::uint32_t>& number) {
+        number.resize(count);
+        std::uint32_t next = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t root = sets.find(i);
+            number[i] = root == i ? next++ : number[root];
         }
     }
 
@@ -233,9 +251,8 @@ private:
 
 void measure_regions(SurfaceParts& s, const Plc* plc) {
     Regions regions(s);
-    regions.measure_shells();
+    regions.measure();
     if (s.embedded) {
-        regions.find_chambers();
         regions.nest();
         if (plc != nullptr) regions.place_seeds(*plc);
     }

@@ -1,5 +1,7 @@
 // The check of surfaces and PLCs: its stages, in their order.
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -72,7 +74,11 @@ private:
         stage("triangles");
         if (!check_triangles(parts_) || enough()) return;
         stage("intersections");
+        // What one thread does alone is done beside the rest.
+        tbb::task_group beside;
+        beside.run([&] { link_triangles(parts_); });
         const std::vector<CellPair> pairs = find_intersections(parts_);
+        beside.wait();
         if (enough()) return;
         parts_.embedded = !defects_.has([](const DefectText& t) { return t.breaks; });
         stage("edges and nodes");

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "barycert/check/surface/parts.hpp"
 
@@ -39,38 +40,50 @@ private:
     std::vector<Ridge> order_;
 };
 
-/// Joins the triangles at a node that are connected over edges there; finds nodes with several fans.
-void find_fans(SurfaceParts& s) {
-    base::DisjointSets corners(3 * s.triangles.facets.size());
-    const auto corner = [&](std::uint32_t facet, Mesh::Index node) {
-        return 3 * std::size_t{facet} +
-               static_cast<std::size_t>(std::ranges::find(s.triangles.facets[facet].nodes, node) -
-                                        s.triangles.facets[facet].nodes.begin());
-    };
-    for_each_ridge(s.edges, [&](std::span<const Ridge> edge) {
-        for (std::size_t i = 1; i < edge.size(); ++i) {
-            for (const Mesh::Index node : s.ends(edge[0]))
-                corners.join(corner(edge[0].facet, node), corner(edge[i].facet, node));
+}  // namespace
+
+void link_triangles(SurfaceParts& s) {
+    s.edges = ridges_of(3, s.triangles.facets);
+    const auto& facets = s.triangles.facets;
+    std::vector<std::uint32_t> end(s.triangles.index.original_node.size(), 0), at(3 * facets.size());
+    for (const PlacedFacet& f : facets) {
+        for (const Mesh::Index n : f.nodes) ++end[static_cast<std::size_t>(n)];
+    }
+    std::uint32_t sum = 0;
+    for (std::uint32_t& count : end) sum += std::exchange(count, sum);
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        for (const Mesh::Index n : facets[f].nodes)
+            at[end[static_cast<std::size_t>(n)]++] = static_cast<std::uint32_t>(f);
+    }
+    std::vector<std::uint8_t> several(end.size(), 0);  // fans
+    base::parallel_for(end.size(), 1024, [&](std::size_t first, std::size_t last) {
+        std::vector<Mesh::Index> ring;  // the other nodes of triangles at the node, two each
+        for (std::size_t n = first; n < last; ++n) {
+            ring.clear();
+            for (std::uint32_t i = n == 0 ? 0 : end[n - 1]; i < end[n]; ++i) {
+                for (const Mesh::Index other : facets[at[i]].nodes) {
+                    if (other != static_cast<Mesh::Index>(n)) ring.push_back(other);
+                }
+            }
+            // Triangles that have been reached come first.
+            std::size_t reached = 2;
+            for (std::size_t from = 0; from < reached && reached < ring.size(); ++from) {
+                for (std::size_t i = reached; i < ring.size(); i += 2) {
+                    if (ring[i] != ring[from] && ring[i + 1] != ring[from]) continue;
+                    std::swap(ring[i], ring[reached]);
+                    std::swap(ring[i + 1], ring[reached + 1]);
+                    reached += 2;
+                }
+            }
+            several[n] = reached < ring.size() ? 1 : 0;
         }
     });
-    std::vector<std::uint8_t> seen(s.triangles.index.original_node.size(), 0);
-    for (std::size_t i = 0; i < 3 * s.triangles.facets.size(); ++i) {
-        if (corners.find(i) != i) continue;
-        const Mesh::Index place = s.triangles.facets[i / 3].nodes[i % 3];
-        std::uint8_t& fans = seen[static_cast<std::size_t>(place)];
-        if (++fans == 2) {
-            s.found.manifold = false;
-            s.defects.add_marked(DefectKind::nonmanifold_node, {.cells = {s.triangles.number[i / 3], -1},
-                                                                .nodes = {s.triangles.node(place), -1, -1}});
-        }
-        fans = std::min<std::uint8_t>(fans, 2);
+    for (std::size_t n = 0; n < several.size(); ++n) {
+        if (several[n] != 0) s.pinched.push_back({static_cast<Place>(n), static_cast<Place>(at[end[n] - 1])});
     }
 }
 
-}  // namespace
-
 void connect_triangles(SurfaceParts& s) {
-    s.edges = ridges_of(3, s.triangles.facets);
     s.shells = base::DisjointSets(s.triangles.facets.size());
     s.sides = base::DisjointSets(2 * s.triangles.facets.size());
     s.found.closed = s.found.manifold = s.found.oriented = true;
@@ -80,6 +93,7 @@ void connect_triangles(SurfaceParts& s) {
         const auto ascending = static_cast<std::size_t>(
             std::ranges::count_if(edge, [&](const Ridge& r) { return s.triangles.ascends(r); }));
         if (edge.size() > 1 && 2 * ascending != edge.size()) s.found.oriented = false;
+        if (2 * ascending != edge.size()) s.unbalanced.push_back(edge[0]);
         if (edge.size() == 1) {
             s.found.closed = false;
             s.defects.add_marked(DefectKind::open_edge, s.place_of(edge[0]));
@@ -101,7 +115,12 @@ void connect_triangles(SurfaceParts& s) {
                          2 * std::size_t{b.facet} + (s.triangles.ascends(b) ? 1 : 0));
         }
     });
-    find_fans(s);
+    for (const auto& [node, triangle] : s.pinched) {
+        s.found.manifold = false;
+        s.defects.add_marked(DefectKind::nonmanifold_node,
+                             {.cells = {s.triangles.number[static_cast<std::size_t>(triangle)], -1},
+                              .nodes = {s.triangles.node(node), -1, -1}});
+    }
 }
 
 void find_surface_cracks(SurfaceParts& s) {
