@@ -15,6 +15,8 @@
 ///   among
 ///       all that have a point as near. Distance and coordinates are correctly rounded, and so are the weights of the
 ///       vertex, edge or face whose projection it is: a value of the surface there is a mean by these weights.
+///   V1  `values` at nearest points are the exact means by the exact weights, rounded once to nearest, ties to even, or to
+///       infinity; one that is exact has no error. A value that is not finite counts where its node has a weight.
 ///   H1  `hits` are all triangles that a segment meets, in their exact order along it, ties by triangle.
 ///   D1  Results depend on the points and the surface alone, not on threads, SIMD target or the order of points.
 #pragma once
@@ -88,6 +90,11 @@ public:
     Result<SurfaceNearest> nearest(const double* point, double limit) const;
     Status nearest(std::span<const double> points, double limit, std::span<SurfaceNearest> found,
                    int threads = 0) const;
+
+    /// V1: a field of nodes, or of triangles, at the nearest points of these points, one value a point; NaN where there is
+    /// none. Error: sizes that do not fit.
+    Status values(const Field& field, bool of_cells, std::span<const double> points,
+                  std::span<const SurfaceNearest> nearest, std::span<double> out, int threads = 0) const;
 
     /// H1, of the closed segment from a to b, or the ray from a through b. A triangle in whose plane the segment lies
     /// is given once, at the first of its points that they have in common. Error: a coordinate is not finite; a is b.

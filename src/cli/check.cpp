@@ -59,7 +59,7 @@ void add_check(const Options& program) {
     o.step(job.step);
     o.flag("--delaunay", job.options.delaunay, "Also test exactly whether every interior facet is locally Delaunay");
     o.text("--conforms-to", job.plc,
-           "Also test whether the facets of this PLC (.poly .smesh .off .stl .ply) are unions of faces of cells",
+           "Also test whether the facets of this PLC (.poly .smesh .off .stl .ply .obj) are unions of faces of cells",
            "PLC");
     o.integer<std::size_t>("--examples", job.options.examples, 0, 1000000, "Max number of places listed per defect");
     o.integer<std::size_t>("--contacts", job.options.contacts, 0, 1000000,

@@ -71,7 +71,7 @@ CommandEntry mesher(const CommandEntry& program) {
         if (command.name != "mesh") continue;
         CommandEntry alone = command;
         alone.path = alone.name = "barycert-tetgen";
-        alone.text = "Mesh a PLC (.poly .smesh .off .stl .ply) with TetGen";
+        alone.text = "Mesh a PLC (.poly .smesh .off .stl .ply .obj) with TetGen";
         return alone;
     }
     return {};

@@ -1,6 +1,5 @@
 #include <limits>
 
-#include "barycert/check.hpp"
 #include "barycert/report.hpp"
 #include "barycert/verify.hpp"
 #include "bindings.hpp"
@@ -154,6 +153,10 @@ py::dict verify(const BoundSampler& bound, const Given<double>& points, const st
 }
 
 }  // namespace
+
+py::object report_object(CheckReport report) {
+    return py::cast(std::make_shared<BoundReport>(BoundReport{std::make_shared<Geometry>(), std::move(report)}));
+}
 
 void bind_check(py::module_& module) {
     using Bound = const BoundReport&;

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "barycert/check.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
@@ -34,6 +35,10 @@ void bind_mesh(py::module_& module);
 void bind_points(py::module_& module);
 void bind_check(py::module_& module);
 void bind_simplex(py::module_& module);
+void bind_surface(py::module_& module);
+
+/// A report of a surface as Python has it.
+py::object report_object(CheckReport report);
 void bind_audit(py::module_& module);
 
 // Errors: what is thrown as Exception becomes barycert.Error.

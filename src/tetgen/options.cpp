@@ -59,7 +59,7 @@ std::string default_output(const std::string& input) {
 }  // namespace
 
 std::optional<int> parse_options(int argc, char** argv, Options& options) {
-    CLI::App app{"Meshes a PLC by TetGen: .poly .smesh .off .stl .ply in; .node .ele .face .neigh out."};
+    CLI::App app{"Meshes a PLC by TetGen: .poly .smesh .off .stl .ply .obj in; .node .ele .face .neigh out."};
     app.name("barycert-tetgen");
     add_options(app, options);
     try {

@@ -115,7 +115,7 @@ TEST(Check, WhatCannotBeReadIsAnError) {
         {check(bad), "error: " + bad + ".ele:2: "},
         {check(scratch.path("none")), "error: " + scratch.path("none") + ": no such file"},
         {check(scratch.path("none")), "MESH is the stem of TetGen's files"},
-        {check(scratch.path("part.stl")), "mesh it first with `barycert mesh " + scratch.path("part.stl")},
+        {check(scratch.path("part.stl")), "error: " + scratch.path("part.stl") + ": no such file"},
         {check(scratch.folder()), "this is a folder"},
         {{"check"}, "MESH is required"},
         {check(bad, {bad}), "error: "},

@@ -20,6 +20,7 @@ struct Triangles {
     std::vector<std::uint8_t> odd;    ///< its nodes in that order turn it round
 
     std::vector<Place> same;  ///< of each place of a node: the first at that place
+    bool joined = false;      ///< some are at one place
 
     std::size_t size() const { return facets.size(); }
     Mesh::Index node(Mesh::Index place) const { return index.original_node[static_cast<std::size_t>(place)]; }

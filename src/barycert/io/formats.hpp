@@ -186,9 +186,6 @@ std::string to_simplices(const std::string& path);
 bool in_plane(std::span<const double> points, double z = 0);
 std::string plane_remedy(std::span<const double> points, const std::string& path);
 
-/// What to do about a .ply file in binary form.
-std::string text_ply_remedy(const std::string& path);
-
 /// The command that writes a file of Gmsh anew, in version 4.1, with `more` arguments; in backquotes.
 std::string gmsh_command(const std::string& path, const std::string& more = {});
 

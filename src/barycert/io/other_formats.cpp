@@ -35,10 +35,8 @@ constexpr std::array formats{
     OtherFormat{" .post .dato ", "a mesh of PERMAS", "", "permas"},
     OtherFormat{" .tec .dat ", "a file of Tecplot", "", "tecplot"},
     OtherFormat{" .cas ", "a case of Fluent", "{paraview}"},
-    OtherFormat{" .off .stl .ply .poly .smesh ", "a PLC (a surface), not a mesh",
+    OtherFormat{" .off .stl .ply .obj .poly .smesh ", "a PLC (a surface), not a mesh",
                 "mesh it first with `barycert mesh {in}`"},
-    OtherFormat{" .obj ", "a surface, not a mesh",
-                "save it as .stl, .off or .ply (text) in the program that it is of, and mesh that"},
     OtherFormat{" .geo .geo_unrolled .brep .step .stp .iges .igs ", "a geometry, not a mesh",
                 "mesh it with `gmsh -3 {in} -format msh41 -o {stem.msh}` (-2 for triangles)"},
     OtherFormat{" .vtkhdf ", "a VTKHDF file", "{paraview}"},
@@ -66,7 +64,6 @@ constexpr OtherFormat fluent{"", "a mesh of Fluent", "", "ansys"};
 constexpr OtherFormat freefem{"", "a mesh of FreeFem",
                               "make it a file of Medit with {freefem}; a mesh in space with mesh3 and readmesh3"};
 
-constexpr OtherFormat binary_ply{"", "a surface in binary form, not a mesh", "{text ply}"};
 constexpr OtherFormat flat_poly{"", "a PLC in the plane, not a mesh",
                                 "mesh it with Triangle, whose .node and .ele are read"};
 
@@ -180,8 +177,7 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
     const bool msh = has_suffix(path, ".msh");
     if (msh && text.starts_with('(')) return &fluent;
     if (msh && is_freefem(text)) return &freefem;
-    if (text.starts_with("ply"))
-        return text.find("\nformat ascii") == std::string_view::npos ? &binary_ply : by_suffix(".ply");
+    if (text.starts_with("ply")) return by_suffix(".ply");
     if (strict) return nullptr;
     const std::string_view word = first_word(text, '%');
     if (word.starts_with("NDIME=")) return by_suffix(".su2");
@@ -211,12 +207,6 @@ bool in_plane(std::span<const double> points, double z) {
     return level;
 }
 
-std::string text_ply_remedy(const std::string& path) {
-    const std::string text = shell_word(stem_of(path) + "-text.ply");
-    const std::string convert = "`meshio convert --ascii " + shell_word(path) + " " + text + "`";
-    return "make it text with " + convert + ", and mesh that with `barycert mesh " + text + "`";
-}
-
 std::string plane_remedy(std::span<const double> points, const std::string& path) {
     if (const double z = points.size() < 3 ? 0 : points[2]; z != 0 && in_plane(points, z))
         return "the mesh lies in the plane z = " + base::shortest(z) + ": give its nodes z = 0";
@@ -238,7 +228,7 @@ Error other_format_error(const OtherFormat& format, const std::string& path) {
         if (name == "stem.msh") return shell_word(stem_of(path) + ".msh");
         if (name == "freefem") return freefem_command(path);
         if (name == "unpacked") return shell_word(unpacked_name(path));
-        return name == "paraview" ? by_paraview(path) : text_ply_remedy(path);
+        return by_paraview(path);
     };
     std::string remedy;
     for (std::string_view rest = format.remedy; !rest.empty();) {

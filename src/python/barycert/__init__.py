@@ -7,6 +7,9 @@
     loc = mesh.locate(p)                               # loc.cell, loc.feature, loc.weights, loc.matrix()
     mesh.sample(p, "T"); mesh.resample((64, 64, 64), fields="T"); mesh.gradient("T"); mesh.check()
 
+    s = barycert.Surface(points, triangles)            # in space; or barycert.Surface.read("part.stl")
+    s.check(); s.contains(p); s.nearest(p).distance; s.sample(p, "T")
+
     barycert.orient3d(a, b, c, d)                      # exact signs
     barycert.audit(kernel)                             # is a formula right?
     barycert.verify(mesh, p, {"T": values})            # are results right?
@@ -24,12 +27,13 @@ from ._interpolator import Interpolator
 from ._location import Feature, Location
 from ._mesh import FieldData, Mesh, read
 from ._predicates import barycentric_weights, det3d, incircle, insphere, orient2d, orient3d, weight_signs
+from ._surface import NearestPoints, Surface
 from ._verify import ColumnErrors, Verification, WrongRow, verify
 
 __version__: str = _core.version
 
 __all__ = [
     "AuditReport", "CheckReport", "ColumnErrors", "Contact", "Defect", "Error", "Feature", "FieldData", "Interpolator",
-    "KernelResult", "Location", "Mesh", "Place", "Repair", "Verification", "WrongRow", "audit", "barycentric_weights",
-    "det3d", "families", "incircle", "insphere", "kernels", "orient2d", "orient3d", "read", "verify", "weight_signs",
+    "KernelResult", "Location", "Mesh", "NearestPoints", "Place", "Repair", "Surface", "Verification", "WrongRow",
+    "audit", "barycentric_weights", "det3d", "families", "incircle", "insphere", "kernels", "orient2d", "orient3d", "read", "verify", "weight_signs",
 ]  # fmt: skip

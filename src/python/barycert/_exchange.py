@@ -31,8 +31,8 @@ class Parts:
     notes: List[str] = field(default_factory=list)
 
 
-def parts_of(source: Any) -> Parts:
-    """The parts of a mesh of another package."""
+def parts_of(source: Any, in_space: bool = False) -> Parts:
+    """The parts of a mesh of another package. `in_space`: of triangles, which keep their z."""
     if hasattr(source, "_all_nodes"):  # barycert.Mesh
         return Parts(source.points, source._all_nodes(), source.cell_numbers, dict(source.point_data), dict(source.cell_data),
                      source.notes)  # fmt: skip
@@ -41,9 +41,9 @@ def parts_of(source: Any) -> Parts:
     if hasattr(source, "triangles"):  # matplotlib.tri.Triangulation
         return _of_triangulation(source)
     if hasattr(source, "GetPoints"):  # of VTK, and so of pyvista
-        return _of_vtk(source)
+        return _of_vtk(source, in_space)
     if hasattr(source, "cells") and hasattr(source, "points"):  # meshio.Mesh
-        return _of_meshio(source)
+        return _of_meshio(source, in_space)
     _core.fail("what a mesh is made of",
                expected="points and cells, or a mesh of SciPy, matplotlib, meshio, pyvista or VTK",
                found=type(source).__name__)  # fmt: skip
@@ -84,7 +84,9 @@ def _of_triangulation(source: Any) -> Parts:
 Block = Tuple[Any, np.ndarray, np.ndarray]
 
 
-def _of_blocks(points: Any, blocks: List[Block], ghosts: int, point_data: Any, cell_data: Any) -> Parts:
+def _of_blocks(
+    points: Any, blocks: List[Block], ghosts: int, point_data: Any, cell_data: Any, in_space: bool = False,
+) -> Parts:  # fmt: skip
     """The cells of the highest dimension make a mesh. `ghosts`: cells of the source that are in no block."""
     count = {dimension: 0 for dimension in (1, 2, 3)}
     for kind, _, numbers in blocks:
@@ -107,7 +109,7 @@ def _of_blocks(points: Any, blocks: List[Block], ghosts: int, point_data: Any, c
     whole = numbers[0] == 0 and numbers[-1] == numbers.size - 1 and not others
     notes = [f"left out: {other}" for other in others]
     points = np.asarray(points)
-    if not solid and points.ndim == 2 and points.shape[1] == 3:
+    if not solid and not in_space and points.ndim == 2 and points.shape[1] == 3:
         points = _in_plane(points, "triangles in space are no mesh")
     cell_arrays = _numbers_only(cell_data, notes)
     if not whole:
@@ -144,7 +146,7 @@ def _arrays_of(attributes: Any, notes: List[str]) -> Dict[str, np.ndarray]:
     return arrays
 
 
-def _of_vtk(source: Any) -> Parts:
+def _of_vtk(source: Any, in_space: bool) -> Parts:
     if source.GetPoints() is None:
         _core.fail("a data set without points", found=type(source).__name__)
     if hasattr(source, "GetCellTypesArray"):  # vtkUnstructuredGrid
@@ -173,12 +175,12 @@ def _of_vtk(source: Any) -> Parts:
         if len(wrong):
             _core.fail(f"nodes of cell {numbers[wrong[0]]}", expected=str(columns), found=str(sizes[wrong[0]]))
         blocks.append((kind, connectivity[offsets[numbers][:, None] + np.arange(columns)], numbers))
-    parts = _of_blocks(_numpy(source.GetPoints().GetData()), blocks, np.count_nonzero(ghost), point_data, cell_data)
+    parts = _of_blocks(_numpy(source.GetPoints().GetData()), blocks, np.count_nonzero(ghost), point_data, cell_data, in_space)
     parts.notes = notes + parts.notes
     return parts
 
 
-def _of_meshio(source: Any) -> Parts:
+def _of_meshio(source: Any, in_space: bool) -> Parts:
     blocks: List[Block] = []
     first = 0
     for block in source.cells:
@@ -187,7 +189,7 @@ def _of_meshio(source: Any) -> Parts:
         blocks.append((_MESHIO.get(block.type, block.type), np.asarray(block.data), numbers))
         first += len(numbers)
     cell_data = {name: np.concatenate([np.asarray(part) for part in parts]) for name, parts in source.cell_data.items()}
-    return _of_blocks(source.points, blocks, 0, source.point_data, cell_data)
+    return _of_blocks(source.points, blocks, 0, source.point_data, cell_data, in_space)
 
 
 class GivenBack:

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "barycert/check/surface/parts.hpp"
+#include "barycert/core/whole_points.hpp"
 #include "barycert/index/crossing.hpp"
 
 namespace barycert::check {
@@ -19,6 +20,29 @@ long double area_of(const std::array<const double*, 3>& t) {
     }
     const long double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
     return std::sqrt(x * x + y * y + z * z) / 2;  // whose range is wide enough where long double is
+}
+
+/// As crossing(), of the middle of a triangle, which no double may be: in thirds, exactly.
+int crossing_from_middle(const std::array<const double*, 3>& t, const std::array<const double*, 3>& middle_of) {
+    using Number = boost::multiprecision::cpp_int;
+    core::WholePoints<Number> whole;
+    for (std::size_t i = 0; i < 3; ++i) whole.add(t[i]), whole.add(middle_of[i]);
+    using Vector = base::Vector3<Number>;
+    Vector p;
+    std::array<Vector, 3> at;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector corner = whole.at(t[i]), part = whole.at(middle_of[i]);
+        for (std::size_t k = 0; k < 3; ++k) at[i][k] = 3 * corner[k], p[k] += part[k];
+    }
+    const auto sign = [](const Number& x) { return x > 0 ? 1 : x < 0 ? -1 : 0; };
+    const auto side = [&](const Vector& a, const Vector& b) {
+        if (const int s = sign((b[1] - a[1]) * (p[2] - a[2]) - (b[2] - a[2]) * (p[1] - a[1])); s != 0) return s;
+        return a[2] != b[2] ? sign(a[2] - b[2]) : sign(b[1] - a[1]);
+    };
+    const int s = side(at[0], at[1]);
+    if (s == 0 || side(at[1], at[2]) != s || side(at[2], at[0]) != s) return 0;
+    const Vector n = base::cross(base::minus(at[1], at[0]), base::minus(at[2], at[0]));
+    return sign(base::dot(n, base::minus(p, at[0]))) == -s ? s : 0;
 }
 
 /// The sides of triangles that look into one part of space: with normals away from it, a closed surface around it.
@@ -70,26 +94,33 @@ public:
             count, [&](std::size_t f) { return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3); });
     }
 
-    /// The chamber that holds a point on no triangle, other than those of `without`; nothing outside of all.
-    std::optional<std::size_t> chamber_at(const double* p, std::optional<std::uint32_t> without = {}) const {
+    /// The chamber that holds a point on no triangle; nothing outside of all.
+    std::optional<std::size_t> chamber_at(const double* p) const {
+        if (!s_.triangles.index.box_holds(p)) return {};
         std::map<std::uint32_t, int> winding;
-        for_each_on_ray(p, [&](std::size_t f) {
-            const int c = without && shell_of_[f] == *without ? 0 : crossing(s_.triangles.turned(f), p);
-            winding[chamber_[2 * f + 1]] += c;
-            winding[chamber_[2 * f]] -= c;
+        for_each_on_ray(&p, 1, [&](std::size_t f) { add(f, crossing(s_.triangles.turned(f), p), winding); });
+        return smallest(winding);
+    }
+
+    /// The chamber that holds the shell of triangle f: by a node that no other shell has, or the middle of the
+    /// triangle.
+    std::optional<std::size_t> chamber_around(std::size_t f) {
+        const std::uint32_t shell = shell_of_[f];
+        const double* const own = own_node(shell);
+        const auto& at = s_.triangles.facets[f].at;
+        std::map<std::uint32_t, int> winding;
+        for_each_on_ray(own != nullptr ? &own : at.data(), own != nullptr ? 1 : 3, [&](std::size_t g) {
+            if (shell_of_[g] == shell) return;
+            const auto turned = s_.triangles.turned(g);
+            add(g, own != nullptr ? crossing(turned, own) : crossing_from_middle(turned, at), winding);
         });
-        std::optional<std::size_t> smallest;
-        for (const auto& [c, times] : winding) {
-            if (times == 0 || !chambers_[c].bounded()) continue;
-            if (!smallest || (chambers_[c].six - chambers_[*smallest].six).sign() < 0) smallest = c;
-        }
-        return smallest;
+        return smallest(winding);
     }
 
     void nest() {
         std::vector<std::optional<std::size_t>> around(s_.found.shell_count);
         for (std::size_t f = 0; f < s_.triangles.facets.size(); ++f) {
-            if (s_.shells.find(f) == f) around[shell_of_[f]] = chamber_at(own_node(f), shell_of_[f]);
+            if (s_.shells.find(f) == f) around[shell_of_[f]] = chamber_around(f);
         }
         std::vector<Integer> left;
         for (const Chamber& c : chambers_) left.push_back(c.six);
@@ -145,30 +176,45 @@ private:
         s_.found.seeds.push_back(seed);
     }
 
-    /// A node of the triangle's shell that no other shell has, if there is one; else one of the triangle's.
-    const double* own_node(std::size_t f) {
-        if (shells_at_.empty()) {
-            shells_at_.assign(s_.triangles.index.original_node.size(), -1);
-            for (std::size_t g = 0; g < s_.triangles.facets.size(); ++g) {
+    /// A node of the shell that no other shell has; nullptr if there is none.
+    const double* own_node(std::uint32_t shell) {
+        if (own_.empty()) {
+            own_.assign(s_.found.shell_count, nullptr);
+            constexpr std::int64_t none = -1, several = -2;
+            std::vector<std::int64_t> shell_at(s_.triangles.index.original_node.size(), none);
+            for (std::size_t g = 0; g < s_.triangles.size(); ++g) {
+                const std::int64_t here = shell_of_[g];
                 for (const Mesh::Index n : s_.triangles.facets[g].nodes) {
-                    std::int64_t& shell = shells_at_[static_cast<std::size_t>(n)];
-                    shell = shell == -1 || shell == shell_of_[g] ? shell_of_[g] : -2;
+                    std::int64_t& at = shell_at[static_cast<std::size_t>(n)];
+                    at = at == none || at == here ? here : several;
                 }
             }
-            own_.assign(s_.found.shell_count, nullptr);
-            for (std::size_t n = 0; n < shells_at_.size(); ++n) {
-                if (shells_at_[n] >= 0)
-                    own_[static_cast<std::size_t>(shells_at_[n])] = s_.triangles.index.nodes[n].at.data();
+            for (std::size_t n = 0; n < shell_at.size(); ++n) {
+                if (shell_at[n] >= 0)
+                    own_[static_cast<std::size_t>(shell_at[n])] = s_.triangles.index.nodes[n].at.data();
             }
         }
-        const double* const own = own_[shell_of_[f]];
-        return own != nullptr ? own : s_.triangles.facets[f].at[0];
+        return own_[shell];
     }
 
+    void add(std::size_t f, int crossings, std::map<std::uint32_t, int>& winding) const {
+        if (crossings == 0) return;
+        winding[chamber_[2 * f + 1]] += crossings;
+        winding[chamber_[2 * f]] -= crossings;
+    }
+    std::optional<std::size_t> smallest(const std::map<std::uint32_t, int>& winding) const {
+        std::optional<std::size_t> found;
+        for (const auto& [c, times] : winding) {
+            if (times == 0 || !chambers_[c].bounded()) continue;
+            if (!found || (chambers_[c].six - chambers_[*found].six).sign() < 0) found = c;
+        }
+        return found;
+    }
+
+    /// The triangles that a ray along the first axis from a mean of the points may cross.
     template <class Use>
-    void for_each_on_ray(const double* p, Use use) const {
-        if (!s_.triangles.index.box_holds(p)) return;
-        CellBox ray = box_of(s_.triangles.index, &p, 1);
+    void for_each_on_ray(const double* const* points, std::size_t count, Use use) const {
+        CellBox ray = box_of(s_.triangles.index, points, count);
         ray.high[0] = Quantizer::max;
         s_.boxes->for_each_meeting(ray, [&](std::size_t f) {
             use(f);
@@ -242,9 +288,8 @@ private:
     std::vector<int> signs_;  ///< of the volumes of shells
     std::vector<std::uint32_t> chamber_;
     std::vector<Chamber> chambers_;
-    std::vector<std::int64_t> region_;     ///< of each chamber
-    std::vector<std::int64_t> shells_at_;  ///< of each place of a node: its shell; -2: several
-    std::vector<const double*> own_;
+    std::vector<std::int64_t> region_;  ///< of each chamber
+    std::vector<const double*> own_;    ///< of each shell
 };
 
 }  // namespace

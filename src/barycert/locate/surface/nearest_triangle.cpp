@@ -116,9 +116,30 @@ private:
         }
         query.to->cell = lowest;
         query.to->nodes = nodes;
+        take_own_nodes(*query.to, &order);
         settled_[static_cast<std::size_t>(std::popcount(masks_[query.first])) - 1].push_back(
             {query, query.first, order});
         return true;
+    }
+
+    /// Nodes at one place are one here, and so may be another triangle's: makes them those of the triangle, ascending,
+    /// and `order` with them.
+    void take_own_nodes(SurfaceNearest& to, std::array<std::uint8_t, 3>* order = nullptr) const {
+        if (!data_.triangles.joined) return;
+        const Surface& s = *data_.surface;
+        const auto at = [&](Mesh::Index n) { return &s.points[3 * static_cast<std::size_t>(n)]; };
+        for (std::size_t i = 0; i < 3 && to.nodes[i] >= 0; ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const Mesh::Index own = s.cells[3 * static_cast<std::size_t>(to.cell) + c];
+                if (!std::equal(at(own), at(own) + 3, at(to.nodes[i]))) continue;
+                to.nodes[i] = own;
+                break;
+            }
+            for (std::size_t k = i; k > 0 && to.nodes[k] < to.nodes[k - 1]; --k) {
+                std::swap(to.nodes[k], to.nodes[k - 1]);
+                if (order != nullptr) std::swap((*order)[k], (*order)[k - 1]);
+            }
+        }
     }
 
     void round(std::size_t corners) {
@@ -189,6 +210,7 @@ private:
             best = feature;
         }
         query.to->nodes = best.nodes;
+        take_own_nodes(*query.to);
         round_exactly(query);
         keep_within(*query.to);
     }
@@ -196,7 +218,9 @@ private:
     /// Of points that are far away, or not exact in the unit.
     void far(const Query& query) const {
         static_cast<Nearest&>(*query.to) = find_nearest(data_.triangles.index, data_.far_tree(), query.point, limit_);
-        if (query.to->cell >= 0) round_exactly(query);
+        if (query.to->cell < 0) return;
+        take_own_nodes(*query.to);
+        round_exactly(query);
     }
 
     const SurfaceData& data_;

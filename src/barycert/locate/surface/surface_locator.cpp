@@ -1,6 +1,7 @@
 #include "barycert/surface_locator.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/surface/surface_data.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert {
 namespace locate {
@@ -40,6 +42,26 @@ Turned turned_of(const Triangles& triangles) {
         even = even && edge.size() % 2 == 0;
     });
     return alike ? Turned::alike : even ? Turned::even : Turned::open;
+}
+
+/// Where the nearest point lies within an edge or a face, of the projection to it.
+double value_at(const Surface& s, const Field& field, bool of_cells, const SurfaceNearest& at, const double* p,
+                std::size_t c) {
+    const auto width = static_cast<std::size_t>(field.components);
+    if (at.cell < 0) return std::numeric_limits<double>::quiet_NaN();
+    const auto row = [&](Mesh::Index i) { return field.data[width * static_cast<std::size_t>(i) + c]; };
+    if (of_cells) return row(at.cell);
+    std::array<double, 9> vertices{};
+    std::array<double, 3> values{};
+    std::size_t count = 0;
+    for (; count < 3 && at.nodes[count] >= 0; ++count) {
+        std::copy_n(&s.points[3 * static_cast<std::size_t>(at.nodes[count])], 3, &vertices[3 * count]);
+        values[count] = row(at.nodes[count]);
+    }
+    if (count == 1) return values[0];
+    return interpolate(count == 2 ? Simplex::segment : Simplex::triangle3d, vertices.data(), p, values.data())
+        .value()
+        .value;
 }
 
 /// use(numbers) for blocks of points, those near each other one after the other, on some threads.
@@ -144,6 +166,25 @@ Status SurfaceLocator::nearest(std::span<const double> points, double limit, std
                 to.push_back(&found[i]);
             }
             data_->nearest(from, limit, to);
+        });
+    });
+    return Done{};
+}
+
+Status SurfaceLocator::values(const Field& field, bool of_cells, std::span<const double> points,
+                              std::span<const SurfaceNearest> nearest, std::span<double> out, int threads) const {
+    const ExactEnvironment environment;
+    const Surface& s = *data_->surface;
+    const auto width = static_cast<std::size_t>(field.components);
+    const std::size_t rows = of_cells ? s.cell_count() : s.point_count();
+    if (field.components < 1 || field.data.size() != rows * width)
+        return Error{.what = "a field that does not fit the surface", .expected = std::to_string(rows) + " values"};
+    if (points.size() != 3 * nearest.size() || out.size() != width * nearest.size())
+        return Error{.what = "as many values as points, and their nearest points"};
+    base::in_arena(threads, nearest.size(), [&] {
+        base::parallel_for_each(nearest.size(), 256, [&](std::size_t i) {
+            for (std::size_t c = 0; c < width; ++c)
+                out[width * i + c] = value_at(s, field, of_cells, nearest[i], &points[3 * i], c);
         });
     });
     return Done{};

@@ -1,0 +1,155 @@
+#include <cmath>
+#include <limits>
+
+#include "barycert/check.hpp"
+#include "barycert/surface_locator.hpp"
+#include "bindings.hpp"
+
+namespace barycert::python {
+namespace {
+
+/// A surface with its locator, which is made once.
+class SurfaceObject {
+public:
+    explicit SurfaceObject(Surface surface) : surface_(std::move(surface)) {}
+
+    const Surface& surface() const { return surface_; }
+    /// To be called without the lock.
+    const SurfaceLocator& locator() {
+        const std::lock_guard lock(making_);
+        if (!locator_) locator_.emplace(take(SurfaceLocator::build(surface_)));
+        return *locator_;
+    }
+
+private:
+    Surface surface_;
+    std::mutex making_;
+    std::optional<SurfaceLocator> locator_;
+};
+using Shared = std::shared_ptr<SurfaceObject>;
+
+Shared made(const Given<double>& points, const Given<Mesh::Index>& triangles) {
+    Surface surface;
+    surface.points.assign(points.all().begin(), points.all().end());
+    surface.cells.assign(triangles.all().begin(), triangles.all().end());
+    return std::make_shared<SurfaceObject>(std::move(surface));
+}
+
+Shared read(const std::string& path) {
+    const py::gil_scoped_release unlocked;
+    return std::make_shared<SurfaceObject>(take(read_surface(path)));
+}
+
+py::dict fields_of(const std::vector<Field>& fields) {
+    py::dict all;
+    for (const Field& f : fields)
+        all[py::str(f.name)] =
+            owned(std::vector<double>(f.data), f.components == 1 ? 0 : static_cast<std::size_t>(f.components));
+    return all;
+}
+
+py::object check_of(const SurfaceObject& object, std::size_t examples, std::size_t contacts, bool verdict_only,
+                    double near, int threads, const Progress& progress) {
+    const CheckOptions options{.threads = threads,
+                               .examples = examples,
+                               .contacts = contacts,
+                               .near = near,
+                               .verdict_only = verdict_only,
+                               .progress = [&](const char* stage) { tell(progress, stage, 0, 0); }};
+    CheckReport report;
+    {
+        const py::gil_scoped_release unlocked;
+        report = check_surface(object.surface(), options);
+    }
+    return report_object(std::move(report));
+}
+
+/// triangle, feature, winding: one a point.
+py::tuple locate(SurfaceObject& object, const Given<double>& points, int threads) {
+    std::vector<SurfaceLocation> found(points.rows());
+    std::vector<Mesh::Index> triangles(found.size());
+    std::vector<Feature> features(found.size());
+    std::vector<std::int32_t> windings(found.size());
+    {
+        const py::gil_scoped_release unlocked;
+        check(object.locator().locate(points.all(), found, threads));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            triangles[i] = found[i].triangle;
+            features[i] = found[i].feature;
+            windings[i] = found[i].winding;
+        }
+    }
+    return py::make_tuple(owned(std::move(triangles)), owned(std::move(features)), owned(std::move(windings)));
+}
+
+/// triangle, distance, point, nodes, weights: one a point; and the values of fields there.
+py::tuple nearest(SurfaceObject& object, const Given<double>& points, double limit,
+                  const std::vector<std::pair<Given<double>, bool>>& fields, int threads) {
+    std::vector<SurfaceNearest> found(points.rows());
+    std::vector<Mesh::Index> triangles(found.size()), nodes(3 * found.size());
+    std::vector<double> distances(found.size()), at(3 * found.size()), weights(3 * found.size());
+    std::vector<Field> given;
+    for (const auto& [values, of_cells] : fields)
+        given.push_back({"", static_cast<int>(values.columns()), {values.all().begin(), values.all().end()}});
+    std::vector<std::vector<double>> values(given.size());
+    {
+        const py::gil_scoped_release unlocked;
+        check(object.locator().nearest(points.all(), limit, found, threads));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            triangles[i] = found[i].cell;
+            distances[i] = found[i].cell < 0 ? std::numeric_limits<double>::quiet_NaN() : found[i].distance;
+            for (std::size_t k = 0; k < 3; ++k) {
+                nodes[3 * i + k] = found[i].nodes[k];
+                weights[3 * i + k] = found[i].weights[k];
+                at[3 * i + k] = found[i].cell < 0 ? std::numeric_limits<double>::quiet_NaN() : found[i].point[k];
+            }
+        }
+        for (std::size_t f = 0; f < given.size(); ++f) {
+            values[f].resize(found.size() * static_cast<std::size_t>(given[f].components));
+            check(object.locator().values(given[f], fields[f].second, points.all(), found, values[f], threads));
+        }
+    }
+    py::list arrays;
+    for (std::size_t f = 0; f < given.size(); ++f)
+        arrays.append(owned(std::move(values[f]), static_cast<std::size_t>(given[f].components)));
+    return py::make_tuple(owned(std::move(triangles)), owned(std::move(distances)), owned(std::move(at), 3),
+                          owned(std::move(nodes), 3), owned(std::move(weights), 3), arrays);
+}
+
+py::list hits(SurfaceObject& object, const Given<double>& ends, bool ray) {
+    std::vector<SurfaceHit> found;
+    {
+        const py::gil_scoped_release unlocked;
+        found = take(object.locator().hits(ends.data(), ends.data() + 3, ray));
+    }
+    return list_of(
+        found, [](const SurfaceHit& h) { return py::make_tuple(h.triangle, name(h.feature), h.parameter, h.side); });
+}
+
+const char* turned(SurfaceObject& object) {
+    const py::gil_scoped_release unlocked;
+    const Turned turned = object.locator().turned();
+    return turned == Turned::alike ? "alike" : turned == Turned::even ? "even" : "open";
+}
+
+}  // namespace
+
+void bind_surface(py::module_& module) {
+    py::class_<SurfaceObject, Shared>(module, "Surface")
+        .def(py::init(&made))
+        .def_static("read", &read)
+        .def_property_readonly("points", [](const Shared& s) { return view(s->surface().points, s, 3); })
+        .def_property_readonly("triangles", [](const Shared& s) { return view(s->surface().cells, s, 3); })
+        .def_property_readonly("point_fields", [](const Shared& s) { return fields_of(s->surface().point_fields); })
+        .def_property_readonly("cell_fields", [](const Shared& s) { return fields_of(s->surface().cell_fields); })
+        .def_property_readonly(
+            "notes",
+            [](const Shared& s) { return list_of(s->surface().notes, [](const Note& n) { return message(n); }); })
+        .def_property_readonly("turned", &turned)
+        .def("check", &check_of)
+        .def("locate", &locate)
+        .def("nearest", &nearest)
+        .def("hits", &hits);
+}
+
+}  // namespace barycert::python

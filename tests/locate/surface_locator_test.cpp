@@ -1,0 +1,405 @@
+// Points and segments against surfaces: exact rational geometry over all triangles, and voxels, whose inside is known.
+#include "barycert/surface_locator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "check/surfaces.hpp"
+
+namespace barycert::testing {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// No double is nearer to the exact number.
+bool is_rounded(double x, const mpq_class& exact) {
+    const mpq_class off = abs(mpq_class(x) - exact);
+    for (const double other : {std::nextafter(x, infinity), std::nextafter(x, -infinity)}) {
+        if (std::isfinite(other) && abs(mpq_class(other) - exact) < off) return false;
+    }
+    return true;
+}
+
+/// The same of the root of a square: by squares of the middles between x and its neighbours.
+bool is_rounded_root(double x, const mpq_class& square) {
+    if (square == 0) return x == 0;
+    const mpq_class low = (mpq_class(x) + mpq_class(std::nextafter(x, 0))) / 2,
+                    high = (mpq_class(x) + mpq_class(std::nextafter(x, infinity))) / 2;
+    return x > 0 && low * low <= square && square <= high * high;
+}
+
+std::vector<RationalTriangle> triangles_of(const Surface& s) {
+    std::vector<RationalTriangle> all;
+    for (std::size_t t = 0; t < s.cell_count(); ++t) all.push_back(triangle_of(s, t));
+    return all;
+}
+
+void expect_nearest(const Surface& s, const std::vector<RationalTriangle>& triangles, const double* p,
+                    const SurfaceNearest& found, const std::string& what) {
+    const Rational3 at = rational(p);
+    mpq_class best = -1;
+    Mesh::Index lowest = -1;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (is_flat(triangles[t])) continue;
+        const mpq_class square = square_to(triangles[t], at);
+        if (best >= 0 && square >= best) continue;
+        best = square;
+        lowest = static_cast<Mesh::Index>(t);
+    }
+    ASSERT_EQ(found.cell, lowest) << what;
+    EXPECT_TRUE(is_rounded_root(found.distance, best)) << what;
+    // The nodes are the triangle's; the point is their mean by the exact weights, and those given are these, rounded.
+    std::vector<Rational3> corners;
+    for (const Mesh::Index n : found.nodes) {
+        if (n < 0) continue;
+        EXPECT_NE(std::ranges::count(s.cells.begin() + 3 * lowest, s.cells.begin() + 3 * lowest + 3, n), 0) << what;
+        corners.push_back(rational(&s.points[3 * static_cast<std::size_t>(n)]));
+    }
+    std::vector<mpq_class> weights{1};
+    if (corners.size() == 2) {
+        const Rational3 e = corners[1] - corners[0];
+        const mpq_class t = inner(at - corners[0], e) / inner(e, e);
+        weights = {1 - t, t};
+    } else if (corners.size() == 3) {
+        const auto w = weights_in({corners[0], corners[1], corners[2]}, at);
+        weights.assign(w.begin(), w.end());
+    }
+    ASSERT_EQ(weights.size(), corners.size()) << what;
+    Rational3 x{0, 0, 0};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        EXPECT_GT(weights[i], 0) << what;
+        EXPECT_TRUE(is_rounded(found.weights[i], weights[i])) << what;
+        for (std::size_t k = 0; k < 3; ++k) x[k] += weights[i] * corners[i][k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_TRUE(is_rounded(found.point[k], x[k])) << what << " axis " << k;
+    const Rational3 away = at - x;
+    EXPECT_EQ(inner(away, away), best) << what;
+}
+
+std::vector<double> random_points(const Surface& s, std::size_t count, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const auto [low, high] = std::ranges::minmax(s.points);
+    std::vector<double> points;
+    for (std::size_t i = 0; i < count; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const double part = static_cast<double>(random() % 1025) / 512 - 0.5;
+            // On lattices many points are as near to several triangles.
+            points.push_back(i % 3 == 0 ? std::round(low + part * (high - low)) : low + part * (high - low));
+        }
+        const std::size_t node = random() % s.point_count(), other = random() % s.point_count();
+        for (std::size_t k = 0; k < 3 && i % 7 == 0; ++k)
+            points[3 * i + k] =
+                i % 2 == 0 ? s.points[3 * node + k] : (s.points[3 * node + k] + s.points[3 * other + k]) / 2;
+    }
+    return points;
+}
+
+void expect_all_nearest(const Surface& s, const std::vector<double>& points, const std::string& what) {
+    const SurfaceLocator locator = SurfaceLocator::build(s).value();
+    std::vector<SurfaceNearest> found(points.size() / 3), again = found;
+    ASSERT_TRUE(locator.nearest(points, infinity, found, 1));
+    ASSERT_TRUE(locator.nearest(points, infinity, again, 2));
+    const std::vector<RationalTriangle> triangles = triangles_of(s);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        expect_nearest(s, triangles, &points[3 * i], found[i], what + ": point " + std::to_string(i));
+        const SurfaceNearest one = locator.nearest(&points[3 * i], infinity).value();
+        for (const SurfaceNearest& other : {one, again[i]}) {
+            EXPECT_EQ(other.cell, found[i].cell);
+            EXPECT_EQ(other.distance, found[i].distance);
+            EXPECT_EQ(other.point, found[i].point);
+            EXPECT_EQ(other.nodes, found[i].nodes);
+            EXPECT_EQ(other.weights, found[i].weights);
+        }
+        // The limit is that of rounded distances.
+        EXPECT_EQ(locator.nearest(&points[3 * i], found[i].distance).value().cell, found[i].cell) << what;
+        if (found[i].distance == 0) continue;
+        EXPECT_EQ(locator.nearest(&points[3 * i], std::nextafter(found[i].distance, 0)).value().cell, -1) << what;
+    }
+}
+
+TEST(SurfaceLocator, N1_NearestOfSoups) {
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const Surface s = random_soup(seed % 2 == 0 ? 4 : 40, 20, 30, seed);
+        expect_all_nearest(s, random_points(s, 60, seed), "soup " + std::to_string(seed));
+    }
+}
+
+TEST(SurfaceLocator, N1_NearestOfSurfaces) {
+    for (const auto& [s, what] :
+         {std::pair(torus(20, 12), "torus"), {surface_of(random_voxels(4, 0.5, 3)), "voxels"}}) {
+        const std::vector<double> points = random_points(s, 60, 9);
+        expect_all_nearest(s, points, what);
+        const auto scaled = [&](double factor) {
+            std::vector<double> at = points;
+            for (double& x : at) x *= factor;
+            return at;
+        };
+        expect_all_nearest(mapped(s, 0x1p500), scaled(0x1p500), "times 2^500");
+        expect_all_nearest(mapped(s, 0x1p-500), scaled(0x1p-500), "times 2^-500");
+        std::vector<double> moved = points;
+        for (double& x : moved) x += 1e6;
+        expect_all_nearest(mapped(s, 1, 1e6), moved, "moved");
+    }
+}
+
+TEST(SurfaceLocator, N1_NearestFromFarAway) {
+    const Surface s = torus(12, 8);
+    std::vector<double> points;
+    for (const double far : {20.0, 1e3, 1e9, 1e30, 1e300}) {
+        for (const auto& d : {std::array{1.0, 0.3, -0.2}, {-0.1, 1.0, 0.7}, {0.0, 0.0, 1.0}}) {
+            for (const double x : d) points.push_back(x * far);
+        }
+    }
+    points.insert(points.end(), {0x1p-1074, 0, 0, 1e-300, -1e-310, 1e-200});
+    expect_all_nearest(s, points, "far");
+}
+
+TEST(SurfaceLocator, N1_ManyTrianglesAsNear) {
+    // From the axis of a cone all are as near; and from the middle of a sphere of nodes.
+    Surface cone;
+    cone.points = {0, 0, 5};
+    for (const int x : {3, -3, 4, -4}) {
+        for (const int y : {4, -4, 3, -3}) {
+            if (x * x + y * y == 25)
+                cone.points.insert(cone.points.end(), {static_cast<double>(x), static_cast<double>(y), 0});
+        }
+    }
+    for (Mesh::Index i = 1; i + 1 < static_cast<Mesh::Index>(cone.point_count()); ++i)
+        cone.cells.insert(cone.cells.end(), {0, i, i + 1});
+    expect_all_nearest(cone, {0, 0, 0, 0, 0, -1, 0, 0, 4, 0, 0, 9, 0, 0, 5}, "cone");
+}
+
+// Inside and outside.
+
+TEST(SurfaceLocator, W1_W2_Voxels) {
+    for (std::uint64_t seed = 0; seed < 16; ++seed) {
+        const Voxels v = random_voxels(5, 0.4 + 0.03 * static_cast<double>(seed % 8), seed);
+        const Surface s = surface_of(v);
+        const SurfaceLocator locator = SurfaceLocator::build(s).value();
+        ASSERT_EQ(locator.turned(), Turned::alike);
+        std::vector<double> points;
+        std::vector<int> inside;  // 2: on the surface
+        for (int x = -2; x <= 4 * v.n + 2; ++x) {
+            for (int y = -2; y <= 4 * v.n + 2; y += seed % 2 == 0 ? 1 : 2) {
+                for (int z = -2; z <= 4 * v.n + 2; ++z) {
+                    // In quarters; voxels at it: one, or those around a side, an edge or a node.
+                    int full = 0, all = 0;
+                    const auto around = [](int q) {
+                        return q % 4 == 0 ? std::array{q / 4 - 1, q / 4}
+                                          : std::array{static_cast<int>(std::floor(q / 4.0)),
+                                                       static_cast<int>(std::floor(q / 4.0))};
+                    };
+                    for (const int i : around(x)) {
+                        for (const int j : around(y)) {
+                            for (const int k : around(z)) full += v.at(i, j, k) ? 1 : 0, ++all;
+                        }
+                    }
+                    inside.push_back(full == all ? 1 : full == 0 ? 0 : 2);
+                    points.insert(points.end(), {x / 4.0, y / 4.0, z / 4.0});
+                }
+            }
+        }
+        std::vector<SurfaceLocation> found(inside.size()), again = found;
+        ASSERT_TRUE(locator.locate(points, found, 1));
+        ASSERT_TRUE(locator.locate(points, again, 2));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const SurfaceLocation& f = found[i];
+            EXPECT_EQ(f, again[i]);
+            if (i % 11 == 0) {
+                EXPECT_EQ(f, locator.locate(&points[3 * i]).value());
+            }
+            ASSERT_EQ(f.triangle >= 0, inside[i] == 2) << seed << " " << i;
+            if (inside[i] != 2) {
+                EXPECT_EQ(f.winding, inside[i]);
+                EXPECT_EQ(f.feature, inside[i] == 1 ? Feature::interior : Feature::outside);
+                continue;
+            }
+            if (i % 17 != 0) continue;
+            const Rational3 p = rational(&points[3 * i]);
+            for (std::size_t t = 0; t < s.cell_count(); ++t) {
+                const RationalTriangle triangle = triangle_of(s, t);
+                if (!lies_on(triangle, p)) continue;
+                EXPECT_EQ(f.triangle, static_cast<Mesh::Index>(t));
+                const auto w = weights_in(triangle, p);
+                const auto zeros = std::ranges::count(w, mpq_class(0));
+                EXPECT_EQ(f.feature, zeros == 0 ? Feature::face : zeros == 1 ? Feature::edge : Feature::vertex);
+                break;
+            }
+        }
+    }
+}
+
+/// A turn of the axes must not matter: rays go along another one then.
+TEST(SurfaceLocator, W2_AxesMayTurn) {
+    const Surface s = torus(30, 17);
+    const std::vector<double> points = random_points(s, 400, 4);
+    std::vector<SurfaceLocation> expected;
+    for (std::size_t turn = 0; turn < 3; ++turn) {
+        const auto turned = [&](const std::vector<double>& x) {
+            std::vector<double> y(x.size());
+            for (std::size_t i = 0; i < x.size(); ++i) y[3 * (i / 3) + (i + turn) % 3] = x[i];
+            return y;
+        };
+        Surface other = s;
+        other.points = turned(s.points);
+        const SurfaceLocator locator = SurfaceLocator::build(other).value();
+        std::vector<SurfaceLocation> found(points.size() / 3);
+        ASSERT_TRUE(locator.locate(turned(points), found));
+        if (turn == 0) expected = found;
+        EXPECT_EQ(found, expected);
+    }
+}
+
+TEST(SurfaceLocator, W2_WindingNumbers) {
+    // Three cubes one in the other, the outer ones turned outwards, the inner one inwards; and all of it twice.
+    Surface s;
+    for (const auto& [low, high, turn] : {std::tuple(0, 9, false), {1, 8, false}, {2, 7, true}, {0, 9, false}}) {
+        Surface cube = surface_of({1, {1}});
+        const auto first = static_cast<Mesh::Index>(s.point_count());
+        for (const double x : cube.points) s.points.push_back(low + x * (high - low));
+        for (std::size_t i = 0; i < cube.cells.size(); i += 3) {
+            if (turn) std::swap(cube.cells[i], cube.cells[i + 1]);
+            for (std::size_t k = 0; k < 3; ++k) s.cells.push_back(first + cube.cells[i + k]);
+        }
+    }
+    const SurfaceLocator locator = SurfaceLocator::build(s).value();
+    const auto winding = [&](double x) {
+        const double p[3] = {x, x + .25, x};
+        return locator.locate(p).value().winding;
+    };
+    EXPECT_EQ(winding(-1), 0);
+    EXPECT_EQ(winding(.5), 2);
+    EXPECT_EQ(winding(1.5), 3);
+    EXPECT_EQ(winding(4), 2);
+    // Turned at random there is parity, and without one triangle nothing.
+    Surface even = surface_of({1, {1}});
+    std::swap(even.cells[3], even.cells[4]);
+    const double middle[3] = {.5, .5, .25}, outside[3] = {2, .5, .5};
+    const SurfaceLocator parity = SurfaceLocator::build(even).value();
+    EXPECT_EQ(parity.turned(), Turned::even);
+    EXPECT_EQ(parity.locate(middle).value().feature, Feature::interior);
+    EXPECT_EQ(parity.locate(outside).value().feature, Feature::outside);
+    even.cells.resize(even.cells.size() - 3);
+    const SurfaceLocator open = SurfaceLocator::build(even).value();
+    EXPECT_EQ(open.turned(), Turned::open);
+    EXPECT_EQ(open.locate(middle).value(), SurfaceLocation());
+    EXPECT_EQ(open.locate(even.points.data()).value().feature, Feature::vertex);
+}
+
+TEST(SurfaceLocator, W1_PointsAnUlpOff) {
+    const Surface s = torus(40, 24);
+    const SurfaceLocator locator = SurfaceLocator::build(s).value();
+    const std::vector<RationalTriangle> triangles = triangles_of(s);
+    std::mt19937_64 random(5);
+    for (int i = 0; i < 200; ++i) {
+        const std::size_t t = random() % s.cell_count();
+        std::array<double, 3> p{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (std::size_t c = 0; c < 3; ++c)
+                p[k] += s.points[3 * static_cast<std::size_t>(s.cells[3 * t + c]) + k] / 3;
+        }
+        if (i % 3 == 0) std::copy_n(&s.points[3 * static_cast<std::size_t>(s.cells[3 * t])], 3, p.begin());
+        if (i % 2 == 0)
+            p[random() % 3] += 0;
+        else
+            p[random() % 3] = std::nextafter(p[random() % 3], 0);
+        bool on = false;
+        for (const RationalTriangle& triangle : triangles) on = on || lies_on(triangle, rational(p.data()));
+        EXPECT_EQ(locator.locate(p.data()).value().triangle >= 0, on) << i;
+    }
+}
+
+// Segments.
+
+TEST(SurfaceLocator, H1_HitsInOrder) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const Surface s = random_soup(seed % 2 == 0 ? 4 : 30, 20, 30, seed);
+        const SurfaceLocator locator = SurfaceLocator::build(s).value();
+        const std::vector<RationalTriangle> triangles = triangles_of(s);
+        const std::vector<double> ends = random_points(s, 20, seed + 50);
+        for (std::size_t i = 0; i + 5 < ends.size(); i += 6) {
+            const double *const a = &ends[i], *const b = &ends[i + 3];
+            if (std::equal(a, a + 3, b)) continue;
+            for (const bool ray : {false, true}) {
+                const std::vector<SurfaceHit> hits = locator.hits(a, b, ray).value();
+                std::vector<std::pair<mpq_class, Mesh::Index>> expected;
+                const Rational3 ra = rational(a), rb = rational(b);
+                for (std::size_t t = 0; t < triangles.size(); ++t) {
+                    if (is_flat(triangles[t])) continue;
+                    const Rational3 n = outer(triangles[t][1] - triangles[t][0], triangles[t][2] - triangles[t][0]);
+                    const mpq_class u = inner(n, ra - triangles[t][0]), v = inner(n, rb - triangles[t][0]);
+                    mpq_class first = -1;
+                    if (u != v) {
+                        const mpq_class at = u / (u - v);
+                        if (at >= 0 && (ray || at <= 1) && lies_on(triangles[t], between(ra, rb, at))) first = at;
+                    } else if (u == 0) {
+                        // In its plane: from a, or where it comes in over an edge.
+                        std::vector<mpq_class> at{0};
+                        for (std::size_t e = 0; e < 3; ++e) {
+                            const Rational3 side = outer(n, triangles[t][(e + 1) % 3] - triangles[t][e]);
+                            const mpq_class x = inner(side, ra - triangles[t][e]),
+                                            y = inner(side, rb - triangles[t][e]);
+                            if (x != y) at.push_back(x / (x - y));
+                        }
+                        for (const mpq_class& one : at) {
+                            if (one >= 0 && (ray || one <= 1) && (first < 0 || one < first) &&
+                                lies_on(triangles[t], between(ra, rb, one)))
+                                first = one;
+                        }
+                    }
+                    if (first >= 0) expected.emplace_back(first, static_cast<Mesh::Index>(t));
+                }
+                std::ranges::sort(expected);
+                ASSERT_EQ(hits.size(), expected.size()) << seed << " " << i << " " << ray;
+                for (std::size_t h = 0; h < hits.size(); ++h) {
+                    EXPECT_EQ(hits[h].triangle, expected[h].second) << seed << " " << i << " " << ray;
+                    EXPECT_TRUE(is_rounded(hits[h].parameter, expected[h].first));
+                }
+            }
+        }
+    }
+}
+
+TEST(SurfaceLocator, H1_SidesAndFeatures) {
+    const Surface cube = surface_of({1, {1}});
+    const SurfaceLocator locator = SurfaceLocator::build(cube).value();
+    const double a[3] = {-1, .25, .5}, b[3] = {3, .25, .5};
+    const std::vector<SurfaceHit> hits = locator.hits(a, b).value();
+    ASSERT_EQ(hits.size(), 2);
+    EXPECT_EQ(hits[0].side, -1);  // against the normal: in
+    EXPECT_EQ(hits[1].side, 1);
+    EXPECT_EQ(hits[0].parameter, .25);
+    EXPECT_EQ(hits[0].feature, Feature::face);
+    const double c[3] = {-1, -1, -1}, d[3] = {2, 2, 2};
+    const std::vector<SurfaceHit> corners = locator.hits(c, d).value();
+    ASSERT_FALSE(corners.empty());
+    for (const SurfaceHit& hit : corners) EXPECT_EQ(hit.feature, Feature::vertex);
+    EXPECT_FALSE(locator.hits(a, a));
+}
+
+TEST(SurfaceLocator, Errors) {
+    Surface s = surface_of({1, {1}});
+    const double nan[3] = {0, std::numeric_limits<double>::quiet_NaN(), 0};
+    const SurfaceLocator locator = SurfaceLocator::build(s).value();
+    EXPECT_FALSE(locator.locate(nan));
+    EXPECT_FALSE(locator.nearest(nan, 1));
+    EXPECT_EQ(locator.nearest(s.points.data(), -1).value().cell, -1);
+    EXPECT_EQ(locator.nearest(s.points.data(), nan[1]).value().cell, -1);
+    s.cells[0] = 77;
+    EXPECT_FALSE(SurfaceLocator::build(s));
+    const Surface none;
+    const SurfaceLocator empty = SurfaceLocator::build(none).value();
+    const double p[3] = {0, 0, 0};
+    EXPECT_EQ(empty.locate(p).value(), SurfaceLocation());
+    EXPECT_EQ(empty.nearest(p, infinity).value().cell, -1);
+    EXPECT_TRUE(empty.hits(p, s.points.data() + 3).value().empty());
+    std::vector<SurfaceNearest> found(1);
+    EXPECT_TRUE(empty.nearest(std::span(p, 3), infinity, found));
+    EXPECT_EQ(found[0].cell, -1);
+}
+
+}  // namespace
+}  // namespace barycert::testing
