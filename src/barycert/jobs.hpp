@@ -88,7 +88,9 @@ struct SamplingJob : MeshJob {
     bool count_degenerate = true;  ///< of SampleReport: a pass over the cells
 };
 
-/// Fields at points: rows to CSV, NPY or VTU files.
+/// Fields at points: rows to CSV, NPY or VTU files. Of a surface (read_surface): at the nearest point of it, with its
+/// triangle, the feature in which it lies, and the distance, negative where the point is inside; options.outside.limit
+/// bounds it. Maps, weights and fields from files are for meshes.
 struct SampleJob : SamplingJob {
     std::string points;                     ///< as for open_points; or
     std::vector<std::string> columns = {};  ///< PointOptions::columns
@@ -172,6 +174,7 @@ struct SampleReport : MeshReport {
     Rounding rounding = Rounding::correct;
     Verdict verdict = Verdict::not_checked;  ///< certified: P1 to P4 of check.hpp are proved
     bool all = false;                        ///< a row for each cell that holds a point
+    bool surface = false;  ///< `cells` are triangles in space, and rows are of the nearest points on them
 };
 
 /// Return an Error, and write nothing, if the job contradicts itself, an input cannot be read, an output is an input or

@@ -55,6 +55,8 @@ void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) 
         "Value of points outside every cell: nan (default); error: fail; fill=NUMBER; nearest[=DISTANCE]: the value at "
         "the nearest point of the mesh, NaN beyond DISTANCE; extrapolate: the function of the nearest cell",
         "", job.options.outside, [](const std::string& text) { return std::optional(policy_of(text)); });
+    o.parsed("--within", "DISTANCE", "The same as --outside nearest=DISTANCE", "", job.options.outside,
+             [](const std::string& text) { return std::optional(policy_of("nearest=" + text)); });
     o.curved(job.curved);
     o.threads(job.options.threads);
     o.vtk_data(job.vtk_data);
@@ -80,6 +82,8 @@ in --fields (texts, large integers), then columns of the points (--keep). cell: 
 0, of the first cell that contains the point; -1 outside. feature: interior, face, edge, vertex or outside,
 exact. TetGen's node attributes are named attribute0, attribute1, ... --points takes the output of another
 run, whose rows are points.
+Of a surface (.stl .ply .off .obj .vtp .poly .smesh, triangles in space in any file): values at the nearest point of
+it, the triangle, the face, edge or vertex in which that lies, and the distance, negative inside.
 Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input
 error.)",
         run_sampling<SampleJob, sample_files>);

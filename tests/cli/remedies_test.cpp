@@ -62,18 +62,19 @@ const Remedy remedies[] = {
      "check a-new.msh"},
     {"unv", "gmsh", "gmsh -3 cube.geo -format unv -o a.unv", "check a.unv", "check a-new.msh"},
     {"geo", "gmsh", "", "check cube.geo", "check cube.msh"},
-    {"msh_of_a_closed_surface", "gmsh meshio", "gmsh -2 cube.geo -format msh41 -o a.msh", "check a.msh", "check a.1"},
-    {"msh_of_a_closed_surface_of_order_2", "gmsh", "gmsh -2 -order 2 cube.geo -format msh41 -o a.msh", "check a.msh",
-     ""},
+    {"msh_of_a_closed_surface", "gmsh meshio", "gmsh -2 cube.geo -format msh41 -o a.msh",
+     "render mesh a.msh --output b.png", "check a.1"},
+    {"msh_of_a_closed_surface_of_order_2", "gmsh", "gmsh -2 -order 2 cube.geo -format msh41 -o a.msh",
+     "render mesh a.msh --output b.png", ""},
     {"vtk_of_a_closed_surface", "meshio",
-     "printf 'CELLS 4 16\n3 0 2 1\n3 0 1 5\n3 1 2 5\n3 2 0 5\nCELL_TYPES 4\n5 5 5 5\n' >> c.vtk", "check c.vtk",
-     "check c.1"},
+     "printf 'CELLS 4 16\n3 0 2 1\n3 0 1 5\n3 1 2 5\n3 2 0 5\nCELL_TYPES 4\n5 5 5 5\n' >> c.vtk",
+     "render mesh c.vtk --output b.png", "check c.1"},
     {"vtk_of_quads_in_space", "", "printf 'CELLS 2 10\n4 0 1 2 3\n4 0 1 5 4\nCELL_TYPES 2\n9 9\n' >> c.vtk",
-     "check c.vtk", ""},
+     "render mesh c.vtk --output b.png", ""},
     {"vtk_of_a_plane_at_z_1", "",
      "printf 'CELLS 1 4\n3 4 5 6\nCELL_TYPES 1\n5\n' >> c.vtk; sed -i 's/0 0 0 1 0 0 1 1 0 "
      "0 1 0 /0 0 1 1 0 1 1 1 1 0 1 1 /' c.vtk",
-     "check c.vtk", ""},
+     "render mesh c.vtk --output b.png", ""},
     {"vtk_of_quads_in_the_plane", "pvpython",
      "printf 'CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n' >> c.vtk; sed -i 's/0 0 1 1 0 1 1 1 1 0 1 1/0 0 0 1 0 0 1 1 0 0 "
      "1 "
@@ -96,7 +97,7 @@ const Remedy remedies[] = {
      "printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTriangles\n4\n1 3 "
      "2 "
      "0\n1 2 4 0\n2 3 4 0\n3 1 4 0\nEnd\n' > c.mesh",
-     "check c.mesh", "check c.1"},
+     "render mesh c.mesh --output b.png", "check c.1"},
     {"cgns", "pvpython",
      "printf 'CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n' >> c.vtk; pvpython -c 'from paraview.simple import *; "
      "SaveData(\"c.cgns\", OpenDataFile(\"c.vtk\"))'",
@@ -106,21 +107,21 @@ const Remedy remedies[] = {
     {"freefem", "FreeFem++", "echo 'mesh Th = square(2, 2); savemesh(Th, \"a.msh\");' | FreeFem++ -nw -f /dev/stdin",
      "check a.msh", "check a.mesh"},
     {"openfoam", "pvpython", openfoam, "check .", "check ./case-simplices.vtu"},
-    {"off", "", "", "render boundary s.off --output b.vtp", "check s.1"},
-    {"stl", "meshio", "meshio convert t.off a.stl", "render boundary a.stl --output b.vtp", "check a.1"},
+    {"off", "", "", "render mesh s.off --output b.png", "check s.1"},
+    {"stl", "meshio", "meshio convert t.off a.stl", "render mesh a.stl --output b.png", "check a.1"},
     {"ply", "",
      "printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
      "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 "
      "0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' > a.ply",
-     "render boundary a.ply --output b.vtp", "check a.1"},
+     "render mesh a.ply --output b.png", "check a.1"},
     {"poly", "",
      "printf '4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n4 0\n1\n3 1 3 2\n1\n3 1 2 4\n1\n3 2 3 4\n1\n3 3 1 "
      "4\n0\n0\n' > a.poly",
-     "render boundary a.poly --output b.vtp", "check a.1"},
+     "render mesh a.poly --output b.png", "check a.1"},
     {"smesh", "",
      "printf '4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n4 0\n3 1 3 2\n3 1 2 4\n3 2 3 4\n3 3 1 4\n0\n0\n' > "
      "a.smesh",
-     "render boundary a.smesh --output b.vtp", "check a.1"},
+     "render mesh a.smesh --output b.png", "check a.1"},
     {"step", "gmsh", "gmsh -0 cube.geo -o a.step", "check a.step", "check a.msh"},
     {"packed_by_zstd", "zstd", "printf 'CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n' >> c.vtk; zstd -q --rm c.vtk",
      "check c.vtk.zst", "check c.vtk"},
@@ -131,7 +132,8 @@ const Remedy remedies[] = {
     {"packed_by_tar_and_gzip", "gzip",
      "printf 'CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n' >> c.vtk; tar -czf a.tgz c.vtk; rm c.vtk", "check a.tgz",
      "check c.vtk"},
-    {"obj", "", "printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' > a.obj", "render boundary a.obj --output b.vtp", "check a.1"},
+    {"obj", "", "printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n' > a.obj",
+     "render mesh a.obj --output b.png", "check a.1"},
     {"poly_in_the_plane", "", "printf '# square\n4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n' > a.poly", "check a.poly", ""},
     {"poly_in_the_plane_meshed", "", "printf '4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n' > a.poly", "mesh a.poly", ""},
     {"structured_points_as_points", "",

@@ -21,7 +21,11 @@ CHECK = [
     ("nodes.cpp", "    mark_used(c.mesh.mid_nodes, used);\n", "", "nodes midway are used"),
     ("fix.cpp", "if (mesh_.dimension == 3) std::swap(mid[2], mid[3]);", "", "mid-edge nodes of 02 and 03 that stay"),
     ("plc_facet.hpp", "p[k] / 2 - o[k] / 2, 1 - exponent_", "p[k] - o[k], -exponent_", "a difference that overflows"),
-    ("plc_facet.hpp", "if (deepest != nullptr) return", "if (false) return", "the middle of a corner's triangle, whatever lies in it"),
+    ("plc_facet.hpp", "area_ += std::fabs(", "area_ -= std::fabs(", "the share of a facet below 0"),
+    ("surface/regions.cpp", "all.chamber[front] - part.six[k]", "all.chamber[front] + part.six[k]", "chambers on the side of a normal"),
+    ("surface/regions.cpp", "all.chamber[back] + part.six[k]", "all.chamber[back]", "chambers behind triangles"),
+    ("surface/topology.cpp", "2 * std::size_t{b.facet} + (s.triangles.ascends(b) ? 1 : 0)", "2 * std::size_t{b.facet} + (s.triangles.ascends(b) ? 0 : 1)", "sides that look at each other"),
+    ("surface/topology.cpp", "x != y ? x < y", "x != y ? y < x", "the order of triangles around an edge"),
     ("pairs.cpp", "if (!complete) c.defects[DefectKind::nested_part].at_least = true;", "", "not said that there may be more"),
 ]
 LOCATE = [

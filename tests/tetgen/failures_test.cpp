@@ -27,7 +27,7 @@ protected:
 
 TEST_F(Failures, BeforeReading) {
     expect_failure(folder_.path("none.poly"), "none.poly: no such file");
-    expect_bad_file("cube.obj", cube_off(), ": unknown kind of PLC: expected one of .poly .smesh .off .stl .ply");
+    expect_bad_file("cube.xyz", cube_off(), ": unknown kind of PLC: expected one of .poly .smesh .off .stl .ply .obj");
     expect_bad_file("cube", cube_off(), ": unknown kind of PLC");
     expect_bad_file("empty.poly", "", ": cannot read: expected a PLC, found an empty file");
     std::filesystem::create_directory(folder_.path("folder.poly"));
@@ -95,8 +95,9 @@ TEST_F(Failures, Contradictory) {
     expect_bad_file("facets.poly", "4 3\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n0 0\n", ": nothing to mesh");
     expect_bad_file("more.off", cube_off() + "3 0 1 2\n", ":17: more lines than the header announces");
     expect_bad_file("index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: no such node");
-    expect_bad_file("binary.ply", "ply\nformat binary_little_endian 1.0\n", ":2: cannot read a binary .ply");
-    expect_bad_file("big.ply", "ply\nformat binary_big_endian 1.0\n", ":2: cannot read a binary .ply");
+    expect_bad_file("binary.ply", "ply\nformat binary_little_endian 1.0\n", ":2: the file is truncated");
+    expect_bad_file("other.ply", "ply\nformat xml 1.0\n", ":2: cannot read: expected ascii, binary_little_endian");
+    expect_bad_file("words.obj", cube_off(), ": nothing to mesh: the PLC has no facets");
     const std::string big_endian("\0\0\0\1", 4);
     expect_bad_file("big.stl", std::string(80, ' ') + big_endian + std::string(50, '\0'),
                     ": neither a text nor a whole binary .stl");

@@ -51,25 +51,15 @@ public:
     Areas(const PlcRegion& region, std::span<const Candidate> faces)
         : points_(project(region, faces)), volumes_(2, points_) {
         const double* at = points_.data();
-        for (const PlcRegion::Ring& ring : region.rings()) {
-            const std::size_t n = ring.points.size();
-            Integer twice;
-            for (std::size_t i = 0; i < n; ++i) {
-                const double* const ends[] = {at + 2 * i, at + 2 * ((i + 1) % n)};
-                twice = twice + volumes_.cone(ends);
-            }
-            at += 2 * n;
-            if (ring.counts == 0) continue;
-            facet_ = (twice.sign() < 0) == (ring.counts < 0) ? facet_ + twice : facet_ - twice;
-        }
-        for (std::size_t face = 0; face < faces.size(); ++face, at += 6) {
+        for (std::size_t i = 0; i < region.triangles().size() + faces.size(); ++i, at += 6) {
             const double* const corners[] = {at, at + 2, at + 4};
             const Integer twice = volumes_.cell(corners);
-            covered_ = twice.sign() < 0 ? covered_ - twice : covered_ + twice;
+            Integer& sum = i < region.triangles().size() ? facet_ : covered_;
+            sum = twice.sign() < 0 ? sum - twice : sum + twice;
         }
     }
 
-    bool none() const { return facet_.sign() == 0; }  ///< the facet has no area: a bow-tie, say
+    bool none() const { return facet_.sign() == 0; }  ///< the facet has no area
     bool equal() const { return (facet_ - covered_).sign() == 0; }
     double share() const { return volumes_.rounded(covered_) / volumes_.rounded(facet_); }
 
@@ -77,14 +67,15 @@ private:
     static std::vector<double> project(const PlcRegion& region, std::span<const Candidate> faces) {
         const auto [x, y] = region.axes();
         std::vector<double> all;
-        for (const double* p : region.vertices()) all.insert(all.end(), {p[x], p[y]});
-        for (const Candidate& face : faces) {
-            for (const double* p : face.nodes) all.insert(all.end(), {p[x], p[y]});
-        }
+        const auto add = [&, x = x, y = y](const PlcRegion::Triangle& t) {
+            for (const double* p : t) all.insert(all.end(), {p[x], p[y]});
+        };
+        std::ranges::for_each(region.triangles(), add);
+        for (const Candidate& face : faces) add(face.nodes);
         return all;
     }
 
-    std::vector<double> points_;  ///< projected: of rings, then of faces
+    std::vector<double> points_;  ///< projected: of the facet's triangles, then of faces
     ExactVolumes volumes_;
     Integer facet_, covered_;
 };

@@ -8,12 +8,12 @@
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"
+#include "barycert/surface/facet_triangles.hpp"
 
 namespace barycert::check {
 
-/// The polygons of a facet, projected along the axis on which its normal is largest. Its region is what lies in them
-/// but in holes, as for TetGen: a ring is a hole if one of the facet's hole points lies in it, and of rings one in
-/// another the smallest decides. Rings inside that are no holes only cut the region.
+/// The polygons of a facet, projected along the axis on which its normal is largest. Its region is what its triangles
+/// fill (surface/facet_triangles.hpp): none if its polygons cross each other.
 ///
 /// Plain geometry works in a unit of 2^exponent, relative to a vertex, so that nothing over- or underflows; what is
 /// said to be exact works on the coordinates as they are.
@@ -23,26 +23,32 @@ public:
     struct Ring {
         std::vector<const double*> points;
         std::vector<PlcPosition> at;  ///< place() of each
-        bool hole = false;
-        double area = 0;  ///< projected, in the unit
-        int counts = 0;   ///< +1 its area is part of the region, -1 it is taken off, 0 another ring's has it
     };
+    using Triangle = std::array<const double*, 3>;
 
     PlcRegion(const Plc& plc, const PlcFacet& facet, int exponent) : exponent_(exponent) {
+        const auto point = [&](Mesh::Index node) { return &plc.points[static_cast<std::size_t>(node) * 3]; };
         for (const auto& polygon : facet.polygons) {
             if (polygon.size() < 3) continue;
             Ring& ring = rings_.emplace_back();
-            for (const auto node : polygon) ring.points.push_back(&plc.points[static_cast<std::size_t>(node) * 3]);
+            for (const auto node : polygon) ring.points.push_back(point(node));
             vertices_.insert(vertices_.end(), ring.points.begin(), ring.points.end());
         }
         if (rings_.empty()) return;
         set_plane();
-        if (proper_) set_holes(facet);
+        if (!proper_) return;
+        for (Ring& ring : rings_) {
+            for (const double* p : ring.points) ring.at.push_back(place(p));
+        }
+        for (const auto& [a, b, c] : surface::triangles_of_facet(plc.points, facet.polygons, facet.holes).triangles) {
+            triangles_.push_back({point(a), point(b), point(c)});
+            area_ += std::fabs(twice_area(places(triangles_.back())));
+        }
     }
 
     /// It has an area.
     bool proper() const { return proper_; }
-    const std::vector<Ring>& rings() const { return rings_; }
+    const std::vector<Triangle>& triangles() const { return triangles_; }
     /// Those of all rings, one ring after the other.
     const std::vector<const double*>& vertices() const { return vertices_; }
 
@@ -61,8 +67,12 @@ public:
         return {v[axes()[0]], v[axes()[1]]};
     }
     bool holds(const PlcPosition& p) const {
-        const Ring* const ring = innermost(p, nullptr);
-        return ring != nullptr && !ring->hole;
+        return std::ranges::any_of(triangles_, [&](const Triangle& t) {
+            const std::vector<PlcPosition> at = places(t);
+            const double turn = twice_area(at) < 0 ? -1 : 1;
+            return turn * twice_area(at[0], at[1], p) >= 0 && turn * twice_area(at[1], at[2], p) >= 0 &&
+                   turn * twice_area(at[2], at[0], p) >= 0;
+        });
     }
 
     /// How deeply a side of a face passes the sides of the rings: -1 if it is properly across none, which is exact;
@@ -94,18 +104,13 @@ public:
     }
 
     /// The part of the region's area that the triangle has in common with it, in plain double.
-    double covered_by(const std::array<const double*, 3>& triangle) const {
-        const std::vector<PlcPosition> face{place(triangle[0]), place(triangle[1]), place(triangle[2])};
-        double common = 0, whole = 0;
-        for (const Ring& ring : rings_) {
-            // A ring is a fan of triangles, those that turn the other way taken off.
-            double twice = 0;
-            for (std::size_t i = 2; i < ring.at.size() && ring.counts != 0; ++i)
-                twice += common_area(face, {ring.at.front(), ring.at[i - 1], ring.at[i]});
-            common += ring.counts * std::fabs(twice) / 2;
-            whole += ring.counts * ring.area;
+    double covered_by(const Triangle& face) const {
+        double twice = 0;
+        for (const Triangle& t : triangles_) {
+            const std::vector<PlcPosition> at = places(t);
+            twice += std::fabs(common_area(places(face), {at[0], at[1], at[2]}));
         }
-        return common / whole;
+        return twice / area_;
     }
 
     Box box(double margin) const {
@@ -186,67 +191,12 @@ private:
         }
     }
 
-    void set_holes(const PlcFacet& facet) {
-        for (Ring& ring : rings_) {
-            for (const double* p : ring.points) ring.at.push_back(place(p));
-            ring.area = std::fabs(twice_area(ring.at)) / 2;
-        }
-        for (std::size_t i = 0; i + 2 < facet.holes.size(); i += 3) {
-            const Ring* const ring = innermost(place(&facet.holes[i]), nullptr);
-            for (Ring& r : rings_) r.hole = r.hole || &r == ring;
-        }
-        for (Ring& ring : rings_) {
-            const Ring* const around = innermost(inner_place(ring), &ring);
-            const bool filled = around != nullptr && !around->hole;
-            ring.counts = ring.hole == filled ? (ring.hole ? -1 : 1) : 0;
-        }
-    }
-
-    /// Inside the ring: at its lowest corner, which is convex, between it and what of the ring lies deepest in the
-    /// triangle with its neighbours, or in the middle of that triangle.
-    PlcPosition inner_place(const Ring& ring) const {
-        const std::vector<PlcPosition>& at = ring.at;
-        const auto n = at.size();
-        const auto corner = static_cast<std::size_t>(std::min_element(at.begin(), at.end()) - at.begin());
-        const PlcPosition &v = at[corner], &a = at[(corner + n - 1) % n], &b = at[(corner + 1) % n];
-        const double turn = twice_area(a, v, b) < 0 ? -1 : 1;
-        const PlcPosition* deepest = nullptr;
-        double depth = 0;
-        for (const PlcPosition& p : at) {
-            if (turn * twice_area(a, v, p) <= 0 || turn * twice_area(v, b, p) <= 0 || turn * twice_area(b, a, p) <= 0)
-                continue;
-            if (turn * twice_area(b, a, p) <= depth) continue;
-            depth = turn * twice_area(b, a, p);
-            deepest = &p;
-        }
-        if (deepest != nullptr) return {(v[0] + (*deepest)[0]) / 2, (v[1] + (*deepest)[1]) / 2};
-        return {(a[0] + v[0] + b[0]) / 3, (a[1] + v[1] + b[1]) / 3};
-    }
-
-    bool in_ring(const Ring& ring, const PlcPosition& p) const {
-        bool inside = false;
-        for (std::size_t i = 0, j = ring.at.size() - 1; i < ring.at.size(); j = i++) {
-            const PlcPosition &a = ring.at[i], &b = ring.at[j];
-            // A ray along the first axis crosses the side ab.
-            if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1])) + a[0])
-                inside = !inside;
-        }
-        return inside;
-    }
-
-    const Ring* innermost(const PlcPosition& p, const Ring* but) const {
-        const Ring* found = nullptr;
-        for (const Ring& ring : rings_) {
-            if (&ring != but && (found == nullptr || ring.area < found->area) &&
-                (but == nullptr || ring.area > but->area || (ring.area == but->area && &ring < but)) &&
-                in_ring(ring, p))
-                found = &ring;
-        }
-        return found;
-    }
+    std::vector<PlcPosition> places(const Triangle& t) const { return {place(t[0]), place(t[1]), place(t[2])}; }
 
     std::vector<Ring> rings_;
     std::vector<const double*> vertices_;
+    std::vector<Triangle> triangles_;
+    double area_ = 0;  ///< twice that of the region, projected, in the unit
     int exponent_;
     Vector normal_{};                       ///< of length 1
     std::array<const double*, 3> plane_{};  ///< three vertices that span it

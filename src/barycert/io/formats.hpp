@@ -126,6 +126,8 @@ struct InSpace {
     std::vector<double> points;       ///< 3 coordinates a node; empty: it is a mesh in the plane
     std::vector<Mesh::Index> facets;  ///< as of Surface
 };
+/// By the end of the path: .stl .ply .off .obj .poly .smesh .vtp.
+bool is_surface_file(const std::string& path);
 Result<Mesh> read_mesh_in_space(const std::string& path, const ReadOptions& options, InSpace* space);
 Result<Mesh> read_vtk_in_space(const std::string& path, const StepChoice& step, InSpace* space);
 Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& options, InSpace* space);

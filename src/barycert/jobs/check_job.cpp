@@ -103,7 +103,7 @@ void refuse_options_of_meshes(const CheckJob& job, const char* what) {
     const auto refuse_one = [&](bool given, const std::string& member) {
         if (given) refuse(job.mesh, member + " is for meshes", "", what, "leave it out");
     };
-    refuse_one(job.options.delaunay, "job.options.delaunay");
+    refuse_one(job.options.delaunay, "job.delaunay");
     refuse_one(!job.plc.empty(), "job.plc");
     refuse_one(!copy_of(job).empty(), member_of_copy(job));
     if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtp"))

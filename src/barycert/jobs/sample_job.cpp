@@ -4,12 +4,15 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
+#include <variant>
 #include <vector>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/stream.hpp"
+#include "barycert/jobs/surface_job.hpp"
 #include "barycert/map.hpp"
 
 namespace barycert {
@@ -123,15 +126,39 @@ void at_points_of_map(SampledMesh& mesh, const SampleJob& job) {
     sample_rows(mesh, rows_of_map(map), outputs_of(mesh, job, {}));
 }
 
+/// Nothing if the mesh is one, or cannot be read as a surface either.
+std::optional<Result<SampleReport>> at_surface(const SampleJob& job) {
+    try {
+        jobs::Stopwatch watch;
+        const Result<std::variant<Mesh, Surface>> read =
+            read_mesh_or_surface(job.mesh, {.threads = job.options.threads});
+        if (!read && io::is_surface_file(job.mesh)) return read.error();
+        const auto* const surface = read ? std::get_if<Surface>(&*read) : nullptr;
+        if (surface == nullptr) return std::nullopt;
+        check_job(job, {});
+        return jobs::sample_surface(job, *surface, watch.lap());
+    } catch (const Exception& problem) {
+        return problem.error();
+    }
+}
+
 }  // namespace
 
 Result<SampleReport> sample_files(const SampleJob& asked) {
     SampleJob job = asked;
     // What a map holds was let in when it was made.
     if (!job.map.empty()) job.options.nonfinite_points = NonfinitePoints::nan;
-    return jobs::sample_mesh(
+    if (io::is_surface_file(job.mesh)) {
+        if (const auto surface = at_surface(job)) return *surface;
+    }
+    Result<SampleReport> sampled = jobs::sample_mesh(
         job, "sample", [&](const auto& steps) { check_job(job, steps); },
         [&](SampledMesh& mesh) { job.map.empty() ? at_points(mesh, job) : at_points_of_map(mesh, job); });
+    if (!sampled && sampled.error().file == job.mesh) {
+        // Triangles off the plane are found when they are read.
+        if (const auto surface = at_surface(job)) return *surface;
+    }
+    return sampled;
 }
 
 }  // namespace barycert

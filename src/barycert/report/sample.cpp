@@ -15,12 +15,15 @@ JSON_OF(WayCounts, no_cell_near, walk, contested, candidates)
 
 namespace {
 
-void tell_inside(Document& d, const LocationCounts& n) {
-    d.figure("inside", record("count", n.inside(), MEMBERS(n, interior, face, edge, vertex)), "inside",
-             n.inside() == 0
-                 ? "0"
-                 : fmt::format("{}: {} in the interior of a cell, {} on a face, {} on an edge, {} at a vertex",
-                               n.inside(), n.interior, n.face, n.edge, n.vertex));
+void tell_inside(Document& d, const LocationCounts& n, bool surface) {
+    const std::string on =
+        fmt::format("{}: {} on a face, {} on an edge, {} at a vertex", n.inside(), n.face, n.edge, n.vertex);
+    d.figure("inside", record("count", n.inside(), MEMBERS(n, interior, face, edge, vertex)),
+             surface ? "on it" : "inside",
+             n.inside() == 0 ? "0"
+             : surface       ? on
+                       : fmt::format("{}: {} in the interior of a cell, {} on a face, {} on an edge, {} at a vertex",
+                                     n.inside(), n.interior, n.face, n.edge, n.vertex));
 }
 
 /// What became of points outside.
@@ -28,18 +31,19 @@ void tell_outside(Document& d, const SampleReport& s) {
     const SampleCounts& n = s.counts;
     const std::uint64_t strange = n.locations.not_finite, without = n.without_value - strange;
     const std::string far = fmt::format("max distance {:.4g}", n.farthest);
-    const std::string fates =
-        clauses({{n.snapped, "snapped to the nearest point of the mesh, " + far},
-                 {n.extrapolated, "extrapolated from the nearest cell, " + far},
-                 {strange, "not finite, got NaN"},
-                 {without, (s.outside.kind == Outside::fill ? "got " + base::shortest(s.outside.fill) : "got NaN") +
-                               (s.outside.kind == Outside::nearest ? ", farther than " + base::shortest(s.outside.limit)
-                                                                   : "")}});
+    const std::string fates = clauses(
+        {{n.snapped,
+          (s.surface ? "got the value at the nearest point, " : "snapped to the nearest point of the mesh, ") + far},
+         {n.extrapolated, "extrapolated from the nearest cell, " + far},
+         {strange, "not finite, got NaN"},
+         {without,
+          (s.outside.kind == Outside::fill ? "got " + base::shortest(s.outside.fill) : "got NaN") +
+              (s.outside.kind == Outside::nearest ? ", farther than " + base::shortest(s.outside.limit) : "")}});
     const std::uint64_t count = n.locations.outside;
     d.figure("outside",
              record("count", count, "policy", policy_text(s.outside), MEMBERS(n, snapped, extrapolated, without_value),
                     "not_finite", strange, MEMBERS(n, farthest)),
-             "outside", count == 0 ? "0" : fmt::format("{}: {}", count, fates),
+             s.surface ? "off it" : "outside", count == 0 ? "0" : fmt::format("{}: {}", count, fates),
              count == 0 ? Tone::plain : Tone::strong);
 }
 
@@ -95,11 +99,11 @@ void tell_integrals(Document& d, const std::vector<FieldIntegral>& all) {
 }
 
 void tell_mesh(Document& d, const SampleReport& s) {
-    std::string cells = counted(s.cells, "cell") + ", " + counted(s.nodes, "node");
+    std::string cells = counted(s.cells, s.surface ? "triangle" : "cell") + ", " + counted(s.nodes, "node");
     if (s.degenerate_cells != 0)
         cells += fmt::format("; {} degenerate and own{} nothing", counted(s.degenerate_cells, "cell is", "cells are"),
                              s.degenerate_cells == 1 ? "s" : "");
-    d.name("mesh", cells, s.degenerate_cells == 0 ? Tone::plain : Tone::strong);
+    d.name(s.surface ? "surface" : "mesh", cells, s.degenerate_cells == 0 ? Tone::plain : Tone::strong);
 }
 
 void tell_times(Document& d, const SampleReport& s) {
@@ -142,14 +146,15 @@ Document sample_document(const SampleReport& s, const Environment& environment) 
     if (s.all) text += fmt::format(", in {}: one for each cell that holds a point", counted(s.rows, "row"));
     d.figure("points", points, "points", text);
     put(d.data, "rows", s.rows, "on_boundary", s.all ? "all" : "lowest");
-    tell_inside(d, s.counts.locations);
+    tell_inside(d, s.counts.locations, s.surface);
     tell_outside(d, s);
     tell_values(d, s);
     if (!s.steps.empty()) d.name("steps", steps_text(s));
     if (s.picture) tell_picture(d, *s.picture);
     tell_integrals(d, s.integrals);
     tell_mesh(d, s);
-    d.figure("method", name(s.method), "method", fmt::format("{}: {}", name(s.method), s.reason));
+    const std::string method(s.surface ? "nearest" : name(s.method));
+    d.figure("method", method, "method", fmt::format("{}: {}", method, s.reason));
     put(d.data, MEMBERS(s, reason));
     if (const WayCounts& w = s.counts.locations.ways; w.points() != 0)
         d.figure("ways", w, "found",

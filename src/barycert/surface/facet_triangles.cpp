@@ -26,8 +26,19 @@ class Projection {
 public:
     Projection(std::span<const double> points, const std::vector<Mesh::Index>& nodes) : points_(points) {
         if (nodes.empty()) return;
+        // From a node, in a unit in which nothing over- or underflows.
         const Vector o = at(nodes[0]);
-        const auto from = [&](Mesh::Index n) { return base::minus(at(n), o); };
+        double extent = 0;
+        for (const Mesh::Index n : nodes) {
+            for (const double x : base::minus(at(n), o)) extent = std::max(extent, std::fabs(x));
+        }
+        if (extent == 0) return;
+        const int unit = std::ilogb(extent);
+        const auto from = [&](Mesh::Index n) {
+            Vector v = base::minus(at(n), o);
+            for (double& x : v) x = std::scalbn(x, -unit);
+            return v;
+        };
         const auto length = [](const Vector& v) { return std::hypot(v[0], v[1], v[2]); };
         const Vector a = from(*std::ranges::max_element(nodes, {}, [&](auto n) { return length(from(n)); }));
         Vector normal{};

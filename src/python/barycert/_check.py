@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Dict, List, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, Tuple, Union
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ._arguments import forwarded
 
 if TYPE_CHECKING:
     from ._mesh import Mesh
+    from ._surface import Surface
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,7 @@ class CheckReport:
             rounded), condition, radius_edge, aspect, min_angle, max_angle (degrees).
     """
 
-    def __init__(self, core: _core.CheckReport, mesh: Mesh) -> None:
+    def __init__(self, core: _core.CheckReport, mesh: Union[Mesh, Surface]) -> None:
         self._core = core
         self.verdict: str = core.verdict
         self.certified: bool = core.certified

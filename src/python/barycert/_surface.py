@@ -163,7 +163,7 @@ class Surface:
         """The triangles that the segment meets, or the ray from `start` through `end`, in their exact order along it:
         (triangle, feature, parameter, side): 0 at the start and 1 at the end; side 1 if it leaves where the normal points.
         """
-        ends = exact_doubles(np.array([start, end], dtype=object), "ends")
+        ends = exact_doubles(np.array([start, end]), "ends")
         if ends.shape != (2, 3):
             _core.fail("ends of a segment", expected="two points of three coordinates", found=str(ends.shape))
         return self._core.hits(np.ascontiguousarray(ends), ray)

@@ -111,7 +111,7 @@ std::string read_surface_text(const std::string& path, const std::function<void(
     const bool text_is_certain = !binary && !has_suffix(path, ".stl");
     std::string text = text_is_certain ? base::read_file(path, base::longest_pipe, base::Text::all, header).value()
                                        : base::read_file(path, base::longest_pipe, base::Text::none).value();
-    if (text.empty()) refuse_file(path, "cannot read", "a surface", "an empty file");
+    if (text.empty()) refuse_file(path, "cannot read", "a PLC", "an empty file");
     if (const OtherFormat* packed = packed_format(text); packed != nullptr)
         throw Exception(other_format_error(*packed, path));
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark

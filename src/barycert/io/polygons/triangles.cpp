@@ -59,6 +59,10 @@ Surface surface_of(Mesh mesh, InSpace space) {
     return surface;
 }
 
+bool is_surface_file(const std::string& path) {
+    return is_polygons_file(path) || has_suffix(path, ".vtp");
+}
+
 PlcTriangles triangles_of(const Plc& plc) {
     PlcTriangles all;
     all.surface.points = plc.points;

@@ -124,8 +124,8 @@ void tell_contacts(Document& d, const CheckReport& r) {
     for (std::size_t i = 0; i < r.contacts.size(); ++i) {
         const CellContact& c = r.contacts[i];
         const auto cells = r.cell_number(c.cells);
-        Item item{
-            .text = fmt::format("{}s {} and {} {}:", word, cells[0], cells[1], c.overlap ? "overlap" : touch_text(c))};
+        Item item{.text = fmt::format("{}s {} and {} {}:", word, cells[0], cells[1],
+                                      c.overlap ? "overlap" : touch_text(c, r.surface.has_value()))};
         const std::string point =
             fmt::format("({}){}", coordinates(c.common.point, r.dimension), c.common.exact ? "" : ", rounded");
         if (item.text.size() + 1 + point.size() <= 100)

@@ -17,9 +17,10 @@ void tell_shells(Document& d, const SurfaceReport& s) {
                               right("area", 12), right("inside", 7)}};
     for (std::size_t i = 0; i < std::min(s.shells.size(), max_rows); ++i) {
         const SurfaceShell& shell = s.shells[i];
-        table.rows.push_back({{std::to_string(i), std::to_string(shell.triangles), std::string(shell.closed ? "closed" : "open"),
-                               shell.volume ? base::shortest(*shell.volume) : "-", fmt::format("{:.6g}", shell.area),
-                               or_none(shell.inside)}});
+        table.rows.push_back(
+            {{std::to_string(i), std::to_string(shell.triangles), std::string(shell.closed ? "closed" : "open"),
+              shell.volume ? base::shortest(*shell.volume) : "-", fmt::format("{:.6g}", shell.area),
+              or_none(shell.inside)}});
     }
     d.table(std::move(table), "Shells");
     if (s.shell_count > max_rows) d.say(fmt::format("And {} more.", s.shell_count - max_rows), Tone::soft);

@@ -83,10 +83,11 @@ std::string reason(const Defect& defect) {
     return (defect.at_least ? "at least " : "") + counted(defect.count, text.one, text.more);
 }
 
-std::string_view touch_text(const CellContact& contact) {
-    return contact.dimension <= 0   ? "touch in a point"
-           : contact.dimension == 1 ? "touch along a segment"
-                                    : "touch in an area";
+std::string touch_text(const CellContact& contact, bool in_space) {
+    const std::string where = contact.dimension <= 0   ? " in a point"
+                              : contact.dimension == 1 ? " along a segment"
+                                                       : " in an area";
+    return (in_space ? "meet" : "touch") + where;
 }
 
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& p) {

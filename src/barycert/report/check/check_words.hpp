@@ -31,8 +31,8 @@ inline bool leaves_cells_out(const Defect& f) {
 
 /// "3 cells are degenerate".
 std::string reason(const Defect& defect);
-/// "touch along a segment": of cells that do not overlap.
-std::string_view touch_text(const CellContact& contact);
+/// "touch along a segment": of cells that do not overlap; "meet along a segment": of triangles in space.
+std::string touch_text(const CellContact& contact, bool in_space = false);
 /// "cells 3 and 17, nodes 4 5 6 (coplanar)".
 std::string place_text(const CheckReport& report, DefectKind kind, const DefectPlace& place);
 /// Where a defect may come from: of one with curved cells.
