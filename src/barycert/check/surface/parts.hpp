@@ -1,7 +1,6 @@
 /// A surface as it is checked: its proper triangles in the order of space, and what is found of them.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,12 +23,12 @@ struct SurfaceParts {
 
     Triangles triangles = {};
     std::vector<Ridge> edges = {};
+    std::vector<Ridge> open = {};        ///< edges of one triangle
     std::vector<Ridge> unbalanced = {};  ///< one of each edge without as many triangles one way as the other
     std::vector<std::array<Place, 2>> pinched = {};  ///< nodes with several fans of triangles, and one of these
     bool embedded = false;                           ///< S1 and S2 hold
     base::DisjointSets shells{0};                    ///< of places, connected over edges
-    base::DisjointSets sides{0};            ///< 2 * place: where its normal points, and the other one; of one region
-    std::unique_ptr<BoxGroups> boxes = {};  ///< of places
+    base::DisjointSets sides{0};  ///< 2 * place: where its normal points, and the other one; of one region
 
     std::array<Mesh::Index, 2> ends(const Ridge& edge) const {
         return {static_cast<Mesh::Index>(edge.nodes >> 32), static_cast<Mesh::Index>(edge.nodes & 0xFFFFFFFFU)};

@@ -76,9 +76,7 @@ public:
             ++shell.triangles;
         }
         for (const Ridge& edge : s_.unbalanced) balanced[shell_of_[edge.facet]] = 0;
-        for_each_ridge(s_.edges, [&](std::span<const Ridge> edge) {
-            if (edge.size() == 1) s_.found.shells[shell_of_[edge[0].facet]].closed = false;
-        });
+        for (const Ridge& edge : s_.open) s_.found.shells[shell_of_[edge.facet]].closed = false;
         for (std::size_t i = 0; i < balanced.size(); ++i) {
             SurfaceShell& shell = s_.found.shells[i];
             shell.area = static_cast<double>(sums.area[i]);
@@ -89,13 +87,10 @@ public:
         for (std::size_t side = 0; side < chamber_.size(); ++side)
             chambers_[chamber_[side]].shell = shell_of_[side / 2];
         for (std::size_t c = 0; c < chambers_.size(); ++c) chambers_[c].six = sums.chamber[c];
-        if (!s_.embedded) return;
-        s_.boxes = std::make_unique<BoxGroups>(
-            count, [&](std::size_t f) { return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3); });
     }
 
     /// The chamber that holds a point on no triangle; nothing outside of all.
-    std::optional<std::size_t> chamber_at(const double* p) const {
+    std::optional<std::size_t> chamber_at(const double* p) {
         if (!s_.triangles.index.box_holds(p)) return {};
         std::map<std::uint32_t, int> winding;
         for_each_on_ray(&p, 1, [&](std::size_t f) { add(f, crossing(s_.triangles.turned(f), p), winding); });
@@ -119,7 +114,7 @@ public:
 
     void nest() {
         std::vector<std::optional<std::size_t>> around(s_.found.shell_count);
-        for (std::size_t f = 0; f < s_.triangles.facets.size(); ++f) {
+        for (std::size_t f = 0; f < s_.triangles.size() && around.size() > 1; ++f) {
             if (s_.shells.find(f) == f) around[shell_of_[f]] = chamber_around(f);
         }
         std::vector<Integer> left;
@@ -157,7 +152,7 @@ private:
         PlcSeed seed{hole, number, -1, -1};
         const CellBox at = box_of(s_.triangles.index, &p, 1);
         if (s_.triangles.index.box_holds(p)) {
-            s_.boxes->for_each_meeting(at, [&](std::size_t f) {
+            boxes().for_each_meeting(at, [&](std::size_t f) {
                 if (face_around(3, s_.triangles.facets[f], p)[0] >= 0)
                     seed.facet = s_.surface.facet(s_.triangles.number[f]);
                 return seed.facet < 0;
@@ -211,12 +206,20 @@ private:
         return found;
     }
 
+    const BoxGroups& boxes() {
+        if (!boxes_)
+            boxes_.emplace(s_.triangles.size(), [&](std::size_t f) {
+                return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3);
+            });
+        return *boxes_;
+    }
+
     /// The triangles that a ray along the first axis from a mean of the points may cross.
     template <class Use>
-    void for_each_on_ray(const double* const* points, std::size_t count, Use use) const {
+    void for_each_on_ray(const double* const* points, std::size_t count, Use use) {
         CellBox ray = box_of(s_.triangles.index, points, count);
         ray.high[0] = Quantizer::max;
-        s_.boxes->for_each_meeting(ray, [&](std::size_t f) {
+        boxes().for_each_meeting(ray, [&](std::size_t f) {
             use(f);
             return true;
         });
@@ -290,6 +293,7 @@ private:
     std::vector<Chamber> chambers_;
     std::vector<std::int64_t> region_;  ///< of each chamber
     std::vector<const double*> own_;    ///< of each shell
+    std::optional<BoxGroups> boxes_;    ///< of the triangles
 };
 
 }  // namespace

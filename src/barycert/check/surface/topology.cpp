@@ -96,6 +96,7 @@ void connect_triangles(SurfaceParts& s) {
         if (2 * ascending != edge.size()) s.unbalanced.push_back(edge[0]);
         if (edge.size() == 1) {
             s.found.closed = false;
+            s.open.push_back(edge[0]);
             s.defects.add_marked(DefectKind::open_edge, s.place_of(edge[0]));
         } else if (edge.size() > 2) {
             s.found.manifold = false;
@@ -124,10 +125,7 @@ void connect_triangles(SurfaceParts& s) {
 }
 
 void find_surface_cracks(SurfaceParts& s) {
-    std::vector<Ridge> open;
-    for_each_ridge(s.edges, [&](std::span<const Ridge> edge) {
-        if (edge.size() == 1) open.push_back(edge[0]);
-    });
+    const std::vector<Ridge>& open = s.open;
     if (open.empty() || s.options.near == 0) return;
     Mesh places;
     places.points = s.surface.points;
