@@ -17,6 +17,7 @@
 #include "barycert/base/named_file.hpp"
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 #include "child.hpp"
@@ -75,12 +76,20 @@ std::string last_lines(const std::string& printed) {
     return text;
 }
 
-/// After a failure: the facets that intersect, as TetGen's -d lists them; empty if it finds none.
-std::string intersections(const Plc& plc, double timeout_seconds) {
-    constexpr double longest = 20;
-    const double patience = timeout_seconds > 0 ? std::min(timeout_seconds, longest) : longest;
-    const ChildOutcome outcome = run_in_child([&](const Answer&) { make_mesh(plc, "pd"); }, patience);
-    return outcome.printed.find(" intersects facet ") == std::string::npos ? std::string{} : outcome.printed;
+/// After a failure: what is wrong with the PLC, by exact signs. False: nothing.
+bool find_reason(const Options& options, const Plc& plc, Error& error) {
+    const CheckReport report = check_plc(plc, {.examples = 0, .contacts = 0});
+    const auto defect = std::ranges::find_if(report.defects, &Defect::breaks);
+    if (defect == report.defects.end()) return false;
+    const DefectText& text = defect_text(defect->kind);
+    const bool one = defect->count == 1;
+    error.what = fmt::format("{}{} {} ({})", defect->at_least ? "at least " : "", defect->count,
+                             text.one.empty() ? text.text
+                             : one            ? text.one
+                                              : text.more,
+                             error.what);
+    error.remedy = fmt::format("`barycert check {}` says where", base::shell_word(options.input));
+    return true;
 }
 
 Error tetgen_error(const Options& options, const ChildOutcome& outcome, const std::string& verdict) {
@@ -124,15 +133,9 @@ int run(const Options& options) {
     }
     if (!verdict.starts_with("mesh ")) {
         Error error = tetgen_error(options, outcome, verdict);
-        std::string printed = outcome.printed;
         const bool suspect = verdict.starts_with("failed ") || (verdict.empty() && !outcome.timed_out);
-        const std::string found = suspect ? intersections(plc, options.timeout) : std::string{};
-        if (!found.empty()) {
-            error.what = "the facets intersect each other (" + error.what + ")";
-            error.remedy = "repair them; `--switches pd` lists all that do";
-            printed = found;
-        }
-        fmt::print(stderr, "error: {}\n{}", error.message(), last_lines(printed));
+        const bool found = suspect && find_reason(options, plc, error);
+        fmt::print(stderr, "error: {}\n{}", error.message(), found ? "" : last_lines(outcome.printed));
         return 2;
     }
     std::string written;

@@ -104,7 +104,7 @@ Mesh make_mesh(const Plc& plc, std::string switches) {
 std::pair<std::string_view, std::string_view> meaning_of(int code) {
     if (code == 1) return {"TetGen ran out of memory", "ask for larger cells"};
     if (code == 2) return {"TetGen met an internal error", "try other options, or repair the PLC"};
-    if (code == 3) return {"TetGen found facets that intersect", "repair them; `--switches pd` lists all that do"};
+    if (code == 3) return {"TetGen found facets that intersect", "repair them"};
     if (code == 4)
         return {"the PLC has a feature too small for TetGen's tolerance",
                 "remove it, or lower the tolerance by `--switches pT1e-12`"};
