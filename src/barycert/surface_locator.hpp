@@ -15,7 +15,8 @@
 ///   among
 ///       all that have a point as near. Distance and coordinates are correctly rounded, and so are the weights of the
 ///       vertex, edge or face whose projection it is: a value of the surface there is a mean by these weights.
-///   V1  `values` at nearest points are the exact means by the exact weights, rounded once to nearest, ties to even, or to
+///   V1  `values` at nearest points are the exact means by the exact weights, rounded once to nearest, ties to even, or
+///   to
 ///       infinity; one that is exact has no error. A value that is not finite counts where its node has a weight.
 ///   H1  `hits` are all triangles that a segment meets, in their exact order along it, ties by triangle.
 ///   D1  Results depend on the points and the surface alone, not on threads, SIMD target or the order of points.
@@ -91,8 +92,8 @@ public:
     Status nearest(std::span<const double> points, double limit, std::span<SurfaceNearest> found,
                    int threads = 0) const;
 
-    /// V1: a field of nodes, or of triangles, at the nearest points of these points, one value a point; NaN where there is
-    /// none. Error: sizes that do not fit.
+    /// V1: a field of nodes, or of triangles, at the nearest points of these points, one value a point; NaN where there
+    /// is none. Error: sizes that do not fit.
     Status values(const Field& field, bool of_cells, std::span<const double> points,
                   std::span<const SurfaceNearest> nearest, std::span<double> out, int threads = 0) const;
 

@@ -287,8 +287,8 @@ TEST(SurfaceCheck, WhatIsWrong) {
     junction.points = {0, 0, 0, 2, 0, 0, 0, 2, 0, 1, 0, 0, 0, -1, 0, 2, -1, 0};
     junction.cells = {0, 1, 2, 0, 4, 3, 3, 5, 1};
     r = check_surface(junction);
-    EXPECT_EQ(count(r, DefectKind::hanging_node), 1);
-    EXPECT_EQ(r.find(DefectKind::hanging_node)->places[0].nodes[0], 3);
+    EXPECT_EQ(count(r, DefectKind::node_on_facet), 1);
+    EXPECT_EQ(r.find(DefectKind::node_on_facet)->places[0].nodes[0], 3);
 }
 
 TEST(SurfaceCheck, PinchedNodesAndEdges) {

@@ -34,6 +34,8 @@ void check_reports(Schema& schema) {
     options.plc = &plc;
     const std::string text = check_json(check_mesh(own_mesh("torus"), options), "part", measure_environment());
     schema.check("Check", Json::parse(text), "check");
+    for (const Plc& one : {plc, read_plc(BARYCERT_DATA_DIR "/plc/cube-hole.poly").value()})
+        schema.check("Check", Json::parse(check_json(check_plc(one), "part", measure_environment())), "check");
     Mesh holed = own_mesh("bracket");
     holed.point_fields = {{"T", 1, std::vector<double>(holed.point_count(), HUGE_VAL)}};
     schema.check("Check", Json::parse(check_json(checked(holed, false), "part", measure_environment())), "check");

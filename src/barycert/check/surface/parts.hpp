@@ -43,7 +43,7 @@ struct SurfaceParts {
 /// unused_node. False if nothing else can be asked.
 bool check_triangles(SurfaceParts& s);
 
-/// S2 of triangles. Finds duplicate_triangle, self_intersection and hanging_node; returns the pairs that intersect.
+/// S2 of triangles. Finds duplicate_triangle, self_intersection and node_on_facet; returns the pairs that intersect.
 std::vector<CellPair> find_intersections(SurfaceParts& s);
 
 /// Edges and nodes. Touches nothing that find_intersections() does.

@@ -96,7 +96,7 @@ std::vector<CellPair> find_intersections(SurfaceParts& s) {
     }
     sort_hanging(hanging);
     for (const HangingNode& h : hanging)
-        s.defects.add_marked(DefectKind::hanging_node,
+        s.defects.add_marked(DefectKind::node_on_facet,
                              {.cells = {h.cell, -1}, .nodes = {h.node, -1, -1}, .other_nodes = h.face});
     return cells;
 }

@@ -96,7 +96,9 @@ std::string place_text(const CheckReport& report, DefectKind kind, const DefectP
     auto nodes = used(p.nodes), others = used(p.other_nodes);
     const std::string on = fmt::format("{} {} of {} {}", others.size() == 2 ? "edge" : "facet", fmt::join(others, " "),
                                        cell, fmt::join(cells, " "));
-    if (kind == DefectKind::hanging_node) return fmt::format("node {} within {}", fmt::join(nodes, " "), on);
+    if (kind == DefectKind::hanging_node || (kind == DefectKind::node_on_facet && !others.empty()))
+        return fmt::format("node {} within {}", fmt::join(nodes, " "),
+                           cells.empty() ? fmt::format("segment {}", fmt::join(others, " ")) : on);
     if (kind == DefectKind::near_hanging)
         return fmt::format("node {}, {:.3g} off {} ({:.3g} of an edge)", fmt::join(nodes, " "), p.distance, on,
                            p.relative);
