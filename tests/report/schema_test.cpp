@@ -34,7 +34,10 @@ void check_reports(Schema& schema) {
     options.plc = &plc;
     const std::string text = check_json(check_mesh(own_mesh("torus"), options), "part", measure_environment());
     schema.check("Check", Json::parse(text), "check");
-    for (const Plc& one : {plc, read_plc(BARYCERT_DATA_DIR "/plc/cube-hole.poly").value()})
+    Plc with_holes = read_plc(BARYCERT_DATA_DIR "/plc/cube-hole.poly").value();
+    with_holes.holes.insert(with_holes.holes.end(),
+                            {9, 9, 9, with_holes.points[0], with_holes.points[1], with_holes.points[2]});
+    for (const Plc& one : {plc, with_holes})
         schema.check("Check", Json::parse(check_json(check_plc(one), "part", measure_environment())), "check");
     Mesh holed = own_mesh("bracket");
     holed.point_fields = {{"T", 1, std::vector<double>(holed.point_count(), HUGE_VAL)}};

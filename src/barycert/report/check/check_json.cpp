@@ -16,8 +16,16 @@ JSON_OF(VolumeReport, cells, boundary, equal)
 JSON_OF(ViolatedFacet, facet, covered)
 JSON_OF(MergedNode, node, into, moved)
 JSON_OF(SurfaceRegion, volume, shell, hole)
-JSON_OF(PlcSeed, hole, number, region, facet)
-JSON_OF(SurfaceShell, triangles, closed, volume, area, inside, first)
+
+inline Json index_or_null(std::int64_t i) {
+    return i < 0 ? Json() : Json(i);
+}
+inline void to_json(Json& j, const PlcSeed& s) {
+    put(j, MEMBERS(s, hole, number), "region", index_or_null(s.region), "facet", index_or_null(s.facet));
+}
+inline void to_json(Json& j, const SurfaceShell& s) {
+    put(j, MEMBERS(s, triangles, closed, volume, area), "inside", index_or_null(s.inside), MEMBERS(s, first));
+}
 
 inline void to_json(Json& j, const DroppedCell& c) {
     put(j, MEMBERS(c, cell), "why", defect_text(c.why).name);
@@ -137,10 +145,9 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
                    "tetgen", tetgen_sentence(r)));
     }
     if (const auto& d = r.delaunay) {
-        const auto index = [](std::int64_t i) { return i < 0 ? Json() : Json(i); };
         put(j, "delaunay",
             record(MEMBERS(*d, facets, violations, cospherical, worst_depth), "worst_cell",
-                   index(r.cell_number(d->worst_cell)), "worst_node", index(d->worst_node)));
+                   index_or_null(r.cell_number(d->worst_cell)), "worst_node", index_or_null(d->worst_node)));
     }
     if (const auto& c = r.conformity)
         put(j, "conformity",
