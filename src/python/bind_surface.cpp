@@ -89,6 +89,7 @@ py::tuple nearest(SurfaceObject& object, const Given<double>& points, double lim
     std::vector<Mesh::Index> triangles(found.size()), nodes(3 * found.size());
     std::vector<double> distances(found.size()), at(3 * found.size()), weights(3 * found.size());
     std::vector<Field> given;
+    given.reserve(fields.size());
     for (const auto& [values, of_cells] : fields)
         given.push_back({"", static_cast<int>(values.columns()), {values.all().begin(), values.all().end()}});
     std::vector<std::vector<double>> values(given.size());

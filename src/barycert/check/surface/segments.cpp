@@ -75,7 +75,8 @@ public:
             return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3);
         });
         const auto point = [&](Mesh::Index n) { return &s_.surface.points[3 * static_cast<std::size_t>(n)]; };
-        for (const auto& [segment, facets] : facets_of_) {
+        for (const auto& entry : facets_of_) {
+            const Segment& segment = entry.first;
             PlacedFacet f;
             for (std::size_t k = 0; k < 2; ++k) {
                 const auto found = place.find(segment[k]);

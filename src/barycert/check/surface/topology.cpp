@@ -143,6 +143,7 @@ void find_surface_cracks(SurfaceParts& s) {
     }
     std::ranges::sort(nodes);
     std::vector<double> radius;
+    radius.reserve(nodes.size());
     for (const Mesh::Index n : nodes) radius.push_back(s.options.near * shortest[static_cast<std::size_t>(n)]);
     base::DisjointSets same(s.surface.point_count());
     const bool complete = for_each_near(places, nodes, radius, 100 * pair_limit, [&](const NearPair& p) {

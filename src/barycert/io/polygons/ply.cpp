@@ -132,14 +132,15 @@ public:
         const double count = take(*list.count, "the number of a polygon's corners");
         if (!(count >= 0 && count <= 1e9) || count != std::floor(count))
             in_.fail("cannot read", "the number of a polygon's corners", std::to_string(count));
-        for (double i = 0; i < count; ++i) {
+        const auto n = static_cast<std::size_t>(count);
+        for (std::size_t i = 0; i < n; ++i) {
             const double corner = take(list.type, "a polygon's corner");
             if (corners == nullptr) continue;
             if (!(corner >= 0 && corner <= INT32_MAX) || corner != std::floor(corner))
                 in_.fail("no such node", "a number from 0", std::to_string(corner));
             corners->push_back(static_cast<Mesh::Index>(corner));
         }
-        return static_cast<std::size_t>(count);
+        return n;
     }
 
 private:
