@@ -12,12 +12,11 @@
 ///       the other: Turned::alike. A surface whose edges have an even number of triangles has the parity, 0 or 1, in
 ///       its place: Turned::even. A point is inside if it is not 0.
 ///   N1  `nearest` is exact: no point of the surface is nearer than the one returned, and its triangle is the lowest
-///   among
-///       all that have a point as near. Distance and coordinates are correctly rounded, and so are the weights of the
-///       vertex, edge or face whose projection it is: a value of the surface there is a mean by these weights.
-///   V1  `values` at nearest points are the exact means by the exact weights, rounded once to nearest, ties to even, or
-///   to
-///       infinity; one that is exact has no error. A value that is not finite counts where its node has a weight.
+///       of all that have a point as near. Distance and coordinates are correctly rounded, and so are the weights of
+///       the vertex, edge or face that the point lies on. A value of the surface there is the mean by these weights,
+///       before they are rounded.
+///   V1  `values` at nearest points are these means, computed exactly and rounded once to nearest, ties to even; too
+///       large ones to infinity. A value that is not finite counts where its node has a weight.
 ///   H1  `hits` are all triangles that a segment meets, in their exact order along it, ties by triangle.
 ///   D1  Results depend on the points and the surface alone, not on threads, SIMD target or the order of points.
 #pragma once
@@ -86,8 +85,8 @@ public:
     Result<SurfaceLocation> locate(const double* point) const;
     Status locate(std::span<const double> points, std::span<SurfaceLocation> found, int threads = 0) const;
 
-    /// N1, if the rounded distance is at most `limit`; else cell -1. Error: a coordinate is not finite; the limit is
-    /// NaN.
+    /// N1, if the rounded distance is at most `limit`; else cell -1. A negative limit, or NaN, finds nothing. Error: a
+    /// coordinate is not finite.
     Result<SurfaceNearest> nearest(const double* point, double limit) const;
     Status nearest(std::span<const double> points, double limit, std::span<SurfaceNearest> found,
                    int threads = 0) const;

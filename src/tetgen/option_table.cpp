@@ -53,7 +53,9 @@ void add_options(CLI::App& app, Options& options) {
     constexpr double tiny = std::numeric_limits<double>::min(), unbounded = std::numeric_limits<double>::max();
     app.footer("Exit codes: 0 meshed; 2 usage or input error, or TetGen failed.");
     app.set_version_flag("--version", "barycert-tetgen " BARYCERT_VERSION " (TetGen 1.5)");
-    app.add_option("INPUT", options.input, "The PLC: .poly, .smesh, .off, .stl, .ply or .obj")->type_name("FILE")->required();
+    app.add_option("INPUT", options.input, "The PLC: .poly, .smesh, .off, .stl, .ply or .obj")
+        ->type_name("FILE")
+        ->required();
     add("--output", "FILE", "Stem of the output files, with or without .node; default: stem of INPUT plus .1",
         [&options](Text text) {
             if (text.empty() || text == "-")

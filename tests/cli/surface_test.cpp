@@ -44,6 +44,23 @@ TEST(SurfaceCommands, ReportsAreWritten) {
     EXPECT_EQ(again.code, 1) << again.err;
 }
 
+// A polygon that crosses itself is a fault of the file in every format that has polygons.
+TEST(SurfaceCommands, PolygonsThatCrossThemselves) {
+    const Scratch scratch;
+    const std::string nodes = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n", rings = "4 0 1 2 3\n3 0 1 4\n";
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double y\nproperty double z\n"
+        "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const std::string& file :
+         {scratch.put("a.off", "OFF\n5 2 0\n" + nodes + rings), scratch.put("a.ply", ply + nodes + rings),
+          scratch.put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 2 5\n")}) {
+        const Ended r = run({"check", file});
+        EXPECT_EQ(r.code, 1) << r.err;
+        EXPECT_TRUE(contains(r.out, "1 facet is not simple")) << r.out;
+        EXPECT_TRUE(contains(r.err, "polygons that cross themselves or are flat (1)")) << r.err;
+    }
+}
+
 TEST(SurfaceCommands, OptionsOfMeshesAreErrors) {
     const Scratch scratch;
     const std::string off = scratch.put("a.off", tetrahedron);

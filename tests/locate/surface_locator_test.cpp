@@ -37,6 +37,18 @@ std::vector<RationalTriangle> triangles_of(const Surface& s) {
     return all;
 }
 
+/// Exact weights of the projection of a point to a vertex, edge or face.
+std::vector<mpq_class> weights_of(const std::vector<Rational3>& corners, const Rational3& at) {
+    if (corners.size() == 1) return {1};
+    if (corners.size() == 2) {
+        const Rational3 e = corners[1] - corners[0];
+        const mpq_class t = inner(at - corners[0], e) / inner(e, e);
+        return {1 - t, t};
+    }
+    const auto w = weights_in({corners[0], corners[1], corners[2]}, at);
+    return {w.begin(), w.end()};
+}
+
 void expect_nearest(const Surface& s, const std::vector<RationalTriangle>& triangles, const double* p,
                     const SurfaceNearest& found, const std::string& what) {
     const Rational3 at = rational(p);
@@ -58,15 +70,7 @@ void expect_nearest(const Surface& s, const std::vector<RationalTriangle>& trian
         EXPECT_NE(std::ranges::count(s.cells.begin() + 3 * lowest, s.cells.begin() + 3 * lowest + 3, n), 0) << what;
         corners.push_back(rational(&s.points[3 * static_cast<std::size_t>(n)]));
     }
-    std::vector<mpq_class> weights{1};
-    if (corners.size() == 2) {
-        const Rational3 e = corners[1] - corners[0];
-        const mpq_class t = inner(at - corners[0], e) / inner(e, e);
-        weights = {1 - t, t};
-    } else if (corners.size() == 3) {
-        const auto w = weights_in({corners[0], corners[1], corners[2]}, at);
-        weights.assign(w.begin(), w.end());
-    }
+    const std::vector<mpq_class> weights = weights_of(corners, at);
     ASSERT_EQ(weights.size(), corners.size()) << what;
     Rational3 x{0, 0, 0};
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -170,6 +174,60 @@ TEST(SurfaceLocator, N1_ManyTrianglesAsNear) {
     for (Mesh::Index i = 1; i + 1 < static_cast<Mesh::Index>(cone.point_count()); ++i)
         cone.cells.insert(cone.cells.end(), {0, i, i + 1});
     expect_all_nearest(cone, {0, 0, 0, 0, 0, -1, 0, 0, 4, 0, 0, 9, 0, 0, 5}, "cone");
+}
+
+TEST(SurfaceLocator, V1_ValuesAreExactMeans) {
+    for (const Surface& s : {torus(20, 12), random_soup(40, 20, 30, 5)}) {
+        const SurfaceLocator locator = SurfaceLocator::build(s).value();
+        const std::vector<double> points = random_points(s, 90, 4);
+        std::vector<SurfaceNearest> found(points.size() / 3);
+        ASSERT_TRUE(locator.nearest(points, infinity, found, 1));
+        std::mt19937_64 random(8);
+        Field field{"f", 1, {}}, cells{"c", 1, {}};
+        // Values that cancel, and are not exact in sums of doubles.
+        for (std::size_t i = 0; i < s.point_count(); ++i)
+            field.data.push_back((i % 2 == 0 ? 1e10 : -1e10) + static_cast<double>(random() % 1000) / 7);
+        for (std::size_t t = 0; t < s.cell_count(); ++t) cells.data.push_back(static_cast<double>(t) / 3);
+        std::vector<double> out(found.size()), of_cells = out;
+        ASSERT_TRUE(locator.values(field, false, points, found, out, 1));
+        ASSERT_TRUE(locator.values(cells, true, points, found, of_cells, 1));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            std::vector<Rational3> corners;
+            std::vector<double> rows;
+            for (const Mesh::Index n : found[i].nodes) {
+                if (n < 0) continue;
+                corners.push_back(rational(&s.points[3 * static_cast<std::size_t>(n)]));
+                rows.push_back(field.data[static_cast<std::size_t>(n)]);
+            }
+            const std::vector<mpq_class> weights = weights_of(corners, rational(&points[3 * i]));
+            mpq_class mean = 0;
+            for (std::size_t k = 0; k < rows.size(); ++k) mean += weights[k] * mpq_class(rows[k]);
+            EXPECT_TRUE(is_rounded(out[i], mean)) << i;
+            EXPECT_EQ(of_cells[i], cells.data[static_cast<std::size_t>(found[i].cell)]) << i;
+        }
+    }
+}
+
+TEST(SurfaceLocator, D1_OrderAndThreads) {
+    const Surface s = surface_of(random_voxels(4, 0.5, 3));
+    const SurfaceLocator locator = SurfaceLocator::build(s).value();
+    const std::vector<double> points = random_points(s, 300, 6);
+    const std::size_t count = points.size() / 3;
+    std::vector<double> reversed;
+    for (std::size_t i = count; i-- > 0;) reversed.insert(reversed.end(), &points[3 * i], &points[3 * i] + 3);
+    std::vector<SurfaceNearest> near(count), near_reversed = near;
+    std::vector<SurfaceLocation> at(count), at_reversed = at;
+    ASSERT_TRUE(locator.nearest(points, infinity, near, 1));
+    ASSERT_TRUE(locator.nearest(reversed, infinity, near_reversed, 2));
+    ASSERT_TRUE(locator.locate(points, at, 1));
+    ASSERT_TRUE(locator.locate(reversed, at_reversed, 2));
+    for (std::size_t i = 0; i < count; ++i) {
+        const SurfaceNearest& other = near_reversed[count - 1 - i];
+        EXPECT_EQ(at[i], at_reversed[count - 1 - i]) << i;
+        EXPECT_EQ(near[i].cell, other.cell) << i;
+        EXPECT_EQ(near[i].point, other.point) << i;
+        EXPECT_EQ(near[i].weights, other.weights) << i;
+    }
 }
 
 // Inside and outside.

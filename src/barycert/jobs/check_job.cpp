@@ -7,6 +7,7 @@
 
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/polygons/triangles.hpp"
 #include "barycert/jobs/job_files.hpp"
 
 namespace barycert {
@@ -95,10 +96,6 @@ void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked)
     checked.copied = true;
 }
 
-bool is_plc(const std::string& path) {
-    return io::has_suffix(path, ".poly") || io::has_suffix(path, ".smesh");
-}
-
 void refuse_options_of_meshes(const CheckJob& job, const char* what) {
     const auto refuse_one = [&](bool given, const std::string& member) {
         if (given) refuse(job.mesh, member + " is for meshes", "", what, "leave it out");
@@ -138,9 +135,9 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     jobs::tell_stage(job, "checking: reading");
     CheckedMesh checked;
     std::optional<Plc> polygons;
-    if (is_plc(job.mesh)) {
+    if (io::is_plc_file(job.mesh)) {
         polygons = read_plc(job.mesh).value();
-        checked.surface = read_surface(job.mesh).value();
+        checked.surface = io::surface_of(*polygons, job.mesh);
     } else {
         std::variant<Mesh, Surface> read =
             read_mesh_or_surface(job.mesh,
@@ -149,7 +146,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         if (auto* const surface = std::get_if<Surface>(&read)) {
             checked.surface = std::move(*surface);
             // Polygons that are no triangles may be at fault themselves.
-            if (!checked.surface.facets.empty() && io::has_suffix(job.mesh, ".off"))
+            if (!checked.surface.facets.empty() && io::is_polygons_file(job.mesh))
                 polygons = read_plc(job.mesh).value();
         } else {
             checked.mesh = std::move(std::get<Mesh>(read));

@@ -5,6 +5,7 @@
 #include "barycert/check/surface/parts.hpp"
 
 namespace barycert::check {
+
 bool check_triangles(SurfaceParts& s) {
     const Surface& surface = s.surface;
     const std::size_t points = surface.point_count(), count = surface.cell_count();

@@ -8,14 +8,6 @@
 namespace barycert::io {
 namespace {
 
-bool is_polygons_file(const std::string& path) {
-    return std::ranges::any_of(plc_extensions, [&](std::string_view one) { return has_suffix(path, one); });
-}
-
-bool is_plc_file(const std::string& path) {
-    return has_suffix(path, ".poly") || has_suffix(path, ".smesh");
-}
-
 void add(Surface& surface, std::size_t facet, const surface::FacetTriangles& cut) {
     for (const auto& t : cut.triangles) {
         surface.cells.insert(surface.cells.end(), t.begin(), t.end());
@@ -31,10 +23,10 @@ void settle(Surface& surface, std::size_t facets) {
 
 void note_uncut(Surface& surface, std::size_t count, const char* what, const std::string& path) {
     if (count == 0) return;
-    surface.notes.push_back(
-        {Note::Kind::left_out,
-         std::to_string(count) + " " + what + " that cross themselves or are flat: no triangles fill them", path,
-         true});
+    surface.notes.push_back({Note::Kind::left_out,
+                             std::string(what) + " that cross themselves or are flat (" + std::to_string(count) +
+                                 "): no triangles fill them",
+                             path, true});
 }
 
 }  // namespace
@@ -57,6 +49,14 @@ Surface surface_of(Mesh mesh, InSpace space) {
         surface.notes.push_back(
             {Note::Kind::converted, "triangles of second order: they are taken by their corners", {}, true});
     return surface;
+}
+
+bool is_polygons_file(const std::string& path) {
+    return std::ranges::any_of(plc_extensions, [&](std::string_view one) { return has_suffix(path, one); });
+}
+
+bool is_plc_file(const std::string& path) {
+    return has_suffix(path, ".poly") || has_suffix(path, ".smesh");
 }
 
 bool is_surface_file(const std::string& path) {

@@ -1,6 +1,7 @@
 /// Triangles of polygons and PLCs.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "barycert/io/formats.hpp"
@@ -18,6 +19,10 @@ struct PlcTriangles {
     Surface surface;  ///< of the facets without faults; points are those of the PLC
     std::vector<Fault> faults;
 };
+
+/// By extension: polygons are all that read_plc takes; a PLC may have segments, holes and regions besides.
+bool is_polygons_file(const std::string& path);
+bool is_plc_file(const std::string& path);
 
 PlcTriangles triangles_of(const Plc& plc);
 
