@@ -2,11 +2,14 @@
 
 #include <cstdio>
 
+#include <vtkBarycertCheck.h>
 #include <vtkBarycertLocator.h>
 #include <vtkBarycertProbe.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
+#include <vtkIdList.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -71,4 +74,31 @@ int main() {
     filter->SetCellLocatorPrototype(nullptr);
     filter->Update();
     print("vtkProbeFilter", filter->GetOutput()->GetPointData());
+
+    // The faces of the first cell, as a surface.
+    const vtkIdType faces[][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    vtkNew<vtkCellArray> triangles;
+    for (const auto& face : faces) triangles->InsertNextCell(3, face);
+    vtkNew<vtkPolyData> surface;
+    surface->SetPoints(vertices);
+    surface->SetPolys(triangles);
+
+    vtkNew<vtkBarycertCheck> check;
+    check->SetInputData(surface);
+    check->Update();
+    std::printf("certified: %s\n", check->GetCertified() ? "yes" : "no");
+
+    vtkNew<vtkBarycertLocator> on_surface;
+    on_surface->SetDataSet(surface);
+    const double from[] = {0.25, 0.25, 0.25}, to[] = {0.25, 0.25, -2};
+    double nearest[3], squared = 0;
+    vtkIdType cell = -1;
+    int sub_id = 0;
+    on_surface->FindClosestPoint(to, nearest, cell, sub_id, squared);
+    std::printf("nearest: cell %lld at %g %g %g\n", cell, nearest[0], nearest[1], nearest[2]);
+
+    vtkNew<vtkIdList> hits;
+    const int side = on_surface->IntersectWithLine(from, to, nullptr, hits);
+    std::printf("starts %s, meets %lld: cell %lld\n", side < 0 ? "inside" : "outside", hits->GetNumberOfIds(),
+                hits->GetId(0));
 }

@@ -135,6 +135,13 @@ std::string drift_plot(const DriftReport& report);
 std::string texels_text(const std::vector<TexelResult>& results, const TerminalStyle& style);
 std::string texels_json(const std::vector<TexelResult>& results);
 
+// Rules on triangles in space.
+
+/// A table a question: a row a rule; below them the rules, with the families that show their faults.
+std::string surfaces_text(const SurfaceAudit& audit, const TerminalStyle& style);
+std::string surfaces_json(const SurfaceAudit& audit);
+std::string surfaces_html(const SurfaceAudit& audit);
+
 // Gaps and overlaps between the cells of a mesh.
 
 /// A table: a row a kernel and rule; below it the first witnesses of the kernels.

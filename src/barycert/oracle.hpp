@@ -113,4 +113,16 @@ double oracle_quadratic_value(const Case& c, std::span<const double> mids);
 /// [0, size) by clamping or, with `repeat`, modulo size. In exact integers.
 std::int64_t oracle_texel(double u, std::int64_t size, bool repeat);
 
+// Triangles in space, of non-zero area, by CGAL's exact kernel. All numbers are finite; a triangle is nine.
+
+/// The distance of the point from the triangle, correctly rounded.
+double oracle_distance(std::span<const double> triangle, const double* point);
+
+/// Whether they have a point in common.
+bool oracle_meet(std::span<const double> a, std::span<const double> b);
+
+/// 1 inside, 0 on, -1 outside the closed surface that the triangles are. By the parity of a segment to a point outside
+/// that meets no edge.
+int oracle_side(std::span<const std::array<double, 9>> triangles, const double* point);
+
 }  // namespace barycert

@@ -16,7 +16,7 @@ namespace {
 struct AuditArguments : Arguments<AuditJob> {
     std::vector<std::string> meshes, others;
     std::vector<Threshold> rules;
-    bool mutants = false, wide = false;
+    bool mutants = false, surfaces = false, wide = false;
     const CLI::App* app = nullptr;
 };
 
@@ -34,14 +34,40 @@ void check_files(const AuditArguments& a) {
 }
 
 /// Other options than these say something of kernels under audit, or of reports on them.
-void check_mutants_alone(const AuditArguments& a) {
-    const std::string other = given_option(*a.app,
-                                           {"MESH", "--family", "--oracle", "--count", "--seed", "--threads", "--json",
-                                            "--mutants", "--no-check", "--quiet"},
-                                           true);
-    if (a.mutants && !other.empty())
-        throw Exception({.what = "--mutants and " + other,
-                         .remedy = "leave " + other + " out: --mutants audits kernels of its own"});
+void check_alone(const AuditArguments& a) {
+    const auto check = [&](const char* mode, const char* audited, std::initializer_list<std::string_view> fits) {
+        const std::string other = given_option(*a.app, fits, true);
+        if (!other.empty())
+            throw Exception({.what = fmt::format("{} and {}", mode, other),
+                             .remedy = fmt::format("leave {} out: {} audits {}", other, mode, audited)});
+    };
+    if (a.mutants)
+        check("--mutants", "kernels of its own",
+              {"MESH", "--family", "--oracle", "--count", "--seed", "--threads", "--json", "--mutants", "--no-check",
+               "--quiet"});
+    if (a.surfaces)
+        check("--surfaces", "rules on triangles in space, on cases of their own",
+              {"--surfaces", "--count", "--seed", "--threads", "--json", "--html", "--quiet"});
+}
+
+std::function<void(const AuditProgress&)> progress_of(AuditArguments& a) {
+    a.reports.begin_progress();
+    return [&progress = a.reports.progress()](const AuditProgress& p) {
+        if (!progress.due()) return;
+        progress.stage(fmt::format("{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
+                                   p.cases_total, p.family));
+    };
+}
+
+/// Rules on triangles in space.
+int run_surfaces(AuditArguments& a) {
+    a.reports.check({});
+    const AuditOptions& o = a.job.options;
+    SurfaceAudit audit{.seed = o.seed, .count = o.count, .threads = o.threads, .progress = progress_of(a)};
+    audit_surfaces(audit);
+    return a.reports.write(
+        {.files = {{"--json", [&] { return surfaces_json(audit); }}, {"--html", [&] { return surfaces_html(audit); }}},
+         .text = [&](bool colour) { return surfaces_text(audit, {.colour = colour}); }});
 }
 
 /// The mutation score of the families.
@@ -83,7 +109,8 @@ Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const Audit
 }
 
 int run_audit(AuditArguments& a) {
-    check_mutants_alone(a);
+    check_alone(a);
+    if (a.surfaces) return run_surfaces(a);
     const auto meshes = meshes_or_own(a.meshes);
     if (meshes) a.job.meshes = *meshes;
     check_files(a);
@@ -96,13 +123,7 @@ int run_audit(AuditArguments& a) {
         if (prepared.libraries.contains(kernel.name)) tell_note(prepared.libraries.at(kernel.name), kernel);
     }
     if (!a.reports.is_quiet()) tell_important(prepared.notes);
-    a.reports.begin_progress();
-    Progress& progress = a.reports.progress();
-    prepared.options.progress = [&progress](const AuditProgress& p) {
-        if (!progress.due()) return;
-        progress.stage(fmt::format("{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
-                                   p.cases_total, p.family));
-    };
+    prepared.options.progress = progress_of(a);
     if (a.mutants) return a.reports.end(audit_mutants(prepared.options, prepared.meshes), told_of_mutants);
     std::optional<BaselineComparison> comparison;
     return a.reports.end(barycert::run_audit(prepared.options, prepared.meshes), [&](const AuditReport& report) {
@@ -167,6 +188,9 @@ void add_audit(const Options& program) {
     o.flag("--mutants", a.mutants,
            "Audit kernels with seeded faults instead, and show which family catches which; exit with 1 if one is not "
            "caught");
+    o.flag("--surfaces", a.surfaces,
+           "Audit rules on triangles in space instead: the distance of a point, inside or outside of a closed surface, "
+           "whether two triangles meet");
     o.flag("--wide", a.wide, "Print all counts, the families and a witness of each kernel: 160 columns");
     o.flag("--no-check", job.check, "Do not check whether the meshes are partitions (see `barycert check`)", false);
     a.reports.quiet(o, "Print no table and no progress");

@@ -165,5 +165,21 @@ TEST(Mutants, OptionsAboutOtherKernelsAreRefused) {
     }
 }
 
+TEST(Surfaces, RulesAreAuditedAloneAndAlike) {
+    const Scratch scratch;
+    const Ended r = run(
+        {"audit", "--surfaces", "--count", "20", "--json", scratch.path("s.json"), "--html", scratch.path("s.html")});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(contains(r.out, "of 17 rules give wrong answers")) << r.out;
+    EXPECT_TRUE(contains(read_file(scratch.path("s.html")), "inside.ray-along-x"));
+    for (const Words& more : {Words{"--kernel", "*"}, {"--family", "*"}, {"--mutants"}, {"--oracle", "cgal"}}) {
+        Words words{"audit", "--surfaces"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended refused = run(words);
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_TRUE(contains(refused.err, " and ")) << refused.err;
+    }
+}
+
 }  // namespace
 }  // namespace barycert::cli_test

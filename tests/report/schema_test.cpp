@@ -112,13 +112,16 @@ void search_reports(Schema& schema) {
     schema.check("Mutants", Json::parse(mutants_json(score)), "mutants");
 }
 
-/// Drift and texels, with something of everything.
+/// Drift, texels and surfaces, with something of everything.
 void raster_reports(Schema& schema) {
     DriftOptions options;
     options.kernels = kernels_matching("triangle.signed-area");
     options.count = 20;
     schema.check("Drift", Json::parse(drift_json(measure_drift(options).value())), "drift");
     schema.check("Texels", Json::parse(texels_json(audit_texels(texel_rules(), 2000))), "texels");
+    SurfaceAudit surfaces{.count = 40};
+    audit_surfaces(surfaces);
+    schema.check("Surfaces", Json::parse(surfaces_json(surfaces)), "surfaces");
 }
 
 /// Gaps on a mesh, and an audit of a kernel in a process of its own, as far as that has members of its own.

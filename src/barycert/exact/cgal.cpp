@@ -6,7 +6,6 @@
 // from the eye through (x, y, 1) is met with the plane of the vertices (x w, y w, w).
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <mpfr.h>
 
 #include <limits>
 #include <optional>
@@ -14,6 +13,7 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/exact/cgal_variant.hpp"
+#include "barycert/exact/rational.hpp"
 #include "barycert/oracle.hpp"
 
 namespace barycert {
@@ -24,55 +24,28 @@ using Number = Epeck::FT;
 using Point2 = Epeck::Point_2;
 using Point3 = Epeck::Point_3;
 
-/// GMP's rational in CGAL's exact number, whichever of its types that is.
-template <class Exact>
-mpq_srcptr rational(const Exact& x) {
-    if constexpr (requires { x.mpq(); }) {
-        return x.mpq();
-    } else if constexpr (requires { x.get_mpq_t(); }) {
-        return x.get_mpq_t();
-    } else {
-        return x.backend().data();
-    }
-}
-
-/// MPFR's numbers as doubles: 53 bits, and the range that mpfr_subnormalize() wants.
-class Rounder {
+/// Quotients, rounded once.
+class Quotient {
 public:
-    Rounder() {
-        mpfr_init2(number_, 53);
-        mpq_init(quotient_);
-    }
-    ~Rounder() {
-        mpfr_clear(number_);
-        mpq_clear(quotient_);
-    }
-    Rounder(const Rounder&) = delete;
-    Rounder& operator=(const Rounder&) = delete;
+    Quotient() { mpq_init(quotient_); }
+    ~Quotient() { mpq_clear(quotient_); }
+    Quotient(const Quotient&) = delete;
+    Quotient& operator=(const Quotient&) = delete;
 
-    /// The quotient, to nearest, ties to even, subnormals and overflow included. Requires a divisor other than 0.
+    /// Requires a divisor other than 0. Not reduced: that takes longer than all else, and MPFR does not ask for it.
     double operator()(const Number& x, const Number& divisor) {
-        const mpfr_exp_t low = mpfr_get_emin(), high = mpfr_get_emax();
-        mpfr_set_emin(-1073);
-        mpfr_set_emax(1024);
-        // Not reduced: that takes longer than all else, and MPFR does not ask for it.
-        mpq_srcptr a = rational(x.exact()), b = rational(divisor.exact());
+        mpq_srcptr a = exact::rational(x.exact()), b = exact::rational(divisor.exact());
         mpz_mul(mpq_numref(quotient_), mpq_numref(a), mpq_denref(b));
         mpz_mul(mpq_denref(quotient_), mpq_denref(a), mpq_numref(b));
         if (mpz_sgn(mpq_denref(quotient_)) < 0) {
             mpz_neg(mpq_numref(quotient_), mpq_numref(quotient_));
             mpz_neg(mpq_denref(quotient_), mpq_denref(quotient_));
         }
-        const int inexact = mpfr_set_q(number_, quotient_, MPFR_RNDN);
-        mpfr_subnormalize(number_, inexact, MPFR_RNDN);
-        const double result = mpfr_get_d(number_, MPFR_RNDN);
-        mpfr_set_emin(low);
-        mpfr_set_emax(high);
-        return result;
+        return rounded_([this](mpfr_t to) { return mpfr_set_q(to, quotient_, MPFR_RNDN); });
     }
 
 private:
-    mpfr_t number_;
+    exact::Rounder rounded_;
     mpq_t quotient_;
 };
 
@@ -189,7 +162,7 @@ OracleAnswer ask_cgal(const Case& c) {
         a.value = std::numeric_limits<double>::quiet_NaN();
         return a;
     }
-    Rounder rounded;
+    Quotient rounded;
     Number value = 0;
     int nonzero = 0;
     bool negative = false;

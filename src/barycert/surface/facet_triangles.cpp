@@ -97,7 +97,9 @@ public:
     /// The triangles that cannot be reached from outside, or from a place in a hole, over no segment.
     std::vector<std::array<Node, 3>> region(const std::vector<std::array<double, 2>>& holes) {
         std::vector<Edge> open;  // edges of triangles that go
-        for (const auto& [edge, apex] : apex_) {
+        for (const auto& entry : apex_) {
+            const Edge edge = entry.first;
+            const Node apex = entry.second;
             const Edge back{edge.second, edge.first};
             if (!apex_.contains(back) && !segments_.contains(ordered(edge.first, edge.second))) open.push_back(edge);
             if (std::ranges::any_of(holes, [&](const auto& p) { return holds(edge, apex, p); })) open.push_back(edge);

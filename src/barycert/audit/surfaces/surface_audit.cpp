@@ -1,0 +1,111 @@
+// The rules on triangles in space, held against the oracle.
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "barycert/audit/surfaces/rules.hpp"
+#include "barycert/base/ulp.hpp"
+#include "barycert/base/workers.hpp"
+
+namespace barycert {
+
+using namespace audit;
+
+namespace {
+
+constexpr std::uint64_t block = 256;  ///< cases that a thread takes at once
+
+/// What is right; nothing where either answer is.
+std::optional<double> exact_answer(SurfaceQuestion question, const SurfaceCase& c) {
+    if (question == SurfaceQuestion::distance) return oracle_distance(c.triangles[0], c.point.data());
+    if (question == SurfaceQuestion::meet) return oracle_meet(c.triangles[0], c.triangles[1]);
+    const int side = oracle_side(c.triangles, c.point.data());
+    return side == 0 ? std::nullopt : std::optional<double>(side > 0);
+}
+
+}  // namespace
+
+const std::vector<SurfaceRule>& surface_rules() {
+    static const std::vector<SurfaceRule> rules = [] {
+        std::vector<SurfaceRule> all = distance_rules();
+        for (const auto& more : {inside_rules(), meet_rules()}) all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }();
+    return rules;
+}
+
+void SurfaceTally::add(SurfaceQuestion question, double answer, double exact, std::uint64_t index) {
+    const std::uint64_t before = wrong_cases();
+    ++cases;
+    yes += exact != 0;
+    if (!std::isfinite(answer)) {
+        ++not_finite;
+    } else if (const bool is_distance = question == SurfaceQuestion::distance; is_distance && exact == 0) {
+        false_no += answer != 0;
+    } else if (is_distance) {
+        false_yes += answer == 0;
+        const double error = base::ulp_error_here(answer, exact);
+        ulps.add(error);
+        worst.include(error, index);
+    } else {
+        false_yes += answer != 0 && exact == 0;
+        false_no += answer == 0 && exact != 0;
+    }
+    if (wrong_cases() != before) wrong.include(1, index);
+}
+
+void SurfaceTally::merge(const SurfaceTally& other) {
+    cases += other.cases;
+    yes += other.yes;
+    false_yes += other.false_yes;
+    false_no += other.false_no;
+    not_finite += other.not_finite;
+    ulps.merge(other.ulps);
+    worst.include(other.worst.value, other.worst.index);
+    wrong.include(other.wrong.value, other.wrong.index);
+}
+
+void audit_surfaces(SurfaceAudit& audit) {
+    const ExactEnvironment environment;
+    audit.threads = base::threads_for(audit.threads);
+    const std::vector<SurfaceRule>& rules = surface_rules();
+    const std::vector<SurfaceFamily>& families = surface_families();
+    const std::size_t blocks = static_cast<std::size_t>((audit.count + block - 1) / block);
+    // A tally for each family and rule of its question; threads merge into them, in any order.
+    std::vector<std::vector<SurfaceTally>> tallies(families.size(), std::vector<SurfaceTally>(rules.size()));
+    std::mutex merging;
+    std::uint64_t done = 0;
+    base::share_work(audit.threads, families.size() * blocks, [&](std::size_t work) {
+        const ExactEnvironment of_thread;
+        const std::size_t f = work / blocks;
+        const SurfaceFamily& family = families[f];
+        std::vector<SurfaceTally> found(rules.size());
+        const std::uint64_t first = work % blocks * block;
+        for (std::uint64_t i = first; i < std::min(first + block, audit.count); ++i) {
+            const SurfaceCase c = make_surface_case(family, audit.seed, i);
+            const std::optional<double> exact = exact_answer(family.question, c);
+            if (!exact) continue;
+            for (std::size_t r = 0; r < rules.size(); ++r) {
+                if (rules[r].question == family.question) found[r].add(family.question, rules[r].answer(c), *exact, i);
+            }
+        }
+        const std::lock_guard lock(merging);
+        for (std::size_t r = 0; r < rules.size(); ++r) tallies[f][r].merge(found[r]);
+        done += std::min(block, audit.count - first);
+        if (audit.progress) audit.progress({done, families.size() * audit.count, family.name});
+        return true;
+    });
+    audit.results.clear();
+    for (std::size_t r = 0; r < rules.size(); ++r) {
+        SurfaceResult& result = audit.results.emplace_back(SurfaceResult{rules[r], {}, {}});
+        for (std::size_t f = 0; f < families.size(); ++f) {
+            if (families[f].question != rules[r].question) continue;
+            tallies[f][r].family = f;
+            result.total.merge(tallies[f][r]);
+            result.families.push_back(std::move(tallies[f][r]));
+        }
+    }
+}
+
+}  // namespace barycert

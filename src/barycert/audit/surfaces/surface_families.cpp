@@ -1,0 +1,368 @@
+// Cases for the rules on triangles in space. Only + - * / and sqrt, so that each is the same on every machine.
+
+#include <cmath>
+
+#include "barycert/audit/surfaces/rules.hpp"
+#include "barycert/base/random.hpp"
+#include "barycert/base/ulp.hpp"
+#include "barycert/oracle.hpp"
+
+namespace barycert::audit {
+namespace {
+
+using base::Random;
+using Point = std::array<double, 3>;
+
+Point any(Random& random) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+    return {x, y, z};
+}
+
+Point on_lattice(Random& random, int high) {
+    const int x = random.integer(0, high), y = random.integer(0, high), z = random.integer(0, high);
+    return {double(x), double(y), double(z)};
+}
+
+Point sum(const Point& a, double t, const Point& b) {
+    return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
+}
+
+TriangleInSpace triangle_of(const Point& a, const Point& b, const Point& c) {
+    return {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
+}
+
+Point corner(const TriangleInSpace& t, std::size_t k) {
+    return {t[3 * k], t[3 * k + 1], t[3 * k + 2]};
+}
+
+bool has_area(const TriangleInSpace& t) {
+    Case c{.simplex = Simplex::triangle3d};
+    std::copy(t.begin(), t.end(), c.vertices.begin());
+    return affine_dimension(c) == 2;
+}
+
+/// Until it has an area.
+template <class Make>
+TriangleInSpace proper(const Make& make) {
+    TriangleInSpace t = make();
+    while (!has_area(t)) t = make();
+    return t;
+}
+
+TriangleInSpace any_triangle(Random& random) {
+    return proper([&] {
+        const Point a = any(random), b = any(random);
+        return triangle_of(a, b, any(random));
+    });
+}
+
+TriangleInSpace lattice_triangle(Random& random, int high) {
+    return proper([&] {
+        const Point a = on_lattice(random, high), b = on_lattice(random, high);
+        return triangle_of(a, b, on_lattice(random, high));
+    });
+}
+
+TriangleInSpace needle(Random& random) {
+    return proper([&] {
+        const Point a = any(random), b = any(random);
+        const Point middle = sum(a, random.unit(), {b[0] - a[0], b[1] - a[1], b[2] - a[2]});
+        return triangle_of(a, b, sum(middle, random.scaled(0.5, 1, -40, -10), any(random)));
+    });
+}
+
+/// Weights of the corners; on an edge one time of four, at a corner one of sixteen.
+Point point_on(const TriangleInSpace& t, Random& random) {
+    double u = random.unit(), v = random.unit();
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    if (random.below(4) == 0) v = 0;
+    if (random.below(4) == 0) u = 0;
+    Point p{};
+    for (std::size_t k = 0; k < 3; ++k) p[k] = t[k] + (u * (t[3 + k] - t[k]) + v * (t[6 + k] - t[k]));
+    return p;
+}
+
+Point few_ulps_off(Point p, Random& random) {
+    for (double& x : p) {
+        for (int steps = random.integer(-2, 2); steps != 0; steps -= steps > 0 ? 1 : -1)
+            x = steps > 0 ? base::next_up(x) : base::next_down(x);
+    }
+    return p;
+}
+
+/// All numbers times 2^k, then moved by as much along each axis.
+SurfaceCase changed(SurfaceCase c, int k, double by) {
+    for (TriangleInSpace& t : c.triangles) {
+        for (double& x : t) x = std::ldexp(x, k) + by;
+    }
+    for (double& x : c.point) x = std::ldexp(x, k) + by;
+    return c;
+}
+
+SurfaceCase still_proper(const SurfaceCase& c, int k, double by) {
+    SurfaceCase moved = changed(c, k, by);
+    for (const TriangleInSpace& t : moved.triangles) {
+        if (!has_area(t)) return c;
+    }
+    return moved;
+}
+
+// Distances.
+
+SurfaceCase near_border(Random& random) {
+    const TriangleInSpace t = any_triangle(random);
+    const Point a = corner(t, 0), b = corner(t, 1), d{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, r = any(random);
+    // At a right angle to the edge at its end, as far as rounding goes.
+    const Point side{d[1] * r[2] - d[2] * r[1], d[2] * r[0] - d[0] * r[2], d[0] * r[1] - d[1] * r[0]};
+    return {{t}, few_ulps_off(sum(a, random.scaled(0.5, 1, -20, 3), side), random)};
+}
+
+SurfaceCase distance_random(Random& random) {
+    const TriangleInSpace t = any_triangle(random);
+    return {{t}, any(random)};
+}
+
+// Closed surfaces.
+
+/// An octahedron whose faces are parted in four twice: 128 triangles around the origin, with random radii.
+std::vector<TriangleInSpace> star(Random& random) {
+    std::vector<TriangleInSpace> all;
+    for (const double x : {1.0, -1.0}) {
+        for (const double y : {1.0, -1.0}) {
+            for (const double z : {1.0, -1.0}) {
+                const Point a{x, 0, 0}, b{0, y, 0}, c{0, 0, z};
+                all.push_back(x * y * z > 0 ? triangle_of(a, b, c) : triangle_of(a, c, b));
+            }
+        }
+    }
+    const auto amid = [](const Point& a, const Point& b) { return sum(sum({}, 0.5, a), 0.5, b); };
+    for (int turn = 0; turn < 2; ++turn) {
+        std::vector<TriangleInSpace> parts;
+        for (const TriangleInSpace& t : all) {
+            const Point a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+            const Point ab = amid(a, b), bc = amid(b, c), ca = amid(c, a);
+            for (const auto& part :
+                 {triangle_of(a, ab, ca), triangle_of(ab, b, bc), triangle_of(ca, bc, c), triangle_of(ab, bc, ca)})
+                parts.push_back(part);
+        }
+        all = std::move(parts);
+    }
+    // A node's radius is that of its place: the coordinates are multiples of 1/4.
+    const std::uint64_t seed = random.bits();
+    for (TriangleInSpace& t : all) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Point p = corner(t, k);
+            const auto place = static_cast<std::uint64_t>((p[0] * 4 + 4) * 100 + (p[1] * 4 + 4) * 10 + (p[2] * 4 + 4));
+            const double radius = Random::stream(seed, place, 0).uniform(0.5, 1);
+            for (std::size_t axis = 0; axis < 3; ++axis) t[3 * k + axis] = p[axis] * radius;
+        }
+    }
+    return all;
+}
+
+/// A box of n unit squares a side, each of two triangles.
+std::vector<TriangleInSpace> box(int n) {
+    std::vector<TriangleInSpace> all;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const int level : {0, n}) {
+            for (int i = 0; i < n * n; ++i) {
+                const auto at = [&](int u, int v) {
+                    Point p{};
+                    p[axis] = level;
+                    p[(axis + 1) % 3] = i % n + u;
+                    p[(axis + 2) % 3] = i / n + v;
+                    return p;
+                };
+                const Point a = at(0, 0), b = at(1, 0), c = at(1, 1), d = at(0, 1);
+                all.push_back(level == 0 ? triangle_of(a, c, b) : triangle_of(a, b, c));
+                all.push_back(level == 0 ? triangle_of(a, d, c) : triangle_of(a, c, d));
+            }
+        }
+    }
+    return all;
+}
+
+/// The surface of a tetrahedron, some of them thin.
+SurfaceCase tetrahedron(Random& random) {
+    while (true) {
+        const TriangleInSpace t = random.coin() ? needle(random) : any_triangle(random);
+        const Point a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
+        const Point d = sum(point_on(t, random), random.scaled(0.5, 1, -40, 1), any(random));
+        Case solid{.simplex = Simplex::tetrahedron};
+        std::copy(t.begin(), t.end(), solid.vertices.begin());
+        std::copy(d.begin(), d.end(), solid.vertices.begin() + 9);
+        if (affine_dimension(solid) != 3) continue;
+        const Point p = few_ulps_off(
+            sum(point_on(t, random), random.unit() * random.unit() * 0.01, {d[0] - a[0], d[1] - a[1], d[2] - a[2]}),
+            random);
+        return {{t, triangle_of(a, d, b), triangle_of(b, d, c), triangle_of(c, d, a)}, p};
+    }
+}
+
+SurfaceCase star_and(Random& random, Point (*make)(const std::vector<TriangleInSpace>&, Random&)) {
+    SurfaceCase c{star(random), {}};
+    c.point = make(c.triangles, random);
+    return c;
+}
+
+const TriangleInSpace& one_of(const std::vector<TriangleInSpace>& all, Random& random) {
+    return all[random.below(all.size())];
+}
+
+/// Some coordinates of a node, the others any: rays along axes meet it.
+Point level_with_node(const std::vector<TriangleInSpace>& all, Random& random) {
+    Point p = any(random);
+    const Point node = corner(one_of(all, random), random.below(3));
+    for (std::size_t k = 1; k < 3; ++k) p[k] = random.below(4) == 0 ? p[k] : node[k];
+    return p;
+}
+
+Point beside(const std::vector<TriangleInSpace>& all, Random& random) {
+    return few_ulps_off(point_on(one_of(all, random), random), random);
+}
+
+/// In front of an edge or corner, where several triangles are nearest.
+Point around_corner(const std::vector<TriangleInSpace>& all, Random& random) {
+    return sum(corner(one_of(all, random), random.below(3)), random.scaled(0.5, 1, -12, -4), any(random));
+}
+
+// Pairs of triangles.
+
+SurfaceCase touching(Random& random) {
+    const TriangleInSpace s = any_triangle(random);
+    const TriangleInSpace t = proper([&] {
+        const Point a = point_on(s, random), b = any(random);
+        return triangle_of(a, b, any(random));
+    });
+    return {{s, t}, {}};
+}
+
+/// Two in one plane through lattice points; many touch.
+SurfaceCase in_one_plane(Random& random) {
+    const Point u{double(random.integer(1, 3)), double(random.integer(0, 3)), double(random.integer(0, 3))},
+        v{0, double(random.integer(1, 3)), double(random.integer(-3, 3))};
+    const auto at = [&] {
+        const double a = random.integer(0, 4), b = random.integer(0, 4);
+        return sum(sum({}, a, u), b, v);
+    };
+    const auto one = [&] {
+        return proper([&] {
+            const Point a = at(), b = at();
+            return triangle_of(a, b, at());
+        });
+    };
+    const TriangleInSpace s = one();
+    return {{s, one()}, {}};
+}
+
+/// Over each other, so far apart as rounding, or less.
+SurfaceCase nearly_parallel(Random& random) {
+    const TriangleInSpace s = any_triangle(random);
+    const TriangleInSpace t = proper([&] {
+        const Point a = few_ulps_off(point_on(s, random), random), b = few_ulps_off(point_on(s, random), random);
+        return triangle_of(a, b, few_ulps_off(point_on(s, random), random));
+    });
+    return {{s, t}, {}};
+}
+
+SurfaceCase any_two(Random& random) {
+    const TriangleInSpace s = any_triangle(random);
+    return {{s, any_triangle(random)}, {}};
+}
+
+SurfaceCase lattice_two(Random& random) {
+    const TriangleInSpace s = lattice_triangle(random, 3);
+    return {{s, lattice_triangle(random, 3)}, {}};
+}
+
+SurfaceCase scaled_two(Random& random) {
+    const int k = random.integer(-120, 100);
+    return still_proper(random.coin() ? any_two(random) : touching(random), k, 0);
+}
+
+}  // namespace
+}  // namespace barycert::audit
+
+namespace barycert {
+
+using namespace audit;
+
+const std::vector<SurfaceFamily>& surface_families() {
+    using enum SurfaceQuestion;
+    static const std::vector<SurfaceFamily> all{
+        {"distance.random", distance, "ordinary triangles and points, for comparison", distance_random},
+        {"distance.lattice", distance, "coordinates 0 to 3: points on triangles, and between regions",
+         [](Random& random) {
+             const TriangleInSpace t = lattice_triangle(random, 3);
+             return SurfaceCase{{t}, on_lattice(random, 3)};
+         }},
+        {"distance.beside", distance, "points within a few ulps of the triangle",
+         [](Random& random) {
+             const TriangleInSpace t = any_triangle(random);
+             return SurfaceCase{{t}, few_ulps_off(point_on(t, random), random)};
+         }},
+        {"distance.border", distance, "points where the regions of a corner and an edge meet", near_border},
+        {"distance.needle", distance, "triangles 1e-3 to 1e-12 wide",
+         [](Random& random) {
+             const TriangleInSpace t = needle(random);
+             return SurfaceCase{{t}, any(random)};
+         }},
+        {"distance.moved", distance, "ordinary ones, moved by 2^20",
+         [](Random& random) { return still_proper(distance_random(random), 0, 0x1p20); }},
+        {"distance.scaled", distance, "ordinary ones, times 2^-400 to 2^400: squares under- and overflow",
+         [](Random& random) {
+             const int k = random.integer(-400, 400);
+             return still_proper(distance_random(random), k, 0);
+         }},
+        {"inside.random", inside, "stars of 128 triangles, points around them",
+         [](Random& random) { return star_and(random, [](const auto&, Random& r) { return any(r); }); }},
+        {"inside.level", inside, "points that share coordinates with a node: rays along axes meet it",
+         [](Random& random) { return star_and(random, level_with_node); }},
+        {"inside.beside", inside, "points within a few ulps of a triangle",
+         [](Random& random) { return star_and(random, beside); }},
+        {"inside.corner", inside, "points before edges and corners, where several triangles are nearest",
+         [](Random& random) { return star_and(random, around_corner); }},
+        {"inside.lattice", inside, "a box of squares, points at multiples of 1/2: rays meet edges and corners",
+         [](Random& random) {
+             const Point p = on_lattice(random, 8);
+             return SurfaceCase{box(3), {p[0] / 2 - 0.5, p[1] / 2 - 0.5, p[2] / 2 - 0.5}};
+         }},
+        {"inside.needle", inside, "thin tetrahedra, points beside a face", tetrahedron},
+        {"inside.moved", inside, "stars moved by 2^20, points within a few ulps of a triangle",
+         [](Random& random) {
+             SurfaceCase c = changed(star_and(random, beside), 0, 0x1p20);
+             c.point = beside(c.triangles, random);
+             return c;
+         }},
+        {"inside.small", inside, "stars times 2^-10 to 2^-30, points around them",
+         [](Random& random) {
+             const int k = random.integer(-30, -10);
+             return changed(star_and(random, [](const auto&, Random& r) { return any(r); }), k, 0);
+         }},
+        {"meet.random", meet, "ordinary triangles, for comparison", any_two},
+        {"meet.lattice", meet, "coordinates 0 to 3: they touch, or lie in one plane", lattice_two},
+        {"meet.touching", meet, "a corner of one is computed on the other", touching},
+        {"meet.one-plane", meet, "two in a plane through lattice points", in_one_plane},
+        {"meet.parallel", meet, "over each other, as far apart as rounding", nearly_parallel},
+        {"meet.needle", meet, "triangles 1e-3 to 1e-12 wide that nearly touch",
+         [](Random& random) {
+             const TriangleInSpace s = needle(random);
+             const TriangleInSpace t = proper([&] {
+                 const Point a = few_ulps_off(point_on(s, random), random), b = any(random);
+                 return triangle_of(a, b, any(random));
+             });
+             return SurfaceCase{{s, t}, {}};
+         }},
+        {"meet.moved", meet, "touching ones, moved by 2^20",
+         [](Random& random) { return still_proper(touching(random), 0, 0x1p20); }},
+        {"meet.scaled", meet, "ordinary and touching ones, times 2^-120 to 2^100", scaled_two},
+    };
+    return all;
+}
+
+SurfaceCase make_surface_case(const SurfaceFamily& family, std::uint64_t seed, std::uint64_t index) {
+    Random random = Random::stream(seed, base::hash64(family.name), index);
+    return family.make(random);
+}
+
+}  // namespace barycert
