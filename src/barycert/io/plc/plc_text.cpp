@@ -51,17 +51,11 @@ std::int32_t PlcText::take_integer(std::string_view expected, char end) {
     return *value;
 }
 
-double PlcText::take_number(std::string_view expected) {
+double PlcText::take_number(std::string_view expected, bool finite) {
     const std::string_view text = take_whole(expected);
     const std::optional<double> value = base::parse_double(text);
-    if (!value || !std::isfinite(*value)) fail("cannot read", std::string(expected) + ", a finite number", text);
-    return *value;
-}
-
-double PlcText::take_any_number(std::string_view expected) {
-    const std::string_view text = take_whole(expected);
-    const std::optional<double> value = base::parse_double(text);
-    if (!value) fail("cannot read", std::string(expected) + ", a number", text);
+    if (!value || (finite && !std::isfinite(*value)))
+        fail("cannot read", std::string(expected) + (finite ? ", a finite number" : ", a number"), text);
     return *value;
 }
 

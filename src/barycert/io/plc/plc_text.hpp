@@ -36,7 +36,6 @@ public:
         if (!next_line()) need_line(std::string_view(expected()));
     }
 
-    std::size_t word_count() const { return words_.size(); }
     std::size_t words_left() const { return words_.size() - at_; }
     std::string_view word(std::size_t i) const { return words_[i]; }
     std::string_view line() const { return line_; }
@@ -45,8 +44,7 @@ public:
     std::string_view take(std::string_view expected);
     /// `end`: a character at which the word ends for this purpose.
     std::int32_t take_integer(std::string_view expected, char end = ' ');
-    double take_number(std::string_view expected);
-    double take_any_number(std::string_view expected);  ///< or NaN or infinite
+    double take_number(std::string_view expected, bool finite = true);  ///< or any
 
     /// A count of things that take at least two bytes each: one that the file cannot hold is an error.
     std::size_t take_count(std::string_view expected);

@@ -6,10 +6,6 @@
 
 namespace barycert::io {
 
-void Polygons::settle() {
-    if (std::ranges::all_of(counts, [](std::uint32_t n) { return n == 3; })) counts.clear();
-}
-
 void check_corners(PlcText& in, Polygons& all) {
     if (all.corners.empty()) return;
     const auto [low, high] = std::ranges::minmax(all.corners);
@@ -43,7 +39,7 @@ Polygons read_off(PlcText& in) {
             if (const Mesh::Index corner = all.corners.back(); corner < 0 || static_cast<std::size_t>(corner) > nodes)
                 in.fail("no such node", "0 to " + std::to_string(nodes - 1), std::to_string(corner));
         }
-        all.end_polygon(n);
+        all.counts.push_back(static_cast<std::uint32_t>(n));
     }
     if (in.next_line()) in.fail("more lines than the header announces", "the end of the file", in.line());
     check_corners(in, all);
@@ -71,7 +67,7 @@ Polygons read_obj(PlcText& in) {
                     in.fail("no such node", "1 to " + std::to_string(count), std::to_string(id));
                 all.corners.push_back(static_cast<Mesh::Index>(at));
             }
-            all.end_polygon(n);
+            all.counts.push_back(static_cast<std::uint32_t>(n));
         } else if (std::ranges::find(others, key) == others.end()) {
             others.emplace_back(key);
         }
@@ -84,12 +80,17 @@ Polygons read_obj(PlcText& in) {
     return all;
 }
 
-Polygons read_polygons(PlcText& in) {
-    Polygons all = has_suffix(in.path(), ".off")   ? read_off(in)
-                   : has_suffix(in.path(), ".obj") ? read_obj(in)
-                   : has_suffix(in.path(), ".stl") ? read_stl(in)
-                                                   : read_ply(in);
-    all.settle();
+Polygons read_polygons(const std::string& path) {
+    const auto read = [&](PlcText& in) {
+        return has_suffix(path, ".off")   ? read_off(in)
+               : has_suffix(path, ".obj") ? read_obj(in)
+               : has_suffix(path, ".stl") ? read_stl(in)
+                                          : read_ply(in);
+    };
+    const std::string text = read_surface_text(path, read);
+    PlcText in(path, text, text.size());
+    Polygons all = read(in);
+    if (std::ranges::all_of(all.counts, [](std::uint32_t n) { return n == 3; })) all.counts.clear();
     return all;
 }
 

@@ -1,10 +1,8 @@
 /// Polygons in space as files of surfaces have them: .off .stl .ply .obj. Errors are thrown as Exceptions.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +22,6 @@ struct Polygons {
     std::size_t point_count() const { return points.size() / 3; }
     std::size_t count() const { return counts.empty() ? corners.size() / 3 : counts.size(); }
     std::size_t corners_of(std::size_t polygon) const { return counts.empty() ? 3 : counts[polygon]; }
-
-    /// Precondition: `corners` has these at its end.
-    void end_polygon(std::size_t corner_count) { counts.push_back(static_cast<std::uint32_t>(corner_count)); }
-    /// Forgets `counts` if all are triangles.
-    void settle();
 };
 
 Polygons read_off(PlcText& in);
@@ -38,8 +31,8 @@ Polygons read_stl(PlcText& in);
 /// Text or binary, with fields of points and polygons: properties that are numbers, but for coordinates.
 Polygons read_ply(PlcText& in);
 
-/// The same of any of these, by the end of the path.
-Polygons read_polygons(PlcText& in);
+/// The whole file, which is any of these by the end of its path; `counts` is empty if all are triangles.
+Polygons read_polygons(const std::string& path);
 
 /// The beginning of a file of `size` bytes that may be read so: whether it has binary data, in which a zero byte is no
 /// fault.
