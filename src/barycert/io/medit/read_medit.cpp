@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"

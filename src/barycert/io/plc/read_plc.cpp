@@ -1,15 +1,8 @@
 // PLCs from their files; TetGen's .poly and .smesh, with their nodes inside or in STEM.node.
 #include <algorithm>
 #include <filesystem>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
-#include "barycert/base/input_file.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/plc/plc_text.hpp"
 #include "barycert/io/polygons/polygons.hpp"
 
 namespace barycert::io {
@@ -33,7 +26,7 @@ bool read_nodes(PlcText& in, Plc& plc) {
     const int markers = in.words_left() > 0 ? in.take_integer("the number of markers") : 0;
     if (markers != 0 && markers != 1) in.fail("cannot read", "0 or 1 markers", std::to_string(markers));
     for (std::size_t i = 0; i < nodes; ++i) {
-        in.need_line("node " + std::to_string(i + 1) + " of " + std::to_string(nodes));
+        in.need_line("node", i + 1, nodes);
         const std::int32_t id = in.take_integer("a node's number");
         if (i == 0) {
             if (id != 0 && id != 1) in.fail("cannot read", "numbering from 0 or 1", std::to_string(id));

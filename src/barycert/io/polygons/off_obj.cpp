@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <string>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
@@ -26,12 +25,12 @@ Polygons read_off(PlcText& in) {
     if (in.words_left() == 0) in.need_line("the counts of nodes and polygons");
     const std::size_t nodes = in.take_count("the number of nodes"), polygons = in.take_count("the number of polygons");
     for (std::size_t i = 0; i < nodes; ++i) {
-        in.need_line([&] { return "node " + std::to_string(i) + " of " + std::to_string(nodes); });
+        in.need_line("node", i, nodes);
         for (int axis = 0; axis < 3; ++axis) all.points.push_back(in.take_number("a coordinate"));
         if (in.words_left() > 0) in.fail("cannot read", "three coordinates", in.line());
     }
     for (std::size_t i = 0; i < polygons; ++i) {
-        in.need_line([&] { return "polygon " + std::to_string(i) + " of " + std::to_string(polygons); });
+        in.need_line("polygon", i, polygons);
         const std::size_t n = in.take_count("the number of a polygon's corners");
         if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
         for (std::size_t k = 0; k < n; ++k) {

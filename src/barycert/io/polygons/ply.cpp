@@ -3,9 +3,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <optional>
-#include <string>
-#include <utility>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
@@ -86,9 +83,7 @@ public:
     }
 
     void begin(const Element& element, std::size_t i) {
-        if (form_ == Header::Form::text)
-            in_.need_line(
-                [&] { return element.name + " " + std::to_string(i) + " of " + std::to_string(element.count); });
+        if (form_ == Header::Form::text) in_.need_line(element.name, i, element.count);
     }
     double take(NumberType type, std::string_view what) {
         if (form_ == Header::Form::text) return in_.take_number(what, false);

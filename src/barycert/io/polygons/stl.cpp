@@ -2,8 +2,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <string>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"

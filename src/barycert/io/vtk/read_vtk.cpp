@@ -1,12 +1,8 @@
-#include "barycert/io.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <set>
-#include <span>
 #include <system_error>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"

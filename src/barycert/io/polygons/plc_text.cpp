@@ -1,16 +1,12 @@
-#include "barycert/io/plc/plc_text.hpp"
+#include "barycert/io/polygons/polygons.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 #include <system_error>
-#include <utility>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/polygons/polygons.hpp"
 
 namespace barycert::io {
 
@@ -29,6 +25,10 @@ bool PlcText::next_line() {
 
 void PlcText::need_line(std::string_view expected) {
     if (!next_line()) fail("the file is truncated", expected, "the end of the file");
+}
+
+void PlcText::need_line(std::string_view what, std::size_t i, std::size_t count) {
+    if (!next_line()) need_line(std::string(what) + " " + std::to_string(i) + " of " + std::to_string(count));
 }
 
 std::string_view PlcText::take(std::string_view expected) {
