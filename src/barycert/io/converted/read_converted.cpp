@@ -250,10 +250,9 @@ void tell_messages(const std::string& messages, const std::string& path, Notes& 
             notes.push_back({Note::Kind::left_out, "more messages of meshio", path, true});
             return;
         }
-        notes.push_back(
-            {Note::Kind::converted,
-             "meshio says: " + base::printable(line.substr(0, longest)) + (line.size() > longest ? "..." : ""), path,
-             true});
+        std::string said = "meshio says: " + base::printable(line.substr(0, longest));
+        if (line.size() > longest) said += "...";
+        notes.push_back({Note::Kind::converted, said, path, true});
     }
 }
 

@@ -72,12 +72,7 @@ void PlcText::fail(std::string_view what, std::string_view expected, std::string
     constexpr std::size_t longest = 60;
     std::string shown(found.substr(0, longest));
     if (found.size() > longest) shown += "...";
-    throw Exception({.what = std::string(what),
-                     .file = path_,
-                     .line = line_number_,
-                     .expected = std::string(expected),
-                     .found = std::move(shown),
-                     .remedy = std::string(remedy)});
+    refuse_line(path_, line_number_, std::string(what), std::string(expected), std::move(shown), std::string(remedy));
 }
 
 std::string read_surface_text(const std::string& path, const std::function<void(PlcText&)>& check) {

@@ -247,10 +247,8 @@ void make_field(RawArray& array) {
 std::vector<double> to_points(std::vector<double> points, int dimension, const std::string& path,
                               const std::string& triangles, const std::string& one, InSpace* space) {
     const auto refuse = [&](std::size_t number, const char* expected, const std::string& remedy) {
-        constexpr std::array<const char*, 3> names{"x", "y", "z"};
-        refuse_file(path,
-                    std::string(names[number % 3]) + " of " + one + " " + std::to_string(number / 3) + " (from 0)",
-                    expected, base::shortest(points[number]), remedy);
+        const std::string of = " of " + one + " " + std::to_string(number / 3) + " (from 0)";
+        refuse_file(path, "xyz"[number % 3] + of, expected, base::shortest(points[number]), remedy);
     };
     if (!base::all_finite(points)) refuse(base::first_not_finite(points), "a finite number", "correct the point");
     if (dimension == 3) return points;

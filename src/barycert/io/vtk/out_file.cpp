@@ -262,10 +262,8 @@ std::string fault_of_names(const std::vector<OutArray>& arrays, Names names) {
     for (const OutArray& array : arrays) {
         const std::string &name = array.format.name, named = "the name of field \"" + name + '"';
         if (name.empty()) return "a field has no name";
-        if (names == Names::xml) {
-            if (!xml_attribute(name)) return named + " has bytes that XML cannot hold";
-            continue;
-        }
+        if (names == Names::xml && !xml_attribute(name)) return named + " has bytes that XML cannot hold";
+        if (names == Names::xml) continue;
         // VTK's readers take words of up to 255 bytes, and others than these may be written as three.
         const auto plain = static_cast<std::size_t>(std::ranges::count_if(name, is_plain));
         if (3 * name.size() - 2 * plain > 200) return named + " is too long for the format";
