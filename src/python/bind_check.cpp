@@ -71,13 +71,10 @@ py::list contacts_of(const CheckReport& report, std::size_t dimension) {
 
 py::dict measures_of(const Shared& bound) {
     const CellMeasures& m = bound->report.measures;
-    const std::pair<const char*, const std::vector<double>&> all[] = {
-        {"volume", m.volume}, {"condition", m.condition}, {"radius_edge", m.radius_edge},
-        {"aspect", m.aspect}, {"min_angle", m.min_angle}, {"max_angle", m.max_angle}};
     py::dict measures;
     if (!m.orientation.empty()) measures["orientation"] = view(m.orientation, bound);
-    for (const auto& [name, numbers] : all)
-        if (!numbers.empty()) measures[name] = view(numbers, bound);
+    for (const auto& [name, numbers] : cell_measures)
+        if (!(m.*numbers).empty()) measures[py::str(name)] = view(m.*numbers, bound);
     return measures;
 }
 

@@ -84,27 +84,21 @@ py::tuple locate(SurfaceObject& object, const Given<double>& points, int threads
 py::tuple nearest(SurfaceObject& object, const Given<double>& points, double limit,
                   const std::vector<std::pair<Given<double>, bool>>& fields, int threads) {
     std::vector<SurfaceNearest> found(points.rows());
-    std::vector<Field> given;
-    given.reserve(fields.size());
-    for (const auto& [values, of_cells] : fields)
-        given.push_back({"", static_cast<int>(values.columns()), values.copy()});
-    std::vector<std::vector<double>> values(given.size());
-    {
-        const py::gil_scoped_release unlocked;
-        check(object.locator().nearest(points.all(), limit, found, threads));
-        for (std::size_t f = 0; f < given.size(); ++f) {
-            values[f].resize(found.size() * static_cast<std::size_t>(given[f].components));
-            check(object.locator().values(given[f], fields[f].second, points.all(), found, values[f], threads));
-        }
-        for (SurfaceNearest& one : found) {
-            if (one.cell >= 0) continue;
-            one.distance = std::numeric_limits<double>::quiet_NaN();
-            one.point.fill(one.distance);
-        }
-    }
+    check(unlocked([&] { return object.locator().nearest(points.all(), limit, found, threads); }));
     py::list arrays;
-    for (std::size_t f = 0; f < given.size(); ++f)
-        arrays.append(owned(std::move(values[f]), static_cast<std::size_t>(given[f].components)));
+    for (const std::pair<Given<double>, bool>& given : fields) {
+        const std::size_t columns = given.first.columns();
+        const Field field{"", static_cast<int>(columns), given.first.copy()};
+        std::vector<double> out(found.size() * columns);
+        check(
+            unlocked([&] { return object.locator().values(field, given.second, points.all(), found, out, threads); }));
+        arrays.append(owned(std::move(out), columns));
+    }
+    for (SurfaceNearest& one : found) {
+        if (one.cell >= 0) continue;
+        one.distance = std::numeric_limits<double>::quiet_NaN();
+        one.point.fill(one.distance);
+    }
     return py::make_tuple(
         member_of<Mesh::Index>(found, &SurfaceNearest::cell), member_of<double>(found, &SurfaceNearest::distance),
         member_of<double>(found, &SurfaceNearest::point), member_of<Mesh::Index>(found, &SurfaceNearest::nodes),

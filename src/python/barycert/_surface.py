@@ -154,7 +154,7 @@ class Surface:
                 _core.fail("the name of a field", expected=", ".join([*self.point_data, *self.cell_data]) or "none", found=name)
             count = len(self.triangles if of_cells else self.points)
             values, one = values_of(self.cell_data[name] if of_cells else self.point_data[name], count, f"values of {name}")
-            given.append((values.reshape(count, -1), of_cells))
+            given.append((values, of_cells))
             shapes.append(one)
         arrays = self._core.nearest(rows, float(limit), given, count_of(threads, "threads="))[5]
         found = {name: array.reshape(shape + one) for name, array, one in zip(names, arrays, shapes)}
