@@ -262,13 +262,6 @@ const std::vector<Family>& all_families();
 
 std::vector<Family> families_matching(std::string_view glob);
 
-struct Witness;
-
-/// `witness`, if given, is told the case and how it is made. Preconditions: family.applies_to(s); family.needs_mesh
-/// implies meshes.supplies(s).
-Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes,
-               Witness* witness = nullptr);
-
 // Witnesses: cases that show a finding, their files, and what kernels answer to them today.
 
 /// A case that shows a finding, and how to make it again.
@@ -284,6 +277,11 @@ struct Witness {
     std::string detail;      ///< of findings up to `printed`: what happened, in words
     Case c;
 };
+
+/// Case `index` of a family. `witness`, if given, is told the case and how it is made. Preconditions:
+/// family.applies_to(s); family.needs_mesh implies meshes.supplies(s).
+Case make_case(const Family& family, Simplex s, std::uint64_t seed, std::uint64_t index, const MeshSource& meshes,
+               Witness* witness = nullptr);
 
 struct KernelAnswer {
     std::string kernel;
@@ -308,12 +306,7 @@ struct Replay {
 
 Replay replay_witness(const Witness& witness, const std::vector<Kernel>& kernels);
 
-struct AuditReport;
-
 inline constexpr int witness_schema = 1;
-
-/// {"schema": 1, "witnesses": [...]} of all kernels of a report, one witness a line of finding.
-std::string witnesses_json(const AuditReport& report);
 
 /// Reads the output of witnesses_json(), or the "witnesses" of an audit's JSON report, from a regular file or a pipe.
 /// Errors: the file cannot be read, is not JSON or of another schema; a witness is malformed.
@@ -406,6 +399,9 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
 
 /// The witness of the kernel's worst class of finding; null if it has none.
 const Witness* worst_witness(const KernelResult& result);
+
+/// {"schema": 1, "witnesses": [...]} of all kernels of a report, one witness a line of finding.
+std::string witnesses_json(const AuditReport& report);
 
 /// A kernel fails if its figure `name` exceeds `limit`.
 struct Threshold {

@@ -113,8 +113,7 @@ enum class ClaimFault : std::uint8_t {
 inline constexpr std::size_t claim_fault_count = 5;
 
 constexpr std::string_view name(ClaimFault f) {
-    constexpr std::array<std::string_view, claim_fault_count> names{"gaps", "several", "wrong", "wrong_first",
-                                                                    "outside_claimed"};
+    constexpr std::string_view names[claim_fault_count]{"gaps", "several", "wrong", "wrong_first", "outside_claimed"};
     return names[static_cast<std::size_t>(f)];
 }
 

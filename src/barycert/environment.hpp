@@ -41,8 +41,8 @@ bool rounds_correctly();
 ///
 /// Compilers do not know that arithmetic depends on it. They keep loads and stores in place, as the functions that set
 /// registers might read memory; but they may move arithmetic on arguments, and that of a result which is returned in a
-/// register, across it, calls of functions without side effects included (GCC 12 does). The
-/// library passes such numbers through a barrier (base::held, strict_math.hpp); a volatile variable is one as well.
+/// register, across it, calls of functions without side effects included (GCC 12 does). The library passes such numbers
+/// through a barrier (base::held, strict_math.hpp); a volatile variable is one as well.
 class ExactEnvironment {
 public:
     ExactEnvironment() {
@@ -78,10 +78,9 @@ private:
 #endif
 };
 
-/// The floating-point environment as it is measured, for reports. Exactness needs rounding to nearest, gradual
-/// underflow, doubles evaluated as doubles, and no contraction of a * b + c into one rounding. All four are measured at
-/// run time, in the code as it was compiled. Every call sets the first two for itself; the others are the compiler's,
-/// and nothing repairs them at run time.
+/// The floating-point environment as it is measured at run time, in the code as it was compiled, for reports. Rounding
+/// and gradual underflow every call sets for itself; contraction and excess precision are the compiler's, and nothing
+/// repairs them at run time.
 struct Environment {
     std::string rounding;           ///< "nearest", "upward", "downward", "toward-zero"
     bool flush_to_zero = false;     ///< subnormal results or operands are replaced by zero

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <span>
 
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"

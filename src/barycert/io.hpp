@@ -31,8 +31,7 @@ struct GmshReadOptions {
 /// Reads a .msh file of version 4.1, 4.0 or 2.x, text or binary of either byte order.
 ///
 /// - Tetrahedra make a mesh of dimension 3; where nothing has dimension 3, triangles one of dimension 2, with z = 0.
-/// All
-///   cells are of order 1 or all of order 2.
+///   All cells are of order 1 or all of order 2.
 /// - Elements of a lower dimension are left out, with a Note; `cell_numbers` are positions among all elements.
 /// - Nodes stand in the order of the file whatever their tags, those of no cell included.
 /// - Cell fields "gmsh:physical" (the tag of the cell's group, 0 for none; absent if no cell has one) and
@@ -108,9 +107,8 @@ struct StepChoice {
 /// - Of a collection with unstructured grids all else is left out; where there are none, polygon data are the mesh.
 /// - Nodes of pieces are kept as they are; of one global number (GlobalIds, GlobalNodeId) and place they are one.
 /// - Arrays of numbers of any type become fields of the same name, exactly. Strings of cells, and 64-bit integers of
-/// one
-///   component that no doubles represent, become cell_labels. Other arrays are left out: strings of points, without a
-///   name, missing in one of the pieces. Of arrays with time steps the first is read.
+///   one component that no doubles represent, become cell_labels. Other arrays are left out: strings of points, without
+///   a name, missing in one of the pieces. Of arrays with time steps the first is read.
 /// - A point array "marker" of 64-bit integers, one a point, becomes point_markers.
 ///
 /// Mesh::notes tells what was left out or converted (float32 to double), and where pieces may share nodes.
@@ -261,9 +259,7 @@ struct SliceCounts {
 /// an aspect or a range that is not valid; a file that cannot be written.
 Status write_png(const std::string& path, const Slice& slice, SliceCounts* counts = nullptr);
 
-// Any of these, and rows of results.
-
-// Meshes.
+// Meshes in any of these formats.
 
 struct ReadOptions {
     bool faces = true;       ///< read STEM.face if it is there, and Medit's triangles beside tetrahedra
@@ -341,9 +337,8 @@ Result<std::vector<std::string>> written_mesh_files(const std::string& path);
 // NPY    Versions 1 to 3; numbers of any integer or floating type up to 64 bits, of either byte order. One array of
 //        shape (n, columns), in C or Fortran order, or a structured one of shape (n,): a field of several numbers is
 //        the columns NAME.0, NAME.1, ... An integer that no double represents is an Error.
-// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp. Columns: attribute0, attribute1, ...,
-// marker.
-//        All of it is in memory.
+// .node  TetGen's and Triangle's grammar, see io/tetgen/tetgen_reader.cpp. Columns: attribute0, attribute1, ..., and
+//        marker. All of it is in memory.
 // meshes Any file that read_mesh takes. Columns: the fields of nodes, and marker. All of it is in memory.
 
 /// Which columns of a file of points are taken for what.

@@ -2,8 +2,7 @@
 ///
 /// Input: the vertices of one simplex and a point, as doubles. Output: one weight a vertex, or the kernel's own
 /// statement that the simplex is degenerate. Kernels are what the audit puts to the test: the plain ones are written as
-/// the literature writes them, faults included, and nothing in barycert relies on them; `*.exact` call
-/// weights.hpp.
+/// the literature writes them, faults included, and nothing in barycert relies on them; `*.exact` call weights.hpp.
 #pragma once
 
 #include <memory>

@@ -28,7 +28,6 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"

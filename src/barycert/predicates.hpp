@@ -2,8 +2,7 @@
 /// barycentric weights.
 ///
 /// Each predicate returns the sign of the exact polynomial in its coordinates, which are doubles. `orient2d(...)`
-/// requires finite ones; `checked_orient2d(...)` is for untrusted input, and returns an Error if one is NaN or
-/// infinite.
+/// requires finite ones; `checked_orient2d(...)` is for untrusted input (E).
 ///
 /// Laws (each is a test of that name in tests/core):
 ///   S1  A sign is exact for every finite input, subnormals and 1e308 included, in every rounding mode, with

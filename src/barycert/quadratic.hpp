@@ -19,8 +19,6 @@
 /// infinite makes its component NaN, and TierCounts::not_finite counts the case, unless its factor is exactly zero.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <span>
 

@@ -1,20 +1,13 @@
-/// What a check, a sampling and a picture found, as text, JSON, HTML and pictures. Strings come back; only write_png
-/// writes a file.
+/// What jobs found, as text, JSON and HTML, and for continuous integration. Strings come back; nothing is written.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/jobs.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert {

@@ -165,7 +165,7 @@ std::shared_ptr<AuditReport> audit(const py::object& function, Simplex simplex, 
         options.kernels.insert(options.kernels.end(), some.begin(), some.end());
     };
     if (!libraries.empty())
-        add(take(choose_kernels({.libraries = libraries, .in_process = !contained, .class_tolerance = tolerance})));
+        add(choose_kernels({.libraries = libraries, .in_process = !contained, .class_tolerance = tolerance}).value());
     if (!catalogue.empty()) add(named(choose_kernels({.names = catalogue}), "barycert.kernels() lists them"));
     MeshSource source;
     for (const auto& [label, mesh] : meshes) source.add(label, mesh->mesh());
@@ -177,7 +177,7 @@ std::shared_ptr<AuditReport> audit(const py::object& function, Simplex simplex, 
         turn = std::unique_lock(callable_kernel_in_use);
         callable_kernel = &callable;
     }
-    return std::make_shared<AuditReport>(take(run_audit(options, source)));
+    return std::make_shared<AuditReport>(run_audit(options, source).value());
 }
 
 std::string html_of(const AuditReport& report) {
@@ -186,7 +186,7 @@ std::string html_of(const AuditReport& report) {
         // A picture asks the kernel, and the callable is gone.
         if (k.kernel.weights != call_kernel) kernels.push_back(k.kernel);
     }
-    return take(audit_html(report, {.style = {}, .command_line = {}, .signs = sign_pictures(kernels)}));
+    return audit_html(report, {.style = {}, .command_line = {}, .signs = sign_pictures(kernels)}).value();
 }
 
 }  // namespace

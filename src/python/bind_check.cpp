@@ -9,21 +9,16 @@ namespace {
 
 using namespace pybind11::literals;
 
-/// A report with the mesh that it is of.
-struct BoundReport {
-    std::shared_ptr<Geometry> geometry;
-    CheckReport report;
-};
 using Shared = std::shared_ptr<BoundReport>;
 
 Shared check_of(const MeshObject& mesh, bool delaunay, std::size_t examples, std::size_t contacts, bool verdict_only,
                 int threads, const Progress& progress) {
-    CheckOptions options{.threads = threads,
-                         .delaunay = delaunay,
-                         .examples = examples,
-                         .contacts = contacts,
-                         .verdict_only = verdict_only,
-                         .progress = [&](const char* stage) { tell(progress, stage, 0, 0); }};
+    const CheckOptions options{.threads = threads,
+                               .delaunay = delaunay,
+                               .examples = examples,
+                               .contacts = contacts,
+                               .verdict_only = verdict_only,
+                               .progress = [&](const char* stage) { tell(progress, stage, 0, 0); }};
     const std::shared_ptr<const Mesh> fields = mesh.fields();
     const py::gil_scoped_release unlocked;
     auto report = std::make_shared<BoundReport>(BoundReport{mesh.geometry(), check_mesh(mesh.mesh(), options)});
@@ -57,17 +52,13 @@ py::tuple fix_of(const MeshObject& mesh, double merge_within, bool nodes, bool c
     const FixOptions options{
         .nodes = nodes, .merge_within = merge_within, .cells = cells, .orientation = orientation, .threads = threads};
     FixReport done;
-    std::optional<MeshObject> fixed;
-    {
-        const py::gil_scoped_release unlocked;
-        fixed.emplace(take(fix_mesh(mesh.whole(), options, done)));
-    }
+    MeshObject fixed = unlocked([&] { return MeshObject(fix_mesh(mesh.whole(), options, done).value()); });
     py::list merged, dropped, fields;
     for (const MergedNode& m : done.merged) merged.append(py::make_tuple(m.node, m.into, m.moved));
     for (const DroppedCell& c : done.dropped) dropped.append(py::make_tuple(c.cell, defect_text(c.why).name));
     for (const MergedField& f : done.fields) fields.append(py::make_tuple(f.name, f.differ, f.max_difference));
-    return py::make_tuple(std::move(*fixed), py::dict("merged"_a = merged, "dropped"_a = dropped,
-                                                      "turned"_a = done.turned, "fields"_a = fields));
+    return py::make_tuple(std::move(fixed), py::dict("merged"_a = merged, "dropped"_a = dropped,
+                                                     "turned"_a = done.turned, "fields"_a = fields));
 }
 
 py::list contacts_of(const CheckReport& report, std::size_t dimension) {
@@ -80,13 +71,10 @@ py::list contacts_of(const CheckReport& report, std::size_t dimension) {
 
 py::dict measures_of(const Shared& bound) {
     const CellMeasures& m = bound->report.measures;
-    const std::pair<const char*, const std::vector<double>&> all[] = {
-        {"volume", m.volume}, {"condition", m.condition}, {"radius_edge", m.radius_edge},
-        {"aspect", m.aspect}, {"min_angle", m.min_angle}, {"max_angle", m.max_angle}};
     py::dict measures;
     if (!m.orientation.empty()) measures["orientation"] = view(m.orientation, bound);
-    for (const auto& [name, numbers] : all)
-        if (!numbers.empty()) measures[name] = view(numbers, bound);
+    for (const auto& [name, numbers] : cell_measures)
+        if (!(m.*numbers).empty()) measures[py::str(name)] = view(m.*numbers, bound);
     return measures;
 }
 
@@ -138,25 +126,18 @@ py::dict verify(const BoundSampler& bound, const Given<double>& points, const st
     Verdicts verdicts;
     verdicts.columns.resize(bound.sampler.columns().size());
     in_blocks(progress, "rows", points.rows(), [&](std::size_t first, std::size_t n) {
-        verdicts.add(take(verifier.verify({.points = points.part(first, n),
-                                           .cells = part(cells, first, n),
-                                           .inside = part(inside, first, n),
-                                           .values = part(values, first, n),
-                                           .first_row = first})),
-                     examples);
+        const ClaimedRows rows{.points = points.part(first, n),
+                               .cells = part(cells, first, n),
+                               .inside = part(inside, first, n),
+                               .values = part(values, first, n),
+                               .first_row = first};
+        verdicts.add(verifier.verify(rows).value(), examples);
     });
-    {
-        const py::gil_scoped_release unlocked;
-        check(verifier.measure(verdicts));
-    }
+    check(unlocked([&] { return verifier.measure(verdicts); }));
     return dict_of(verdicts, bound, verifier.ranges());
 }
 
 }  // namespace
-
-py::object report_object(CheckReport report) {
-    return py::cast(std::make_shared<BoundReport>(BoundReport{std::make_shared<Geometry>(), std::move(report)}));
-}
 
 void bind_check(py::module_& module) {
     using Bound = const BoundReport&;

@@ -17,13 +17,8 @@ using namespace pybind11::literals;
 std::shared_ptr<BoundSampler> made(std::shared_ptr<Geometry> geometry, std::shared_ptr<const Mesh> fields,
                                    const std::vector<FieldChoice>& choices, const Progress& progress) {
     const py::gil_scoped_release unlocked;
-    Sampler sampler = take(Sampler::build(geometry->locator(progress), choices));
+    Sampler sampler = Sampler::build(geometry->locator(progress), choices).value();
     return std::make_shared<BoundSampler>(BoundSampler{std::move(geometry), std::move(fields), std::move(sampler)});
-}
-
-template <class T>
-std::vector<T> copy_of(const Given<T>& array) {
-    return {array.all().begin(), array.all().end()};
 }
 
 /// points (n, 2 or 3), finite; cells (m, 3 or 4) and mid_nodes (m, 3 or 6) with indices of nodes; cell_numbers (m).
@@ -32,11 +27,11 @@ MeshObject make_mesh(const Given<double>& points, const Given<Mesh::Index>& cell
                      const Given<Mesh::Index>& cell_numbers) {
     Mesh mesh;
     mesh.dimension = static_cast<int>(points.columns());
-    mesh.points = copy_of(points);
-    mesh.cells = copy_of(cells);
-    mesh.mid_nodes = copy_of(mid_nodes);
+    mesh.points = points.copy();
+    mesh.cells = cells.copy();
+    mesh.mid_nodes = mid_nodes.copy();
     if (!mesh.mid_nodes.empty()) mesh.mid_edge_order = MidEdgeOrder::vtk;
-    mesh.cell_numbers = copy_of(cell_numbers);
+    mesh.cell_numbers = cell_numbers.copy();
     return MeshObject(std::move(mesh));
 }
 
@@ -61,7 +56,7 @@ py::list field_names(const MeshObject& mesh, bool of_cells) {
 }
 
 Field field_of(std::string name, const Given<double>& values) {
-    return {std::move(name), static_cast<int>(values.columns()), copy_of(values)};
+    return {std::move(name), static_cast<int>(values.columns()), values.copy()};
 }
 
 /// No values: takes the field out.
@@ -96,7 +91,8 @@ py::list notes_of(const MeshObject& mesh) {
 
 /// The figures of CurvedCells, and what to warn of: empty if no cell is curved.
 std::pair<py::dict, std::string> take_mesh_as_straight(const MeshObject& object, const std::string& file, bool refuse) {
-    const CurvedCells curved = take(take_as_straight(object.mesh(), file, refuse ? Curved::refuse : Curved::straight));
+    const CurvedCells curved =
+        take_as_straight(object.mesh(), file, refuse ? Curved::refuse : Curved::straight).value();
     return {py::dict("cells"_a = curved.cells, "max_deviation"_a = curved.max_deviation,
                      "rounded_cells"_a = curved.rounded_cells, "max_rounded"_a = curved.max_rounded),
             curved.cells == 0 ? std::string() : message(curved)};
@@ -104,7 +100,7 @@ std::pair<py::dict, std::string> take_mesh_as_straight(const MeshObject& object,
 
 MeshObject read(const std::string& path, std::optional<std::size_t> number, bool last, std::optional<double> time) {
     const py::gil_scoped_release unlocked;
-    return MeshObject(take(read_mesh(path, {.step = {.number = number, .time = time, .last = last}})));
+    return MeshObject(read_mesh(path, {.step = {.number = number, .time = time, .last = last}}).value());
 }
 
 void write(const MeshObject& object, const std::string& path, const std::string& comment, VtkData data) {
@@ -118,7 +114,7 @@ const Locator& Geometry::locator(const Progress& progress) {
     const std::lock_guard once(making_);
     if (!locator_) {
         const auto on_stage = [&](const char* stage) { tell(progress, stage, 0, 0); };
-        locator_ = take(Locator::build(mesh, {.prove = Prove::when_it_pays, .progress = on_stage}));
+        locator_ = Locator::build(mesh, {.prove = Prove::when_it_pays, .progress = on_stage}).value();
     }
     return *locator_;
 }
@@ -148,7 +144,7 @@ Mesh MeshObject::whole() const {
 std::shared_ptr<BoundSampler> MeshObject::sampler(const std::vector<std::string>& names, const Progress& progress) {
     if (last_ && last_names_ == names) return last_;
     const std::shared_ptr<const Mesh> fields = fields_;
-    std::shared_ptr<BoundSampler> sampler = made(geometry_, fields, take(choose_fields(*fields, names)), progress);
+    std::shared_ptr<BoundSampler> sampler = made(geometry_, fields, choose_fields(*fields, names).value(), progress);
     if (fields == fields_) {
         last_names_ = names;
         last_ = sampler;

@@ -32,7 +32,7 @@ py::tuple locate_all(const MeshObject& object, const Given<double>& points, int 
     std::vector<Mesh::Index> cells;
     begin.reserve(points.rows() + 1);
     in_blocks(progress, "points", points.rows(), [&](std::size_t first, std::size_t n) {
-        const Table rows = take(locator.locate_all(points.part(first, n), threads, nonfinite));
+        const Table rows = locator.locate_all(points.part(first, n), threads, nonfinite).value();
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t row = rows.point_begin[i]; row < rows.point_begin[i + 1]; ++row) {
                 if (rows.cells[row] >= 0) cells.push_back(rows.cells[row]);
@@ -65,12 +65,13 @@ py::tuple matrix(const MeshObject& object, const Given<double>& points, const Gi
     std::vector<Mesh::Index> nodes;
     std::vector<double> weights;
     in_blocks(progress, "weights", cells.rows(), [&](std::size_t first, std::size_t n) {
-        const NodeWeights part = take(node_weights(locator,
-                                                   {.dimension = object.mesh().dimension,
-                                                    .first_row = first,
-                                                    .points = points.part(first, n),
-                                                    .cells = cells.part(first, n)},
-                                                   {.kind = outside, .limit = limit}));
+        const NodeWeights part = node_weights(locator,
+                                              {.dimension = object.mesh().dimension,
+                                               .first_row = first,
+                                               .points = points.part(first, n),
+                                               .cells = cells.part(first, n)},
+                                              {.kind = outside, .limit = limit})
+                                     .value();
         for (std::size_t i = 1; i < part.begin.size(); ++i)
             begin.push_back(static_cast<std::int64_t>(nodes.size() + part.begin[i]));
         nodes.insert(nodes.end(), part.nodes.begin(), part.nodes.end());
@@ -90,7 +91,7 @@ py::tuple nearest(const MeshObject& object, const Given<double>& points, double 
             const std::span<const double> point = points.part(i, 1);
             const bool skipped = nonfinite == NonfinitePoints::nan &&
                                  !std::all_of(point.begin(), point.end(), [](double x) { return std::isfinite(x); });
-            const Nearest found = skipped ? Nearest{} : take(locator.nearest(point.data(), limit));
+            const Nearest found = skipped ? Nearest{} : locator.nearest(point.data(), limit).value();
             cells[i] = found.cell;
             distances[i] = found.cell < 0 ? std::numeric_limits<double>::quiet_NaN() : found.distance;
         }
@@ -137,7 +138,7 @@ py::array sample(const BoundSampler& bound, const Given<double>& points, const S
 /// Of that many axes; entries of others do not matter.
 Grid grid_of(int axes, const std::array<std::int64_t, 3>& counts, const std::array<double, 3>& low,
              const std::array<double, 3>& high) {
-    return take(grid_over(axes, counts, low, high));
+    return grid_over(axes, counts, low, high).value();
 }
 
 /// The coordinates along an axis.

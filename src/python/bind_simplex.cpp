@@ -13,17 +13,16 @@ void bind(py::module_& module, const char* name, Predicate predicate) {
         std::array<const char*, arguments> from{};
         std::array<py::ssize_t, arguments> stride{};
         for (std::size_t i = 0; i < arguments; ++i) {
-            from[i] = static_cast<const char*>(static_cast<const void*>(points[i].data()));
+            from[i] = reinterpret_cast<const char*>(points[i].data());
             stride[i] = points[i].strides(0);
         }
         std::vector<std::int8_t> out(static_cast<std::size_t>(points[0].shape(0)));
         in_blocks(Progress(), "cases", out.size(), [&](std::size_t first, std::size_t n) {
             for (std::size_t row = first; row < first + n; ++row) {
-                const auto sign = [&]<std::size_t... i>(std::index_sequence<i...>) {
-                    return predicate(
-                        reinterpret_cast<const double*>(from[i] + static_cast<py::ssize_t>(row) * stride[i])...);
-                }
-                (std::make_index_sequence<arguments>());
+                std::array<const double*, arguments> at{};
+                for (std::size_t i = 0; i < arguments; ++i)
+                    at[i] = reinterpret_cast<const double*>(from[i] + static_cast<py::ssize_t>(row) * stride[i]);
+                const Result<Sign> sign = std::apply(predicate, at);
                 if (!sign) {
                     Error error = sign.error();
                     error.what = "case " + std::to_string(row) + ": " + error.what;

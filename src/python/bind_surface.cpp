@@ -1,4 +1,3 @@
-#include <cmath>
 #include <limits>
 
 #include "barycert/check.hpp"
@@ -17,7 +16,7 @@ public:
     /// To be called without the lock.
     const SurfaceLocator& locator() {
         const std::lock_guard lock(making_);
-        if (!locator_) locator_.emplace(take(SurfaceLocator::build(surface_)));
+        if (!locator_) locator_ = SurfaceLocator::build(surface_).value();
         return *locator_;
     }
 
@@ -30,14 +29,14 @@ using Shared = std::shared_ptr<SurfaceObject>;
 
 Shared made(const Given<double>& points, const Given<Mesh::Index>& triangles) {
     Surface surface;
-    surface.points.assign(points.all().begin(), points.all().end());
-    surface.cells.assign(triangles.all().begin(), triangles.all().end());
+    surface.points = points.copy();
+    surface.cells = triangles.copy();
     return std::make_shared<SurfaceObject>(std::move(surface));
 }
 
 Shared read(const std::string& path) {
     const py::gil_scoped_release unlocked;
-    return std::make_shared<SurfaceObject>(take(read_surface(path)));
+    return std::make_shared<SurfaceObject>(read_surface(path).value());
 }
 
 py::dict fields_of(const std::vector<Field>& fields) {
@@ -48,81 +47,66 @@ py::dict fields_of(const std::vector<Field>& fields) {
     return all;
 }
 
-py::object check_of(const SurfaceObject& object, std::size_t examples, std::size_t contacts, bool verdict_only,
-                    double near, int threads, const Progress& progress) {
+std::shared_ptr<BoundReport> check_of(const SurfaceObject& object, std::size_t examples, std::size_t contacts,
+                                      bool verdict_only, double near, int threads, const Progress& progress) {
     const CheckOptions options{.threads = threads,
                                .examples = examples,
                                .contacts = contacts,
                                .near = near,
                                .verdict_only = verdict_only,
                                .progress = [&](const char* stage) { tell(progress, stage, 0, 0); }};
-    CheckReport report;
-    {
-        const py::gil_scoped_release unlocked;
-        report = check_surface(object.surface(), options);
+    const py::gil_scoped_release unlocked;
+    return std::make_shared<BoundReport>(
+        BoundReport{std::make_shared<Geometry>(), check_surface(object.surface(), options)});
+}
+
+/// A member of each item, that many numbers as it has: (items), or (items, numbers).
+template <class Number, class Item, class Owner, class T>
+py::array member_of(const std::vector<Item>& items, T Owner::*member) {
+    Shape shape{items.size()}, strides{sizeof(Item)};
+    if (sizeof(T) > sizeof(Number)) {
+        shape.push_back(sizeof(T) / sizeof(Number));
+        strides.push_back(sizeof(Number));
     }
-    return report_object(std::move(report));
+    return {py::dtype::of<Number>(), shape, strides, items.empty() ? nullptr : &(items.front().*member)};
 }
 
 /// triangle, feature, winding: one a point.
 py::tuple locate(SurfaceObject& object, const Given<double>& points, int threads) {
     std::vector<SurfaceLocation> found(points.rows());
-    std::vector<Mesh::Index> triangles(found.size());
-    std::vector<Feature> features(found.size());
-    std::vector<std::int32_t> windings(found.size());
-    {
-        const py::gil_scoped_release unlocked;
-        check(object.locator().locate(points.all(), found, threads));
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            triangles[i] = found[i].triangle;
-            features[i] = found[i].feature;
-            windings[i] = found[i].winding;
-        }
-    }
-    return py::make_tuple(owned(std::move(triangles)), owned(std::move(features)), owned(std::move(windings)));
+    check(unlocked([&] { return object.locator().locate(points.all(), found, threads); }));
+    return py::make_tuple(member_of<Mesh::Index>(found, &SurfaceLocation::triangle),
+                          member_of<std::uint8_t>(found, &SurfaceLocation::feature),
+                          member_of<std::int32_t>(found, &SurfaceLocation::winding));
 }
 
 /// triangle, distance, point, nodes, weights: one a point; and the values of fields there.
 py::tuple nearest(SurfaceObject& object, const Given<double>& points, double limit,
                   const std::vector<std::pair<Given<double>, bool>>& fields, int threads) {
     std::vector<SurfaceNearest> found(points.rows());
-    std::vector<Mesh::Index> triangles(found.size()), nodes(3 * found.size());
-    std::vector<double> distances(found.size()), at(3 * found.size()), weights(3 * found.size());
-    std::vector<Field> given;
-    given.reserve(fields.size());
-    for (const auto& [values, of_cells] : fields)
-        given.push_back({"", static_cast<int>(values.columns()), {values.all().begin(), values.all().end()}});
-    std::vector<std::vector<double>> values(given.size());
-    {
-        const py::gil_scoped_release unlocked;
-        check(object.locator().nearest(points.all(), limit, found, threads));
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            triangles[i] = found[i].cell;
-            distances[i] = found[i].cell < 0 ? std::numeric_limits<double>::quiet_NaN() : found[i].distance;
-            for (std::size_t k = 0; k < 3; ++k) {
-                nodes[3 * i + k] = found[i].nodes[k];
-                weights[3 * i + k] = found[i].weights[k];
-                at[3 * i + k] = found[i].cell < 0 ? std::numeric_limits<double>::quiet_NaN() : found[i].point[k];
-            }
-        }
-        for (std::size_t f = 0; f < given.size(); ++f) {
-            values[f].resize(found.size() * static_cast<std::size_t>(given[f].components));
-            check(object.locator().values(given[f], fields[f].second, points.all(), found, values[f], threads));
-        }
-    }
+    check(unlocked([&] { return object.locator().nearest(points.all(), limit, found, threads); }));
     py::list arrays;
-    for (std::size_t f = 0; f < given.size(); ++f)
-        arrays.append(owned(std::move(values[f]), static_cast<std::size_t>(given[f].components)));
-    return py::make_tuple(owned(std::move(triangles)), owned(std::move(distances)), owned(std::move(at), 3),
-                          owned(std::move(nodes), 3), owned(std::move(weights), 3), arrays);
+    for (const std::pair<Given<double>, bool>& given : fields) {
+        const std::size_t columns = given.first.columns();
+        const Field field{"", static_cast<int>(columns), given.first.copy()};
+        std::vector<double> out(found.size() * columns);
+        check(
+            unlocked([&] { return object.locator().values(field, given.second, points.all(), found, out, threads); }));
+        arrays.append(owned(std::move(out), columns));
+    }
+    for (SurfaceNearest& one : found) {
+        if (one.cell >= 0) continue;
+        one.distance = std::numeric_limits<double>::quiet_NaN();
+        one.point.fill(one.distance);
+    }
+    return py::make_tuple(
+        member_of<Mesh::Index>(found, &SurfaceNearest::cell), member_of<double>(found, &SurfaceNearest::distance),
+        member_of<double>(found, &SurfaceNearest::point), member_of<Mesh::Index>(found, &SurfaceNearest::nodes),
+        member_of<double>(found, &SurfaceNearest::weights), arrays);
 }
 
 py::list hits(SurfaceObject& object, const Given<double>& ends, bool ray) {
-    std::vector<SurfaceHit> found;
-    {
-        const py::gil_scoped_release unlocked;
-        found = take(object.locator().hits(ends.data(), ends.data() + 3, ray));
-    }
+    const auto found = unlocked([&] { return object.locator().hits(ends.data(), ends.data() + 3, ray).value(); });
     return list_of(
         found, [](const SurfaceHit& h) { return py::make_tuple(h.triangle, name(h.feature), h.parameter, h.side); });
 }

@@ -36,19 +36,9 @@ void bind_points(py::module_& module);
 void bind_check(py::module_& module);
 void bind_simplex(py::module_& module);
 void bind_surface(py::module_& module);
-
-/// A report of a surface as Python has it.
-py::object report_object(CheckReport report);
 void bind_audit(py::module_& module);
 
-// Errors: what is thrown as Exception becomes barycert.Error.
-
-/// The value, or the Error thrown.
-template <class T>
-T take(Result<T> result) {
-    return std::move(result).value();
-}
-
+/// Errors are thrown as Exception, as by Result::value(), and become barycert.Error.
 inline void check(const Status& status) {
     if (!status) throw Exception(status.error());
 }
@@ -105,6 +95,7 @@ struct Given : Array<T> {
     std::size_t rows() const { return static_cast<std::size_t>(this->shape(0)); }
     std::size_t columns() const { return this->ndim() < 2 ? 1 : static_cast<std::size_t>(this->shape(1)); }
     std::span<const T> all() const { return {this->data(), static_cast<std::size_t>(this->size())}; }
+    std::vector<T> copy() const { return {all().begin(), all().end()}; }
     /// Rows [first, first + n).
     std::span<const T> part(std::size_t first, std::size_t n) const {
         return all().subspan(columns() * first, columns() * n);
@@ -173,6 +164,13 @@ inline void tell(const Progress& progress, std::string_view stage, std::size_t d
     if (progress) (*progress)(py::str(stage.data(), stage.size()), done, total);
 }
 
+/// What work() returns.
+template <class Work>
+auto unlocked(const Work& work) {
+    const py::gil_scoped_release released;
+    return work();
+}
+
 /// All begins with few.
 constexpr std::size_t few = 4096;
 
@@ -215,6 +213,12 @@ struct Geometry {
 private:
     std::mutex making_;
     std::optional<Locator> locator_;
+};
+
+/// A report with the mesh that it is of, which is empty if it is of a surface.
+struct BoundReport {
+    std::shared_ptr<Geometry> geometry;
+    CheckReport report;
 };
 
 /// A sampler with all that it refers to.

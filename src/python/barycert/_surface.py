@@ -85,6 +85,7 @@ class Surface:
 
     points: np.ndarray = forwarded("_core.points", "(n, 3).")
     triangles: np.ndarray = forwarded("_core.triangles", "(m, 3).")
+    cells: np.ndarray = forwarded("_core.triangles", "The triangles, as a mesh has its cells.")
     notes: List[str] = forwarded("_core.notes", "What the reader left out, converted or guessed.")
     turned: str = forwarded("_core.turned", """What tells the sides apart: "alike": each edge has as many triangles one way as
         the other; "even": an even number of triangles; "open": neither, there is no inside.""")  # fmt: skip
@@ -153,7 +154,7 @@ class Surface:
                 _core.fail("the name of a field", expected=", ".join([*self.point_data, *self.cell_data]) or "none", found=name)
             count = len(self.triangles if of_cells else self.points)
             values, one = values_of(self.cell_data[name] if of_cells else self.point_data[name], count, f"values of {name}")
-            given.append((values.reshape(count, -1), of_cells))
+            given.append((values, of_cells))
             shapes.append(one)
         arrays = self._core.nearest(rows, float(limit), given, count_of(threads, "threads="))[5]
         found = {name: array.reshape(shape + one) for name, array, one in zip(names, arrays, shapes)}
@@ -170,10 +171,6 @@ class Surface:
 
     def __len__(self) -> int:
         return len(self.triangles)
-
-    @property
-    def cells(self) -> np.ndarray:
-        return self.triangles
 
     def __repr__(self) -> str:
         return f"<barycert.Surface: {len(self.points)} points, {len(self.triangles)} triangles>"

@@ -14,6 +14,9 @@ sys.path = [p for p in sys.path if p]
 import json, os, resource, signal, threading
 from xml.sax.saxutils import quoteattr
 
+# Threads of linear algebra would each reserve memory; lines of messages are not to be broken.
+os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", COLUMNS="1000", NO_COLOR="1")
+
 def ends_with_parent():
     os.read(0, 1)
     os.killpg(0, signal.SIGKILL)

@@ -11,19 +11,14 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/descriptor.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/converted/meshio_script.hpp"
 
 extern char** environ;
@@ -72,15 +67,7 @@ struct Process {
         std::vector<char*> words{const_cast<char*>(python.c_str())};
         for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
         words.push_back(nullptr);
-        // Threads of linear algebra would each reserve memory; lines of messages are not to be broken.
-        std::vector<std::string> own{"OPENBLAS_NUM_THREADS=1", "OMP_NUM_THREADS=1", "COLUMNS=1000", "NO_COLOR=1"};
-        std::vector<char*> variables;
-        variables.reserve(own.size() + 1);
-        for (std::string& variable : own) variables.push_back(variable.data());
-        for (char** variable = environ; *variable != nullptr; ++variable) variables.push_back(*variable);
-        variables.push_back(nullptr);
-        if (failure == 0)
-            failure = ::posix_spawnp(&id, python.c_str(), &files, &attributes, words.data(), variables.data());
+        if (failure == 0) failure = ::posix_spawnp(&id, python.c_str(), &files, &attributes, words.data(), environ);
         if (failure != 0) id = -1;
         posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&files);
@@ -263,10 +250,9 @@ void tell_messages(const std::string& messages, const std::string& path, Notes& 
             notes.push_back({Note::Kind::left_out, "more messages of meshio", path, true});
             return;
         }
-        notes.push_back(
-            {Note::Kind::converted,
-             "meshio says: " + base::printable(line.substr(0, longest)) + (line.size() > longest ? "..." : ""), path,
-             true});
+        std::string said = "meshio says: " + base::printable(line.substr(0, longest));
+        if (line.size() > longest) said += "...";
+        notes.push_back({Note::Kind::converted, said, path, true});
     }
 }
 

@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <optional>
-#include <string_view>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
@@ -27,7 +24,7 @@ std::vector<std::size_t> columns_of_field(const std::vector<std::string>& names,
 
 /// Which fields of a line are the components.
 struct FieldLayout {
-    CsvLayout lines;                   ///< no coordinates: role first_kept + c for the component c
+    CsvLayout lines;                   ///< all passed over
     std::vector<std::size_t> columns;  ///< of each component
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/parallel.hpp"
@@ -277,6 +276,7 @@ void MeditFile::list_binary() {
 MeditRows MeditFile::text_rows(const MeditSection& section, std::size_t reals, std::size_t integers) const {
     MeditRows rows{reals, integers, {}, {}};
     const std::size_t width = reals + integers;
+    const std::string wanted = std::to_string(section.count) + " rows of " + std::to_string(width) + " numbers";
     std::string_view text = section.body;
     // Rows of both are read as real numbers.
     std::vector<double> numbers;
@@ -284,16 +284,12 @@ MeditRows MeditFile::text_rows(const MeditSection& section, std::size_t reals, s
                                                          integers != 0 ? numbers : rows.reals)
                                          : io::read_text(text, NumberType::int64, section.count * width, rows.integers);
     if (fault.kind == NumberFault::Kind::too_few)
-        refuse(text.data(), "the end of " + section.name,
-               std::to_string(section.count) + " rows of " + std::to_string(width) + " numbers",
-               std::to_string(fault.index) + " numbers", cut_short);
+        refuse(text.data(), "the end of " + section.name, wanted, std::to_string(fault.index) + " numbers", cut_short);
     if (fault)
         refuse_in(section, rows, fault.index / width, fault.index % width,
                   fault.index % width < reals ? "a number" : "an integer", base::quoted(fault.text));
     if (const char* const at = text.data(); !next_word(text).empty())
-        refuse(at, "more numbers in " + section.name,
-               std::to_string(section.count) + " rows of " + std::to_string(width) + " numbers", "more",
-               "mend the count, or the dimension");
+        refuse(at, "more numbers in " + section.name, wanted, "more", "mend the count, or the dimension");
     if (integers == 0 || reals == 0) return rows;
     make_rows(section.count, rows);
     for (std::size_t i = 0; i < numbers.size(); ++i) {

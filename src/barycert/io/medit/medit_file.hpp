@@ -14,11 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "barycert/base/input_file.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
@@ -242,10 +240,7 @@ private:
         for (const char* suffix : {".sol", ".solb"}) {
             const std::string path = std::filesystem::path(file_.path()).replace_extension(suffix).string();
             if (exists(path))
-                note(Note::Kind::left_out, std::string("the fields of ")
-                                               .append(path)
-                                               .append(", unless it is named: --field NAME=")
-                                               .append(path));
+                note(Note::Kind::left_out, "the fields of " + path + ", unless it is named: --field NAME=" + path);
         }
     }
 

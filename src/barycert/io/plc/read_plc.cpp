@@ -1,16 +1,8 @@
 // PLCs from their files; TetGen's .poly and .smesh, with their nodes inside or in STEM.node.
 #include <algorithm>
 #include <filesystem>
-#include <string>
-#include <string_view>
-#include <system_error>
-#include <utility>
-#include <vector>
 
-#include "barycert/base/input_file.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/plc/plc_text.hpp"
 #include "barycert/io/polygons/polygons.hpp"
 
 namespace barycert::io {
@@ -19,15 +11,6 @@ namespace {
 /// STEM.node, where the nodes of STEM.poly and STEM.smesh may be.
 std::string node_path_of(const std::string& path) {
     return std::filesystem::path(path).replace_extension(".node").string();
-}
-
-bool read_nodes(PlcText& in, Plc& plc);
-
-std::string read_text(const std::string& path) {
-    return read_surface_text(path, [](PlcText& in) {
-        Plc ignored;
-        read_nodes(in, ignored);
-    });
 }
 
 /// Appends nodes: their header and then their rows. False: the header tells that they stand in a file of their own.
@@ -43,7 +26,7 @@ bool read_nodes(PlcText& in, Plc& plc) {
     const int markers = in.words_left() > 0 ? in.take_integer("the number of markers") : 0;
     if (markers != 0 && markers != 1) in.fail("cannot read", "0 or 1 markers", std::to_string(markers));
     for (std::size_t i = 0; i < nodes; ++i) {
-        in.need_line("node " + std::to_string(i + 1) + " of " + std::to_string(nodes));
+        in.need_line("node", i + 1, nodes);
         const std::int32_t id = in.take_integer("a node's number");
         if (i == 0) {
             if (id != 0 && id != 1) in.fail("cannot read", "numbering from 0 or 1", std::to_string(id));
@@ -61,6 +44,13 @@ bool read_nodes(PlcText& in, Plc& plc) {
                     "state attributes and markers in the header");
     }
     return nodes > 0;
+}
+
+std::string read_text(const std::string& path) {
+    return read_surface_text(path, [](PlcText& in) {
+        Plc ignored;
+        read_nodes(in, ignored);
+    });
 }
 
 /// A ring of nodes; it may run over several lines.
@@ -128,11 +118,13 @@ Plc plc_of(Polygons polygons) {
     return plc;
 }
 
-Plc read_poly(PlcText& in, bool one_polygon_a_facet) {
+Plc read_poly(const std::string& path, bool one_polygon_a_facet) {
+    const std::string text = read_text(path);
+    PlcText in(path, text, text.size());
     Plc plc;
     if (!read_nodes(in, plc)) {
-        const std::string path = node_path_of(in.path()), text = read_text(path);
-        PlcText nodes(path, text, text.size());
+        const std::string node_path = node_path_of(path), node_text = read_text(node_path);
+        PlcText nodes(node_path, node_text, node_text.size());
         read_nodes(nodes, plc);
         plc.nodes_apart = true;
     }
@@ -166,11 +158,8 @@ Result<Plc> read_plc(const std::string& path) {
         return file_error(path, "unknown kind of PLC", "one of .poly .smesh .off .stl .ply .obj",
                           extension.empty() ? "no extension" : extension);
     try {
-        const bool polygons = extension != ".poly" && extension != ".smesh";
-        const std::string text =
-            polygons ? read_surface_text(path, [](PlcText& in) { read_polygons(in); }) : read_text(path);
-        PlcText in(path, text, text.size());
-        Plc plc = polygons ? plc_of(read_polygons(in)) : read_poly(in, extension == ".smesh");
+        const bool smesh = extension == ".smesh";
+        Plc plc = smesh || extension == ".poly" ? read_poly(path, smesh) : plc_of(read_polygons(path));
         if (plc.facets.empty()) return file_error(path, "nothing to mesh: the PLC has no facets");
         if (plc.point_count() < 4) return file_error(path, "nothing to mesh: a PLC needs four nodes");
         return plc;

@@ -97,14 +97,13 @@ SliceCounts count(const Slice& s) {
 Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     const ExactEnvironment environment;
     if (Status good = check(path, s); !good) return good;
-    const double wide = s.aspect > 1 ? std::round(static_cast<double>(s.width) * s.aspect) : 0;
-    const double tall = s.aspect < 1 ? std::round(static_cast<double>(s.height) / s.aspect) : 0;
-    const auto limit = static_cast<double>(longest_png_side);
-    if (wide > limit || tall > limit)
+    const double stretch = std::max(s.aspect, 1.0), squeeze = std::min(s.aspect, 1.0);
+    const double wide = std::round(static_cast<double>(s.width) * stretch);
+    const double tall = std::round(static_cast<double>(s.height) / squeeze);
+    if (std::max(wide, tall) > static_cast<double>(longest_png_side))
         return too_long(path, "a slice of that aspect cannot be a picture", base::shortest(std::max(wide, tall)),
                         "choose spacings that differ less");
-    const std::size_t columns = wide != 0 ? static_cast<std::size_t>(wide) : s.width;
-    const std::size_t lines = tall != 0 ? static_cast<std::size_t>(tall) : s.height;
+    const auto columns = static_cast<std::size_t>(wide), lines = static_cast<std::size_t>(tall);
 
     const SliceCounts told = count(s);
     const Scale scale{told.low, told.high};
@@ -115,8 +114,7 @@ Status write_png(const std::string& path, const Slice& s, SliceCounts* counts) {
     if (width > longest_png_side)
         return too_long(path, "there is no room for the colour bar", std::to_string(width),
                         "leave out the bar, or choose fewer points");
-    const double column_length = wide != 0 ? s.pixel_length / s.aspect : s.pixel_length;
-    const Caption caption(s.title, column_length, columns, width, bar.scale());
+    const Caption caption(s.title, s.pixel_length / stretch, columns, width, bar.scale());
     if (height + caption.height() > longest_png_side)
         return too_long(path, "there is no room for the caption", std::to_string(height + caption.height()),
                         "leave it out, or choose fewer points");

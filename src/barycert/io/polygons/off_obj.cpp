@@ -1,14 +1,9 @@
 #include <algorithm>
-#include <string>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
 
 namespace barycert::io {
-
-void Polygons::settle() {
-    if (std::ranges::all_of(counts, [](std::uint32_t n) { return n == 3; })) counts.clear();
-}
 
 void check_corners(PlcText& in, Polygons& all) {
     if (all.corners.empty()) return;
@@ -30,12 +25,12 @@ Polygons read_off(PlcText& in) {
     if (in.words_left() == 0) in.need_line("the counts of nodes and polygons");
     const std::size_t nodes = in.take_count("the number of nodes"), polygons = in.take_count("the number of polygons");
     for (std::size_t i = 0; i < nodes; ++i) {
-        in.need_line([&] { return "node " + std::to_string(i) + " of " + std::to_string(nodes); });
+        in.need_line("node", i, nodes);
         for (int axis = 0; axis < 3; ++axis) all.points.push_back(in.take_number("a coordinate"));
         if (in.words_left() > 0) in.fail("cannot read", "three coordinates", in.line());
     }
     for (std::size_t i = 0; i < polygons; ++i) {
-        in.need_line([&] { return "polygon " + std::to_string(i) + " of " + std::to_string(polygons); });
+        in.need_line("polygon", i, polygons);
         const std::size_t n = in.take_count("the number of a polygon's corners");
         if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
         for (std::size_t k = 0; k < n; ++k) {
@@ -43,7 +38,7 @@ Polygons read_off(PlcText& in) {
             if (const Mesh::Index corner = all.corners.back(); corner < 0 || static_cast<std::size_t>(corner) > nodes)
                 in.fail("no such node", "0 to " + std::to_string(nodes - 1), std::to_string(corner));
         }
-        all.end_polygon(n);
+        all.counts.push_back(static_cast<std::uint32_t>(n));
     }
     if (in.next_line()) in.fail("more lines than the header announces", "the end of the file", in.line());
     check_corners(in, all);
@@ -71,7 +66,7 @@ Polygons read_obj(PlcText& in) {
                     in.fail("no such node", "1 to " + std::to_string(count), std::to_string(id));
                 all.corners.push_back(static_cast<Mesh::Index>(at));
             }
-            all.end_polygon(n);
+            all.counts.push_back(static_cast<std::uint32_t>(n));
         } else if (std::ranges::find(others, key) == others.end()) {
             others.emplace_back(key);
         }
@@ -84,12 +79,17 @@ Polygons read_obj(PlcText& in) {
     return all;
 }
 
-Polygons read_polygons(PlcText& in) {
-    Polygons all = has_suffix(in.path(), ".off")   ? read_off(in)
-                   : has_suffix(in.path(), ".obj") ? read_obj(in)
-                   : has_suffix(in.path(), ".stl") ? read_stl(in)
-                                                   : read_ply(in);
-    all.settle();
+Polygons read_polygons(const std::string& path) {
+    const auto read = [&](PlcText& in) {
+        return has_suffix(path, ".off")   ? read_off(in)
+               : has_suffix(path, ".obj") ? read_obj(in)
+               : has_suffix(path, ".stl") ? read_stl(in)
+                                          : read_ply(in);
+    };
+    const std::string text = read_surface_text(path, read);
+    PlcText in(path, text, text.size());
+    Polygons all = read(in);
+    if (std::ranges::all_of(all.counts, [](std::uint32_t n) { return n == 3; })) all.counts.clear();
     return all;
 }
 

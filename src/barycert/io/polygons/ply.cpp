@@ -3,9 +3,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <optional>
-#include <string>
-#include <utility>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
@@ -33,26 +30,15 @@ struct Header {
 };
 
 NumberType take_type(PlcText& in) {
-    constexpr std::array<std::pair<std::string_view, NumberType>, 16> types{{{"char", NumberType::int8},
-                                                                             {"int8", NumberType::int8},
-                                                                             {"uchar", NumberType::uint8},
-                                                                             {"uint8", NumberType::uint8},
-                                                                             {"short", NumberType::int16},
-                                                                             {"int16", NumberType::int16},
-                                                                             {"ushort", NumberType::uint16},
-                                                                             {"uint16", NumberType::uint16},
-                                                                             {"int", NumberType::int32},
-                                                                             {"int32", NumberType::int32},
-                                                                             {"uint", NumberType::uint32},
-                                                                             {"uint32", NumberType::uint32},
-                                                                             {"float", NumberType::float32},
-                                                                             {"float32", NumberType::float32},
-                                                                             {"double", NumberType::float64},
-                                                                             {"float64", NumberType::float64}}};
+    // Of each NumberType; PLY has none of 64 bits but double.
+    constexpr std::array<std::string_view, 11> types{
+        "", "char int8", "uchar uint8",   "short int16",   "ushort uint16", "int int32", "uint uint32",
+        "", "",          "float float32", "double float64"};
     const std::string_view name = in.take("a type");
-    const auto* const found = std::ranges::find(types, name, &std::pair<std::string_view, NumberType>::first);
+    const auto is_it = [&](std::string_view names) { return has_word(names, name); };
+    const auto* const found = std::ranges::find_if(types, is_it);
     if (found == types.end()) in.fail("cannot read", "a type of numbers, such as float", name);
-    return found->second;
+    return static_cast<NumberType>(found - types.begin());
 }
 
 Header read_header(PlcText& in) {
@@ -97,35 +83,17 @@ public:
     }
 
     void begin(const Element& element, std::size_t i) {
-        if (form_ == Header::Form::text)
-            in_.need_line(
-                [&] { return element.name + " " + std::to_string(i) + " of " + std::to_string(element.count); });
+        if (form_ == Header::Form::text) in_.need_line(element.name, i, element.count);
     }
     double take(NumberType type, std::string_view what) {
-        if (form_ == Header::Form::text) return in_.take_any_number(what);
-        const std::size_t size = number_bytes(type);
-        if (bytes_.size() < size) in_.fail("the file is truncated", what, "the end of the file");
-        const char* const at = bytes_.data();
-        bytes_.remove_prefix(size);
+        if (form_ == Header::Form::text) return in_.take_number(what, false);
         const bool swap = (form_ == Header::Form::big) != (std::endian::native == std::endian::big);
-        switch (type) {
-            case NumberType::int8:
-                return static_cast<double>(number_at<std::int8_t>(at, swap));
-            case NumberType::uint8:
-                return static_cast<double>(number_at<std::uint8_t>(at, swap));
-            case NumberType::int16:
-                return static_cast<double>(number_at<std::int16_t>(at, swap));
-            case NumberType::uint16:
-                return static_cast<double>(number_at<std::uint16_t>(at, swap));
-            case NumberType::int32:
-                return static_cast<double>(number_at<std::int32_t>(at, swap));
-            case NumberType::uint32:
-                return static_cast<double>(number_at<std::uint32_t>(at, swap));
-            case NumberType::float32:
-                return static_cast<double>(number_at<float>(at, swap));
-            default:
-                return number_at<double>(at, swap);
-        }
+        return with_number_type(type, [&]<class T>() {
+            if (bytes_.size() < sizeof(T)) in_.fail("the file is truncated", what, "the end of the file");
+            const char* const at = bytes_.data();
+            bytes_.remove_prefix(sizeof(T));
+            return static_cast<double>(number_at<T>(at, swap));
+        });
     }
     /// The corners of a list, or how many numbers it has.
     std::size_t take_list(const Property& list, std::vector<Mesh::Index>* corners) {
@@ -151,33 +119,23 @@ private:
 
 /// Vertices: coordinates, and other properties as fields.
 void read_vertices(PlcText& in, Numbers& numbers, const Element& element, Polygons& all) {
-    std::vector<std::pair<std::size_t, std::size_t>> to;  // an axis and 0, or 3 and a field
-    std::array<bool, 3> found{};
+    std::vector<std::size_t> to;  // the axis; 3 and on: the fields
     for (const Property& property : element.properties) {
         if (property.count) in.fail("cannot read a list at a vertex", "numbers", property.name);
         const std::size_t axis = property.name.size() == 1 ? std::string_view("xyz").find(property.name[0]) : 3;
-        if (axis < 3) {
-            found[axis] = true;
-            to.emplace_back(axis, 0);
-            continue;
-        }
-        to.emplace_back(3, all.point_fields.size());
-        all.point_fields.push_back({property.name, 1, {}});
+        to.push_back(axis < 3 ? axis : 3 + all.point_fields.size());
+        if (axis >= 3) all.point_fields.push_back({property.name, 1, {}});
     }
-    if (!found[0] || !found[1] || !found[2]) in.fail("cannot read", "properties x, y and z");
+    const auto has = [&](std::size_t axis) { return std::ranges::count(to, axis) != 0; };
+    if (!has(0) || !has(1) || !has(2)) in.fail("cannot read", "properties x, y and z");
     for (std::size_t i = 0; i < element.count; ++i) {
         numbers.begin(element, i);
         std::array<double, 3> at{};
         for (std::size_t k = 0; k < to.size(); ++k) {
             const double x = numbers.take(element.properties[k].type, "a property of a node");
-            if (to[k].first < 3) {
-                at[to[k].first] = x;
-            } else {
-                all.point_fields[to[k].second].data.push_back(x);
-            }
+            (to[k] < 3 ? at[to[k]] : all.point_fields[to[k] - 3].data.emplace_back()) = x;
         }
-        if (!std::isfinite(at[0] + at[1] + at[2]) &&
-            !std::ranges::all_of(at, [](double x) { return std::isfinite(x); }))
+        if (!std::ranges::all_of(at, [](double x) { return std::isfinite(x); }))
             in.fail("a coordinate of node " + std::to_string(i) + " is not finite");
         all.points.insert(all.points.end(), at.begin(), at.end());
     }
@@ -206,7 +164,7 @@ void read_faces(PlcText& in, Numbers& numbers, const Element& element, Polygons&
             const std::size_t n = numbers.take_list(property, is_corners(property) ? &all.corners : nullptr);
             if (!is_corners(property)) continue;
             if (n < 3) in.fail("cannot read", "a polygon of three or more corners", std::to_string(n));
-            all.end_polygon(n);
+            all.counts.push_back(static_cast<std::uint32_t>(n));
         }
     }
 }

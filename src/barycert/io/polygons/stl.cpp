@@ -2,8 +2,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <string>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
@@ -66,11 +64,9 @@ T little_endian(std::string_view bytes, std::size_t at) {
 bool is_binary(std::string_view bytes, std::size_t size, const std::string& path) {
     if (bytes.starts_with("solid") && bytes.find('\0') == std::string_view::npos) return false;
     const std::size_t count = bytes.size() < header_bytes ? 0 : little_endian<std::uint32_t>(bytes, 80);
-    if (size >= header_bytes && (size - header_bytes) / record_bytes == count &&
-        (size - header_bytes) % record_bytes == 0)
-        return true;
-    refuse_file(path, "neither a text nor a whole binary .stl",
-                "`solid`, or " + std::to_string(header_bytes + record_bytes * count) + " bytes",
+    const std::size_t whole = header_bytes + record_bytes * count;
+    if (size == whole) return true;
+    refuse_file(path, "neither a text nor a whole binary .stl", "`solid`, or " + std::to_string(whole) + " bytes",
                 std::to_string(size) + " bytes");
 }
 

@@ -1,8 +1,6 @@
 #include "barycert/io/polygons/triangles.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <numeric>
 #include <utility>
 
 namespace barycert::io {
@@ -147,9 +145,7 @@ Result<std::variant<Mesh, Surface>> read_mesh_or_surface(const std::string& path
         return Either(io::surface_of(*plc, path));
     }
     return io::read_guarded(path, [&]() -> Result<Either> {
-        const std::string text = io::read_surface_text(path, [](io::PlcText& in) { io::read_polygons(in); });
-        io::PlcText in(path, text, text.size());
-        Surface surface = io::surface_of(io::read_polygons(in), path);
+        Surface surface = io::surface_of(io::read_polygons(path), path);
         if (surface.cells.empty()) return file_error(path, "the surface has no triangles");
         return Either(std::move(surface));
     });

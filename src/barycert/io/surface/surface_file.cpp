@@ -1,11 +1,7 @@
 #include <algorithm>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <set>
-#include <string>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"

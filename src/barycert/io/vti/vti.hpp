@@ -13,8 +13,6 @@
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/spool.hpp"
 #include "barycert/io/vtk/out_file.hpp"
-#include "barycert/result.hpp"
-#include "barycert/table.hpp"
 
 namespace barycert::io {
 

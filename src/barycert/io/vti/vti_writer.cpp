@@ -1,5 +1,4 @@
 #include <cmath>
-#include <string_view>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"

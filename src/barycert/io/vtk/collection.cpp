@@ -7,7 +7,6 @@
 #include <set>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
@@ -225,9 +224,8 @@ std::vector<std::string> vtk_mesh_files(const std::string& path) {
     std::set<std::string> known{path};
     for (std::size_t i = 0; i < all.size(); ++i) {
         const auto add_named = [&, file = all[i]] {
-            const std::optional<io::Collection> named = io::open_vtk(file).collection;
-            if (!named) return;
-            for (const io::CollectionFile& one : named->files) {
+            const io::Collection named = io::open_vtk(file).collection.value_or(io::Collection());
+            for (const io::CollectionFile& one : named.files) {
                 if (known.insert(one.path).second) all.push_back(one.path);
             }
         };

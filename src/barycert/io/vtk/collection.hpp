@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "barycert/base/input_file.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/vtk/xml.hpp"
 
 namespace barycert::io {

@@ -1,9 +1,7 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
@@ -84,10 +82,8 @@ void cut_polygons(RawGrid& grid, const std::string& path, InSpace& space) {
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
         const std::uint8_t type = grid.types[cell];
-        const auto nodes =
-            std::span(grid.cells.connectivity)
-                .subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(grid.cells.ends[cell] - begin));
-        begin = grid.cells.ends[cell];
+        const std::int32_t* const all = grid.cells.connectivity.data();
+        const std::span nodes(all + std::exchange(begin, grid.cells.ends[cell]), all + grid.cells.ends[cell]);
         if (cell_types()[type].kind == CellKind::lower) continue;
         std::vector<std::vector<Mesh::Index>> rings;
         add_rings(type == vtk_triangle || curved(type) ? std::uint8_t{vtk_triangle} : type, nodes, rings);
@@ -115,14 +111,13 @@ void cut_polygons(RawGrid& grid, const std::string& path, InSpace& space) {
     grid.types = std::move(types);
     for (RawArray& array : grid.cell_arrays) {
         if (!array.fault.empty()) continue;
-        const auto width = static_cast<std::size_t>(array.components);
+        const std::ptrdiff_t width = array.components;
         std::visit(
             [&](auto& values) {
                 std::remove_reference_t<decltype(values)> all;
                 for (const std::int32_t row : rows) {
-                    const auto first =
-                        values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row) * width);
-                    all.insert(all.end(), first, first + array.components);
+                    const auto first = values.begin() + row * width;
+                    all.insert(all.end(), first, first + width);
                 }
                 values = std::move(all);
             },
@@ -252,10 +247,8 @@ void make_field(RawArray& array) {
 std::vector<double> to_points(std::vector<double> points, int dimension, const std::string& path,
                               const std::string& triangles, const std::string& one, InSpace* space) {
     const auto refuse = [&](std::size_t number, const char* expected, const std::string& remedy) {
-        constexpr std::array<const char*, 3> names{"x", "y", "z"};
-        refuse_file(path,
-                    std::string(names[number % 3]) + " of " + one + " " + std::to_string(number / 3) + " (from 0)",
-                    expected, base::shortest(points[number]), remedy);
+        const std::string of = " of " + one + " " + std::to_string(number / 3) + " (from 0)";
+        refuse_file(path, "xyz"[number % 3] + of, expected, base::shortest(points[number]), remedy);
     };
     if (!base::all_finite(points)) refuse(base::first_not_finite(points), "a finite number", "correct the point");
     if (dimension == 3) return points;

@@ -1,11 +1,5 @@
 // VTK's legacy files.
-#include <algorithm>
 #include <array>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "barycert/io/vtk/legacy_text.hpp"
 

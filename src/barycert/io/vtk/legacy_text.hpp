@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 

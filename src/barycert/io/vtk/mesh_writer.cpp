@@ -6,7 +6,6 @@
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/consistency.hpp"

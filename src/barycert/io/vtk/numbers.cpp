@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "barycert/base/text.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"
 
 namespace barycert::io {
@@ -270,10 +271,7 @@ std::optional<std::uint64_t> parse_count(std::string_view text) {
     std::string_view word = next_word(text);
     if (!next_word(text).empty()) return std::nullopt;
     if (word.starts_with('+')) word.remove_prefix(1);
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-    return value;
+    return whole_number<std::uint64_t>(word);
 }
 
 NumberFault read_binary(std::string_view bytes, NumberType type, bool swapped, std::size_t count, NumbersTo values) {

@@ -1,17 +1,14 @@
 #include "barycert/io/vtk/out_file.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <set>
-#include <utility>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/packed.hpp"
 
@@ -265,10 +262,8 @@ std::string fault_of_names(const std::vector<OutArray>& arrays, Names names) {
     for (const OutArray& array : arrays) {
         const std::string &name = array.format.name, named = "the name of field \"" + name + '"';
         if (name.empty()) return "a field has no name";
-        if (names == Names::xml) {
-            if (!xml_attribute(name)) return named + " has bytes that XML cannot hold";
-            continue;
-        }
+        if (names == Names::xml && !xml_attribute(name)) return named + " has bytes that XML cannot hold";
+        if (names == Names::xml) continue;
         // VTK's readers take words of up to 255 bytes, and others than these may be written as three.
         const auto plain = static_cast<std::size_t>(std::ranges::count_if(name, is_plain));
         if (3 * name.size() - 2 * plain > 200) return named + " is too long for the format";
@@ -312,14 +307,11 @@ std::string raw_head(const OutFile& f) {
 Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
     base::OutputFile file(path);
     if (Status good = file.status(); !good) return good;
-    const Compressor compressor = data == VtkData::zlib  ? Compressor::zlib
-                                  : data == VtkData::lz4 ? Compressor::lz4
-                                                         : Compressor::lzma;
     if (data == VtkData::raw) {
         write_raw(f, file);
     } else if (data == VtkData::ascii) {
         write_text(f, file);
-    } else if (!write_compressed(f, compressor, file)) {
+    } else if (!write_compressed(f, static_cast<Compressor>(data), file)) {
         return file_error(path, "too little memory to compress the data", {}, {}, "free some memory");
     }
     return file.commit();

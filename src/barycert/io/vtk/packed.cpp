@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <new>
-#include <utility>
 
 #include "barycert/io/parallel.hpp"
 

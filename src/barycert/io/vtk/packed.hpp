@@ -59,7 +59,7 @@ private:
     std::size_t held_ = 0;   // how many they are
 };
 
-enum class Compressor : std::uint8_t { none, zlib, lz4, lzma };
+enum class Compressor : std::uint8_t { none, zlib, lz4, lzma };  ///< in the order of VtkData
 
 /// As files name them.
 inline constexpr std::array<std::string_view, 4> compressor_names{"", "vtkZLibDataCompressor", "vtkLZ4DataCompressor",

@@ -1,10 +1,8 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
-#include <functional>
 #include <unordered_map>
 
 #include "barycert/base/random.hpp"
@@ -270,9 +268,7 @@ void keep_rows(std::vector<RawArray>& arrays, const std::vector<std::int32_t>& r
 void RawArray::make_labels() {
     const auto fits = [](double x) { return x >= -0x1p63 && x < 0x1p63; };
     if (has_labels() || !fault.empty() || !std::ranges::all_of(numbers(), fits)) return;
-    std::vector<std::int64_t> labels(numbers().size());
-    std::ranges::transform(numbers(), labels.begin(), [](double x) { return static_cast<std::int64_t>(x); });
-    values = std::move(labels);
+    values = std::vector<std::int64_t>(numbers().begin(), numbers().end());
 }
 
 void append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {

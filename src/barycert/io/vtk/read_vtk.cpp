@@ -1,12 +1,7 @@
-#include "barycert/io.hpp"
-
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <set>
-#include <span>
 #include <system_error>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -79,11 +74,8 @@ private:
                                 "put it there, or correct the name");
             io::append_piece(grid, read(file.path, depth + 1), path);
         }
-        if (!others.empty())
-            grid.notes.push_back(
-                {Note::Kind::left_out,
-                 std::to_string(others.size()) + " blocks that are no unstructured grids: " + io::list_of(others), path,
-                 true});
+        const std::string left_out = std::to_string(others.size()) + " blocks that are no unstructured grids: ";
+        if (!others.empty()) grid.notes.push_back({Note::Kind::left_out, left_out + io::list_of(others), path, true});
         if (part_ == io::Part::all) io::join_pieces(grid, path);
         return grid;
     }
@@ -98,11 +90,10 @@ private:
         io::RawGrid grid = read_all(files.subspan(begin, steps[number].files.size()), path, depth);
         // Who names a number knows what is read.
         if (steps.size() == 1 || choice.number) return grid;
-        const std::string which = number == 0 ? "the first" : "number " + std::to_string(number);
-        grid.notes.push_back({Note::Kind::left_out,
-                              "all steps but " + which + " of a series of " + std::to_string(steps.size()) +
-                                  ": read is the time " + base::shortest(steps[number].time),
-                              path, !choice.made()});
+        const std::string which = number == 0 ? "the first" : "number " + std::to_string(number),
+                          others = "all steps but " + which + " of a series of " + std::to_string(steps.size()),
+                          time = base::shortest(steps[number].time);
+        grid.notes.push_back({Note::Kind::left_out, others + ": read is the time " + time, path, !choice.made()});
         return grid;
     }
 

@@ -1,9 +1,6 @@
 #include <cmath>
-#include <cstdint>
 #include <deque>
 #include <functional>
-#include <memory>
-#include <utility>
 
 #include "barycert/base/spool.hpp"
 #include "barycert/io/formats.hpp"
@@ -24,11 +21,9 @@ public:
             fields_.push_back(&add(field.name, field.components, NumberType::float64));
             numbers_.push_back({field.name, field.components, {}});
         }
+        constexpr std::array types{NumberType::int64, NumberType::float64, NumberType::text};  // by Column::Type
         for (const ColumnFormat& column : format.carried)
-            carried_.push_back(&add(column.name, 1,
-                                    column.type == Column::Type::integer  ? NumberType::int64
-                                    : column.type == Column::Type::number ? NumberType::float64
-                                                                          : NumberType::text));
+            carried_.push_back(&add(column.name, 1, types[static_cast<std::size_t>(column.type)]));
     }
 
     Status write(const TableView& rows) override {

@@ -5,10 +5,8 @@
 #include <atomic>
 #include <bit>
 #include <limits>
-#include <memory>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 namespace barycert::io {
 namespace {

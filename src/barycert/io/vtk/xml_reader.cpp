@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "barycert/base/text.hpp"
@@ -27,8 +25,8 @@ std::optional<std::array<T, count>> parse_all(std::string_view text) {
             x = base::parse_double(word).value_or(HUGE_VAL);
             good = good && std::isfinite(x);
         } else {
-            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), x);
-            good = good && error == std::errc{} && end == word.data() + word.size() && -most <= x && x <= most;
+            x = whole_number<T>(word).value_or(most + 1);
+            good = good && -most <= x && x <= most;
         }
     }
     if (!good || !next_word(text).empty()) return std::nullopt;
@@ -140,8 +138,8 @@ private:
         if (points > memory / 2 / (3 * sizeof(double)))
             tree_.refuse_at(piece, "the points of the grid", "as many as fit in half of the memory of this machine",
                             std::to_string(points), "use a smaller grid");
-        const Axes axes = type == "ImageData" ? image_axes(data, *extent, counts)
-                                              : rectilinear_axes(piece, counts, grid.narrow_points);
+        const Axes axes =
+            type == "ImageData" ? image_axes(data, *extent) : rectilinear_axes(piece, counts, grid.narrow_points);
         grid.points.resize(3 * points);
         in_parallel(counts[2], [&](std::size_t k) {
             double* to = grid.points.data() + 3 * k * counts[0] * counts[1];
@@ -156,8 +154,7 @@ private:
     using Axes = std::array<std::vector<double>, 3>;
 
     /// origin + spacing * index, rounded twice, as VTK has them. Error: image data that are turned (a Direction).
-    Axes image_axes(const XmlElement& data, const std::array<std::int64_t, 6>& extent,
-                    const std::array<std::size_t, 3>& counts) const {
+    Axes image_axes(const XmlElement& data, const std::array<std::int64_t, 6>& extent) const {
         constexpr std::string_view plain = "1 0 0 0 1 0 0 0 1";
         const std::string_view origin_text = data.attribute_or("Origin", "0 0 0"),
                                spacing_text = data.attribute_or("Spacing", "1 1 1"),
@@ -171,10 +168,8 @@ private:
                             "write its points as a structured or unstructured grid");
         Axes axes;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            for (std::size_t i = 0; i < counts[axis]; ++i) {
-                const auto index = static_cast<double>(extent[2 * axis] + static_cast<std::int64_t>(i));
-                axes[axis].push_back((*origin)[axis] + (*spacing)[axis] * index);
-            }
+            for (std::int64_t i = extent[2 * axis]; i <= extent[2 * axis + 1]; ++i)
+                axes[axis].push_back((*origin)[axis] + (*spacing)[axis] * static_cast<double>(i));
         }
         return axes;
     }

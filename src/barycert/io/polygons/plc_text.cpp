@@ -1,16 +1,12 @@
-#include "barycert/io/plc/plc_text.hpp"
+#include "barycert/io/polygons/polygons.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 #include <system_error>
-#include <utility>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/polygons/polygons.hpp"
 
 namespace barycert::io {
 
@@ -29,6 +25,10 @@ bool PlcText::next_line() {
 
 void PlcText::need_line(std::string_view expected) {
     if (!next_line()) fail("the file is truncated", expected, "the end of the file");
+}
+
+void PlcText::need_line(std::string_view what, std::size_t i, std::size_t count) {
+    if (!next_line()) need_line(std::string(what) + " " + std::to_string(i) + " of " + std::to_string(count));
 }
 
 std::string_view PlcText::take(std::string_view expected) {
@@ -51,17 +51,11 @@ std::int32_t PlcText::take_integer(std::string_view expected, char end) {
     return *value;
 }
 
-double PlcText::take_number(std::string_view expected) {
+double PlcText::take_number(std::string_view expected, bool finite) {
     const std::string_view text = take_whole(expected);
     const std::optional<double> value = base::parse_double(text);
-    if (!value || !std::isfinite(*value)) fail("cannot read", std::string(expected) + ", a finite number", text);
-    return *value;
-}
-
-double PlcText::take_any_number(std::string_view expected) {
-    const std::string_view text = take_whole(expected);
-    const std::optional<double> value = base::parse_double(text);
-    if (!value) fail("cannot read", std::string(expected) + ", a number", text);
+    if (!value || (finite && !std::isfinite(*value)))
+        fail("cannot read", std::string(expected) + (finite ? ", a finite number" : ", a number"), text);
     return *value;
 }
 
@@ -78,12 +72,7 @@ void PlcText::fail(std::string_view what, std::string_view expected, std::string
     constexpr std::size_t longest = 60;
     std::string shown(found.substr(0, longest));
     if (found.size() > longest) shown += "...";
-    throw Exception({.what = std::string(what),
-                     .file = path_,
-                     .line = line_number_,
-                     .expected = std::string(expected),
-                     .found = std::move(shown),
-                     .remedy = std::string(remedy)});
+    refuse_line(path_, line_number_, std::string(what), std::string(expected), std::move(shown), std::string(remedy));
 }
 
 std::string read_surface_text(const std::string& path, const std::function<void(PlcText&)>& check) {
