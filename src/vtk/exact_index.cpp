@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <vtkCallbackCommand.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkCellTypes.h>
@@ -22,6 +23,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "barycert/environment.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::in_vtk {
 namespace {
@@ -61,7 +63,7 @@ void forget(void* data) {
 
 bool same_cells(const ExactIndex& a, const ExactIndex& b) {
     return a.normal == b.normal && a.plane == b.plane && a.reason == b.reason && a.mesh.cells == b.mesh.cells &&
-           a.ids == b.ids && a.mesh.points == b.mesh.points;
+           a.ids == b.ids && a.mesh.points == b.mesh.points && a.surface.points == b.surface.points;
 }
 
 void remember(vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time,
@@ -109,7 +111,10 @@ bool is_quadratic(int type) {
 int plain_dimension(int type, Sides sides) {
     if (type == VTK_EMPTY_CELL || type == VTK_VERTEX || type == VTK_POLY_VERTEX) return 0;
     if (type == VTK_LINE || type == VTK_POLY_LINE) return 1;
-    if (is_quadratic(type) && sides == Sides::straight) return type == VTK_QUADRATIC_TRIANGLE ? 2 : 3;
+    if (is_quadratic(type) && sides != Sides::none) return type == VTK_QUADRATIC_TRIANGLE ? 2 : 3;
+    if (sides == Sides::any &&
+        (type == VTK_TRIANGLE_STRIP || type == VTK_POLYGON || type == VTK_PIXEL || type == VTK_QUAD))
+        return 2;
     return type == VTK_TRIANGLE ? 2 : type == VTK_TETRA ? 3 : -1;
 }
 
@@ -191,7 +196,7 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Sh
     std::shared_ptr<const ExactIndex> index = made;
     if (made->reason.empty() && !made->mesh.cells.empty()) {
         // One that was made for the same cells: of a shallow copy, or before point data changed.
-        if (auto before = find([&](const Entry& e) { return e.index->locator && same_cells(*e.index, *made); })) {
+        if (auto before = find([&](const Entry& e) { return same_cells(*e.index, *made); })) {
             index = std::move(before);
         } else if (const Status built = made->build(); !built) {
             made->reason = built.error().message();
@@ -200,6 +205,61 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Sh
     // Reading may have built the cells of a vtkPolyData.
     remember(data, shape, data.GetMTime(), index);
     return index;
+}
+
+Status ExactIndex::build() {
+    if (!in_space()) return IndexedPiece::build();
+    Result<SurfaceLocator> made = SurfaceLocator::build(surface);
+    if (!made) return made.error();
+    on_surface.emplace(std::move(*made));
+    return Done{};
+}
+
+void ExactIndex::place(const double* point, double* x) const {
+    if (!in_space()) return IndexedPiece::place(point, x);
+    std::copy_n(point, 3, x);
+}
+
+Mesh::Index ExactIndex::owner(const double* x) const {
+    if (!in_space()) return IndexedPiece::owner(x);
+    const pieces::Closest found = closest(x, 0);
+    return found.inside ? found.cell : -1;
+}
+
+pieces::Closest ExactIndex::closest(const double* x, double limit) const {
+    if (!in_space()) return IndexedPiece::closest(x, limit);
+    pieces::Closest found;
+    const Result<SurfaceNearest> near = on_surface->nearest(x, limit);
+    if (!near || near->cell < 0) return found;
+    found.cell = near->cell;
+    found.distance = near->distance;
+    found.point = near->point;
+    // A distance that is not zero may round to it.
+    found.inside = near->distance == 0 && on_surface->locate(x).value().triangle >= 0;
+    const Mesh::Index* const corners = mesh.cells.data() + std::size_t{3} * static_cast<std::size_t>(near->cell);
+    for (std::size_t k = 0; k < 9; ++k)
+        if (near->nodes[k / 3] == corners[k % 3]) found.weights[k % 3] = near->weights[k / 3];
+    return found;
+}
+
+std::array<double, 12> ExactIndex::vertices(Mesh::Index cell, vtkCell* fetched) const {
+    std::array<double, 12> all{};
+    double* out = all.data();
+    const std::size_t n = mesh.corners(), d = in_space() ? 3 : n - 1;
+    const double* const nodes = in_space() ? surface.points.data() : mesh.points.data();
+    for (std::size_t k = 0; k < n; ++k) {
+        std::array<double, 3> x{}, on_axes{};
+        if (fetched != nullptr) fetched->Points->GetPoint(static_cast<vtkIdType>(k), x.data());
+        if (fetched != nullptr) project(x.data(), on_axes.data());
+        const auto at = static_cast<std::size_t>(mesh.cells[n * static_cast<std::size_t>(cell) + k]);
+        out = std::copy_n(fetched != nullptr ? on_axes.data() : nodes + d * at, d, out);
+    }
+    return all;
+}
+
+std::array<double, 4> ExactIndex::weights(Mesh::Index cell, const double* point, vtkCell* fetched) const {
+    const Result<Weights> its = barycentric_weights(simplex(), vertices(cell, fetched).data(), point);
+    return its ? its->weights : std::array<double, 4>{};
 }
 
 std::vector<double> doubles_of(vtkDataArray& array) {
@@ -217,6 +277,7 @@ std::string cell_dimension(vtkDataSet& data, int& dimension, Sides sides) {
     const Cells cells(data);
     if (cells.grid == nullptr && cells.surface == nullptr)
         return std::string("a ") + data.GetClassName() + " has no simplices";
+    if (cells.surface != nullptr && cells.surface->NeedToBuildCells()) return "VTK cannot build its cells";
     constexpr vtkIdType most = std::numeric_limits<Mesh::Index>::max();
     if (cells.count > most || data.GetNumberOfPoints() > most) return "it has more than 2147483647 points or cells";
     if (cells.points() == nullptr) return {};
@@ -261,7 +322,51 @@ std::string read_simplices(vtkDataSet& data, ExactIndex& index, const pieces::Sh
     }
     if (static_cast<vtkIdType>(ids.size()) != cells.count) index.ids = std::move(ids);
     mesh.points = doubles_of(*cells.points()->GetData());
-    if (dimension == 2 && !index.flatten(shape.normal)) return "its triangles do not lie in one plane across an axis";
+    if (dimension == 3) return {};
+    const auto [low, high] = std::minmax_element(mesh.cells.begin(), mesh.cells.end());
+    if (*low < 0 || *high >= data.GetNumberOfPoints()) return "a vertex of a triangle is no point";
+    if (index.flatten(shape.normal)) return {};
+    if (shape.dimension != 0) return "its triangles do not lie in one plane across an axis";
+    if (!mesh.mid_nodes.empty())
+        index.surface.notes.push_back(
+            {Note::Kind::converted, "triangles of second order: they are taken by their corners", {}, true});
+    index.surface.points = std::exchange(mesh.points, {});
+    index.surface.cells = mesh.cells;
+    mesh.mid_nodes.clear();
+    return {};
+}
+
+std::string read_polygons(vtkDataSet& data, ExactIndex& index, Plc& plc) {
+    const Cells cells(data, Sides::any);
+    std::string reason;
+    bool triangles = true;
+    const auto add = [&](vtkIdType cell, std::vector<Mesh::Index> ring) {
+        triangles = triangles && ring.size() == 3;
+        plc.facets.emplace_back().polygons.push_back(std::move(ring));
+        index.ids.push_back(cell);
+    };
+    cells.each(2, [&](vtkIdType cell, vtkIdType size, const vtkIdType* nodes) {
+        const int type = data.GetCellType(cell);
+        const bool few = size < 3 || (type == VTK_TRIANGLE && size > 3);
+        const auto is_point = [&](vtkIdType node) { return node >= 0 && node < data.GetNumberOfPoints(); };
+        if (few || !std::all_of(nodes, nodes + size, is_point))
+            reason = "cell " + std::to_string(cell) + " has " +
+                     (few ? std::to_string(size) + " vertices" : "a vertex that is no point");
+        if (!reason.empty()) return;
+        std::vector<Mesh::Index> ring(nodes, nodes + (is_quadratic(type) ? 3 : size));
+        if (type == VTK_PIXEL) std::swap(ring[2], ring.back());
+        if (type != VTK_TRIANGLE_STRIP) return add(cell, std::move(ring));
+        // Every other triangle is turned.
+        for (std::size_t i = 0; i + 2 < ring.size(); ++i)
+            add(cell, {ring[i + i % 2], ring[i + 1 - i % 2], ring[i + 2]});
+    });
+    if (!reason.empty() || plc.facets.empty()) return reason;
+    plc.points = doubles_of(*cells.points()->GetData());
+    if (!triangles) return pieces::all_finite(plc.points) ? "" : "it has polygons, and a coordinate that is not finite";
+    index.surface.points = std::move(plc.points);
+    for (const PlcFacet& facet : plc.facets)
+        index.surface.cells.insert(index.surface.cells.end(), facet.polygons[0].begin(), facet.polygons[0].end());
+    plc = {};
     return {};
 }
 

@@ -128,11 +128,13 @@ Status sample_grid(const Sampler& sampler, const Grid& grid, const SampleOptions
     return done ? Status(Done{}) : done.error();
 }
 
-// Points that are not finite, or farther off the plane of the mesh than the tolerance, are left out.
-Status sample_points(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, const SampleOptions& options,
-                     double tolerance, ProbeArrays& arrays) {
+// sample(points, number of the first, rows) sets cells and values. Points that are not finite, or farther off the plane
+// of the mesh than the tolerance, are left out.
+template <class Sample>
+Status sample_points(const ExactIndex& index, vtkDataSet& input, double tolerance, ProbeArrays& arrays,
+                     const Sample& sample) {
     constexpr vtkIdType block = vtkIdType{1} << 20;
-    const auto d = static_cast<std::size_t>(index.mesh.dimension);
+    const std::size_t d = index.in_space() ? 3 : static_cast<std::size_t>(index.mesh.dimension);
     const std::span<const double> all = own_coordinates(index, input);
     std::vector<double> copied;
     std::vector<vtkIdType> ids;
@@ -148,13 +150,13 @@ Status sample_points(const Sampler& sampler, const ExactIndex& index, vtkDataSet
             if (!index.project(x.data(), point.data()) &&
                 !(std::abs(x[static_cast<std::size_t>(index.normal)] - index.plane) <= tolerance))
                 continue;
-            copied.insert(copied.end(), point.begin(), point.begin() + index.mesh.dimension);
+            copied.insert(copied.end(), point.begin(), point.begin() + static_cast<std::ptrdiff_t>(d));
             ids.push_back(i);
         }
         const auto from = static_cast<std::size_t>(first), size = static_cast<std::size_t>(last - first);
         const std::span<const double> some =
             all.empty() ? std::span<const double>(copied) : all.subspan(d * from, d * size);
-        if (Status done = sampler.sample(some, options, rows, from); !done) return done;
+        if (Status done = sample(some, from, rows); !done) return done;
         const auto place = [&](std::size_t row, double* point) { std::copy_n(some.data() + d * row, d, point); };
         arrays.write(rows.view(), all.empty() ? ids.data() : nullptr, first, place);
     }
@@ -299,17 +301,15 @@ Sign ProbeArrays::side(const Sampled& array, int component, const Row& row, cons
     if (!row.inside) return Sign::zero;  // a value at the nearest point, which is rounded itself
     const Field& field = fields_[array.field];
     const Mesh& mesh = index_.mesh;
-    const auto d = static_cast<std::size_t>(mesh.dimension);
     std::array<double, 3> point{};
-    std::array<double, 12> vertices{};
     std::array<double, 4> values{};
     place(row.row, point.data());
-    for (std::size_t k = 0; k <= d; ++k) {
+    for (std::size_t k = 0; k < mesh.corners(); ++k) {
         const auto node = static_cast<std::size_t>(mesh.cells[mesh.corners() * static_cast<std::size_t>(row.cell) + k]);
-        std::copy_n(index_.node(static_cast<Mesh::Index>(node)), d, vertices.data() + d * k);
         values[k] = field.data[static_cast<std::size_t>(field.components) * node + static_cast<std::size_t>(component)];
     }
-    const Result<Sign> sign = compare_value(index_.simplex(), vertices.data(), point.data(), values.data(), threshold);
+    const Result<Sign> sign =
+        compare_value(index_.simplex(), index_.vertices(row.cell).data(), point.data(), values.data(), threshold);
     return sign ? *sign : Sign::zero;
 }
 
@@ -362,7 +362,32 @@ void ProbeArrays::write_cells() const {
 Status sample_data_set(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, const SampleOptions& options,
                        double tolerance, ProbeArrays& arrays) {
     if (const std::optional<Grid> grid = probe_grid(index, input)) return sample_grid(sampler, *grid, options, arrays);
-    return sample_points(sampler, index, input, options, tolerance, arrays);
+    return sample_points(index, input, tolerance, arrays, [&](auto points, std::size_t first, Table& rows) {
+        return sampler.sample(points, options, rows, first);
+    });
+}
+
+Status sample_surface(const ExactIndex& index, vtkDataSet& input, double tolerance, ProbeArrays& arrays) {
+    const std::vector<FieldChoice> choices = arrays.choices();
+    std::size_t width = 0;
+    for (const FieldChoice& choice : choices) width += static_cast<std::size_t>(choice.field->components);
+    return sample_points(index, input, tolerance, arrays, [&](auto points, std::size_t, Table& rows) -> Status {
+        std::vector<SurfaceNearest> near(points.size() / 3);
+        if (Status done = index.on_surface->nearest(points, tolerance, near); !done) return done;
+        rows.cells.resize(near.size());
+        for (std::size_t i = 0; i < near.size(); ++i) rows.cells[i] = near[i].distance == 0 ? near[i].cell : -1;
+        rows.values.resize(width * near.size());
+        double* column = rows.values.data();
+        for (const FieldChoice& choice : choices) {
+            const auto n = static_cast<std::size_t>(choice.field->components);
+            std::vector<double> some(n * near.size());
+            Status done = index.on_surface->values(*choice.field, choice.of_cells, points, near, some);
+            if (!done) return done;
+            for (std::size_t i = 0; i < near.size(); ++i) std::copy_n(&some[n * i], n, column + width * i);
+            column += n;
+        }
+        return Done{};
+    });
 }
 
 }  // namespace barycert::in_vtk

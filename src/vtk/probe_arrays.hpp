@@ -102,5 +102,7 @@ private:
 /// the number of points.
 Status sample_data_set(const Sampler& sampler, const ExactIndex& index, vtkDataSet& input, const SampleOptions& options,
                        double tolerance, ProbeArrays& arrays);
+/// The same on a surface in space: at the nearest point of it, if that is within the tolerance.
+Status sample_surface(const ExactIndex& index, vtkDataSet& input, double tolerance, ProbeArrays& arrays);
 
 }  // namespace barycert::in_vtk

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <vtkCellArray.h>
@@ -49,15 +51,14 @@ vtkSmartPointer<Array> array_of(const char* name, const All& all, Of&& of) {
     return array;
 }
 
-// One value a cell of the data set: of(i) for cell i of the mesh, `other` for cells that are not in it.
+// One value a cell of the data set: of(id).
 template <class Array, class Of>
-void add_cell_array(vtkDataSet& output, const ExactIndex& index, std::string_view name, Of&& of, double other = 0) {
+void add_cell_array(vtkDataSet& output, std::string_view name, Of&& of) {
     vtkNew<Array> array;
     array->SetName(std::string(name).c_str());
     array->SetNumberOfValues(output.GetNumberOfCells());
-    array->Fill(other);
-    for (std::size_t i = 0; i < index.mesh.cell_count(); ++i)
-        array->SetValue(index.id(static_cast<Mesh::Index>(i)), static_cast<typename Array::ValueType>(of(i)));
+    for (vtkIdType id = 0; id < output.GetNumberOfCells(); ++id)
+        array->SetValue(id, static_cast<typename Array::ValueType>(of(static_cast<std::size_t>(id))));
     output.GetCellData()->AddArray(array);
 }
 
@@ -79,7 +80,8 @@ std::string places_of(const Defect& defect, const ExactIndex& index) {
         std::string text;
         append_used(text, "cell", "cells", place.cells, [&](Mesh::Index cell) { return index.id(cell); });
         append_used(text, "point", "points", place.nodes, [](Mesh::Index node) { return vtkIdType{node}; });
-        const bool hangs = defect.kind == DefectKind::hanging_node || defect.kind == DefectKind::near_hanging;
+        const bool hangs = defect.kind == DefectKind::hanging_node || defect.kind == DefectKind::near_hanging ||
+                           defect.kind == DefectKind::node_on_facet;
         const char* const word = hangs ? "on" : "and";
         append_used(text, word, word, place.other_nodes, [](Mesh::Index node) { return vtkIdType{node}; });
         if (*place.detail != '\0') text += std::string(" (") + place.detail + ")";
@@ -89,25 +91,39 @@ std::string places_of(const Defect& defect, const ExactIndex& index) {
     return all;
 }
 
-// Measures and defects of cells as cell arrays of the data set.
+// Measures and defects of cells as cell arrays of the data set, of which one may be several triangles of a surface.
 void add_measures(const CheckReport& report, const ExactIndex& index, vtkDataSet& output) {
-    const CellMeasures& measures = report.measures;
-    for (const Field& field : measure_fields(measures)) {
-        const auto value = [&](std::size_t i) { return field.data[i]; };
-        if (field.name == "orientation")
-            add_cell_array<vtkSignedCharArray>(output, index, field.name, value);
-        else if (field.name == "problems")
-            add_cell_array<vtkUnsignedIntArray>(output, index, field.name, value);
-        else
-            add_cell_array<vtkDoubleArray>(output, index, field.name, value, std::numeric_limits<double>::quiet_NaN());
-    }
+    std::vector<DefectSet> defects(static_cast<std::size_t>(output.GetNumberOfCells()), 0);
+    std::vector<std::int64_t> cell_of(defects.size(), -1);  // of the mesh, for each of the data set
     DefectSet found = 0;
-    for (const DefectSet some : measures.defects) found |= some;
+    for (std::size_t i = 0; i < report.measures.defects.size(); ++i) {
+        const auto id = static_cast<std::size_t>(index.id(static_cast<Mesh::Index>(i)));
+        cell_of[id] = static_cast<std::int64_t>(i);
+        defects[id] |= report.measures.defects[i];
+        found |= report.measures.defects[i];
+    }
+    for (const Field& field : report.surface ? std::vector<Field>() : measure_fields(report.measures)) {
+        const bool whole = field.name == "orientation" || field.name == "problems";
+        const auto value = [&](std::size_t id) {
+            return cell_of[id] >= 0 ? field.data[static_cast<std::size_t>(cell_of[id])]
+                   : whole          ? 0
+                                    : std::numeric_limits<double>::quiet_NaN();
+        };
+        if (field.name == "orientation")
+            add_cell_array<vtkSignedCharArray>(output, field.name, value);
+        else if (field.name == "problems")
+            add_cell_array<vtkUnsignedIntArray>(output, field.name, value);
+        else
+            add_cell_array<vtkDoubleArray>(output, field.name, value);
+    }
+    // Kinds of defects of surfaces are beyond 32 bits.
+    if (report.surface)
+        add_cell_array<vtkTypeInt64Array>(output, "problems", [&](std::size_t id) { return defects[id]; });
     for (const DefectText& text : defect_texts) {
         const DefectSet bit = defect_bit(text.kind);
         if ((found & bit) != 0)
-            add_cell_array<vtkUnsignedCharArray>(output, index, text.name,
-                                                 [&](std::size_t i) { return (measures.defects[i] & bit) != 0; });
+            add_cell_array<vtkUnsignedCharArray>(output, text.name,
+                                                 [&](std::size_t id) { return (defects[id] & bit) != 0; });
     }
 }
 
@@ -143,6 +159,41 @@ void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index,
     data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return index.id(c.cells[1]); }));
     data.AddArray(array_of<vtkUnsignedCharArray>("overlap", all, [](Contact c) { return c.overlap; }));
     data.AddArray(array_of<vtkUnsignedCharArray>("exact", all, [](Contact c) { return c.common.exact; }));
+}
+
+// A mesh, a surface, or polygons; or why it is none.
+std::string read(vtkDataSet& data, ExactIndex& index, Plc& plc) {
+    std::string reason = in_vtk::read_simplices(data, index, {}, in_vtk::Sides::straight);
+    int dimension = -1;
+    if (reason.empty() || !in_vtk::cell_dimension(data, dimension, in_vtk::Sides::any).empty() || dimension != 2)
+        return reason;
+    index = {};
+    return in_vtk::read_polygons(data, index, plc);
+}
+
+// The report's text names cells by their ids. Polygons are facets of a PLC, as `barycert check` takes those of files:
+// they may be at fault themselves. The ids become those of the triangles that they are cut into, and of what cannot be.
+CheckReport check(ExactIndex& index, const Plc& plc, const CheckOptions& options) {
+    const std::vector<Mesh::Index> numbers(index.ids.begin(), index.ids.end());
+    const bool polygons = !plc.facets.empty();
+    if (!polygons && !index.in_space()) {
+        index.mesh.cell_numbers = numbers;
+        return check_mesh(index.mesh, options);
+    }
+    index.surface.facets = numbers;
+    CheckReport report = polygons ? check_plc(plc, options) : check_surface(index.surface, options);
+    std::vector<Mesh::Index> distinct = numbers, ids;
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    if (!distinct.empty()) report.surface->facets = distinct.size();
+    if (!polygons) return report;
+    for (std::size_t i = 0; i < report.cells; ++i)
+        ids.push_back(numbers[static_cast<std::size_t>(report.cell_number(static_cast<std::int64_t>(i)))]);
+    report.cell_numbers = ids;
+    std::set_difference(distinct.begin(), distinct.end(), report.cell_numbers.begin(), report.cell_numbers.end(),
+                        std::back_inserter(ids));
+    index.ids.assign(ids.begin(), ids.end());
+    report.measures.defects.resize(ids.size(), defect_bit(DefectKind::bad_facet));
+    return report;
 }
 
 }  // namespace
@@ -200,23 +251,25 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
         return 0;
     }
     ExactIndex index;
-    if (const std::string reason = in_vtk::read_simplices(*input, index, {}, in_vtk::Sides::straight);
-        !reason.empty()) {
-        vtkErrorMacro("this data set cannot be checked: "
-                      << reason << "; expected tetrahedra, or triangles in one plane across an axis");
+    Plc plc;
+    if (const std::string reason = read(*input, index, plc); !reason.empty()) {
+        vtkErrorMacro("this data set cannot be checked: " << reason
+                                                          << "; expected tetrahedra, or triangles and polygons");
         return 0;
     }
-    // The report's text names cells by their ids.
-    index.mesh.cell_numbers.assign(index.ids.begin(), index.ids.end());
-    const CheckReport report = check_mesh(index.mesh, {.delaunay = Delaunay != 0,
-                                                       .examples = static_cast<std::size_t>(Examples),
-                                                       .contacts = static_cast<std::size_t>(Contacts)});
+    const CheckReport report = check(index, plc,
+                                     {.delaunay = Delaunay != 0,
+                                      .examples = static_cast<std::size_t>(Examples),
+                                      .contacts = static_cast<std::size_t>(Contacts)});
     Certified = report.certified();
+    if (report.surface && Delaunay != 0) vtkWarningMacro("a surface is not tested whether it is Delaunay");
 
     output->ShallowCopy(input);
     add_measures(report, index, *output);
     output->GetCellData()->SetActiveScalars("problems");
-    const std::string text = check_text(report, index.mesh, "input", {});
+    const Mesh none;
+    const std::string text = check_text(report, report.surface ? none : std::as_const(index.mesh), "input", {});
+    for (const Note& note : report.notes) vtkWarningMacro("" << message(note));
     if (report.curved.cells != 0) vtkWarningMacro("" << message(report.curved));
     // The verdict stands below what is told of curved cells, which takes two lines.
     std::size_t verdict = 0;

@@ -1,18 +1,19 @@
 /**
  * @class   vtkBarycertCheck
- * @brief   proves that the cells of a mesh partition their domain, or marks those that do not
+ * @brief   proves that cells partition their domain, or that a surface is closed and meets itself nowhere
  *
- * Input: a vtkUnstructuredGrid or vtkPolyData of tetrahedra, or of triangles in one plane across an axis. Quadratic
- * ones are taken with straight sides; cells of a lower dimension, empty cells and ghost cells (vtkGhostType: duplicate,
- * refined, hidden) are left out. Any other data set is an error. Signs, volumes, contacts and the certificate are
- * exact.
+ * Input: a vtkUnstructuredGrid or vtkPolyData of tetrahedra, or of triangles in one plane across an axis; or a surface:
+ * other triangles, strips of them, and polygons, which are checked as facets of a PLC. Quadratic ones are taken with
+ * straight sides; cells of a lower dimension, empty cells and ghost cells (vtkGhostType: duplicate, refined, hidden)
+ * are left out. Any other data set is an error. Signs, volumes, contacts and the certificate are exact.
  *
  * Output 0: the input with cell arrays
  * - orientation (exact sign of the volume), volume (signed, correctly rounded; of triangles the area), condition,
  *   radius_edge, aspect, min_angle, max_angle (of dihedral angles, in degrees), as `barycert check` has them; NaN, and
  *   orientation 0, in cells that are left out;
  * - problems: bits of the defects that the cell is part of, in the order of check.hpp (the active scalars); and for
- *   each kind of defect that some cell is part of an array of its name (degenerate_cell, same_side, ...): 1 or 0;
+ *   each kind of defect that some cell is part of an array of its name (degenerate_cell, same_side, ...): 1 or 0.
+ *   Of a surface there are these alone, and problems has 64 bits;
  * and field data certified (1 or 0) and barycert_check (the report of `barycert check`, line by line). A mesh that is
  * not certified is also told by a warning.
  *
@@ -37,7 +38,7 @@ public:
     vtkTypeMacro(vtkBarycertCheck, vtkDataSetAlgorithm)
     void PrintSelf(ostream& os, vtkIndent indent) override;
 
-    /// Whether to test also if every interior facet is locally Delaunay; the report tells. Off by default.
+    /// Whether to test also if every interior facet of a mesh is locally Delaunay; the report tells. Off by default.
     vtkSetMacro(Delaunay, vtkTypeBool);
     vtkGetMacro(Delaunay, vtkTypeBool);
     vtkBooleanMacro(Delaunay, vtkTypeBool);
@@ -50,7 +51,7 @@ public:
     vtkSetClampMacro(Contacts, int, 0, 1000000);
     vtkGetMacro(Contacts, int);
 
-    /// Whether the mesh of the last execution was certified.
+    /// Whether the mesh or surface of the last execution was certified.
     vtkGetMacro(Certified, bool);
 
     vtkTable* GetDefects();

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <vtkBox.h>
-#include <vtkCell.h>
 #include <vtkDataSet.h>
 #include <vtkGarbageCollector.h>
 #include <vtkGenericCell.h>
@@ -23,7 +22,6 @@
 #include <vtkStaticCellLocator.h>
 
 #include "barycert/environment.hpp"
-#include "barycert/weights.hpp"
 #include "vtk/exact_index.hpp"
 
 using namespace barycert;
@@ -158,24 +156,6 @@ std::string vtkBarycertLocator::GetReason() {
     return index == nullptr ? "there is no data set" : index->reason;
 }
 
-// From the vertices that VTK has just fetched, if it has: those of the mesh would be fetched from memory a second time.
-static std::array<double, 4> weights_in(const in_vtk::ExactIndex& index, Mesh::Index found, vtkCell* cell,
-                                        const double* x) {
-    std::array<double, 3> point{};
-    index.project(x, point.data());
-    if (cell == nullptr) return index.weights(found, point.data());
-    const auto d = static_cast<std::size_t>(index.mesh.dimension);
-    std::array<double, 12> vertices{};
-    for (std::size_t k = 0; k <= d; ++k) {
-        std::array<double, 3> vertex{}, on_axes{};
-        cell->Points->GetPoint(static_cast<vtkIdType>(k), vertex.data());
-        index.project(vertex.data(), on_axes.data());
-        std::copy_n(on_axes.begin(), d, vertices.data() + d * k);
-    }
-    const Result<Weights> weights = barycentric_weights(index.simplex(), vertices.data(), point.data());
-    return weights ? weights->weights : std::array<double, 4>{};
-}
-
 // As vtkTetra and vtkTriangle have them: all weights but the first.
 static void set_parametric(const std::array<double, 4>& weights, int count, double* pcoords, double* out) {
     for (int i = 0; i < 3; ++i) pcoords[i] = i + 1 < count ? weights[static_cast<std::size_t>(i) + 1] : 0;
@@ -218,7 +198,8 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     if (found < 0) return -1;
     const vtkIdType id = index->id(found);
     if (cell != nullptr) DataSet->GetCell(id, cell);
-    if (!outside) its = weights_in(*index, found, cell, x);
+    if (std::array<double, 3> point{}; !outside && index->project(x, point.data()))
+        its = index->weights(found, point.data(), cell);
     set_parametric(its, static_cast<int>(index->mesh.corners()), pcoords, weights);
     return id;
 }
@@ -271,9 +252,37 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
     return 1;
 }
 
+// The index, if it has a surface whose hits are to be exact: then sets them, in their order.
+const in_vtk::ExactIndex* vtkBarycertLocator::Hits(const double* p1, const double* p2, std::vector<SurfaceHit>& hits) {
+    const in_vtk::ExactIndex* const index = ExactOne();
+    if (index == nullptr || !index->on_surface || Tolerant) return nullptr;
+    if (Result<std::vector<SurfaceHit>> found = index->on_surface->hits(p1, p2))
+        hits = std::move(*found);
+    else
+        vtkErrorMacro("cannot intersect with this line: " << found.error().message());
+    return index;
+}
+
+static std::array<double, 3> point_at(const double* p1, const double* p2, double t) {
+    return {std::lerp(p1[0], p2[0], t), std::lerp(p1[1], p2[1], t), std::lerp(p1[2], p2[2], t)};
+}
+
 int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3],
                                           double pcoords[3], int& subId, vtkIdType& cellId, vtkGenericCell* cell) {
+    const ExactEnvironment environment;
     cellId = -1;
+    std::vector<SurfaceHit> hits;
+    if (const in_vtk::ExactIndex* const index = Hits(p1, p2, hits)) {
+        if (hits.empty()) return 0;
+        t = hits.front().parameter;
+        subId = 0;
+        cellId = index->id(hits.front().triangle);
+        if (cell != nullptr) DataSet->GetCell(cellId, cell);
+        std::copy_n(point_at(p1, p2, t).begin(), 3, x);
+        std::array<double, 3> weights{};
+        set_parametric(index->weights(hits.front().triangle, x, cell), 3, pcoords, weights.data());
+        return 1;
+    }
     vtkStaticCellLocator* const other = Other();
     return other == nullptr ? 0 : other->IntersectWithLine(p1, p2, tol, t, x, pcoords, subId, cellId, cell);
 }
@@ -281,6 +290,11 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
 int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], vtkPoints* points,
                                           vtkIdList* cellIds) {
     if (IntersectWithLine(p1, p2, Tolerance, points, cellIds) == 0) return 0;
+    const in_vtk::ExactIndex* const index = ExactOne();
+    if (index != nullptr && index->on_surface) {
+        const Result<SurfaceLocation> start = index->on_surface->locate(p1);
+        return start && start->winding != 0 ? -1 : 1;
+    }
     double start[3] = {p1[0], p1[1], p1[2]};
     return FindCell(start) >= 0 ? -1 : 1;
 }
@@ -295,9 +309,16 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
                                           vtkIdList* cellIds, vtkGenericCell* cell) {
     if (points != nullptr) points->Reset();
     if (cellIds != nullptr) cellIds->Reset();
-    vtkNew<vtkIdList> candidates;
-    FindCellsAlongLine(p1, p2, tol, candidates);
+    const ExactEnvironment environment;
     std::vector<std::tuple<double, vtkIdType, std::array<double, 3>>> hits;  // how far along the line, cell, point
+    std::vector<SurfaceHit> exact;
+    vtkNew<vtkIdList> candidates;
+    if (const in_vtk::ExactIndex* const index = cell != nullptr ? Hits(p1, p2, exact) : nullptr) {
+        for (const SurfaceHit& hit : exact)
+            hits.emplace_back(hit.parameter, index->id(hit.triangle), point_at(p1, p2, hit.parameter));
+    } else {
+        FindCellsAlongLine(p1, p2, tol, candidates);
+    }
     const double along[3] = {p2[0] - p1[0], p2[1] - p1[1], p2[2] - p1[2]};
     for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i) {
         const vtkIdType id = candidates->GetId(i);
@@ -315,7 +336,7 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
         }
         if (met) hits.emplace_back(t, id, x);
     }
-    std::sort(hits.begin(), hits.end());
+    if (candidates->GetNumberOfIds() > 0) std::sort(hits.begin(), hits.end());
     for (const auto& [t, id, x] : hits) {
         if (points != nullptr) points->InsertNextPoint(x.data());
         if (cellIds != nullptr) cellIds->InsertNextId(id);

@@ -1,19 +1,22 @@
 /**
  * @class   vtkBarycertLocator
- * @brief   exact point location for tetrahedra and triangles
+ * @brief   exact point location for tetrahedra, triangles and surfaces
  *
  * FindCell returns the lowest id of all cells that contain the point exactly: neither the order of points nor the
  * number of threads nor a tolerance matters, and a point of the mesh is always found. Parametric coordinates and
  * weights are the exact ones rounded once, in the order of the cell's vertices.
  *
- * Data sets: vtkUnstructuredGrid or vtkPolyData. Cells are the linear tetrahedra; if there are none, the triangles,
- * which must lie in one plane across an axis. Cells of a lower dimension, empty cells and ghost cells (vtkGhostType:
- * duplicate, refined, hidden) are no cells to FindCell and FindClosestPoint. Any other data set goes, after a warning
- * that says why, to a vtkStaticCellLocator: GetExact() is false then.
+ * Data sets: vtkUnstructuredGrid or vtkPolyData. Cells are the linear tetrahedra; if there are none, the triangles: a
+ * mesh if they lie in one plane across an axis, else a surface in space. Cells of a lower dimension, empty cells and
+ * ghost cells (vtkGhostType: duplicate, refined, hidden) are no cells to FindCell and FindClosestPoint, nor triangles
+ * of zero area. Any other data set goes, after a warning that says why, to a vtkStaticCellLocator: GetExact() is false
+ * then.
  *
- * FindClosestPoint and its variants are exact as well: the cell is the lowest of those nearest. FindCellsWithinBounds,
- * FindCellsAlongLine, FindCellsAlongPlane, IntersectWithLine and GenerateRepresentation are those of
- * vtkStaticCellLocator on all cells of the data set.
+ * FindClosestPoint and its variants are exact as well: the cell is the lowest of those nearest, and `inside` is 1 if
+ * the point lies in it. So is IntersectWithLine on a surface, unless Tolerant: it has no tolerance, and gives what the
+ * closed segment meets, in exact order, ties by cell; t is rounded once, and point and parametric coordinates are
+ * computed from it. FindCellsWithinBounds, FindCellsAlongLine, FindCellsAlongPlane, GenerateRepresentation and all
+ * other IntersectWithLine are those of vtkStaticCellLocator on all cells of the data set.
  *
  * Indexes are kept by data set and time of modification until the data set is deleted. So the instances that filters
  * make of a prototype for every execution build nothing twice. Instances have the settings of their prototype.
@@ -28,6 +31,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <vtkAbstractCellLocator.h>
 
@@ -36,6 +40,9 @@ class vtkStaticCellLocator;
 #ifndef __VTK_WRAP__  // VTK's own parser of headers does not know nested names of namespaces
 namespace barycert::in_vtk {
 struct ExactIndex;
+}
+namespace barycert {
+struct SurfaceHit;
 }
 #endif
 
@@ -75,7 +82,8 @@ public:
     int IntersectWithLine(const double p1[3], const double p2[3], double tol, double& t, double x[3], double pcoords[3],
                           int& subId, vtkIdType& cellId, vtkGenericCell* cell) override;
     /// The first point of every cell that the line meets within GetTolerance(), along the line, and the cells; each may
-    /// be null. Returns 0 if it meets none, -1 if p1 lies in a cell, else 1.
+    /// be null. Returns 0 if it meets none, -1 if p1 lies in a cell (of a surface: inside, as winding numbers tell, and
+    /// not on it), else 1.
     int IntersectWithLine(const double p1[3], const double p2[3], vtkPoints* points, vtkIdList* cellIds) override;
     /// The same within `tol`, without looking where p1 lies: 1 if it meets any cell. Without a `cell` to work with, the
     /// last one takes the boxes of the cells for the cells, as VTK 9.2 does.
@@ -110,6 +118,8 @@ private:
     const barycert::in_vtk::ExactIndex* Ready();
     const barycert::in_vtk::ExactIndex* ExactOne();
     vtkStaticCellLocator* Other();
+    const barycert::in_vtk::ExactIndex* Hits(const double* p1, const double* p2,
+                                             std::vector<barycert::SurfaceHit>& hits);
 
     std::unique_ptr<Internals> internals_;
     bool Tolerant = false;

@@ -138,16 +138,19 @@ bool vtkBarycertProbe::Sample(const in_vtk::ExactIndex& index, vtkDataSet* input
     in_vtk::ProbeArrays arrays(index, *source, *output, CategoricalData != 0, MaskName());
     arrays.allocate(count, OutsideValue());
     WarnOfInexact(arrays.inexact());
-    if (!index.locator || count == 0) return true;
+    if (index.mesh.cells.empty() || count == 0) return true;
 
     SampleOptions options;
     if (tolerance > 0) {
         options.outside = {.kind = Outside::nearest, .limit = tolerance};
         arrays.number_cells();
     }
-    const Result<Sampler> sampler = Sampler::build(*index.locator, arrays.choices());
-    const Status done = sampler ? in_vtk::sample_data_set(*sampler, index, *input, options, tolerance, arrays)
-                                : Status(sampler.error());
+    const Status done = [&]() -> Status {
+        if (index.on_surface) return in_vtk::sample_surface(index, *input, tolerance, arrays);
+        const Result<Sampler> sampler = Sampler::build(*index.locator, arrays.choices());
+        if (!sampler) return sampler.error();
+        return in_vtk::sample_data_set(*sampler, index, *input, options, tolerance, arrays);
+    }();
     if (!done) {
         vtkErrorMacro("" << done.error().message());
         return false;

@@ -13,6 +13,7 @@
  * where a value of a vertex is not finite. 64-bit integers beyond 2^53 become doubles first, after a warning. Arrays
  * that are not numeric are mixed by VTK.
  * - A cell array has the tuple of the owner.
+ * - On a surface in space, only points on it are inside.
  * - Points outside have mask 0 and zeros, or NaN in arrays of real numbers (OutsideIsNaN).
  *
  * Other sources go to a vtkProbeFilter with a vtkStaticCellLocator, after a warning that says why: GetExact() is false

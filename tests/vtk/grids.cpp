@@ -84,6 +84,15 @@ vtkSmartPointer<vtkPolyData> surface_of(const Mesh& mesh, int normal, double pla
     return surface;
 }
 
+vtkSmartPointer<vtkPolyData> poly_data_of(const Surface& surface) {
+    const auto data = points_of(surface.points);
+    Mesh triangles;
+    triangles.dimension = 2;
+    triangles.cells = surface.cells;
+    data->SetPolys(cells_of(triangles));
+    return data;
+}
+
 vtkSmartPointer<vtkPolyData> points_of(const std::vector<double>& points) {
     const auto cloud = vtkSmartPointer<vtkPolyData>::New();
     Mesh mesh;

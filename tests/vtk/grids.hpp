@@ -9,6 +9,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "barycert/mesh.hpp"
+#include "barycert/surface.hpp"
 
 class vtkDataArray;
 
@@ -19,6 +20,9 @@ vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Mesh& mesh, double plane = 0)
 
 /// Triangles with the axes of the plane turned: coordinates x, y of the mesh go to the axes after `normal`.
 vtkSmartPointer<vtkPolyData> surface_of(const Mesh& mesh, int normal, double plane);
+
+/// A surface in space.
+vtkSmartPointer<vtkPolyData> poly_data_of(const Surface& surface);
 
 /// Points alone, three coordinates each.
 vtkSmartPointer<vtkPolyData> points_of(const std::vector<double>& points);

@@ -394,9 +394,10 @@ TEST(DataSets, OfOtherCellsGoToVtk) {
     expect_other(wedge, in_wedge, "vtkWedge");
 
     vtkNew<vtkSphereSource> sphere;
+    sphere->LatLongTessellationOn();
     sphere->Update();
     double pole[3] = {0, 0, 0.5};
-    expect_other(sphere->GetOutput(), pole, "plane");
+    expect_other(sphere->GetOutput(), pole, "vtkQuad");
 
     const auto bad = two_cells();
     bad->GetPoints()->SetPoint(4, 1, 1, std::numeric_limits<double>::infinity());

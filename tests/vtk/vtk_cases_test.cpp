@@ -49,7 +49,7 @@ TEST(VtkCases, ShortSegmentsMeetTheirTriangle) {
     locator->CacheCellBoundsOn();
     locator->AutomaticOn();
     locator->BuildLocator();
-    EXPECT_FALSE(locator->GetExact());
+    EXPECT_TRUE(locator->GetExact());
     vtkNew<vtkGenericCell> cell;
     double t = 0, x[3], pcoords[3];
     int sub_id = 0;
