@@ -278,11 +278,9 @@ public:
         out += "<div class=\"card\">" + paragraph("<b>" + html_escaped(item.title) + "</b>" + html_escaped(item.text));
         for (const Item::Line& line : item.lines) {
             if (!line.text.empty()) out += paragraph(words(line.text, line.command));
-            std::string places;
-            const std::size_t shown = std::min(line.places.shown.size(), max_places);
-            for (std::size_t i = 0; i < shown; ++i)
-                places += (i == 0 ? "" : std::string(1, line.places.between) + " ") + line.places.shown[i];
-            if (const std::string more = line.places.more(shown); !more.empty()) places += "; " + more;
+            const std::span shown = std::span(line.places.shown).first(std::min(line.places.shown.size(), max_places));
+            std::string places = fmt::format("{}", fmt::join(shown, std::string{line.places.between, ' '}));
+            if (const std::string more = line.places.more(shown.size()); !more.empty()) places += "; " + more;
             if (!places.empty()) out += paragraph(html_escaped(places), "small");
         }
         out += "</div>\n";
