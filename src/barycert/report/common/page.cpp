@@ -30,13 +30,9 @@ std::string html_escaped(std::string_view text) {
 }
 
 std::string html_name(std::string_view name) {
-    std::string out;
-    for (std::size_t at = 0; at < name.size();) {
-        const std::size_t dot = name.find('.', at);
-        const std::size_t end = dot == std::string_view::npos ? name.size() : dot + 1;
-        out += html_escaped(name.substr(at, end - at)) + (end < name.size() ? "<wbr/>" : "");
-        at = end;
-    }
+    std::string out = html_escaped(name);
+    for (std::size_t dot = out.find('.'); dot < out.size() - 1; dot = out.find('.', dot + 1))
+        out.insert(dot + 1, "<wbr/>");
     return out;
 }
 
