@@ -124,14 +124,6 @@ CLI::Option* Options::flag(Text name, bool& value, Text help, bool given) const 
         name, [&value, given] { value = given; }, with_command_name(help));
 }
 
-void Options::mesh(std::string& mesh) const {
-    text("MESH", mesh, mesh_help)->required();
-}
-
-void Options::threads(int& threads) const {
-    integer("--threads", threads, 0, 4096, "Number of threads; 0: all");
-}
-
 void Options::curved(Curved& curved) const {
     choice<Curved>("--curved", curved, {{"straight", Curved::straight}, {"refuse", Curved::refuse}},
                    "Second-order cells with mid-edge nodes off the middle: straight: take their sides as straight, and "
@@ -151,10 +143,6 @@ void Options::nonfinite(NonfinitePoints& points) const {
         "--nonfinite-points", points, {{"error", NonfinitePoints::error}, {"nan", NonfinitePoints::nan}},
         "Points with a coordinate that is NaN, infinite or an empty field. error: the run ends (default); nan: they "
         "are outside, with NaN for values whatever points outside get, and counted");
-}
-
-void Options::rounding(Rounding& rounding, const char* help) const {
-    choice<Rounding>("--rounding", rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, help);
 }
 
 void Options::range(std::optional<std::pair<double, double>>& range, Text what) const {

@@ -17,10 +17,6 @@ void Progress::stage(std::string_view text) {
     last_ = std::chrono::steady_clock::now();
 }
 
-bool Progress::due() const {
-    return on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100);
-}
-
 void Progress::clear() {
     if (shown_) tell("\r\033[K");
     shown_ = false;

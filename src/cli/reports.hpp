@@ -25,7 +25,7 @@ public:
     void begin(bool on) { on_ = on; }
     void stage(std::string_view text);
     /// True if a line is shown at all and the last one is a tenth of a second old.
-    bool due() const;
+    bool due() const { return on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100); }
     void clear();
 
 private:

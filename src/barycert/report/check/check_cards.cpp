@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/common/picture.hpp"
 
@@ -46,8 +47,7 @@ Scene scene_of(const Mesh& mesh, const Exhibit& e) {
     scene.points = normalised.points();
     if (e.contact != nullptr) {
         const std::array<double, 3>& w = e.contact->common.point;
-        if (std::ranges::all_of(w, [](double x) { return std::isfinite(x); }))
-            scene.common = normalised.place(w.data());
+        if (base::all_finite(w)) scene.common = normalised.place(w.data());
     }
     return scene;
 }

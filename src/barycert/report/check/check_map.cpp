@@ -1,11 +1,10 @@
 // Where in the mesh the exhibits are.
 
-#include <tbb/task_arena.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
@@ -251,11 +250,11 @@ std::string extent(const Eigen::AlignedBox3d& box, int d) {
 std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
     const Eigen::AlignedBox3d box = box_of(mesh);
     if (box.isEmpty()) return "";
-    const bool proper = std::none_of(r.defects.begin(), r.defects.end(), leaves_cells_out);
+    const bool all = std::ranges::none_of(r.defects, leaves_cells_out);
+    const Mesh proper = all ? Mesh() : proper_cells(mesh);
     const Map map(mesh, box);
-    Outline outline;
-    tbb::task_arena arena(r.threads > 0 ? r.threads : tbb::task_arena::automatic);
-    arena.execute([&] { outline = outline_of(proper ? mesh : proper_cells(mesh), map.normalised, map.view); });
+    const Outline outline = base::in_arena(r.threads, mesh.cell_count(),
+                                           [&] { return outline_of(all ? mesh : proper, map.normalised, map.view); });
 
     Picture svg(map_width, map.height, "the boundary of the mesh, and where the cells below are");
     draw_box(svg, map, mesh.dimension);
