@@ -96,8 +96,7 @@ int run_audit(AuditArguments& a) {
         if (prepared.libraries.contains(kernel.name)) tell_note(prepared.libraries.at(kernel.name), kernel);
     }
     if (!a.reports.is_quiet()) tell_important(prepared.notes);
-    a.reports.begin_progress();
-    Progress& progress = a.reports.progress();
+    Progress& progress = a.reports.begin_progress();
     prepared.options.progress = [&progress](const AuditProgress& p) {
         if (!progress.due()) return;
         progress.stage(fmt::format("{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,

@@ -72,10 +72,11 @@ void Reports::begin(MeshJob& job) {
     };
 }
 
-void Reports::begin_progress() {
+Progress& Reports::begin_progress() {
     // Rows on the same terminal would run into the progress.
     const bool rows_on_terminal = rows_ != nullptr && *rows_ == "-" && isatty(STDOUT_FILENO) == 1;
     progress_.begin(!quiet_ && isatty(STDERR_FILENO) == 1 && !rows_on_terminal);
+    return progress_;
 }
 
 int Reports::write(Told told) {

@@ -66,8 +66,7 @@ public:
 
     /// Tells the job of the reports, and how the program is called; its progress is shown from now on.
     void begin(MeshJob& job);
-    void begin_progress();
-    Progress& progress() { return progress_; }
+    Progress& begin_progress();
 
     /// Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
     /// the user the others, the fruit of the whole run. Returns the exit code.
