@@ -86,15 +86,6 @@ std::pair<std::string, std::string> assignment(Text option, Text expected, Text 
     return {text.substr(0, sign), text.substr(sign + 1)};
 }
 
-Options Options::below(std::string_view name, Text about, Text footer, const std::function<int()>& work) const {
-    CLI::App* const sub = app_->add_subcommand(std::string(name), about);
-    sub->footer(with_command_name(footer));
-    sub->callback([work, sub, code = exit_code_] {
-        if (sub->get_subcommands().empty()) *code = work();
-    });
-    return {*sub, *exit_code_};
-}
-
 CLI::Option* Options::text_like(CLI::Option* option, Text type, bool several) {
     if (several) option->allow_extra_args(false);
     if (is_type_of_files(type))

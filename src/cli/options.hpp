@@ -77,7 +77,12 @@ public:
     std::pair<Options, Arguments&> command(std::string_view name, Text about, Text footer,
                                            int (*work)(Arguments&)) const {
         const auto a = std::make_shared<Arguments>();
-        return {below(name, about, footer, [a, work] { return work(*a); }), *a};
+        CLI::App* const sub = app_->add_subcommand(std::string(name), about);
+        sub->footer(with_command_name(footer));
+        sub->callback([a, work, sub, code = exit_code_] {
+            if (sub->get_subcommands().empty()) *code = work(*a);
+        });
+        return {Options(*sub, *exit_code_), *a};
     }
 
     CLI::App& app() const { return *app_; }
@@ -164,7 +169,6 @@ public:
     void camera(ViewOptions& view, Text what) const;
 
 private:
-    Options below(std::string_view name, Text about, Text footer, const std::function<int()>& work) const;
     static CLI::Option* text_like(CLI::Option* option, Text type, bool several);
 
     CLI::App* app_;

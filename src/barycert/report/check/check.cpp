@@ -19,9 +19,9 @@ void tell_surface_verdict(Document& d, const CheckReport& r, const std::string& 
     const SurfaceReport& s = *r.surface;
     const char* const what = s.plc ? "a valid PLC" : "a closed surface without self-intersections";
     if (r.certified()) {
-        const std::string size = fmt::format("{} in {}{}{}", counted(s.plc ? s.facets : r.cells, cell_word(r)),
-                                             counted(s.shell_count, "shell"), s.regions.empty() ? "" : " around ",
-                                             s.regions.empty() ? "" : counted(s.regions.size(), "region"));
+        const std::string size = fmt::format("{} in {}{}", counted(s.plc ? s.facets : r.cells, cell_word(r)),
+                                             counted(s.shell_count, "shell"),
+                                             s.regions.empty() ? "" : " around " + counted(s.regions.size(), "region"));
         d.add(Headline{Tone::good,
                        name,
                        fmt::format("certified: {}", what),
@@ -174,8 +174,7 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
     const std::string size = r.dimension == 2 ? "area" : "volume";
     d.part("Cells and boundary");
     d.add(Named{"mesh",
-                {counted(r.cells, r.dimension == 2 ? "triangle" : "tetrahedron",
-                         r.dimension == 2 ? "triangles" : "tetrahedra") +
+                {(r.dimension == 2 ? counted(r.cells, "triangle") : counted(r.cells, "tetrahedron", "tetrahedra")) +
                  ", " + counted(r.nodes, "node")}},
           For::page);
     d.name("cells", fmt::format("{} positive, {} negative, {} degenerate, by the exact sign of the {}", r.positive,

@@ -280,10 +280,10 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     if (red) drawn += " Numbers in red: cells with defects, drawn below.";
     if (blue) drawn += " Numbers in blue: the cells with the smallest angles, which need not be wrong.";
     if (!problems.empty()) drawn += " Red dots: cells with problems, some of them where they are many.";
-    return fmt::format("<figure><div class=\"map\">{}<div>{}</div></div>\n", std::move(svg).finish(),
-                       legend(r, mesh, exhibits)) +
-           fmt::format("<p class=\"small\">The box of the cells: {}. {}</p></figure>\n", extent(box, mesh.dimension),
-                       drawn);
+    return fmt::format(
+        "<figure><div class=\"map\">{}<div>{}</div></div>\n"
+        "<p class=\"small\">The box of the cells: {}. {}</p></figure>\n",
+        std::move(svg).finish(), legend(r, mesh, exhibits), extent(box, mesh.dimension), drawn);
 }
 
 }  // namespace barycert::report
