@@ -51,8 +51,7 @@ void check_alone(const AuditArguments& a) {
 }
 
 std::function<void(const AuditProgress&)> progress_of(AuditArguments& a) {
-    a.reports.begin_progress();
-    return [&progress = a.reports.progress()](const AuditProgress& p) {
+    return [&progress = a.reports.begin_progress()](const AuditProgress& p) {
         if (!progress.due()) return;
         progress.stage(fmt::format("{:3d} %  {} of {} cases, {}", p.cases_done * 100 / p.cases_total, p.cases_done,
                                    p.cases_total, p.family));

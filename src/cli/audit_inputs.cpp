@@ -84,14 +84,6 @@ TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernel
     return style;
 }
 
-void add_count(const Options& o, std::uint64_t& count, int most_bits, const std::string& help) {
-    o.integer("--count", count, std::uint64_t{1}, std::uint64_t{1} << most_bits, help);
-}
-
-void add_seed(const Options& o, std::uint64_t& seed, const std::string& help) {
-    o.whole("--seed", seed, help)->default_str(std::to_string(seed));
-}
-
 void tell_note(const std::string& path, const Kernel& kernel) {
     if (!kernel.note.empty()) tell("note: " + base::printable(path + ": " + kernel.note) + "\n");
 }
@@ -102,10 +94,6 @@ Result<std::vector<Kernel>> chosen_kernels(const KernelChoice& choice) {
     for (std::size_t i = 0; kernels && i < count; ++i)
         tell_note(choice.libraries[i], (*kernels)[kernels->size() - count + i]);
     return kernels;
-}
-
-std::vector<base::NamedFile> library_files(const KernelChoice& kernels) {
-    return base::named_files("--kernel-library", kernels.libraries);
 }
 
 std::string failures_of(const std::vector<Violation>& violations) {

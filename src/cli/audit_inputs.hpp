@@ -20,15 +20,21 @@ void add_kernel_rules(const Options& o, KernelChoice& kernels);
 TerminalStyle style_to_repeat(const Reports& reports, const KernelChoice& kernels, bool colour = false);
 
 /// --count and --seed.
-void add_count(const Options& o, std::uint64_t& count, int most_bits, const std::string& help);
-void add_seed(const Options& o, std::uint64_t& seed, const std::string& help);
+inline void add_count(const Options& o, std::uint64_t& count, int most_bits, const std::string& help) {
+    o.integer("--count", count, std::uint64_t{1}, std::uint64_t{1} << most_bits, help);
+}
+inline void add_seed(const Options& o, std::uint64_t& seed, const std::string& help) {
+    o.whole("--seed", seed, help)->default_str(std::to_string(seed));
+}
 
 /// choose_kernels(), with what the libraries are to be told of on stderr.
 Result<std::vector<Kernel>> chosen_kernels(const KernelChoice& choice);
 void tell_note(const std::string& path, const Kernel& kernel);
 
 /// The libraries as inputs.
-std::vector<base::NamedFile> library_files(const KernelChoice& kernels);
+inline std::vector<base::NamedFile> library_files(const KernelChoice& kernels) {
+    return base::named_files("--kernel-library", kernels.libraries);
+}
 
 /// Lines that say which figures exceed their limits.
 std::string failures_of(const std::vector<Violation>& violations);

@@ -43,12 +43,12 @@ void add_check(const Options& program) {
         "check",
         "Prove in exact arithmetic that a mesh is a partition of its domain, or a surface closed and without "
         "self-intersections, or report why it is not",
-        "Exit codes: 0 certified, 1 not certified, 2 usage or input error; with --fix by the copy,\nwhile --junit, "
-        "--sarif and --annotations tell of the mesh as it was.\nCertified: any two cells meet in a common face or not "
-        "at all, and the files .neigh and .face, if present, agree with\nthe cells. Second-order cells are checked "
-        "with straight sides.\nA surface is certified if any two triangles meet in a common node or edge or not at "
-        "all, "
-        "and each edge has two or more;\na PLC, if it is valid and encloses a region: then TetGen can mesh it.",
+        R"(Exit codes: 0 certified, 1 not certified, 2 usage or input error; with --fix by the copy,
+while --junit, --sarif and --annotations tell of the mesh as it was.
+Certified: any two cells meet in a common face or not at all, and the files .neigh and .face, if present, agree with
+the cells. Second-order cells are checked with straight sides.
+A surface is certified if any two triangles meet in a common node or edge or not at all, and each edge has two or more;
+a PLC, if it is valid and encloses a region: then TetGen can mesh it.)",
         run_check);
     CheckJob& job = a.job;
     o.text("MESH", job.mesh,

@@ -1,7 +1,10 @@
 // barycert help: what --help says, and the same options as manual pages and completions for shells.
 
+#include <fmt/chrono.h>
+
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -56,25 +59,18 @@ std::vector<CommandEntry> names_below(const std::string& path, const std::vector
 
 /// For completions: after `help` come the names of commands, and of those below them.
 CommandEntry with_names_below_help(CommandEntry program) {
-    const std::vector<CommandEntry> commands = program.commands;
-    for (CommandEntry& command : program.commands) {
-        if (command.name != "help") continue;
-        std::erase_if(command.options, [](const OptionEntry& option) { return option.operand; });
-        command.commands = names_below(command.path, commands, command.options);
-    }
+    CommandEntry& help = *std::ranges::find(program.commands, "help", &CommandEntry::name);
+    std::erase_if(help.options, std::mem_fn(&OptionEntry::operand));
+    help.commands = names_below(help.path, program.commands, help.options);
     return program;
 }
 
 /// The command that `barycert mesh` runs, as a program of its own.
 CommandEntry mesher(const CommandEntry& program) {
-    for (const CommandEntry& command : program.commands) {
-        if (command.name != "mesh") continue;
-        CommandEntry alone = command;
-        alone.path = alone.name = "barycert-tetgen";
-        alone.text = "Mesh a PLC (.poly .smesh .off .stl .ply .obj) with TetGen";
-        return alone;
-    }
-    return {};
+    CommandEntry alone = *std::ranges::find(program.commands, "mesh", &CommandEntry::name);
+    alone.path = alone.name = "barycert-tetgen";
+    alone.text = "Mesh a PLC (.poly .smesh .off .stl .ply .obj) with TetGen";
+    return alone;
 }
 
 std::vector<Variable> variables() {
@@ -92,10 +88,7 @@ std::string date() {
     std::time_t seconds = 0;
     if (text == nullptr || std::from_chars(text, text + std::strlen(text), seconds).ec != std::errc{}) return "";
     std::tm day{};
-    if (gmtime_r(&seconds, &day) == nullptr) return "";
-    std::array<char, 16> written{};
-    std::strftime(written.data(), written.size(), "%Y-%m-%d", &day);
-    return written.data();
+    return gmtime_r(&seconds, &day) == nullptr ? "" : fmt::format("{:%Y-%m-%d}", day);
 }
 
 int write_pages(const CommandEntry& program, const std::string& folder) {

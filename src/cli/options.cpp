@@ -86,15 +86,6 @@ std::pair<std::string, std::string> assignment(Text option, Text expected, Text 
     return {text.substr(0, sign), text.substr(sign + 1)};
 }
 
-Options Options::below(std::string_view name, Text about, Text footer, const std::function<int()>& work) const {
-    CLI::App* const sub = app_->add_subcommand(std::string(name), about);
-    sub->footer(with_command_name(footer));
-    sub->callback([work, sub, code = exit_code_] {
-        if (sub->get_subcommands().empty()) *code = work();
-    });
-    return {*sub, *exit_code_};
-}
-
 CLI::Option* Options::text_like(CLI::Option* option, Text type, bool several) {
     if (several) option->allow_extra_args(false);
     if (is_type_of_files(type))
@@ -124,14 +115,6 @@ CLI::Option* Options::flag(Text name, bool& value, Text help, bool given) const 
         name, [&value, given] { value = given; }, with_command_name(help));
 }
 
-void Options::mesh(std::string& mesh) const {
-    text("MESH", mesh, mesh_help)->required();
-}
-
-void Options::threads(int& threads) const {
-    integer("--threads", threads, 0, 4096, "Number of threads; 0: all");
-}
-
 void Options::curved(Curved& curved) const {
     choice<Curved>("--curved", curved, {{"straight", Curved::straight}, {"refuse", Curved::refuse}},
                    "Second-order cells with mid-edge nodes off the middle: straight: take their sides as straight, and "
@@ -151,10 +134,6 @@ void Options::nonfinite(NonfinitePoints& points) const {
         "--nonfinite-points", points, {{"error", NonfinitePoints::error}, {"nan", NonfinitePoints::nan}},
         "Points with a coordinate that is NaN, infinite or an empty field. error: the run ends (default); nan: they "
         "are outside, with NaN for values whatever points outside get, and counted");
-}
-
-void Options::rounding(Rounding& rounding, const char* help) const {
-    choice<Rounding>("--rounding", rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, help);
 }
 
 void Options::range(std::optional<std::pair<double, double>>& range, Text what) const {

@@ -58,6 +58,10 @@ std::vector<std::string> names_of(const Items& items) {
     return names;
 }
 
+inline constexpr const char* mesh_help =
+    "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
+    ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";
+
 /// What options are declared with: names, types, helps.
 using Text = const std::string&;
 
@@ -73,7 +77,12 @@ public:
     std::pair<Options, Arguments&> command(std::string_view name, Text about, Text footer,
                                            int (*work)(Arguments&)) const {
         const auto a = std::make_shared<Arguments>();
-        return {below(name, about, footer, [a, work] { return work(*a); }), *a};
+        CLI::App* const sub = app_->add_subcommand(std::string(name), about);
+        sub->footer(with_command_name(footer));
+        sub->callback([a, work, sub, code = exit_code_] {
+            if (sub->get_subcommands().empty()) *code = work(*a);
+        });
+        return {Options(*sub, *exit_code_), *a};
     }
 
     CLI::App& app() const { return *app_; }
@@ -141,12 +150,14 @@ public:
     }
 
     // Options that several subcommands have.
-    void mesh(std::string& mesh) const;
-    void threads(int& threads) const;
+    void mesh(std::string& mesh) const { text("MESH", mesh, mesh_help)->required(); }
+    void threads(int& threads) const { integer("--threads", threads, 0, 4096, "Number of threads; 0: all"); }
     void curved(Curved& curved) const;
     void vtk_data(std::optional<VtkData>& data) const;
     void nonfinite(NonfinitePoints& points) const;
-    void rounding(Rounding& rounding, const char* help) const;
+    void rounding(Rounding& rounding, const char* help) const {
+        choice<Rounding>("--rounding", rounding, {{"correct", Rounding::correct}, {"plain", Rounding::plain}}, help);
+    }
     /// MIN,MAX: what the first and the last colour of a picture mean. `what`: "Picture: ", if there are other outputs.
     void range(std::optional<std::pair<double, double>>& range, Text what) const;
     /// --step and --time, of a MESH that is a series. `all`: what --step all sets; nullptr: not allowed.
@@ -158,7 +169,6 @@ public:
     void camera(ViewOptions& view, Text what) const;
 
 private:
-    Options below(std::string_view name, Text about, Text footer, const std::function<int()>& work) const;
     static CLI::Option* text_like(CLI::Option* option, Text type, bool several);
 
     CLI::App* app_;
@@ -170,10 +180,6 @@ std::string given_option(const CLI::App& app, std::initializer_list<std::string_
 
 /// NAME and VALUE of NAME=VALUE, neither of them empty; else refuses the option.
 std::pair<std::string, std::string> assignment(Text option, Text expected, Text text);
-
-inline constexpr const char* mesh_help =
-    "A mesh: TetGen's or Triangle's .node/.ele, Gmsh's .msh, Medit's .mesh .meshb, VTK's .vtu .vtk .vtp .pvtu .vtm "
-    ".pvd .vtu.series .vtp.series; others by way of meshio; any packed as .gz";
 
 /// What the help ends with where there are no other exit codes.
 inline constexpr const char* done_or_error = "Exit codes: 0 done; 2 usage or input error.";

@@ -17,10 +17,6 @@ void Progress::stage(std::string_view text) {
     last_ = std::chrono::steady_clock::now();
 }
 
-bool Progress::due() const {
-    return on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100);
-}
-
 void Progress::clear() {
     if (shown_) tell("\r\033[K");
     shown_ = false;
@@ -76,10 +72,11 @@ void Reports::begin(MeshJob& job) {
     };
 }
 
-void Reports::begin_progress() {
+Progress& Reports::begin_progress() {
     // Rows on the same terminal would run into the progress.
     const bool rows_on_terminal = rows_ != nullptr && *rows_ == "-" && isatty(STDOUT_FILENO) == 1;
     progress_.begin(!quiet_ && isatty(STDERR_FILENO) == 1 && !rows_on_terminal);
+    return progress_;
 }
 
 int Reports::write(Told told) {

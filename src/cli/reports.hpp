@@ -25,7 +25,7 @@ public:
     void begin(bool on) { on_ = on; }
     void stage(std::string_view text);
     /// True if a line is shown at all and the last one is a tenth of a second old.
-    bool due() const;
+    bool due() const { return on_ && std::chrono::steady_clock::now() - last_ > std::chrono::milliseconds(100); }
     void clear();
 
 private:
@@ -66,8 +66,7 @@ public:
 
     /// Tells the job of the reports, and how the program is called; its progress is shown from now on.
     void begin(MeshJob& job);
-    void begin_progress();
-    Progress& progress() { return progress_; }
+    Progress& begin_progress();
 
     /// Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
     /// the user the others, the fruit of the whole run. Returns the exit code.

@@ -1,5 +1,6 @@
 // barycert sample, resample: the fields of a mesh at points, on a regular grid, or at the nodes of another mesh.
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -10,25 +11,19 @@
 namespace barycert::cli {
 namespace {
 
-/// The number after `word=`; nothing if the text is something else.
-std::optional<double> number_after(std::string_view word, std::string_view text) {
-    if (!text.starts_with(word) || text.substr(word.size(), 1) != "=") return std::nullopt;
-    return base::parse_double(text.substr(word.size() + 1));
-}
-
 OutsidePolicy policy_of(const std::string& text) {
     if (text == "nan") return {};
     if (text == "error") return {.kind = Outside::error};
     if (text == "extrapolate") return {.kind = Outside::extrapolate};
     if (text == "nearest") return {.kind = Outside::nearest};
-    if (const auto value = number_after("fill", text)) return {.kind = Outside::fill, .fill = *value};
-    if (const auto limit = number_after("nearest", text); limit && std::isfinite(*limit) && *limit >= 0)
-        return {.kind = Outside::nearest, .limit = *limit};
-    const std::string word = text.substr(0, text.find('='));
+    const std::string word = text.substr(0, text.find('=')),
+                      number = text.substr(std::min(word.size() + 1, text.size()));
+    const auto x = base::parse_double(number);
+    if (word == "fill" && x) return {.kind = Outside::fill, .fill = *x};
+    if (word == "nearest" && x && std::isfinite(*x) && *x >= 0) return {.kind = Outside::nearest, .limit = *x};
     const bool known = word == "fill" || word == "nearest";
     const std::string meant =
-        known ? (text == "fill" ? "say with what" : '"' + text.substr(text.find('=') + 1) + "\" is no such number") +
-                    ": " + word + "=0.5"
+        known ? (text == "fill" ? "say with what" : '"' + number + "\" is no such number") + ": " + word + "=0.5"
               : base::did_you_mean(word, {"nan", "error", "fill", "nearest", "extrapolate"});
     throw CLI::ValidationError(
         "--outside",

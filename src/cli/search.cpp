@@ -55,13 +55,11 @@ std::string progress_line(const SearchProgress& p, double seconds) {
 }
 
 Result<SearchReport> search(SearchArguments& a) {
-    a.reports.begin_progress();
+    Progress& progress = a.reports.begin_progress();
     const auto start = std::chrono::steady_clock::now();
     a.job.progress = [&](const SearchProgress& p) {
-        if (a.reports.progress().due()) {
-            const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-            a.reports.progress().stage(progress_line(p, elapsed.count()));
-        }
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        if (progress.due()) progress.stage(progress_line(p, elapsed.count()));
         return interrupted == 0;
     };
     const InterruptEndsSearch while_searching;

@@ -24,21 +24,24 @@ std::string testcase(const CiOutcome& o) {
                        html_escaped(o.rule), html_escaped(o.message), html_escaped(o.subject + ": " + o.message));
 }
 
-std::size_t failures(const std::vector<CiOutcome>& outcomes, const std::string* subject = nullptr) {
-    return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(), [&](const CiOutcome& o) {
-        return o.state == State::failed && (subject == nullptr || o.subject == *subject);
-    }));
+std::ptrdiff_t failures(std::span<const CiOutcome> outcomes) {
+    return std::ranges::count(outcomes, State::failed, &CiOutcome::state);
 }
 
-/// A path as a reference that any reader of URIs takes: what is not plain stands as %xx.
-std::string uri_of(const std::string& path) {
+/// What is not plain stands as %xx.
+std::string coded(std::string_view text, auto plain) {
     std::string out;
-    for (const char c : path) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                           std::string_view("-._~/").find(c) != std::string_view::npos;
-        out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    return path.starts_with('/') ? "file://" + out : out;
+    for (const char c : text)
+        out += plain(c) ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    return out;
+}
+
+/// A path as a reference that any reader of URIs takes.
+std::string uri_of(const std::string& path) {
+    return (path.starts_with('/') ? "file://" : "") + coded(path, [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                      std::string_view("-._~/").find(c) != std::string_view::npos;
+           });
 }
 
 Json location_of(const CiOutcome& o, const std::string& kind) {
@@ -50,12 +53,7 @@ Json location_of(const CiOutcome& o, const std::string& kind) {
 
 /// GitHub's rule for the data of a workflow command; `in_property`: for its properties.
 std::string command_data(const std::string& text, bool in_property) {
-    std::string out;
-    for (const char c : base::printable(text)) {
-        const bool coded = c == '%' || (in_property && (c == ':' || c == ','));
-        out += coded ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
-    }
-    return out;
+    return coded(base::printable(text), [&](char c) { return c != '%' && !(in_property && (c == ':' || c == ',')); });
 }
 
 }  // namespace
@@ -71,14 +69,13 @@ std::string ci_junit(const CiReport& report) {
     out += fmt::format("<testsuites name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" time=\"{:.3f}\">\n",
                        html_escaped(report.command), all.size(), failures(all), report.seconds);
     for (std::size_t i = 0; i < all.size();) {
-        const std::string& subject = all[i].subject;
         std::size_t end = i;
         std::string cases;
-        for (; end < all.size() && all[end].subject == subject; ++end) cases += testcase(all[end]);
+        for (; end < all.size() && all[end].subject == all[i].subject; ++end) cases += testcase(all[end]);
         out += fmt::format(
             "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\" time=\"0\">\n{}  "
             "</testsuite>\n",
-            html_escaped(subject), end - i, failures(all, &subject), cases);
+            html_escaped(all[i].subject), end - i, failures(std::span(all).subspan(i, end - i)), cases);
         i = end;
     }
     return out + "</testsuites>\n";

@@ -16,14 +16,12 @@ JSON_OF(WayCounts, no_cell_near, walk, contested, candidates)
 namespace {
 
 void tell_inside(Document& d, const LocationCounts& n, bool surface) {
-    const std::string on =
-        fmt::format("{}: {} on a face, {} on an edge, {} at a vertex", n.inside(), n.face, n.edge, n.vertex);
+    const std::string interior = surface ? "" : fmt::format("{} in the interior of a cell, ", n.interior);
     d.figure("inside", record("count", n.inside(), MEMBERS(n, interior, face, edge, vertex)),
              surface ? "on it" : "inside",
              n.inside() == 0 ? "0"
-             : surface       ? on
-                       : fmt::format("{}: {} in the interior of a cell, {} on a face, {} on an edge, {} at a vertex",
-                                     n.inside(), n.interior, n.face, n.edge, n.vertex));
+                             : fmt::format("{}: {}{} on a face, {} on an edge, {} at a vertex", n.inside(), interior,
+                                           n.face, n.edge, n.vertex));
 }
 
 /// What became of points outside.

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/common/picture.hpp"
 
@@ -24,8 +26,7 @@ struct Scene {
     std::size_t corners = 4;
     std::vector<Vector> points;
     std::vector<Mesh::Index> nodes;
-    bool has_common = false;
-    Vector common = Vector::Zero();
+    std::optional<Vector> common;
 
     Points cell(std::size_t i) const { return Points(points).subspan(i * corners, corners); }
     std::size_t cells() const { return points.size() / corners; }
@@ -46,8 +47,7 @@ Scene scene_of(const Mesh& mesh, const Exhibit& e) {
     scene.points = normalised.points();
     if (e.contact != nullptr) {
         const std::array<double, 3>& w = e.contact->common.point;
-        scene.has_common = std::all_of(w.begin(), w.end(), [](double x) { return std::isfinite(x); });
-        if (scene.has_common) scene.common = normalised.place(w.data());
+        if (base::all_finite(w)) scene.common = normalised.place(w.data());
     }
     return scene;
 }
@@ -138,9 +138,9 @@ std::string draw(const Scene& scene, const Shown& shown, double scale, const std
         svg.dot(p, 2.2, "node");
         labels.push_back({p, std::to_string(scene.nodes[i]), "id"});
     }
-    if (scene.has_common) {
-        svg.dot(at(scene.common), 4, "witness", "common point");
-        labels.push_back({at(scene.common), "common point", "id bad"});
+    if (scene.common) {
+        svg.dot(at(*scene.common), 4, "witness", "common point");
+        labels.push_back({at(*scene.common), "common point", "id bad"});
     }
     place_labels(svg, std::move(labels), top);
     return std::move(svg).finish();

@@ -90,20 +90,15 @@ std::vector<Exhibit> worst_cells(const CheckReport& report, const Mesh& mesh, st
 
 std::vector<Exhibit> defect_cells(const CheckReport& report, const Mesh& mesh, std::size_t max) {
     // One queue a kind of problem; of pairs of cells, those with a witness first.
-    std::vector<std::vector<Exhibit>> queues;
-    const auto add = [&](Exhibit e) {
-        if (e.cells[0] >= 0 && queues.back().size() < longest_queue) queues.back().push_back(std::move(e));
+    std::vector<std::vector<Exhibit>> queues(2);
+    const auto add = [](std::vector<Exhibit>& queue, Exhibit e) {
+        if (e.cells[0] >= 0 && queue.size() < longest_queue) queue.push_back(std::move(e));
     };
-    for (const bool overlap : {true, false}) {
-        queues.emplace_back();
-        for (const CellContact& c : report.contacts) {
-            if (c.overlap == overlap) add(of_contact(c, drawn_of(mesh, c.cells)));
-        }
-    }
+    for (const CellContact& c : report.contacts) add(queues[c.overlap ? 0 : 1], of_contact(c, drawn_of(mesh, c.cells)));
     for (const Defect& f : report.defects) {
         if (!f.breaks()) continue;
-        queues.emplace_back();
-        for (const DefectPlace& p : f.places) add(of_place(f.kind, p, drawn_of(mesh, p.cells)));
+        std::vector<Exhibit>& queue = queues.emplace_back();
+        for (const DefectPlace& p : f.places) add(queue, of_place(f.kind, p, drawn_of(mesh, p.cells)));
     }
     // First such as have only cells that were not shown yet; one cell may overlap many.
     std::vector<Exhibit> exhibits;

@@ -113,15 +113,13 @@ Json fix_json(const FixedMesh& fixed) {
 std::string defect_message(const CheckReport& r, const Defect& d) {
     constexpr std::size_t most_places = 10;
     std::vector<std::string> places;
-    for (const DefectPlace& place : d.places) {
-        std::string text = place_text(r, d.kind, place);
-        if (!text.empty() && places.size() < most_places) places.push_back(std::move(text));
-    }
-    if (!places.empty()) places.front().insert(0, ": ");
+    for (const DefectPlace& place : std::span(d.places).first(std::min(d.places.size(), most_places)))
+        places.push_back(place_text(r, d.kind, place));
     if (!places.empty() && d.count > places.size())
         places.push_back(fmt::format("and {} more", d.count - places.size()));
-    return fmt::format("{}{} {}{}{}{}", d.at_least ? "at least " : "", d.count, defect_text(d.kind).text,
-                       fmt::join(places, "; "), d.curved_cells == 0 ? "" : ". " + curved_text(d),
+    return fmt::format("{}{} {}{}{}{}{}", d.at_least ? "at least " : "", d.count, defect_text(d.kind).text,
+                       places.empty() ? "" : ": ", fmt::join(places, "; "),
+                       d.curved_cells == 0 ? "" : ". " + curved_text(d),
                        d.remedy().empty() ? "" : fmt::format(". Remedy: {}", d.remedy()));
 }
 

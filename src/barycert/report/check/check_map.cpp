@@ -1,11 +1,10 @@
 // Where in the mesh the exhibits are.
 
-#include <tbb/task_arena.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
@@ -131,24 +130,17 @@ struct Map {
         : mesh(of),
           normalised(of.dimension, {box.min().data(), box.max().data()}),
           view(of.dimension == 2 ? View{} : oblique()) {
-        double x = 0, y = 0;  // half of what the box takes
-        for (const Vector& p : corners()) {
-            x = std::max(x, std::fabs(view(p)[0]));
-            y = std::max(y, std::fabs(view(p)[1]));
-        }
-        if (x > 0) scale = (map_width / 2 - map_margin) / x;
-        if (y > 0) scale = std::min(scale, (tallest / 2 - map_margin) / y);
-        height = 2 * (scale * y + map_margin);
+        Eigen::Vector2d half = Eigen::Vector2d::Zero();  // of what the box takes
+        for (unsigned i = 0; i < 8; ++i) half = half.cwiseMax(view(corner(i)).head<2>().cwiseAbs());
+        if (half[0] > 0) scale = (map_width / 2 - map_margin) / half[0];
+        if (half[1] > 0) scale = std::min(scale, (tallest / 2 - map_margin) / half[1]);
+        height = 2 * (scale * half[1] + map_margin);
     }
 
-    /// All corners of the box; bit k of the index is the side along axis k.
-    std::vector<Vector> corners() const {
-        std::vector<Vector> list;
-        for (unsigned i = 0; i < 8; ++i) {
-            Vector& v = list.emplace_back();
-            for (unsigned k = 0; k < 3; ++k) v[k] = normalised.points()[(i >> k) & 1U][k];
-        }
-        return list;
+    /// Of the box; bit k of the index is the side along axis k.
+    Vector corner(unsigned i) const {
+        const std::vector<Vector>& ends = normalised.points();
+        return {ends[i & 1U][0], ends[i >> 1U & 1U][1], ends[i >> 2U][2]};
     }
 
     Pixel at(const Vector& v) const {
@@ -157,12 +149,11 @@ struct Map {
     }
     Pixel node(Mesh::Index i) const { return at(normalised.place(node_at(mesh, i))); }
 
-    template <class Nodes>
-    Pixel middle(const Nodes& nodes) const {
+    Pixel middle(std::span<const Mesh::Index> nodes) const {
         Pixel p;
         for (const Mesh::Index i : nodes) {
-            p.x += node(i).x / static_cast<double>(std::size(nodes));
-            p.y += node(i).y / static_cast<double>(std::size(nodes));
+            p.x += node(i).x / static_cast<double>(nodes.size());
+            p.y += node(i).y / static_cast<double>(nodes.size());
         }
         return p;
     }
@@ -170,17 +161,16 @@ struct Map {
 };
 
 void draw_box(Picture& svg, const Map& map, int d) {
-    const std::vector<Vector> corners = map.corners();
     std::vector<std::pair<Pixel, Pixel>> edges;
     for (unsigned i = 0; i < (d == 2 ? 4U : 8U); ++i) {
         for (unsigned k = 0; k < static_cast<unsigned>(d); ++k) {
-            if ((i >> k & 1U) == 0) edges.emplace_back(map.at(corners[i]), map.at(corners[i | 1U << k]));
+            if ((i >> k & 1U) == 0) edges.emplace_back(map.at(map.corner(i)), map.at(map.corner(i | 1U << k)));
         }
     }
     svg.lines(edges, "box");
     // Names of the axes at edges that lie in front and below.
     const auto name = [&](unsigned from, unsigned to, const char* text, double dx, double dy) {
-        const Pixel a = map.at(corners[from]), b = map.at(corners[to]);
+        const Pixel a = map.at(map.corner(from)), b = map.at(map.corner(to));
         svg.text({(a.x + b.x) / 2 + dx, (a.y + b.y) / 2 + dy}, text, "tick m");
     };
     name(0, 1, "x", d == 2 ? 0 : -8, 16);
@@ -260,11 +250,11 @@ std::string extent(const Eigen::AlignedBox3d& box, int d) {
 std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vector<Exhibit>& exhibits) {
     const Eigen::AlignedBox3d box = box_of(mesh);
     if (box.isEmpty()) return "";
-    const bool proper = std::none_of(r.defects.begin(), r.defects.end(), leaves_cells_out);
+    const bool all = std::ranges::none_of(r.defects, leaves_cells_out);
+    const Mesh proper = all ? Mesh() : proper_cells(mesh);
     const Map map(mesh, box);
-    Outline outline;
-    tbb::task_arena arena(r.threads > 0 ? r.threads : tbb::task_arena::automatic);
-    arena.execute([&] { outline = outline_of(proper ? mesh : proper_cells(mesh), map.normalised, map.view); });
+    const Outline outline = base::in_arena(r.threads, mesh.cell_count(),
+                                           [&] { return outline_of(all ? mesh : proper, map.normalised, map.view); });
 
     Picture svg(map_width, map.height, "the boundary of the mesh, and where the cells below are");
     draw_box(svg, map, mesh.dimension);
@@ -290,10 +280,10 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
     if (red) drawn += " Numbers in red: cells with defects, drawn below.";
     if (blue) drawn += " Numbers in blue: the cells with the smallest angles, which need not be wrong.";
     if (!problems.empty()) drawn += " Red dots: cells with problems, some of them where they are many.";
-    return fmt::format("<figure><div class=\"map\">{}<div>{}</div></div>\n", std::move(svg).finish(),
-                       legend(r, mesh, exhibits)) +
-           fmt::format("<p class=\"small\">The box of the cells: {}. {}</p></figure>\n", extent(box, mesh.dimension),
-                       drawn);
+    return fmt::format(
+        "<figure><div class=\"map\">{}<div>{}</div></div>\n"
+        "<p class=\"small\">The box of the cells: {}. {}</p></figure>\n",
+        std::move(svg).finish(), legend(r, mesh, exhibits), extent(box, mesh.dimension), drawn);
 }
 
 }  // namespace barycert::report

@@ -25,56 +25,50 @@ void tell_differing(std::vector<std::string>& all, const std::vector<MergedField
                                   f.max_difference == 0 ? "" : ", by up to " + base::shortest(f.max_difference)));
 }
 
+std::vector<ConditionRow> conditions_of(const CheckReport& report) {
+    if (report.surface) {
+        const bool plc = report.surface->plc;
+        return {
+            {"S1", plc ? "every facet is simple, with finite coordinates and an area"
+                       : "every triangle has 3 different nodes, finite coordinates and an area"},
+            {"S2", plc ? "facets, segments and nodes meet only in nodes and segments that they share"
+                       : "triangles meet only in nodes and edges that they share"},
+            {"S3", plc ? "the facets enclose a region" : "the surface is closed: each edge has two triangles or more"}};
+    }
+    const bool plane = report.dimension == 2;
+    return {{"P1", plane ? "every cell has 3 different nodes, finite coordinates and an area"
+                         : "every cell has 4 different nodes, finite coordinates and a volume"},
+            {"P2", "a facet belongs to one cell, or to two on opposite sides of it"},
+            {"P3", plane ? "boundary facets meet only in nodes that they share"
+                         : "boundary facets meet only in nodes and edges that they share"},
+            {"P4", "no piece of the boundary lies inside cells"},
+            {"", "hence, by P1 to P4: no two cells overlap"},
+            {"P5", plane ? "neighbours in the files are those of the cells"
+                         : "neighbours and faces in the files are those of the cells"}};
+}
+
+/// What cells and surfaces have in common has the name of P1.
+bool violates(const Defect& f, const ConditionRow& row) {
+    if (row.name.empty()) return f.kind == DefectKind::overlapping_cells;
+    const std::string_view of = defect_text(f.kind).condition;
+    return of == row.name || (of == "P1" && row.name == "S1");
+}
+
 }  // namespace
 
 std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& mesh) {
-    if (report.surface) return surface_condition_rows(report);
-    const bool plane = report.dimension == 2;
-    std::vector<ConditionRow> rows{
-        {"P1", plane ? "every cell has 3 different nodes, finite coordinates and an area"
-                     : "every cell has 4 different nodes, finite coordinates and a volume"},
-        {"P2", "a facet belongs to one cell, or to two on opposite sides of it"},
-        {"P3", plane ? "boundary facets meet only in nodes that they share"
-                     : "boundary facets meet only in nodes and edges that they share"},
-        {"P4", "no piece of the boundary lies inside cells"},
-        {"", "hence, by P1 to P4: no two cells overlap"},
-        {"P5", plane ? "neighbours in the files are those of the cells"
-                     : "neighbours and faces in the files are those of the cells"},
-    };
+    std::vector<ConditionRow> rows = conditions_of(report);
     const bool files = !mesh.neighbours.empty() || !mesh.faces.empty();
     const bool looked_at = report.find(DefectKind::bad_structure) == nullptr;
     for (ConditionRow& row : rows) {
         for (const Defect& f : report.defects) {
-            const bool here =
-                row.name.empty() ? f.kind == DefectKind::overlapping_cells : defect_text(f.kind).condition == row.name;
-            if (!defect_text(f.kind).breaks || !here) continue;
+            if (!f.breaks() || !violates(f, row)) continue;
             row.count += f.count;
             row.at_least |= f.at_least;
         }
-        row.instead = !looked_at ? "not checked" : row.name == "P5" && !files ? "not provided" : "ok";
+        const bool unknown = row.name == "S3" && row.count == 0 && !report.surface->closed;
+        row.instead = !looked_at || unknown ? "not checked" : row.name == "P5" && !files ? "not provided" : "ok";
     }
-    return rows;
-}
-
-/// As those of a mesh; what cells and surfaces have in common has the names of P1.
-std::vector<ConditionRow> surface_condition_rows(const CheckReport& report) {
-    const bool plc = report.surface->plc;
-    std::vector<ConditionRow> rows{
-        {"S1", plc ? "every facet is simple, with finite coordinates and an area"
-                   : "every triangle has 3 different nodes, finite coordinates and an area"},
-        {"S2", plc ? "facets, segments and nodes meet only in nodes and segments that they share"
-                   : "triangles meet only in nodes and edges that they share"},
-        {"S3", plc ? "the facets enclose a region" : "the surface is closed: each edge has two triangles or more"}};
-    for (ConditionRow& row : rows) {
-        for (const Defect& f : report.defects) {
-            const std::string_view of = defect_text(f.kind).condition;
-            if (!f.breaks() || (of != row.name && !(of == "P1" && row.name == "S1"))) continue;
-            row.count += f.count;
-            row.at_least |= f.at_least;
-        }
-        row.instead = report.find(DefectKind::bad_structure) != nullptr ? "not checked" : "ok";
-    }
-    if (rows[2].count == 0 && !report.surface->closed) rows[2].instead = "not checked";
     return rows;
 }
 
@@ -168,6 +162,27 @@ std::vector<std::string> conformity_sentences(const CheckReport& r, std::size_t 
     if (c.violated > shown) violated += fmt::format(", and {} more", c.violated - shown);
     all.push_back("violated facets (area of faces centred on them): " + violated);
     return all;
+}
+
+std::string tetgen_sentence(const CheckReport& r) {
+    const SurfaceReport& s = *r.surface;
+    std::vector<std::string> reasons;
+    for (const Defect& f : r.defects) {
+        // TetGen makes one node of two at one place, and leaves out what collapses.
+        if (f.breaks() && f.kind != DefectKind::open_edge && f.kind != DefectKind::repeated_node)
+            reasons.push_back(reason(f));
+    }
+    if (!reasons.empty()) return fmt::format("TetGen will not get a valid PLC: {}", fmt::join(reasons, ", "));
+    const auto left = std::ranges::count(s.regions, false, &SurfaceRegion::hole);
+    if (s.regions.empty()) return "TetGen will have nothing to mesh: the triangles enclose no region";
+    if (left == 0) return "TetGen will have nothing to mesh: hole points lie in all regions";
+    std::string off;
+    if (s.off_plane != 0)
+        off = fmt::format("; {} up to {:.3g} of its extent off {} plane, where TetGen's own tolerance is 1e-8",
+                          counted(s.off_plane, "facet is", "facets are"), s.relative_off_plane,
+                          s.off_plane == 1 ? "its" : "their");
+    return fmt::format("TetGen will get a valid PLC that bounds {}{}",
+                       counted(static_cast<std::uint64_t>(left), "region"), off);
 }
 
 std::vector<std::string> fix_sentences(const FixedMesh& fixed) {

@@ -14,7 +14,6 @@ struct ConditionRow {
     std::string_view instead = {};  ///< without violations: "ok", "not provided" or "not checked"
 };
 std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& mesh);
-std::vector<ConditionRow> surface_condition_rows(const CheckReport& report);
 
 /// What the report counts: cells, triangles, or facets of a PLC.
 inline const char* cell_word(const CheckReport& report) {

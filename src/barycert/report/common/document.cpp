@@ -69,9 +69,13 @@ namespace {
 
 constexpr std::size_t columns = 100;
 
-std::string wrapped(const std::string& text, Breaks wrap) {
-    if (wrap == Breaks::none) return text;
-    const std::string_view between = wrap == Breaks::words ? " " : ", ";
+std::string_view separator(Breaks wrap) {
+    return wrap == Breaks::none ? "" : wrap == Breaks::words ? " " : ", ";
+}
+
+/// Broken behind `between`, which ends with a blank; not, if there is none.
+std::string wrapped(const std::string& text, std::string_view between, std::size_t max = columns) {
+    if (between.empty()) return text;
     const std::size_t indent = std::min(text.find_first_not_of(' '), text.size());
     std::string out(indent, ' ');
     std::size_t column = 0;  // behind the indent
@@ -80,7 +84,7 @@ std::string wrapped(const std::string& text, Breaks wrap) {
         // Without the blank that `between` ends with.
         const std::size_t end = found == std::string::npos ? text.size() : found + between.size() - 1;
         if (column != 0) {
-            const bool fits = column + 1 + (end - at) <= columns - indent;
+            const bool fits = column + 1 + (end - at) <= max - indent;
             out += fits ? ' ' : '\n';
             column = fits ? column + 1 : 0;
         }
@@ -121,7 +125,7 @@ public:
     void operator()(const Named& n) {
         for (std::size_t i = 0; i < n.lines.size(); ++i) {
             const std::string name = fmt::format("{:<10} ", i == 0 ? n.name : "");
-            const std::string line = wrapped(name + printable(n.lines[i]), n.wrap).substr(name.size());
+            const std::string line = wrapped(name + printable(n.lines[i]), separator(n.wrap)).substr(name.size());
             out.append(name).append(toned(line, n.tone)).append("\n");
         }
     }
@@ -173,17 +177,10 @@ public:
                        toned(printable(line.text), line.command ? Tone::soft : Tone::plain) + "\n";
             std::vector<std::string> places = line.places.shown;
             if (const std::string more = line.places.more(places.size()); !more.empty()) places.push_back(more);
-            std::string of_a_line;
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                std::string piece = printable(places[i]);
-                if (i + 1 < places.size()) piece += line.places.between;
-                if (!of_a_line.empty() && of_a_line.size() + 1 + piece.size() > columns) {
-                    out += of_a_line + "\n";
-                    of_a_line.clear();
-                }
-                of_a_line += (of_a_line.empty() ? "    " : " ") + piece;
-            }
-            if (!of_a_line.empty()) out += of_a_line + "\n";
+            const std::string between{line.places.between, ' '};
+            std::istringstream lines(
+                wrapped(printable(fmt::format("{}", fmt::join(places, between))), between, columns - 4));
+            for (std::string text; std::getline(lines, text);) out += "    " + text + "\n";
         }
     }
 
@@ -202,7 +199,7 @@ private:
         return colour_ && *code != '\0' ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
     }
     void tell(const std::string& text, Tone tone, Breaks wrap = Breaks::none) {
-        out += toned(wrapped(printable(text), wrap), tone) + "\n";
+        out += toned(wrapped(printable(text), separator(wrap)), tone) + "\n";
     }
     static std::string cell_of(const Row& row, std::size_t i) {
         return i < row.cells.size() ? printable(row.cells[i].text) : "";

@@ -30,13 +30,9 @@ std::string html_escaped(std::string_view text) {
 }
 
 std::string html_name(std::string_view name) {
-    std::string out;
-    for (std::size_t at = 0; at < name.size();) {
-        const std::size_t dot = name.find('.', at);
-        const std::size_t end = dot == std::string_view::npos ? name.size() : dot + 1;
-        out += html_escaped(name.substr(at, end - at)) + (end < name.size() ? "<wbr/>" : "");
-        at = end;
-    }
+    std::string out = html_escaped(name);
+    for (std::size_t dot = out.find('.'); dot < out.size() - 1; dot = out.find('.', dot + 1))
+        out.insert(dot + 1, "<wbr/>");
     return out;
 }
 
@@ -278,11 +274,9 @@ public:
         out += "<div class=\"card\">" + paragraph("<b>" + html_escaped(item.title) + "</b>" + html_escaped(item.text));
         for (const Item::Line& line : item.lines) {
             if (!line.text.empty()) out += paragraph(words(line.text, line.command));
-            std::string places;
-            const std::size_t shown = std::min(line.places.shown.size(), max_places);
-            for (std::size_t i = 0; i < shown; ++i)
-                places += (i == 0 ? "" : std::string(1, line.places.between) + " ") + line.places.shown[i];
-            if (const std::string more = line.places.more(shown); !more.empty()) places += "; " + more;
+            const std::span shown = std::span(line.places.shown).first(std::min(line.places.shown.size(), max_places));
+            std::string places = fmt::format("{}", fmt::join(shown, std::string{line.places.between, ' '}));
+            if (const std::string more = line.places.more(shown.size()); !more.empty()) places += "; " + more;
             if (!places.empty()) out += paragraph(html_escaped(places), "small");
         }
         out += "</div>\n";

@@ -118,7 +118,7 @@ struct Tick {
     std::string text;
 };
 
-/// Round numbers in [low, high]: multiples of 1, 2 or 5 times a power of ten, at most `most` of them (at least 2).
+/// Round numbers in [low, high]: multiples of 1, 2 or 5 times a power of ten, at most `max` of them (at least 2).
 std::vector<double> round_ticks(double low, double high, int max);
 /// Of an axis of log10: 1, 2 and 5 times each power of ten in [low, high].
 std::vector<Tick> decade_ticks(double low, double high);

@@ -37,10 +37,8 @@ inline std::string brief(double x) {
 /// Nanoseconds in at most five characters; "-" where nothing was timed.
 inline std::string brief_time(double ns) {
     if (!(ns > 0)) return "-";
-    return fmt::format(ns < 999.95    ? fmt::runtime("{:.1f}")
-                       : ns < 99999.5 ? fmt::runtime("{:.0f}")
-                                      : fmt::runtime("{:.0e}"),
-                       ns);
+    if (ns < 999.95) return fmt::format("{:.1f}", ns);
+    return ns < 99999.5 ? fmt::format("{:.0f}", ns) : fmt::format("{:.0e}", ns);
 }
 
 /// A share in per cent: never "0" or "100" unless it is exactly that.
