@@ -1,8 +1,6 @@
 // A mesh checked, its measures written, and a repaired copy of it.
 
 #include <algorithm>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "barycert/io.hpp"
@@ -55,9 +53,8 @@ void check_nothing_in_the_way(const CheckJob& job, const Mesh& mesh) {
     if (path.empty() || written_mesh_files(path).value().size() == 1) return;
     for (const auto& [suffix, written] :
          {std::pair(".face", !mesh.faces.empty()), {".neigh", !mesh.neighbours.empty()}}) {
-        std::error_code ignored;
         const std::string file = tetgen_stem(path) + suffix;
-        if (!written && std::filesystem::exists(file, ignored))
+        if (!written && io::exists(file))
             refuse(file, "a file of another mesh exists", "", "",
                    "remove it, or give " + member_of_copy(job) + " another name");
     }
@@ -119,12 +116,11 @@ void write_marks(const CheckJob& job, CheckedMesh& checked) {
     if (!written) checked.written = written.error();
 }
 
-void check_it(const CheckJob& job, CheckedMesh& checked, const Plc* plc) {
-    refuse_options_of_meshes(job, plc != nullptr ? "a PLC" : "a surface");
-    CheckOptions options = job.options;
-    options.progress = [&](const char* text) { jobs::tell_stage(job, std::string("checking: ") + text); };
+/// Of the surface, or of the PLC that it is of.
+void check_it(const CheckJob& job, const CheckOptions& options, CheckedMesh& checked, const std::optional<Plc>& plc) {
+    refuse_options_of_meshes(job, plc ? "a PLC" : "a surface");
     checked.name = checked.artifact = job.mesh;
-    checked.report = plc != nullptr ? check_plc(*plc, options) : check_surface(checked.surface, options);
+    checked.report = plc ? check_plc(*plc, options) : check_surface(checked.surface, options);
     if (!job.measures.empty()) write_marks(job, checked);
 }
 
@@ -134,6 +130,8 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     check_job(job);
     jobs::tell_stage(job, "checking: reading");
     CheckedMesh checked;
+    CheckOptions options = job.options;
+    options.progress = [&](const char* text) { jobs::tell_stage(job, std::string("checking: ") + text); };
     std::optional<Plc> polygons;
     if (io::is_plc_file(job.mesh)) {
         polygons = read_plc(job.mesh).value();
@@ -153,7 +151,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         }
     }
     if (polygons || !checked.surface.cells.empty()) {
-        check_it(job, checked, polygons ? &*polygons : nullptr);
+        check_it(job, options, checked, polygons);
         return checked;
     }
     if (io::has_suffix(job.measures, ".vtp"))
@@ -163,7 +161,6 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     if (job.curved == Curved::refuse) take_as_straight(checked.mesh, job.mesh, job.curved).value();
     check_nothing_in_the_way(job, mesh);
     Plc plc;
-    CheckOptions options = job.options;
     if (!job.plc.empty()) {
         if (mesh.dimension == 2)
             refuse(job.mesh, "job.plc needs a mesh of tetrahedra", "", "triangles in the plane",
@@ -171,12 +168,9 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         plc = read_plc(job.plc).value();
         options.plc = &plc;
     }
-    options.progress = [&](const char* text) { jobs::tell_stage(job, std::string("checking: ") + text); };
     checked.name = tetgen_stem(job.mesh);
     const std::vector<std::string> files = mesh_files(job.mesh);
-    std::error_code ignored;
-    const auto is_there = [&](const std::string& path) { return std::filesystem::exists(path, ignored); };
-    const auto there = std::ranges::find_if(files, is_there);
+    const auto there = std::ranges::find_if(files, io::exists);
     checked.artifact = there == files.end() ? job.mesh : *there;
     checked.report = check_mesh(mesh, options);
     try {

@@ -2,17 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <system_error>
 #include <variant>
-#include <vector>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/stream.hpp"
-#include "barycert/jobs/surface_job.hpp"
 #include "barycert/map.hpp"
 
 namespace barycert {
@@ -43,10 +37,8 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
         jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
     std::vector<base::NamedFile> inputs{{"job.map", job.map}};
     if (job.map.empty()) inputs = {{"job.points", job.points}};
-    std::error_code ignored;
     // Not the file itself, but the stem of a mesh.
-    if (job.map.empty() && job.points != "-" && !std::filesystem::exists(job.points, ignored) &&
-        !io::format_of_points(job.points))
+    if (job.map.empty() && job.points != "-" && !io::exists(job.points) && !io::format_of_points(job.points))
         inputs = base::named_files("the mesh of job.points", mesh_files(job.points));
     jobs::check_files(job, steps, inputs, {{"job.output", job.output}, {"job.save_map", job.save_map}});
 }

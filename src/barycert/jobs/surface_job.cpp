@@ -7,7 +7,7 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/jobs/surface_job.hpp"
+#include "barycert/jobs/job_files.hpp"
 #include "barycert/surface_locator.hpp"
 
 namespace barycert::jobs {
