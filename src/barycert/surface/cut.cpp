@@ -49,8 +49,7 @@ struct ExactCrossing {
         // The weights of the ends are of_out / (of_in + of_out) and of_in / (of_in + of_out).
         const Unit unit = unit_of({in, out});
         const Integer sum = of_out * unit.multiple<Integer>(scaled(in)) + of_in * unit.multiple<Integer>(scaled(out));
-        return core::round_quotient(sum.sign() < 0, sum.magnitude(), (of_in + of_out).magnitude(),
-                                    unit.exponent - 1074);
+        return core::round_quotient(sum, of_in + of_out, unit.exponent - 1074);
     }
 };
 
