@@ -1,9 +1,7 @@
 #include <tbb/task_group.h>
 
-#include <algorithm>
 #include <chrono>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/environment.hpp"

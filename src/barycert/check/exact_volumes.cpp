@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 
-#include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/quotient.hpp"
 

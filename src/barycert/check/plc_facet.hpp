@@ -1,7 +1,6 @@
 /// A facet of a PLC as a region of its plane.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <string>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"

@@ -1,13 +1,9 @@
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <string>
-#include <vector>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/strict_math.hpp"
