@@ -127,11 +127,6 @@ bool has_suffix_of(const std::string& path, std::initializer_list<std::string_vi
 /// Refuses an output whose suffix is none of those `expected`.
 [[noreturn]] void refuse_output(const std::string& path, const std::string& expected);
 
-// Surfaces where a mesh is asked for.
-
-/// The fields of a surface at the nearest points of it. `seconds`: what reading it took.
-SampleReport sample_surface(const SampleJob& job, const Surface& surface, double seconds);
-
 /// A surface in the colours of its first field, if it has one. It must stay.
 SurfaceView view_of(const Surface& surface);
 

@@ -1,11 +1,6 @@
 /// Some layers of a grid.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/grid.hpp"
 #include "barycert/index/buffer.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
