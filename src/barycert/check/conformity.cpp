@@ -11,16 +11,11 @@
 //                  to 2^-30. How far the farthest node is off the plane is measured;
 // else it is violated. The share of it that is covered is then the area of what faces close to its plane, wherever
 // their centroids lie, have in common with it. Facets without area (single segments) are left out.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "barycert/check/plc_facet.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/mesh/adjacency.hpp"
 
 namespace barycert::check {
@@ -232,7 +227,6 @@ private:
 }  // namespace
 
 ConformityReport check_conformity(const Checked& c) {
-    const ExactEnvironment environment;
     return ConformityChecker(c).run();
 }
 
