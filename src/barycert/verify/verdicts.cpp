@@ -78,18 +78,14 @@ private:
             found_.missed_on_boundary += boundary ? 1 : 0;
             found_.examples.push_back(wrong_row(row, RowVerdict::missed, boundary ? 0 : 1));
         } else if (!inside) {
-            invent(row);
+            ++found_.invented;
+            found_.invented_zero += all_of(claims(row), [](double x) { return x == 0; }) ? 1 : 0;
+            found_.invented_rows.push_back(wrong_row(row, RowVerdict::invented, 0));
         } else if (over(row, values(row)) && (boundary || !sampler_.locator().certified())) {
             again_.push_back(row);
         } else {
             settle(row, values(row), 1);
         }
-    }
-
-    void invent(std::size_t row) {
-        ++found_.invented;
-        found_.invented_zero += all_of(claims(row), [](double x) { return x == 0; }) ? 1 : 0;
-        found_.invented_rows.push_back(wrong_row(row, RowVerdict::invented, 0));
     }
 
     bool over(std::size_t row, const double* exact) const {
