@@ -124,7 +124,7 @@ private:
                     const auto nodes = nodes_of(equal.front());
                     tree.for_each(box_of(3, nodes.data(), 3), [&](std::uint32_t i) {
                         const PlcRegion& region = regions_[numbers[i]];
-                        if (close(region, nodes))
+                        if (std::ranges::all_of(nodes, [&](const double* p) { return region.distance(p) <= slack; }))
                             part.push_back({numbers[i], !region.holds(centroid(region, nodes)), nodes});
                         return true;
                     });
@@ -144,10 +144,6 @@ private:
                 nodes[n++] = node_at(c_.mesh, c_.mesh.cells[static_cast<std::size_t>(f.cell) * 4 + i]);
         }
         return nodes;
-    }
-
-    static bool close(const PlcRegion& region, const std::array<const double*, 3>& nodes) {
-        return std::ranges::all_of(nodes, [&](const double* p) { return region.distance(p) <= slack; });
     }
 
     static PlcRegion::PlcPosition centroid(const PlcRegion& region, const std::array<const double*, 3>& nodes) {
