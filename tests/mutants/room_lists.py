@@ -8,7 +8,7 @@ CHECK = [
      "for (std::size_t i = 1; i < same.size(); ++i) piece_.join(same[0].facet, same[i].facet);", "pieces that touch along a ridge are one"),
     ("cells.cpp", "c.report.negative <= c.report.positive ? -1 : 1", "c.report.negative < c.report.positive ? -1 : 1", "as many of either order"),
     ("cells.cpp", "repeated = repeated || nodes[i] == nodes[j];", "repeated = nodes[i] == nodes[j];", "the last pair of nodes alone"),
-    ("cells.cpp", "k < (d == 2 ? 1 : 3)", "k < 1", "on a line in one projection"),
+    ("cells.cpp", "d == 3 && proper(3, {{}, {p[0], other, p[i]}})", "d == 3", "nodes on a line are coplanar"),
     ("cells.cpp", "std::isnormal(volume) && ", "", "the shape of a cell from a subnormal volume"),
     ("check.cpp", ' && t.condition != "P5"', "", "overlaps looked for where only P5 fails"),
     ("check.cpp", "        ExactEnvironment::renew();\n", "", "what the caller's progress did to the environment stays"),

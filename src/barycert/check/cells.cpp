@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -22,16 +21,6 @@ int plain_sign(int d, const double* const* p) {
     return det > 0 ? 1 : det < 0 ? -1 : 0;
 }
 
-/// On one line, exactly: no projection to an axis plane has an area.
-bool collinear(int d, const double* a, const double* b, const double* c) {
-    for (int k = 0; k < (d == 2 ? 1 : 3); ++k) {
-        const int x = k, y = (k + 1) % 3;
-        const double pa[] = {a[x], a[y]}, pb[] = {b[x], b[y]}, pc[] = {c[x], c[y]};
-        if (orient2d(pa, pb, pc) != Sign::zero) return false;
-    }
-    return true;
-}
-
 /// Which kind of degenerate cell it is. Precondition: its volume is exactly zero.
 const char* kind(int d, const double* const* p) {
     const double* other = nullptr;  // a second place
@@ -40,7 +29,7 @@ const char* kind(int d, const double* const* p) {
     }
     if (other == nullptr) return "a point";
     for (int i = 1; i <= d; ++i) {
-        if (!collinear(d, p[0], other, p[i])) return "coplanar";
+        if (d == 3 && proper(3, {{}, {p[0], other, p[i]}})) return "coplanar";
     }
     return "collinear";
 }

@@ -1,9 +1,7 @@
 #include <tbb/task_group.h>
 
-#include <algorithm>
 #include <chrono>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/environment.hpp"
@@ -140,7 +138,8 @@ private:
         check_files(c);
         if (enough()) return;
         std::vector<CellPair> overlapping;
-        if (may_overlap()) {
+        // One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.
+        if (defects_.has([](const DefectText& t) { return t.breaks && t.condition != "P5"; })) {
             stage("overlapping cells");
             overlapping = find_overlapping_cells(c);
         }
@@ -172,11 +171,6 @@ private:
     /// The verdict is known, and nothing else is asked for.
     bool enough() const {
         return options_.verdict_only && defects_.has([](const DefectText& t) { return t.breaks; });
-    }
-
-    /// One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.
-    bool may_overlap() const {
-        return defects_.has([](const DefectText& t) { return t.breaks && t.condition != "P5"; });
     }
 
     const CheckOptions& options_;

@@ -1,10 +1,8 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"

@@ -11,16 +11,11 @@
 //                  to 2^-30. How far the farthest node is off the plane is measured;
 // else it is violated. The share of it that is covered is then the area of what faces close to its plane, wherever
 // their centroids lie, have in common with it. Facets without area (single segments) are left out.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "barycert/check/plc_facet.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/mesh/adjacency.hpp"
 
 namespace barycert::check {
@@ -129,7 +124,7 @@ private:
                     const auto nodes = nodes_of(equal.front());
                     tree.for_each(box_of(3, nodes.data(), 3), [&](std::uint32_t i) {
                         const PlcRegion& region = regions_[numbers[i]];
-                        if (close(region, nodes))
+                        if (std::ranges::all_of(nodes, [&](const double* p) { return region.distance(p) <= slack; }))
                             part.push_back({numbers[i], !region.holds(centroid(region, nodes)), nodes});
                         return true;
                     });
@@ -149,10 +144,6 @@ private:
                 nodes[n++] = node_at(c_.mesh, c_.mesh.cells[static_cast<std::size_t>(f.cell) * 4 + i]);
         }
         return nodes;
-    }
-
-    static bool close(const PlcRegion& region, const std::array<const double*, 3>& nodes) {
-        return std::ranges::all_of(nodes, [&](const double* p) { return region.distance(p) <= slack; });
     }
 
     static PlcRegion::PlcPosition centroid(const PlcRegion& region, const std::array<const double*, 3>& nodes) {
@@ -232,7 +223,6 @@ private:
 }  // namespace
 
 ConformityReport check_conformity(const Checked& c) {
-    const ExactEnvironment environment;
     return ConformityChecker(c).run();
 }
 

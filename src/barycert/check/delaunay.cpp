@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "barycert/base/strict_math.hpp"

@@ -3,14 +3,11 @@
 #include <bit>
 #include <cmath>
 
-#include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/quotient.hpp"
 
 namespace barycert::check {
 namespace {
-
-namespace formulas = core::HWY_NAMESPACE;
 
 /// Of the rows p[0], ..., p[d - 1], less `origin` if there is one.
 template <int d, class T>
@@ -23,13 +20,7 @@ Integer determinant_of(const core::Unit (&units)[3], const double* const* p, con
         const T less = integer(origin[k]);
         for (int i = 0; i < d; ++i) rows[i][k] = rows[i][k] - less;
     }
-    if constexpr (d == 2) {
-        return core::as_integer(formulas::cross(rows[0], rows[1]));
-    } else {
-        formulas::Product<T> minors[3];
-        formulas::cross(rows[1], rows[2], minors);
-        return core::as_integer(formulas::dot(rows[0], minors));
-    }
+    return core::as_integer(core::HWY_NAMESPACE::determinant(rows));
 }
 
 }  // namespace

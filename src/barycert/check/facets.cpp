@@ -1,12 +1,10 @@
 #include <tbb/parallel_sort.h>
 
-#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/index/proof.hpp"

@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <variant>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check/stages.hpp"

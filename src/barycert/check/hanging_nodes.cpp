@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "barycert/check/stages.hpp"
@@ -99,10 +98,6 @@ public:
         return terms > 0x1p-900 && std::fabs(h) > radius * normal + 0x1p-48 * terms;
     }
 
-    /// It hangs, which is told as such.
-    bool is_on(Index node, const BoundaryFacet& f) const {
-        return face_around(mesh_.dimension, placed(mesh_, f), at(node))[0] >= 0;
-    }
     /// The node is beyond the facet.
     bool is_beyond(Index node, const BoundaryFacet& f) const {
         return weight(node, index(f.cell), static_cast<std::size_t>(f.corner)) <= 0;
@@ -183,7 +178,8 @@ Found<HangingNode> nearly_hanging(const Checked& c, const std::vector<double>& r
                 // A degenerate cell is told as such.
                 if (!facet.oriented || faces.is_far(node, facet)) return true;
                 HangingNode h = faces.face_at(node, facet);
-                if (h.face[1] < 0 || faces.is_on(node, facet)) return true;
+                // A node that hangs is told as such.
+                if (h.face[1] < 0 || face_around(d, placed(c.mesh, facet), node_at(c.mesh, node))[0] >= 0) return true;
                 if (!faces.is_beyond(node, facet)) h.cell = -1;
                 part.push_back(h);
                 return part.size() <= limit;

@@ -1,7 +1,5 @@
 #include <tbb/parallel_sort.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "barycert/check/stages.hpp"

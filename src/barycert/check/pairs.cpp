@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <atomic>
 #include <limits>
 #include <span>
 #include <tuple>

@@ -1,7 +1,6 @@
 /// A facet of a PLC as a region of its plane.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -20,26 +19,19 @@ namespace barycert::check {
 class PlcRegion {
 public:
     using PlcPosition = std::array<double, 2>;
-    struct Ring {
-        std::vector<const double*> points;
-        std::vector<PlcPosition> at;  ///< place() of each
-    };
     using Triangle = std::array<const double*, 3>;
 
     PlcRegion(const Plc& plc, const PlcFacet& facet, int exponent) : exponent_(exponent) {
         const auto point = [&](Mesh::Index node) { return &plc.points[static_cast<std::size_t>(node) * 3]; };
         for (const auto& polygon : facet.polygons) {
             if (polygon.size() < 3) continue;
-            Ring& ring = rings_.emplace_back();
-            for (const auto node : polygon) ring.points.push_back(point(node));
-            vertices_.insert(vertices_.end(), ring.points.begin(), ring.points.end());
+            std::vector<const double*>& ring = rings_.emplace_back();
+            for (const auto node : polygon) ring.push_back(point(node));
+            vertices_.insert(vertices_.end(), ring.begin(), ring.end());
         }
         if (rings_.empty()) return;
         set_plane();
         if (!proper_) return;
-        for (Ring& ring : rings_) {
-            for (const double* p : ring.points) ring.at.push_back(place(p));
-        }
         for (const auto& [a, b, c] : surface::triangles_of_facet(plc.points, facet.polygons, facet.holes).triangles) {
             triangles_.push_back({point(a), point(b), point(c)});
             area_ += std::fabs(twice_area(places(triangles_.back())));
@@ -85,16 +77,16 @@ public:
         };
         const auto pa = projected(a), pb = projected(b);
         double deepest = -1;
-        for (const Ring& ring : rings_) {
-            for (std::size_t i = 0, j = ring.points.size() - 1; i < ring.points.size(); j = i++) {
-                const double *const c = ring.points[i], *const d = ring.points[j];
+        for (const auto& ring : rings_) {
+            for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+                const double *const c = ring[i], *const d = ring[j];
                 const auto pc = projected(c), pd = projected(d);
                 if (std::max(pa[0], pb[0]) < std::min(pc[0], pd[0]) || std::min(pa[0], pb[0]) > std::max(pc[0], pd[0]))
                     continue;
                 if (turn(pa, pb, pc) * turn(pa, pb, pd) != Sign::negative ||
                     turn(pc, pd, pa) * turn(pc, pd, pb) != Sign::negative)
                     continue;
-                const PlcPosition u = place(a), v = place(b), &w = ring.at[i], &z = ring.at[j];
+                const PlcPosition u = place(a), v = place(b), w = place(c), z = place(d);
                 deepest = std::max(deepest, 0.0);  // whatever the distances below, which are rounded
                 deepest = std::max(deepest, std::min({distance_from(u, w, z), distance_from(v, w, z),
                                                       distance_from(w, u, v), distance_from(z, u, v)}));
@@ -106,10 +98,7 @@ public:
     /// The part of the region's area that the triangle has in common with it, in plain double.
     double covered_by(const Triangle& face) const {
         double twice = 0;
-        for (const Triangle& t : triangles_) {
-            const std::vector<PlcPosition> at = places(t);
-            twice += std::fabs(common_area(places(face), {at[0], at[1], at[2]}));
-        }
+        for (const Triangle& t : triangles_) twice += common_area(places(face), places(t));
         return twice / area_;
     }
 
@@ -141,10 +130,9 @@ private:
         return std::hypot(a[0] + t * x - p[0], a[1] + t * y - p[1]);
     }
 
-    /// Twice the area that a convex polygon has in common with a triangle; negative if this one turns clockwise. Sides
-    /// of the triangle cut it, one after the other.
-    static double common_area(std::vector<PlcPosition> polygon, const std::array<PlcPosition, 3>& t) {
-        const double turn = twice_area(t[0], t[1], t[2]) < 0 ? -1 : 1;
+    /// Twice the area that a convex polygon has in common with a triangle, whose sides cut it, one after the other.
+    static double common_area(std::vector<PlcPosition> polygon, const std::vector<PlcPosition>& t) {
+        const double turn = twice_area(t) < 0 ? -1 : 1;
         for (std::size_t k = 0; k < 3; ++k) {
             std::vector<PlcPosition> left;
             for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
@@ -157,7 +145,7 @@ private:
             }
             polygon = std::move(left);
         }
-        return turn * std::fabs(twice_area(polygon));
+        return std::fabs(twice_area(polygon));
     }
 
     /// Less the first vertex. Halved first: a difference may overflow.
@@ -171,17 +159,17 @@ private:
     /// The plane through the widest triangle, at the first vertex of a ring, of all rings.
     void set_plane() {
         double widest = 0;
-        for (const Ring& ring : rings_) {
-            const Vector o = relative(ring.points.front());
+        for (const auto& ring : rings_) {
+            const Vector o = relative(ring.front());
             const auto from = [&](const double* p) { return base::minus(relative(p), o); };
-            const double* const a = *std::ranges::max_element(ring.points, {}, [&](auto p) { return length(from(p)); });
-            const double* const b = *std::ranges::max_element(
-                ring.points, {}, [&](auto p) { return length(base::cross(from(a), from(p))); });
+            const double* const a = *std::ranges::max_element(ring, {}, [&](auto p) { return length(from(p)); });
+            const double* const b =
+                *std::ranges::max_element(ring, {}, [&](auto p) { return length(base::cross(from(a), from(p))); });
             const Vector normal = base::cross(from(a), from(b));
             if (length(normal) <= widest) continue;
             widest = length(normal);
             normal_ = normal;
-            plane_ = {ring.points.front(), a, b};
+            plane_ = {ring.front(), a, b};
         }
         proper_ = widest > 0;
         if (!proper_) return;
@@ -193,7 +181,7 @@ private:
 
     std::vector<PlcPosition> places(const Triangle& t) const { return {place(t[0]), place(t[1]), place(t[2])}; }
 
-    std::vector<Ring> rings_;
+    std::vector<std::vector<const double*>> rings_;
     std::vector<const double*> vertices_;
     std::vector<Triangle> triangles_;
     double area_ = 0;  ///< twice that of the region, projected, in the unit

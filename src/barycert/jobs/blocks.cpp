@@ -2,13 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstddef>
-#include <cstdint>
 #include <exception>
 #include <limits>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"

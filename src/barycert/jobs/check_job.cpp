@@ -1,9 +1,6 @@
 // A mesh checked, its measures written, and a repaired copy of it.
 
 #include <algorithm>
-#include <filesystem>
-#include <system_error>
-#include <utility>
 
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
@@ -16,29 +13,26 @@ namespace {
 using jobs::refuse;
 
 /// Both are one way of writing.
-const std::string& copy_of(const CheckJob& job) {
-    return job.fix.empty() ? job.fix_orientation : job.fix;
-}
-
-std::string member_of_copy(const CheckJob& job) {
-    return job.fix.empty() ? "job.fix_orientation" : "job.fix";
+base::NamedFile copy_of(const CheckJob& job) {
+    if (job.fix.empty()) return {"job.fix_orientation", job.fix_orientation};
+    return {"job.fix", job.fix};
 }
 
 /// What can be checked of files before the work.
 void check_job(const CheckJob& job) {
-    const std::string& copy = copy_of(job);
+    const auto [member, copy] = copy_of(job);
     if (job.measures == "-")
         refuse("", "job.measures cannot write to stdout", "", "", "name a file: its data are binary");
     if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtu") && !io::has_suffix(job.measures, ".vtp"))
         refuse(job.measures, "job.measures writes VTU files, and of surfaces VTP files", "a name that ends in .vtu", "",
                "choose another name; job.fix writes other formats");
     if (copy == "-")
-        refuse("", member_of_copy(job) + " cannot write to stdout", "", "",
+        refuse("", member + " cannot write to stdout", "", "",
                "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
     std::vector<base::NamedFile> plc, outputs{{"job.measures", job.measures}};
     if (!copy.empty()) {
         const std::vector<std::string> written = written_mesh_files(copy).value();
-        for (const std::string& path : written) outputs.push_back({member_of_copy(job), path});
+        for (const std::string& path : written) outputs.push_back({member, path});
     }
     if (job.merge_within && job.fix.empty())
         refuse("", "job.merge_within is for job.fix", "", "", "leave it out, or give job.fix FILE");
@@ -51,15 +45,13 @@ void check_job(const CheckJob& job) {
 
 /// write_tetgen leaves no file of another mesh beside its own. Told before the work.
 void check_nothing_in_the_way(const CheckJob& job, const Mesh& mesh) {
-    const std::string& path = copy_of(job);
+    const auto [member, path] = copy_of(job);
     if (path.empty() || written_mesh_files(path).value().size() == 1) return;
     for (const auto& [suffix, written] :
          {std::pair(".face", !mesh.faces.empty()), {".neigh", !mesh.neighbours.empty()}}) {
-        std::error_code ignored;
         const std::string file = tetgen_stem(path) + suffix;
-        if (!written && std::filesystem::exists(file, ignored))
-            refuse(file, "a file of another mesh exists", "", "",
-                   "remove it, or give " + member_of_copy(job) + " another name");
+        if (!written && io::exists(file))
+            refuse(file, "a file of another mesh exists", "", "", "remove it, or give " + member + " another name");
     }
 }
 
@@ -76,7 +68,7 @@ Status write_measures(const CheckJob& job, const CheckReport& report, Mesh mesh)
 
 /// Writes the repaired copy, reads it again and checks it.
 void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked) {
-    checked.fixed = FixedMesh{.file = copy_of(job), .done = {}, .notes = {}, .after = {}};
+    checked.fixed = FixedMesh{.file = copy_of(job).path, .done = {}, .notes = {}, .after = {}};
     FixedMesh& fixed = *checked.fixed;
     const bool all = !job.fix.empty();
     const Mesh copy =
@@ -102,7 +94,7 @@ void refuse_options_of_meshes(const CheckJob& job, const char* what) {
     };
     refuse_one(job.options.delaunay, "job.delaunay");
     refuse_one(!job.plc.empty(), "job.plc");
-    refuse_one(!copy_of(job).empty(), member_of_copy(job));
+    refuse_one(!copy_of(job).path.empty(), copy_of(job).what);
     if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtp"))
         refuse(job.measures, "job.measures writes VTP files of surfaces", "a name that ends in .vtp", "",
                "choose another name");
@@ -119,12 +111,11 @@ void write_marks(const CheckJob& job, CheckedMesh& checked) {
     if (!written) checked.written = written.error();
 }
 
-void check_it(const CheckJob& job, CheckedMesh& checked, const Plc* plc) {
-    refuse_options_of_meshes(job, plc != nullptr ? "a PLC" : "a surface");
-    CheckOptions options = job.options;
-    options.progress = [&](const char* text) { jobs::tell_stage(job, std::string("checking: ") + text); };
+/// Of the surface, or of the PLC that it is of.
+void check_it(const CheckJob& job, const CheckOptions& options, CheckedMesh& checked, const std::optional<Plc>& plc) {
+    refuse_options_of_meshes(job, plc ? "a PLC" : "a surface");
     checked.name = checked.artifact = job.mesh;
-    checked.report = plc != nullptr ? check_plc(*plc, options) : check_surface(checked.surface, options);
+    checked.report = plc ? check_plc(*plc, options) : check_surface(checked.surface, options);
     if (!job.measures.empty()) write_marks(job, checked);
 }
 
@@ -134,6 +125,8 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     check_job(job);
     jobs::tell_stage(job, "checking: reading");
     CheckedMesh checked;
+    CheckOptions options = job.options;
+    options.progress = [&](const char* text) { jobs::tell_stage(job, std::string("checking: ") + text); };
     std::optional<Plc> polygons;
     if (io::is_plc_file(job.mesh)) {
         polygons = read_plc(job.mesh).value();
@@ -153,7 +146,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         }
     }
     if (polygons || !checked.surface.cells.empty()) {
-        check_it(job, checked, polygons ? &*polygons : nullptr);
+        check_it(job, options, checked, polygons);
         return checked;
     }
     if (io::has_suffix(job.measures, ".vtp"))
@@ -163,7 +156,6 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
     if (job.curved == Curved::refuse) take_as_straight(checked.mesh, job.mesh, job.curved).value();
     check_nothing_in_the_way(job, mesh);
     Plc plc;
-    CheckOptions options = job.options;
     if (!job.plc.empty()) {
         if (mesh.dimension == 2)
             refuse(job.mesh, "job.plc needs a mesh of tetrahedra", "", "triangles in the plane",
@@ -171,16 +163,13 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         plc = read_plc(job.plc).value();
         options.plc = &plc;
     }
-    options.progress = [&](const char* text) { jobs::tell_stage(job, std::string("checking: ") + text); };
     checked.name = tetgen_stem(job.mesh);
     const std::vector<std::string> files = mesh_files(job.mesh);
-    std::error_code ignored;
-    const auto is_there = [&](const std::string& path) { return std::filesystem::exists(path, ignored); };
-    const auto there = std::ranges::find_if(files, is_there);
+    const auto there = std::ranges::find_if(files, io::exists);
     checked.artifact = there == files.end() ? job.mesh : *there;
     checked.report = check_mesh(mesh, options);
     try {
-        if (!copy_of(job).empty()) write_copy(job, options, checked);
+        if (!copy_of(job).path.empty()) write_copy(job, options, checked);
     } catch (const Exception& e) {
         checked.written = e.error();
     }

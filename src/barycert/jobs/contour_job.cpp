@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <string>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"
@@ -58,7 +55,7 @@ void check_job(const ContourJob& job) {
 template <class At>
 void set_range(const Mesh& mesh, At at, ContourReport& report) {
     using Range = std::pair<double, double>;
-    const Range range = base::parallel_reduce(
+    Range range = base::parallel_reduce(
         mesh.cells.size(), std::size_t{1} << 15, Range{HUGE_VAL, -HUGE_VAL},
         [&](std::size_t begin, std::size_t end, Range& so_far) {
             const ExactEnvironment environment;  // threads that were there before have theirs
@@ -70,10 +67,10 @@ void set_range(const Mesh& mesh, At at, ContourReport& report) {
         [](Range& all, const Range& part) {
             all = {std::min(all.first, part.first), std::max(all.second, part.second)};
         });
-    const bool none = range.first > range.second;
+    if (range.first > range.second) range.first = range.second = std::numeric_limits<double>::quiet_NaN();
     // A zero may come with either sign, as threads come.
-    report.low = none ? std::numeric_limits<double>::quiet_NaN() : range.first + 0.0;
-    report.high = none ? std::numeric_limits<double>::quiet_NaN() : range.second + 0.0;
+    report.low = range.first + 0.0;
+    report.high = range.second + 0.0;
 }
 
 constexpr std::int64_t max_pixels = std::int64_t{1} << 27;
@@ -310,27 +307,23 @@ private:
     /// Lines of pixels at a time, so that memory is that of the values.
     void sample(const PixelGrid& pixels, const Sampler& sampler, std::vector<double>& values,
                 std::vector<std::uint8_t>& valid) {
-        const std::int64_t lines = std::max<std::int64_t>(1, (std::int64_t{1} << 18) / pixels.width);
+        const std::int64_t some = pixels.width * std::max<std::int64_t>(1, (std::int64_t{1} << 18) / pixels.width);
         const SampleOptions options{.threads = job_.threads};
         std::vector<double> points;
         Table rows;
-        std::size_t at = 0;
-        for (std::int64_t first = 0; first < pixels.height; first += lines) {
-            const std::int64_t last = std::min(pixels.height, first + lines);
+        for (std::int64_t at = 0, all = pixels.width * pixels.height; at < all;) {
             points.clear();
-            for (std::int64_t j = first; j < last; ++j) {
-                for (std::int64_t i = 0; i < pixels.width; ++i) {
-                    const std::array<double, 3> x = pixels.middle(i, j);
-                    points.insert(points.end(), x.begin(), x.end());
-                }
+            for (std::int64_t i = at; i < std::min(at + some, all); ++i) {
+                const std::array<double, 3> x = pixels.middle(i % pixels.width, i / pixels.width);
+                points.insert(points.end(), x.begin(), x.end());
             }
             sampler.sample(points, options, rows).value();
             report_.samples.add(rows.counts);
             for (std::size_t r = 0; r < rows.row_count(); ++r, ++at) {
-                values[at] = rows.value(r, 0);
-                valid[at] = rows.cells[r] >= 0 ? 1 : 0;
+                values[static_cast<std::size_t>(at)] = rows.value(r, 0);
+                valid[static_cast<std::size_t>(at)] = rows.cells[r] >= 0 ? 1 : 0;
             }
-            tell_stage(job_, fmt::format("pixels of {}", values.size()), at);
+            tell_stage(job_, fmt::format("pixels of {}", all), static_cast<std::uint64_t>(at));
         }
     }
 

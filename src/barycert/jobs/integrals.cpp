@@ -1,16 +1,13 @@
 #include "barycert/jobs/resampled.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/check/exact_volumes.hpp"
+#include "barycert/check/stages.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
@@ -49,11 +46,7 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
     }
     const std::size_t corners = mesh.corners(), mids = mesh.dimension == 2 ? 3 : 6;
     const auto add_cell = [&](std::size_t c, PartialIntegral& part) {
-        std::array<const double*, 4> at{};
-        for (std::size_t i = 0; i < corners; ++i)
-            at[i] = mesh.points.data() +
-                    static_cast<std::size_t>(mesh.dimension) * static_cast<std::size_t>(mesh.cells[corners * c + i]);
-        const Integer volume = volumes.cell(at.data());
+        const Integer volume = volumes.cell(check::corner_points(mesh, c).data());
         if (volume.sign() == 0) return;
         Integer sum;
         bool finite = true;
@@ -85,9 +78,9 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
             all.sum = all.sum + part.sum;
             all.left_out += part.left_out;
         });
-    const std::array<std::uint64_t, 1> denominator{(mesh.dimension == 2 ? 2 : 6) * rule.denominator};
+    const Integer denominator(false, (mesh.dimension == 2 ? 2 : 6) * rule.denominator, 0);
     // Without a value but zeros the unit has no exponent, and the sum is zero in any.
-    return {core::round_quotient(whole.sum.sign() < 0, whole.sum.magnitude(), denominator,
+    return {core::round_quotient(whole.sum, denominator,
                                  volumes.unit() + (whole.sum.sign() == 0 ? 0 : unit.exponent - 1074)),
             whole.left_out};
 }

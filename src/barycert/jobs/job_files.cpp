@@ -1,6 +1,9 @@
 #include "barycert/jobs/job_files.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "barycert/base/workers.hpp"
@@ -9,6 +12,9 @@
 
 namespace barycert::jobs {
 namespace {
+
+/// At most so many steps stand side by side as columns: they are all in memory.
+constexpr std::size_t most_steps_of_columns = 256;
 
 void check_steps(const SamplingJob& job, const std::vector<Step>& steps) {
     std::set<std::string> names;
@@ -31,6 +37,28 @@ void add_input(std::vector<base::NamedFile>& inputs, const std::string& what, co
 
 void add_fields_to(std::vector<base::NamedFile>& inputs, const std::vector<FieldFile>& files) {
     for (const FieldFile& f : files) add_input(inputs, "field " + f.name, f.path);
+}
+
+/// Refuses an output of a step that is an input or another output. Precondition: has_step_place(output).
+void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,
+                        const std::vector<Step>& steps) {
+    // By device and inode: there may be thousands of each. What does not exist is no input.
+    std::map<std::pair<dev_t, ino_t>, std::string> known;
+    const auto add = [&](const std::string& path, const std::string& what) -> const std::string* {
+        struct stat status {};
+        if (path == "-" || ::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return nullptr;
+        const auto [at, inserted] = known.emplace(std::pair(status.st_dev, status.st_ino), what);
+        return inserted ? nullptr : &at->second;
+    };
+    for (const base::NamedFile& in : inputs) add(in.path, in.what);
+    std::set<std::string> names;
+    for (const Step& step : steps) {
+        const std::string path = output_of_step(output, step);
+        if (!names.insert(path).second)
+            refuse(path, "two steps have the same output", "", "", "put {step} into the name of job.output");
+        if (const std::string* const before = add(path, "job.output of another step"))
+            refuse(path, "job.output would overwrite " + *before, "", "", "choose another name for the output");
+    }
 }
 
 }  // namespace

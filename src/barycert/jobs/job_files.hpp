@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "barycert/jobs/series.hpp"
+#include "barycert/base/named_file.hpp"
+#include "barycert/jobs.hpp"
 #include "barycert/locator.hpp"
 
 namespace barycert::jobs {
@@ -61,6 +62,29 @@ std::string listed(const Items& items, Text text, const char* if_empty = "none")
 inline std::string counted(std::uint64_t n, const std::string& what) {
     return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
 }
+
+// Series: fields of which there is a file for each step.
+
+/// What the * of its files stands for, or its time in a .pvd file, and the file of each series; or a step of the mesh.
+struct Step {
+    std::string label;
+    std::vector<FieldFile> files = {};
+    std::string time = {};                    ///< as text; empty: not known
+    std::optional<std::size_t> of_mesh = {};  ///< its number in the series that the mesh is
+};
+
+/// The steps of all series of fields of a job in natural order (2 before 10), or that of a .pvd file; where it has
+/// none, the steps of its mesh that are to have outputs of their own. A path may end in :COLUMN; of a mesh file the
+/// array of the field's name is read without it. Refused: a pattern without exactly one *, or that no file matches;
+/// what read_series refuses; a step that not all series have; all steps asked for where there are none, or where the
+/// outputs have one name.
+std::vector<Step> find_steps(const SamplingJob& job);
+
+/// Whether each step has outputs of its own.
+bool has_step_place(const std::string& output);
+
+/// The path with the label of the step in its place.
+std::string output_of_step(const std::string& output, const Step& step);
 
 /// Tells what the job is doing, and how much of it is done.
 void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0);

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <deque>
-#include <vector>
 
 #include "barycert/environment.hpp"
 #include "barycert/jobs/field_files.hpp"

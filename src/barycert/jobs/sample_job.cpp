@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <system_error>
+#include <limits>
 #include <variant>
-#include <vector>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/stream.hpp"
-#include "barycert/jobs/surface_job.hpp"
 #include "barycert/map.hpp"
+#include "barycert/surface_locator.hpp"
 
 namespace barycert {
 namespace {
@@ -43,10 +40,8 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
         jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
     std::vector<base::NamedFile> inputs{{"job.map", job.map}};
     if (job.map.empty()) inputs = {{"job.points", job.points}};
-    std::error_code ignored;
     // Not the file itself, but the stem of a mesh.
-    if (job.map.empty() && job.points != "-" && !std::filesystem::exists(job.points, ignored) &&
-        !io::format_of_points(job.points))
+    if (job.map.empty() && job.points != "-" && !io::exists(job.points) && !io::format_of_points(job.points))
         inputs = base::named_files("the mesh of job.points", mesh_files(job.points));
     jobs::check_files(job, steps, inputs, {{"job.output", job.output}, {"job.save_map", job.save_map}});
 }
@@ -85,16 +80,15 @@ jobs::OpenRows outputs_of(SampledMesh& mesh, const SampleJob& job, const std::ve
     };
 }
 
+/// With the types of columns, unless they go as they are into CSV.
+std::unique_ptr<PointSource> points_of(const SampleJob& job, int dimension, NonfinitePoints nonfinite) {
+    const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
+    const PointOptions options{.columns = job.columns, .keep = job.keep, .nonfinite_points = nonfinite, .typed = !csv};
+    return open_points(job.points, dimension, options).value();
+}
+
 void at_points(SampledMesh& mesh, const SampleJob& job) {
-    const auto open = [&] {
-        const bool csv = job.output == "-" || io::has_suffix(job.output, ".csv");
-        return open_points(job.points, mesh.mesh().dimension,
-                           {.columns = job.columns,
-                            .keep = job.keep,
-                            .nonfinite_points = job.options.nonfinite_points,
-                            .typed = !csv})
-            .value();
-    };
+    const auto open = [&] { return points_of(job, mesh.mesh().dimension, job.options.nonfinite_points); };
     jobs::Stopwatch watch;
     std::unique_ptr<PointSource> points = open();
     SampleReport& report = mesh.report;
@@ -126,6 +120,126 @@ void at_points_of_map(SampledMesh& mesh, const SampleJob& job) {
     sample_rows(mesh, rows_of_map(map), outputs_of(mesh, job, {}));
 }
 
+// Fields of a surface at the nearest points of its triangles.
+
+void refuse_what_is_of_meshes(const SampleJob& job) {
+    const auto only_meshes = [&](bool given, const char* member) {
+        if (given) refuse(job.mesh, std::string(member) + " is for meshes", "", "a surface", "leave it out");
+    };
+    only_meshes(!job.map.empty() || !job.save_map.empty(), "a map");
+    only_meshes(!job.weights.empty(), "job.weights");
+    only_meshes(job.all.has_value(), "job.all");
+    only_meshes(!job.series.empty() || !job.field_files.empty(), "a field from a file of its own");
+    only_meshes(job.options.rounding == Rounding::plain, "job.rounding");
+    const Outside outside = job.options.outside.kind;
+    if (outside != Outside::nan && outside != Outside::nearest)
+        refuse(job.mesh, "a surface has no inside for job.outside", "nearest, or nearest=DISTANCE", "",
+               "values are those at the nearest point");
+}
+
+/// Those that are asked for, in that order; else all.
+std::vector<std::pair<const Field*, bool>> chosen_fields(const SampleJob& job, const Surface& s) {
+    std::vector<std::pair<const Field*, bool>> all, chosen;
+    for (const Field& f : s.point_fields) all.emplace_back(&f, false);
+    for (const Field& f : s.cell_fields) all.emplace_back(&f, true);
+    if (job.fields.empty()) return all;
+    for (const std::string& name : job.fields) {
+        const auto found = std::ranges::find(all, name, [](const auto& f) { return f.first->name; });
+        if (found == all.end())
+            refuse(job.mesh, "no field of that name", jobs::listed(all, [](const auto& f) { return f.first->name; }),
+                   name);
+        chosen.push_back(*found);
+    }
+    return chosen;
+}
+
+Feature feature_of(const SurfaceNearest& n) {
+    if (n.cell < 0) return Feature::outside;
+    return n.nodes[2] >= 0 ? Feature::face : n.nodes[1] >= 0 ? Feature::edge : Feature::vertex;
+}
+
+/// `seconds`: what reading it took.
+SampleReport sample_surface(const SampleJob& job, const Surface& s, double seconds) {
+    refuse_what_is_of_meshes(job);
+    jobs::Stopwatch watch;
+    SampleReport report;
+    report.command = "sample";
+    report.mesh = job.mesh;
+    report.surface = true;
+    report.reason = "the nearest triangle, and the nearest point of it, are exact";
+    report.output = job.output;
+    report.points = job.points;
+    report.nodes = s.point_count();
+    report.cells = s.cell_count();
+    report.notes = s.notes;
+    report.outside = {.kind = Outside::nearest, .fill = 0, .limit = job.options.outside.limit};
+    report.threads = base::threads_of(job.options.threads);
+    report.seconds.mesh = seconds;
+    const std::unique_ptr<PointSource> points = points_of(job, 3, NonfinitePoints::error);
+    const Notes notes = points->notes();
+    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    const auto fields = chosen_fields(job, s);
+    TableFormat format{.dimension = 3, .distances = true, .carried = points->carried()};
+    for (const auto& [field, of_cells] : fields) format.fields.push_back({field->name, field->components});
+    format.vtk_data = job.vtk_data.value_or(VtkData::raw);
+    report.columns = format.columns();
+    const std::unique_ptr<TableSink> sink = open_table(job.output, format).value();
+    jobs::tell_stage(job, "sorting triangles");
+    const SurfaceLocator locator = SurfaceLocator::build(s, {.threads = job.options.threads}).value();
+    report.seconds.build = watch.lap();
+
+    const std::size_t width = report.columns.size();
+    constexpr std::size_t block = std::size_t{1} << 18;
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> at, values, part, distances;
+    std::vector<Column> carried;
+    for (;;) {
+        at.clear();
+        const std::size_t count = points->read(block, at).value();
+        if (count == 0) break;
+        points->take_carried(carried);
+        report.seconds.read += watch.lap();
+        std::vector<SurfaceNearest> found(count);
+        std::vector<SurfaceLocation> places(count);
+        locator.nearest(at, report.outside.limit, found, job.options.threads).value();
+        if (locator.turned() != Turned::open) locator.locate(at, places, job.options.threads).value();
+        std::vector<Mesh::Index> cells(count);
+        std::vector<Feature> features(count);
+        values.assign(width * count, nan);
+        distances.resize(count);
+        std::size_t column = 0;
+        for (const auto& [field, of_cells] : fields) {
+            const auto components = static_cast<std::size_t>(field->components);
+            part.resize(components * count);
+            locator.values(*field, of_cells, at, found, part, job.options.threads).value();
+            for (std::size_t i = 0; i < count; ++i)
+                std::copy_n(&part[components * i], components, &values[width * i + column]);
+            column += components;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            cells[i] = s.facet(found[i].cell);
+            features[i] = feature_of(found[i]);
+            // Negative inside.
+            distances[i] = found[i].cell < 0 ? nan : places[i].winding != 0 ? -found[i].distance : found[i].distance;
+            const bool on = found[i].cell >= 0 && found[i].distance == 0;
+            report.counts.locations.add(on ? features[i] : Feature::outside);
+            report.counts.without_value += found[i].cell < 0 ? 1 : 0;
+            report.counts.snapped += found[i].cell >= 0 && !on ? 1 : 0;
+            if (found[i].cell >= 0) report.counts.farthest = std::max(report.counts.farthest, found[i].distance);
+        }
+        report.seconds.sample += watch.lap();
+        sink->write({3, report.rows, at, cells, features, values, distances, carried}).value();
+        report.seconds.write += watch.lap();
+        report.rows += count;
+        jobs::tell_stage(job, "points", report.rows);
+    }
+    sink->commit().value();
+    report.seconds.write += watch.lap();
+    const JobSeconds& t = report.seconds;
+    report.seconds.total = t.mesh + t.build + t.read + t.sample + t.write;
+    return report;
+}
+
 /// Nothing if the mesh is one, or cannot be read as a surface either.
 std::optional<Result<SampleReport>> at_surface(const SampleJob& job) {
     try {
@@ -136,7 +250,7 @@ std::optional<Result<SampleReport>> at_surface(const SampleJob& job) {
         const auto* const surface = read ? std::get_if<Surface>(&*read) : nullptr;
         if (surface == nullptr) return std::nullopt;
         check_job(job, {});
-        return jobs::sample_surface(job, *surface, watch.lap());
+        return sample_surface(job, *surface, watch.lap());
     } catch (const Exception& problem) {
         return problem.error();
     }

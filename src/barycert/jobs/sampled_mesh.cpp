@@ -282,8 +282,7 @@ std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const 
     const ExactEnvironment environment;
     const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
     const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {
-        const std::size_t entities = choice.of_cells ? cells : mesh_.point_count();
-        return choice.field->data.size() == entities * static_cast<std::size_t>(choice.field->components);
+        return mesh::check_field(choice.field, choice.of_cells ? cells : mesh_.point_count(), "").has_value();
     });
     // What is wrong with fields or points is told by the usual way.
     if (gives_distances(job.options.outside) || !needs_no_index(count, cells) || !fit || !base::all_finite(points))

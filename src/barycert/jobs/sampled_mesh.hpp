@@ -1,13 +1,8 @@
 /// The mesh of a job of sampling with its fields, what finds points in it, and what samples the fields.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/jobs/field_files.hpp"

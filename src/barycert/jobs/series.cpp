@@ -1,14 +1,9 @@
-#include "barycert/jobs/series.hpp"
+// Series: fields of which there is a file for each step.
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <map>
-#include <set>
 #include <system_error>
-#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
@@ -21,7 +16,6 @@
 namespace barycert::jobs {
 namespace {
 
-namespace fs = std::filesystem;
 using base::step_place, base::time_place;
 
 bool is_digit(char c) {
@@ -102,13 +96,13 @@ std::vector<Step> matches_of(const FieldFile& series) {
     const std::string after = pattern.substr(star + 1, next == std::string::npos ? next : next - star - 1);
     const std::string rest = next == std::string::npos ? "" : pattern.substr(next);
     std::vector<Step> found;
-    std::error_code failed, unknown;
+    std::error_code failed;
     for (const std::string& entry : base::names_in_folder(folder.empty() ? "." : folder, failed)) {
         if (entry.size() < before.size() + after.size() || !entry.starts_with(before) || !entry.ends_with(after) ||
             (before.empty() && entry.starts_with('.')))
             continue;
         const std::string path = fmt::format("{}{}{}", folder, entry, rest);
-        if (!rest.empty() && !fs::exists(path, unknown)) continue;
+        if (!rest.empty() && !io::exists(path)) continue;
         found.push_back(
             step_of(entry.substr(before.size(), entry.size() - before.size() - after.size()), series, path));
     }
@@ -192,7 +186,7 @@ std::vector<Step> find_steps(const SamplingJob& job) {
         if (job.step.made() && i != chosen) continue;
         // Before there is an output of any step.
         for (const std::string& file : all[i].files) {
-            if (std::error_code failed; !fs::exists(file, failed))
+            if (!io::exists(file))
                 refuse(file, "no such file, which step " + std::to_string(i) + " of the series names", "", "",
                        "restore it, or choose one step: job.step N");
         }
@@ -213,27 +207,6 @@ std::string output_of_step(const std::string& output, const Step& step) {
             path.replace(at, place.size(), text);
     }
     return path;
-}
-
-void check_step_outputs(const std::vector<base::NamedFile>& inputs, const std::string& output,
-                        const std::vector<Step>& steps) {
-    // By device and inode: there may be thousands of each. What does not exist is no input.
-    std::map<std::pair<dev_t, ino_t>, std::string> known;
-    const auto add = [&](const std::string& path, const std::string& what) -> const std::string* {
-        struct stat status {};
-        if (path == "-" || ::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return nullptr;
-        const auto [at, inserted] = known.emplace(std::pair(status.st_dev, status.st_ino), what);
-        return inserted ? nullptr : &at->second;
-    };
-    for (const base::NamedFile& in : inputs) add(in.path, in.what);
-    std::set<std::string> names;
-    for (const Step& step : steps) {
-        const std::string path = output_of_step(output, step);
-        if (!names.insert(path).second)
-            refuse(path, "two steps have the same output", "", "", "put {step} into the name of job.output");
-        if (const std::string* const before = add(path, "job.output of another step"))
-            refuse(path, "job.output would overwrite " + *before, "", "", "choose another name for the output");
-    }
 }
 
 }  // namespace barycert::jobs

@@ -1,5 +1,6 @@
 #include "barycert/jobs/stream.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -235,13 +236,12 @@ Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<Col
     }
     const std::set<std::string> of_rows = names;
     std::vector<bool> kept;
-    std::string left_out, first;
+    std::vector<std::string> left_out;
     for (const ColumnFormat& column : carried) {
         const std::string name = base::printable(column.name);
         kept.push_back(!all || (!is_name_of_rows(column.name) && !of_rows.contains(column.name)));
         if (!kept.back()) {
-            if (left_out.empty()) first = name;
-            left_out += (left_out.empty() ? "" : ",") + name;
+            left_out.push_back(name);
         } else if (!add(column)) {
             refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(column.name),
                    "name the columns to keep, with another name for this one: job.keep OTHER=" + name);
@@ -251,8 +251,9 @@ Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<Col
         kept.clear();
     } else {
         mesh.tell_once({{Note::Kind::left_out,
-                         "columns " + left_out + ": the rows have columns of these names; job.keep OTHER=" + first +
-                             " carries one through under another name",
+                         fmt::format("columns {}: the rows have columns of these names; job.keep OTHER={} carries one "
+                                     "through under another name",
+                                     fmt::join(left_out, ","), left_out.front()),
                          mesh.report.points}});
     }
     Sink sink = open(format);

@@ -7,8 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
-#include <optional>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"

@@ -1,12 +1,9 @@
 /// Values at the points of all ranks, from the pieces of a mesh that they have.
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "barycert/pieces/piece.hpp"
 

@@ -1,7 +1,6 @@
 #include "barycert/pieces/piece.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -10,6 +9,7 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
+#include "barycert/locate/near_feature.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::pieces {
@@ -67,23 +67,20 @@ std::span<const Mesh::Index> corners_of(const IndexedPiece& piece, Mesh::Index c
 
 // Sets point and weights from the nodes whose hull has the nearest point in it.
 void project_on(const IndexedPiece& piece, const Nearest& nearest, const double* x, Closest& found) {
-    std::array<double, 9> vertices{};
-    int count = 0;
-    for (; count < 3 && nearest.nodes[static_cast<std::size_t>(count)] >= 0; ++count)
-        piece.place(piece.node(nearest.nodes[static_cast<std::size_t>(count)]), vertices.data() + 3 * count);
-    std::array<double, 4> weights{1};
-    std::copy_n(vertices.begin(), 3, found.point.begin());
-    if (count > 1) {
-        const Simplex simplex = count == 2 ? Simplex::segment : Simplex::triangle3d;
-        if (const Result<Weights> w = barycentric_weights(simplex, vertices.data(), x)) weights = w->weights;
-        std::array<double, 3> point{};
-        if (point_from_weights(simplex, vertices.data(), weights.data(), point.data())) found.point = point;
-    }
+    locate::NearFeature f;
+    std::size_t count = 0;
+    for (; count < 3 && nearest.nodes[count] >= 0; ++count)
+        piece.place(piece.node(nearest.nodes[count]), f.at[count].data());
+    f.count = static_cast<int>(count);
+    const std::array<double, 3> weights = locate::weights_of({x[0], x[1], x[2]}, f);
+    found.point = f.at[0];
+    std::array<double, 3> point{};
+    if (count > 1 && point_from_weights(f.simplex(), f.vertices().data(), weights.data(), point.data()))
+        found.point = point;
     const std::span<const Mesh::Index> corners = corners_of(piece, found.cell);
-    for (int k = 0; k < count; ++k) {
-        const auto at = std::find(corners.begin(), corners.end(), nearest.nodes[static_cast<std::size_t>(k)]);
-        if (at != corners.end())
-            found.weights[static_cast<std::size_t>(at - corners.begin())] = weights[static_cast<std::size_t>(k)];
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto at = std::find(corners.begin(), corners.end(), nearest.nodes[k]);
+        if (at != corners.end()) found.weights[static_cast<std::size_t>(at - corners.begin())] = weights[k];
     }
 }
 

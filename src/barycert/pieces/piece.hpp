@@ -2,10 +2,8 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <optional>
-#include <vector>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"

@@ -1,6 +1,5 @@
 // The facets of a mesh that only one cell has.
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/surface.hpp"

@@ -1,13 +1,9 @@
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <string>
-#include <vector>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/strict_math.hpp"
@@ -49,8 +45,7 @@ struct ExactCrossing {
         // The weights of the ends are of_out / (of_in + of_out) and of_in / (of_in + of_out).
         const Unit unit = unit_of({in, out});
         const Integer sum = of_out * unit.multiple<Integer>(scaled(in)) + of_in * unit.multiple<Integer>(scaled(out));
-        return core::round_quotient(sum.sign() < 0, sum.magnitude(), (of_in + of_out).magnitude(),
-                                    unit.exponent - 1074);
+        return core::round_quotient(sum, of_in + of_out, unit.exponent - 1074);
     }
 };
 

@@ -1,7 +1,5 @@
 #include "barycert/surface/parts.hpp"
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <numeric>
 #include <string>

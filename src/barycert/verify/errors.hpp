@@ -1,4 +1,4 @@
-/// The error of one value, and where it is counted; the verdicts on a block of rows.
+/// The error of one value, and where it is counted.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,6 @@
 #include "barycert/base/decades.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/ulp.hpp"
-#include "barycert/result.hpp"
-#include "barycert/sampler.hpp"
 #include "barycert/verify.hpp"
 
 namespace barycert::verify {
@@ -83,8 +81,5 @@ inline void count(const ValueError& error, double claimed, const VerifyOptions& 
     ++to.by_ulps[bin_of_ulps(error.ulps, to.by_ulps.size())];
     ++to.by_relative[base::decade_bin(error.relative)];
 }
-
-/// One block of rows. Precondition: sizes fit.
-Result<Verdicts> verdicts_of(const Sampler& sampler, const Verifier& verifier, const ClaimedRows& claimed);
 
 }  // namespace barycert::verify

@@ -1,17 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/locate/batch.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/verify.hpp"
-#include "barycert/verify/errors.hpp"
 
 namespace barycert {
 namespace {
@@ -43,30 +41,6 @@ Field lengths_at_nodes(const sample::AtPoint& late) {
     return lengths;
 }
 
-Status wrong_size(const char* what, std::size_t expected, std::size_t found) {
-    return Error{
-        .what = std::string("size of ") + what, .expected = std::to_string(expected), .found = std::to_string(found)};
-}
-
-Status check_claims(const Sampler& sampler, const ClaimedRows& rows, NonfinitePoints nonfinite) {
-    const auto d = static_cast<std::size_t>(sampler.locator().mesh().dimension);
-    if (rows.points.size() % d != 0) return wrong_size("the points", d, rows.points.size() % d);
-    const std::size_t count = rows.points.size() / d, columns = sampler.columns().size();
-    if (!rows.cells.empty() && rows.cells.size() != count) return wrong_size("the cells", count, rows.cells.size());
-    if (!rows.inside.empty() && rows.inside.size() != count)
-        return wrong_size("inside or outside", count, rows.inside.size());
-    if (rows.values.size() != count * columns) return wrong_size("the values", count * columns, rows.values.size());
-    return nonfinite == NonfinitePoints::nan ? Status(Done{}) : locate::check_finite(rows.points, d, rows.first_row);
-}
-
-ClaimedRows part_of(const ClaimedRows& rows, std::size_t d, std::size_t columns, std::size_t first, std::size_t size) {
-    const auto part = [&](auto all, std::size_t width) {
-        return all.empty() ? all : all.subspan(width * first, width * size);
-    };
-    return {part(rows.points, d), part(rows.cells, 1), part(rows.inside, 1), part(rows.values, columns),
-            rows.first_row + first};
-}
-
 }  // namespace
 
 Verifier::Verifier(const Sampler& sampler, const VerifyOptions& options) : sampler_(sampler), options_(options) {
@@ -91,31 +65,6 @@ Verifier::Verifier(const Sampler& sampler, const VerifyOptions& options) : sampl
     }
     for (const sample::AtPoint& late : data.at_points)
         add(lengths_at_nodes(late), 0, late.length || late.component >= 0 ? 1 : late.components);
-}
-
-Result<Verdicts> Verifier::verify(const ClaimedRows& rows) const {
-    const ExactEnvironment environment;
-    if (Status ok = check_claims(sampler_, rows, options_.nonfinite_points); !ok) return ok.error();
-    const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
-    const std::size_t count = rows.points.size() / d, columns = sampler_.columns().size();
-    constexpr std::size_t block = std::size_t{1} << 17;
-    const std::size_t blocks = (count + block - 1) / block;
-    std::vector<std::optional<Result<Verdicts>>> parts(blocks);
-    base::in_arena(options_.threads, count, [&] {
-        base::parallel_for(blocks, [&](std::size_t b) {
-            const ExactEnvironment of_task;
-            const std::size_t first = b * block;
-            const ClaimedRows part = part_of(rows, d, columns, first, std::min(block, count - first));
-            parts[b].emplace(verify::verdicts_of(sampler_, *this, part));
-        });
-    });
-    Verdicts all;
-    all.columns.resize(columns);
-    for (auto& part : parts) {
-        if (!*part) return part->error();
-        all.add(**part, options_.examples);
-    }
-    return all;
 }
 
 Status Verifier::measure(Verdicts& verdicts) const {

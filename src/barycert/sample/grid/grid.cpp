@@ -13,10 +13,8 @@
 namespace barycert {
 namespace {
 
-constexpr const char* axis_names[] = {"x", "y", "z"};
-
 Error along_axis(const char* what, std::size_t axis, std::string expected, std::string found) {
-    return {.what = std::string(what) + " of the grid along " + axis_names[axis],
+    return {.what = std::string(what) + " of the grid along " + "xyz"[axis],
             .expected = std::move(expected),
             .found = std::move(found)};
 }

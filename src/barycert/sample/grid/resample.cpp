@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/strict_math.hpp"

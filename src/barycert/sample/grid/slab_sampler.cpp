@@ -85,7 +85,7 @@ void SlabSampler::take(const UndecidedPoint& one) {
 /// Gives a point to a cell that holds it, exactly, unless a lower one has it, and returns it; else nothing.
 std::optional<std::size_t> SlabSampler::own(locate::Place cell, const std::array<std::int32_t, 3>& places,
                                             bool with_value) {
-    const Mesh::Index number = original(cell);
+    const Mesh::Index number = data_.index().original[static_cast<std::size_t>(cell)];
     const std::size_t point =
         target_.columns * target_.line_of(places[1], places[2]) + static_cast<std::size_t>(places[0]);
     if (target_.kept(point, number)) return std::nullopt;

@@ -1,11 +1,6 @@
 /// Some layers of a grid.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/grid.hpp"
 #include "barycert/index/buffer.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
@@ -62,7 +57,6 @@ private:
     std::optional<std::size_t> own(locate::Place cell, const std::array<std::int32_t, 3>& places, bool with_value);
     void finish();
     void push(std::size_t point);
-    Mesh::Index original(locate::Place cell) const { return data_.index().original[static_cast<std::size_t>(cell)]; }
     Feature feature_of(std::size_t point) const {
         return static_cast<Feature>(static_cast<std::uint8_t>(found_[point]) & ~value_missing);
     }

@@ -39,18 +39,6 @@ struct MapWriterData {
         return error;
     }
 
-    Status begin() {
-        if (Status opened = file.status(); !opened) return fail(opened.error());
-        if (!file.can_replace())
-            return fail({.what = "cannot write a map to a pipe or device",
-                         .file = name,
-                         .expected = "a regular file: the number of rows is written into its header at the end",
-                         .remedy = "name a regular file"});
-        const std::array<char, map_header_size> no_header{};  // a file without its end must not pass for a map
-        file.write({no_header.data(), no_header.size()});
-        return Done{};
-    }
-
     Status check(const TableView& rows) {
         const auto dimension = static_cast<std::size_t>(head.dimension);
         const std::size_t count = rows.row_count();
@@ -114,7 +102,7 @@ struct MapWriterData {
 
 // Read, not mapped: a file that is cut off meanwhile is then an error and not the end of the process.
 struct MapReaderData {
-    explicit MapReaderData(std::string path) : name(std::move(path)) {}
+    MapReaderData(std::string path, base::InputFile input) : name(std::move(path)), file(std::move(input)) {}
 
     Error damage(std::string what, std::string expected, std::string found) const {
         return {.what = std::move(what),
@@ -122,15 +110,6 @@ struct MapReaderData {
                 .expected = std::move(expected),
                 .found = std::move(found),
                 .remedy = "create the map again, or copy it again"};
-    }
-
-    Status open(const Mesh& mesh) {
-        Result<base::InputFile> opened = base::InputFile::open(name, "save the map to a regular file first");
-        if (!opened) return opened.error();
-        file = std::move(*opened);
-        size = file.size();
-        if (Status good = read_header(); !good) return good;
-        return check_mesh(mesh);
     }
 
     /// `count` bytes from `from` on, into `bytes`.
@@ -248,7 +227,7 @@ struct MapReaderData {
     std::string name;
     MapHeader head;
     base::InputFile file;
-    std::uint64_t size = 0;      // of the file
+    std::uint64_t size = file.size();
     std::uint64_t offset = 0;    // of the next block
     std::uint64_t row = 0;       // the first of the next block
     std::uint64_t checksum = 0;  // of the last block
@@ -264,7 +243,14 @@ Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, boo
     const ExactEnvironment environment;
     const sample::MapHeader head{mesh.dimension, all, 0, mesh.point_count(), mesh.cell_count(), mesh_fingerprint(mesh)};
     auto data = std::make_unique<sample::MapWriterData>(path, head);
-    if (Status begun = data->begin(); !begun) return begun.error();
+    if (Status opened = data->file.status(); !opened) return opened.error();
+    if (!data->file.can_replace())
+        return Error{.what = "cannot write a map to a pipe or device",
+                     .file = path,
+                     .expected = "a regular file: the number of rows is written into its header at the end",
+                     .remedy = "name a regular file"};
+    const std::array<char, sample::map_header_size> no_header{};  // a file without its end must not pass for a map
+    data->file.write({no_header.data(), no_header.size()});
     return MapWriter(std::move(data));
 }
 
@@ -306,8 +292,11 @@ MapWriter::~MapWriter() = default;
 
 Result<MapReader> MapReader::open(const std::string& path, const Mesh& mesh) {
     const ExactEnvironment environment;
-    auto data = std::make_unique<sample::MapReaderData>(path);
-    if (Status opened = data->open(mesh); !opened) return opened.error();
+    Result<base::InputFile> opened = base::InputFile::open(path, "save the map to a regular file first");
+    if (!opened) return opened.error();
+    auto data = std::make_unique<sample::MapReaderData>(path, std::move(*opened));
+    if (Status good = data->read_header(); !good) return good.error();
+    if (Status good = data->check_mesh(mesh); !good) return good.error();
     return MapReader(std::move(data));
 }
 

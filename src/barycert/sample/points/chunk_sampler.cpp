@@ -1,6 +1,5 @@
 #include "barycert/sample/points/chunk_sampler.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>

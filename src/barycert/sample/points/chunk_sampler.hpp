@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "barycert/locate/finder.hpp"
 #include "barycert/sample/points/sampler_data.hpp"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "barycert/base/arena.hpp"
@@ -18,9 +17,6 @@ namespace barycert::sample {
 namespace {
 
 using Kind = QuantityStep::Kind;
-
-/// Of cells or nodes to one task.
-constexpr std::size_t entities_of_task = std::size_t{1} << 13;
 
 /// number(values of a row): of one component.
 template <class Number>
@@ -43,7 +39,8 @@ Result<Field> gradient_field(const Mesh& mesh, const Field& of_nodes) {
         done = gradients(simplex, mesh.points, corners, values, out);
     };
     const auto join = [](Status& all, const Status& part) { all = part ? all : part; };
-    const Status done = base::parallel_reduce(cells, entities_of_task, Status(Done{}), work, join);
+    constexpr std::size_t cells_of_task = std::size_t{1} << 13;
+    const Status done = base::parallel_reduce(cells, cells_of_task, Status(Done{}), work, join);
     if (!done) return done.error();
     return field;
 }

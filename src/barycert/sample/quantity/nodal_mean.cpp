@@ -2,15 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <span>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/core/fixed_integer.hpp"
-#include "barycert/core/integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
@@ -20,7 +14,6 @@
 namespace barycert::sample {
 namespace {
 
-namespace formulas = core::HWY_NAMESPACE;
 using core::Integer;
 using core::Unit;
 
@@ -80,8 +73,7 @@ public:
         for (std::size_t c = 0; c < components_; ++c) {
             const bool some = total_.sign() != 0 && finite_[c] != 0;
             // The units of the coordinates cancel.
-            out[c] = some ? core::round_quotient(sums_[c].sign() < 0, sums_[c].magnitude(), total_.magnitude(),
-                                                 values_[c].exponent - 1074)
+            out[c] = some ? core::round_quotient(sums_[c], total_, values_[c].exponent - 1074)
                           : std::numeric_limits<double>::quiet_NaN();
         }
     }
@@ -119,7 +111,7 @@ private:
             };
             for (int i = 0; i < d; ++i) edge[i][k] = at(i + 1) - at(0);
         }
-        return core::as_integer(formulas::determinant(edge));
+        return core::as_integer(core::HWY_NAMESPACE::determinant(edge));
     }
 
     const Mesh& mesh_;

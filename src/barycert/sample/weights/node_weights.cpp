@@ -18,15 +18,6 @@ namespace {
 
 constexpr std::size_t max_nodes_of_cell = 10;
 
-Status check_located(const Mesh& mesh, const TableView& rows) {
-    const auto d = static_cast<std::size_t>(mesh.dimension);
-    if (rows.points.size() != d * rows.cells.size())
-        return Error{.what = "size of the points",
-                     .expected = std::to_string(d) + " coordinates a row",
-                     .found = std::to_string(rows.points.size()) + " numbers for " + std::to_string(rows.cells.size())};
-    return locate::check_cells(rows.cells, mesh.cell_count());
-}
-
 class WeightRows {
 public:
     WeightRows(const Locator& locator, const TableView& rows, const OutsidePolicy& outside)
@@ -160,7 +151,12 @@ private:
 
 Result<NodeWeights> node_weights(const Locator& locator, const TableView& rows, const OutsidePolicy& outside) {
     const ExactEnvironment environment;
-    if (Status fits = check_located(locator.mesh(), rows); !fits) return fits.error();
+    const auto d = static_cast<std::size_t>(locator.mesh().dimension);
+    if (rows.points.size() != d * rows.cells.size())
+        return Error{.what = "size of the points",
+                     .expected = std::to_string(d) + " coordinates a row",
+                     .found = std::to_string(rows.points.size()) + " numbers for " + std::to_string(rows.cells.size())};
+    if (Status good = locate::check_cells(rows.cells, locator.mesh().cell_count()); !good) return good.error();
     return WeightRows(locator, rows, outside).all();
 }
 
