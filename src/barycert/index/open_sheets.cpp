@@ -59,7 +59,7 @@ public:
         }
         items_.resize(facets.size());
         for (std::size_t i = 0; i < facets.size(); ++i) items_[i] = item_of(facets[i], d_);
-        candidates_.emplace(d_, items_, crowd);
+        candidates_.emplace(d_, items_);
     }
 
     /// Parts of the work.

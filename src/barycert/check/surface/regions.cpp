@@ -13,21 +13,20 @@ namespace {
 constexpr std::size_t max_shells = 1000;
 
 long double area_of(const std::array<const double*, 3>& t) {
-    long double u[3], v[3];
-    for (int k = 0; k < 3; ++k) {
+    base::Vector3<long double> u, v;
+    for (std::size_t k = 0; k < 3; ++k) {
         u[k] = static_cast<long double>(t[1][k]) - t[0][k];
         v[k] = static_cast<long double>(t[2][k]) - t[0][k];
     }
-    const long double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
-    return std::sqrt(x * x + y * y + z * z) / 2;  // whose range is wide enough where long double is
+    const auto normal = base::cross(u, v);
+    return std::sqrt(base::dot(normal, normal)) / 2;  // whose range is wide enough where long double is
 }
 
 /// As crossing(), of the middle of a triangle, which no double may be: in thirds, exactly.
 int crossing_from_middle(const std::array<const double*, 3>& t, const std::array<const double*, 3>& middle_of) {
-    using Number = boost::multiprecision::cpp_int;
-    core::WholePoints<Number> whole;
-    for (std::size_t i = 0; i < 3; ++i) whole.add(t[i]), whole.add(middle_of[i]);
-    using Vector = base::Vector3<Number>;
+    using Number = core::WholeNumber;
+    using Vector = core::WholeVector;
+    const core::WholePoints whole{t[0], t[1], t[2], middle_of[0], middle_of[1], middle_of[2]};
     Vector p;
     std::array<Vector, 3> at;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -207,10 +206,7 @@ private:
     }
 
     const BoxGroups& boxes() {
-        if (!boxes_)
-            boxes_.emplace(s_.triangles.size(), [&](std::size_t f) {
-                return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3);
-            });
+        if (!boxes_) boxes_.emplace(make_cell_tree(s_.triangles.index));
         return *boxes_;
     }
 
