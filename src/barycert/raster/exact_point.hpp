@@ -30,12 +30,11 @@ template <class X, class Y>
 Form difference_form(int count, X x, Y y) {
     core::Unit unit;
     for (int i = 0; i < count; ++i) {
-        unit.add(core::scaled(x(i)));
-        unit.add(core::scaled(y(i)));
+        unit.add(x(i));
+        unit.add(y(i));
     }
     Form form;
-    const auto multiple = [&](double number) { return unit.multiple<core::Integer>(core::scaled(number)); };
-    for (int i = 0; i < count; ++i) form[static_cast<std::size_t>(i)] = multiple(x(i)) - multiple(y(i));
+    for (int i = 0; i < count; ++i) form[static_cast<std::size_t>(i)] = unit.integer(x(i)) - unit.integer(y(i));
     return form;
 }
 
@@ -67,10 +66,9 @@ inline int sign_at(const Form& h, const ExactPoint& p) {
 /// The number at the point, correctly rounded, of which each vertex has one.
 inline double value_at(const ExactPoint& p, const double* values, std::size_t stride, std::size_t count) {
     core::Unit unit;
-    for (std::size_t i = 0; i < count; ++i) unit.add(core::scaled(values[stride * i]));
+    for (std::size_t i = 0; i < count; ++i) unit.add(values[stride * i]);
     core::Integer sum;
-    for (std::size_t i = 0; i < count; ++i)
-        sum = sum + p.numerator[i] * unit.multiple<core::Integer>(core::scaled(values[stride * i]));
+    for (std::size_t i = 0; i < count; ++i) sum = sum + p.numerator[i] * unit.integer(values[stride * i]);
     return core::round_quotient(sum, p.denominator, unit.exponent - 1074);
 }
 

@@ -13,9 +13,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <string>
 #include <type_traits>
 
 #include "barycert/environment.hpp"

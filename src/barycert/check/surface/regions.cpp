@@ -70,7 +70,7 @@ public:
         s_.found.shells.resize(s_.found.shell_count);
         for (std::size_t f = 0; f < count; ++f) {
             SurfaceShell& shell = s_.found.shells[shell_of_[f]];
-            const Mesh::Index number = s_.triangles.number[f];
+            const Mesh::Index number = s_.triangles.number(f);
             shell.first = shell.first < 0 ? number : std::min(shell.first, number);
             ++shell.triangles;
         }
@@ -153,7 +153,7 @@ private:
         if (s_.triangles.index.box_holds(p)) {
             boxes().for_each_meeting(at, [&](std::size_t f) {
                 if (face_around(3, s_.triangles.facets[f], p)[0] >= 0)
-                    seed.facet = s_.surface.facet(s_.triangles.number[f]);
+                    seed.facet = s_.surface.facet(s_.triangles.number(f));
                 return seed.facet < 0;
             });
         }

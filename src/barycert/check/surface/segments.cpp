@@ -52,9 +52,9 @@ public:
             const auto found = facets_of_.find(segment);
             if (found == facets_of_.end()) return;
             for (const Ridge& r : edge) {
-                const auto facet = static_cast<std::size_t>(s_.surface.facet(s_.triangles.number[r.facet]));
+                const auto facet = static_cast<std::size_t>(s_.surface.facet(s_.triangles.number(r.facet)));
                 if (found->second.contains(facet)) continue;
-                s_.defects.add_marked(DefectKind::segment_in_facet, {.cells = {s_.triangles.number[r.facet], -1},
+                s_.defects.add_marked(DefectKind::segment_in_facet, {.cells = {s_.triangles.number(r.facet), -1},
                                                                      .nodes = {segment[0], segment[1], -1}});
                 break;
             }
@@ -82,7 +82,7 @@ public:
             boxes.for_each_meeting(box_of(s_.triangles.index, f.at.data(), 2), [&](std::size_t t) {
                 if (!segment_conflicts(f, s_.triangles.facets[t])) return true;
                 s_.defects.add_marked(DefectKind::segment_in_facet,
-                                      {.cells = {s_.triangles.number[t], -1}, .nodes = {segment[0], segment[1], -1}});
+                                      {.cells = {s_.triangles.number(t), -1}, .nodes = {segment[0], segment[1], -1}});
                 return false;
             });
         }
@@ -92,7 +92,7 @@ public:
             boxes.for_each_meeting(box_of(s_.triangles.index, &p, 1), [&](std::size_t t) {
                 const auto face = face_around(3, s_.triangles.facets[t], p);
                 if (face[1] < 0) return true;  // at a node of it is a coincident node
-                s_.defects.add_marked(DefectKind::node_on_facet, {.cells = {s_.triangles.number[t], -1},
+                s_.defects.add_marked(DefectKind::node_on_facet, {.cells = {s_.triangles.number(t), -1},
                                                                   .nodes = {static_cast<Mesh::Index>(n), -1, -1}});
                 return false;
             });

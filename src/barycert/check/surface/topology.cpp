@@ -68,7 +68,7 @@ void connect_triangles(SurfaceParts& s) {
             s.defects.add_marked(DefectKind::nonmanifold_edge, s.place_of(edge[0]));
         } else if (ascending != 1 && !s.found.plc) {
             DefectPlace place = s.place_of(edge[0]);
-            place.cells[1] = s.triangles.number[edge[1].facet];
+            place.cells[1] = s.triangles.number(edge[1].facet);
             s.defects.add_marked(DefectKind::misoriented_edge, place);
         }
         for (std::size_t i = 1; i < edge.size(); ++i) s.shells.join(edge[0].facet, edge[i].facet);
@@ -84,7 +84,7 @@ void connect_triangles(SurfaceParts& s) {
     for (const auto& [node, triangle] : s.pinched) {
         s.found.manifold = false;
         s.defects.add_marked(DefectKind::nonmanifold_node,
-                             {.cells = {s.triangles.number[static_cast<std::size_t>(triangle)], -1},
+                             {.cells = {s.triangles.number(static_cast<std::size_t>(triangle)), -1},
                               .nodes = {s.triangles.node(node), -1, -1}});
     }
 }
@@ -134,7 +134,7 @@ void find_surface_cracks(SurfaceParts& s) {
         if (keys[i - 1].first != keys[i].first) continue;
         const Ridge &f = open[keys[i - 1].second], &g = open[keys[i].second];
         DefectPlace place = s.place_of(f);
-        place.cells[1] = s.triangles.number[g.facet];
+        place.cells[1] = s.triangles.number(g.facet);
         place.other_nodes = s.place_of(g).nodes;
         s.defects.add_marked(DefectKind::crack, place);
     }

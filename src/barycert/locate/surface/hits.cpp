@@ -112,7 +112,7 @@ std::vector<SurfaceHit> SurfaceData::hits(const double* a, const double* b, bool
     boxes->for_each_meeting(box, [&](std::size_t t) {
         Hit one;
         if (hit(segment, triangles.turned(t), one)) {
-            one.triangle = triangles.number[t];
+            one.triangle = triangles.number(t);
             one.parameter = core::rounded_quotient(one.exact.numerator, one.exact.denominator, 0);
             all.push_back(std::move(one));
         }

@@ -23,8 +23,7 @@ class Block {
 public:
     static constexpr std::size_t most = 512;
 
-    Block(const SurfaceData& data, double limit)
-        : data_(data), groups_(data.near_groups()), numbers_(data.triangles.number), limit_(limit) {
+    Block(const SurfaceData& data, double limit) : data_(data), groups_(data.near_groups()), limit_(limit) {
         // The limit is that of rounded distances.
         const double reach = std::ldexp(limit, groups_.exponent) * (1 + 0x1p-50) + 0x1p-500;
         square_ = reach * reach * (1 + 0x1p-50);
@@ -97,10 +96,10 @@ private:
         std::array<std::uint8_t, 3> order{}, ignored{};
         if (masks_[query.first] == 0) return false;
         const std::array<Mesh::Index, 3> nodes = nodes_of(query.first, order);
-        Mesh::Index lowest = numbers_[places_[query.first]];
+        Mesh::Index lowest = data_.triangles.number(places_[query.first]);
         for (std::size_t i = query.first + 1; i < query.first + query.count; ++i) {
             if (masks_[i] == 0 || nodes_of(i, ignored) != nodes) return false;
-            lowest = std::min(lowest, numbers_[places_[i]]);
+            lowest = std::min(lowest, data_.triangles.number(places_[i]));
         }
         query.to->cell = lowest;
         query.to->nodes = nodes;
@@ -183,7 +182,7 @@ private:
         const Point3 p{query.point[0], query.point[1], query.point[2]};
         NearFeature best;
         for (std::size_t i = query.first; i < query.first + query.count; ++i) {
-            const Mesh::Index number = numbers_[places_[i]];
+            const Mesh::Index number = data_.triangles.number(places_[i]);
             const NearCell cell = near_cell(data_.triangles.index, places_[i]);
             NearFeature feature;
             nearest_feature(cell, p, masks_[i] != 0 ? 0 : guess_nearest(cell, p).mask, feature);
@@ -211,7 +210,6 @@ private:
 
     const SurfaceData& data_;
     const NearGroups& groups_;
-    const std::vector<Mesh::Index>& numbers_;
     double limit_, square_ = 0;
     std::uint32_t hint_ = UINT32_MAX;
     std::vector<Query> queries_;
