@@ -71,8 +71,7 @@ void mend_plain_values(Simplex s, const CaseBlock& cases, std::span<const std::u
 enum class PerspectiveAnswer : std::uint8_t { weights, depth, values };
 
 /// `points`: a block without vertices. out[i][j] is number i of the answer at point j. `values`, of
-/// PerspectiveAnswer::values alone: values[components * i
-/// + c] is component c at vertex i.
+/// PerspectiveAnswer::values alone: values[components * i + c] is component c at vertex i.
 std::size_t perspective_lanes(PerspectiveAnswer what, const double* vertices, const CaseBlock& points,
                               const double* values, int components, double* const* out, std::uint32_t* undecided);
 
