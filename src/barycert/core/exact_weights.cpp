@@ -6,9 +6,7 @@
 #include <type_traits>
 
 #include "barycert/core/fixed_integer.hpp"
-#include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
 namespace barycert::core {

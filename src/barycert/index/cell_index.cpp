@@ -1,10 +1,8 @@
 #include "barycert/index/cell_index.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "barycert/base/arena.hpp"

@@ -1,6 +1,5 @@
 #include "barycert/locate/near_feature.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>

@@ -7,13 +7,11 @@
 #include <array>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/near_bounds.hpp"
-#include "barycert/locate/near_feature.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert {

@@ -38,7 +38,7 @@ std::string brief(const Json& value) {
 /// A value of the file and where it stands. Functions that find something else than they ask for throw Exception.
 class SceneValue {
 public:
-    SceneValue(const Json& value, Json::json_pointer place, const std::string& path)
+    SceneValue(const Json& value, std::string place, const std::string& path)
         : value_(value), place_(std::move(place)), path_(path) {}
 
     /// Every member is one of these.
@@ -48,16 +48,16 @@ public:
             if (std::find(names.begin(), names.end(), name) != names.end()) continue;
             std::string all;
             for (const char* known : names) all += (all.empty() ? "" : ", ") + std::string(known);
-            refuse((place_ / name).to_string(), "one of the members " + all, base::quoted(name));
+            refuse((Json::json_pointer(place_) / name).to_string(), "one of the members " + all, base::quoted(name));
         }
     }
 
     bool has(const char* name) const { return value_.contains(name); }
     SceneValue member(const char* name) const {
         if (!has(name)) refuse(place(), std::string("a member \"") + name + '"', "none");
-        return {value_.at(name), place_ / name, path_};
+        return {value_.at(name), place_ + '/' + name, path_};
     }
-    SceneValue entry(std::size_t i) const { return {value_.at(i), place_ / i, path_}; }
+    SceneValue entry(std::size_t i) const { return {value_.at(i), place_ + '/' + std::to_string(i), path_}; }
 
     /// Of an array: the number of entries.
     std::size_t size() const {
@@ -120,13 +120,13 @@ public:
         Error told = error;
         if (told.file.empty()) {
             told.file = path_;
-            told.what = place_.to_string() + ": " + told.what;
+            told.what = place_ + ": " + told.what;
         }
         throw Exception(told);
     }
 
 private:
-    std::string place() const { return place_.empty() ? "the scene" : place_.to_string(); }
+    std::string place() const { return place_.empty() ? "the scene" : place_; }
 
     [[noreturn]] void refuse(std::string what, std::string expected, std::string found) const {
         throw Exception({std::move(what), path_, 0, std::move(expected), std::move(found),
@@ -134,7 +134,7 @@ private:
     }
 
     const Json& value_;
-    Json::json_pointer place_;
+    std::string place_;
     const std::string& path_;
 };
 
@@ -346,7 +346,7 @@ Result<Scene> read_scene(const std::string& path) {
     const ExactEnvironment environment;
     try {
         const raster::Json json = raster::parse(raster::text_of_file(path).value(), path);
-        return raster::scene_of({json, raster::Json::json_pointer(), path}, std::filesystem::path(path).parent_path());
+        return raster::scene_of({json, "", path}, std::filesystem::path(path).parent_path());
     } catch (const Exception& e) {
         return e.error();
     }

@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "barycert/environment.hpp"
 #include "barycert/raster/edge.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
