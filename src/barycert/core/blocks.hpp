@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "barycert/core/input_checks.hpp"
@@ -231,8 +232,9 @@ Status for_blocks(const Batch& batch, Tier tier, TierCounts* tiers, Decide decid
         for (const std::uint32_t j : std::span(undecided).first(undecided_count)) {
             const SingleCase c = single_case(batch.simplex, block, j);
             if (!all_finite(batch.simplex, c.vertices.data(), c.point.data()))
-                return not_finite_error(batch.simplex, c.vertices.data(), c.point.data(),
-                                        case_name(batch) + (" " + std::to_string(first + j)) + ": ");
+                return not_finite_error(
+                    batch.simplex, c.vertices.data(), c.point.data(),
+                    (std::is_same_v<Batch, MeshCells> ? "cell " : "case ") + std::to_string(first + j) + ": ");
             const ExactCase found = exact(first, j, c);
             counts.degenerate += found.degenerate ? 1 : 0;
             counts.not_finite += found.finite_values ? 0 : 1;

@@ -63,7 +63,7 @@ Triangles place_triangles(std::span<const double> points, std::span<const Mesh::
         corners = kept;
         numbers = kept_numbers;
     }
-    all.index = make_triangle_index(points, corners);
+    all.index = make_cell_index(Simplex::triangle3d, points, corners);
     all.same = first_at_place(all.index);
     for (std::size_t i = 0; i < all.same.size(); ++i) all.joined = all.joined || all.same[i] != static_cast<Place>(i);
     const std::size_t count = numbers.size();

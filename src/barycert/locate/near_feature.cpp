@@ -101,10 +101,6 @@ Square square_of(const Lattice& lattice, const Point3& p, const NearFeature& f) 
     return {height * height, dot(n, n)};
 }
 
-int bits_of(const Number& x) {
-    return static_cast<int>(msb(x)) + 1;
-}
-
 /// floor(sqrt(x)). The estimate is off by far less than 2^32, so its square fits and a step of Newton's leaves less
 /// than one or two; then it is counted.
 std::uint64_t root_of(core::UInt128 x) {
@@ -163,7 +159,8 @@ double distance_to(const Point3& p, const NearFeature& f) {
     if (s.numerator == 0) return 0;
     // floor(numerator 4^shift / denominator) has 124 to 126 bits, its root 62 or 63. What was cut off, of either, is
     // one more bit at the end that is not zero: it decides ties, and nothing else.
-    const int excess = bits_of(s.numerator) - bits_of(s.denominator), shift = (125 - excess) >> 1;
+    const int excess = static_cast<int>(msb(s.numerator)) - static_cast<int>(msb(s.denominator));
+    const int shift = (125 - excess) >> 1;
     (shift >= 0 ? s.numerator : s.denominator) <<= static_cast<unsigned>(2 * std::abs(shift));
     Number quotient, rest;
     divide_qr(s.numerator, s.denominator, quotient, rest);

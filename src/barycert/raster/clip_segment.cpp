@@ -49,7 +49,8 @@ struct SegmentClipper {
         const int at_a = sign(a, 0), at_b = sign(b, 1);
         empty = at_a < 0 && at_b < 0;
         if (empty || (at_a >= 0 && at_b >= 0)) return;
-        (at_a < 0 ? a : b) = zero_on_segment(form);
+        // h_a W_a + h_b W_b = 0 for W_a : W_b = h_b : -h_a.
+        (at_a < 0 ? a : b) = exact_point({form[1], core::Integer() - form[0], core::Integer()});
     }
 
     ClippedSegment result() const {

@@ -47,12 +47,6 @@ inline ExactPoint exact_point(const Form& n) {
     return p;
 }
 
-/// The point where h is zero on the segment: h_a W_a + h_b W_b = 0 for W_a : W_b = h_b : -h_a. Precondition: h differs
-/// at its ends.
-inline ExactPoint zero_on_segment(const Form& h) {
-    return exact_point({h[1], core::Integer() - h[0], core::Integer()});
-}
-
 /// The point where g and h are zero in the triangle. Precondition: there is exactly one.
 inline ExactPoint zero_in_triangle(const Form& g, const Form& h) {
     return exact_point({g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0]});

@@ -33,15 +33,14 @@ int crossing_from_middle(const std::array<const double*, 3>& t, const std::array
         const Vector corner = whole.at(t[i]), part = whole.at(middle_of[i]);
         for (std::size_t k = 0; k < 3; ++k) at[i][k] = 3 * corner[k], p[k] += part[k];
     }
-    const auto sign = [](const Number& x) { return x > 0 ? 1 : x < 0 ? -1 : 0; };
     const auto side = [&](const Vector& a, const Vector& b) {
-        if (const int s = sign((b[1] - a[1]) * (p[2] - a[2]) - (b[2] - a[2]) * (p[1] - a[1])); s != 0) return s;
-        return a[2] != b[2] ? sign(a[2] - b[2]) : sign(b[1] - a[1]);
+        const Number turn = (b[1] - a[1]) * (p[2] - a[2]) - (b[2] - a[2]) * (p[1] - a[1]);
+        return (turn != 0 ? turn : a[2] != b[2] ? Number(a[2] - b[2]) : Number(b[1] - a[1])).sign();
     };
     const int s = side(at[0], at[1]);
     if (s == 0 || side(at[1], at[2]) != s || side(at[2], at[0]) != s) return 0;
     const Vector n = base::cross(base::minus(at[1], at[0]), base::minus(at[2], at[0]));
-    return sign(base::dot(n, base::minus(p, at[0]))) == -s ? s : 0;
+    return base::dot(n, base::minus(p, at[0])).sign() == -s ? s : 0;
 }
 
 /// The sides of triangles that look into one part of space: with normals away from it, a closed surface around it.
@@ -149,9 +148,8 @@ public:
 private:
     void place_seed(bool hole, std::size_t number, const double* p) {
         PlcSeed seed{hole, number, -1, -1};
-        const CellBox at = box_of(s_.triangles.index, &p, 1);
         if (s_.triangles.index.box_holds(p)) {
-            boxes().for_each_meeting(at, [&](std::size_t f) {
+            boxes().for_each_meeting(box_of(s_.triangles.index, &p, 1), [&](std::size_t f) {
                 if (face_around(3, s_.triangles.facets[f], p)[0] >= 0)
                     seed.facet = s_.surface.facet(s_.triangles.number(f));
                 return seed.facet < 0;
