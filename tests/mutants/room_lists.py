@@ -25,7 +25,7 @@ CHECK = [
     ("surface/regions.cpp", "all.chamber[front] - part.six[k]", "all.chamber[front] + part.six[k]", "chambers on the side of a normal"),
     ("surface/regions.cpp", "all.chamber[back] + part.six[k]", "all.chamber[back]", "chambers behind triangles"),
     ("surface/topology.cpp", "2 * std::size_t{b.facet} + (s.triangles.ascends(b) ? 1 : 0)", "2 * std::size_t{b.facet} + (s.triangles.ascends(b) ? 0 : 1)", "sides that look at each other"),
-    ("surface/topology.cpp", "x != y ? x < y", "x != y ? y < x", "the order of triangles around an edge"),
+    ("surface/topology.cpp", "turn.sorted(edge)", "edge", "the order of triangles around an edge"),
     ("pairs.cpp", "if (!complete) c.defects[DefectKind::nested_part].at_least = true;", "", "not said that there may be more"),
 ]
 LOCATE = [

@@ -92,7 +92,7 @@ GENERATED = [
     (I, "x.size_ <= y.size_ ?", "", "Performance only: which factor is the outer one."),
     (I, "x.size_ >= y.size_", "", "Equivalent: of two numbers of as many limbs either may come first."),
     (I, "order > 0", "", "Equivalent: order is not 0 there."),
-    ("blocks.hpp", "first < case_count", "", "Equivalent: one block of no cases more."),
+    ("blocks.hpp", "first < blocks.count", "", "Equivalent: one block of no cases more."),
     (P, "std::fabs(det) > ", ">=", STRICT),
     (P, "extent >= 0x1p-300", "", BOTH_SIDES),
     (P, "det < 0 ?", "<=", "Equivalent: det is not zero there."),

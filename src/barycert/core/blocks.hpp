@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "barycert/core/input_checks.hpp"
@@ -19,14 +20,6 @@ inline constexpr std::size_t block_size = 128;
 
 /// Doubles from one gathered array to the next. Not a power of two: arrays would then share a few sets of the cache.
 inline constexpr std::size_t block_stride = block_size + 8;
-
-inline std::size_t case_count(const CaseArrays& c) {
-    return c.count;
-}
-template <class Batch>
-std::size_t case_count(const Batch& batch) {
-    return batch.count();
-}
 
 /// The corners of case j, n of them.
 inline const std::int32_t* corners_of(const MeshQueries& q, std::size_t n, std::size_t j) {
@@ -110,6 +103,7 @@ public:
           coordinates_(static_cast<std::size_t>(space_dimension(batch.simplex)) *
                        static_cast<std::size_t>(vertex_count(batch.simplex) + (has_points ? 1 : 0))) {}
 
+    std::size_t count() const { return batch_.count(); }
     CaseBlock block(std::size_t first, std::size_t count) {
         const Simplex s = batch_.simplex;
         with_simplex(s, [&]<Simplex known>() { gather<vertex_count(known), space_dimension(known)>(first, count); });
@@ -155,6 +149,7 @@ class Blocks<CaseArrays> {
 public:
     explicit Blocks(const CaseArrays& cases) : cases_(cases) {}
 
+    std::size_t count() const { return cases_.count; }
     CaseBlock block(std::size_t first, std::size_t count) {
         const auto from = [first](const double* all) { return all == nullptr ? nullptr : all + first; };
         CaseBlock block{{}, {}, count};
@@ -229,16 +224,17 @@ Status for_blocks(const Batch& batch, Tier tier, TierCounts* tiers, Decide decid
     Blocks<Batch> blocks(batch);
     std::array<std::uint32_t, block_size> undecided;
     TierCounts counts;
-    for (std::size_t first = 0; first < case_count(batch); first += block_size) {
-        const CaseBlock block = blocks.block(first, std::min(block_size, case_count(batch) - first));
+    for (std::size_t first = 0; first < blocks.count(); first += block_size) {
+        const CaseBlock block = blocks.block(first, std::min(block_size, blocks.count() - first));
         const std::size_t undecided_count = decide(first, block, undecided.data());
         counts.add(tier, block.count - undecided_count);
         counts.add(Tier::exact, undecided_count);
         for (const std::uint32_t j : std::span(undecided).first(undecided_count)) {
             const SingleCase c = single_case(batch.simplex, block, j);
             if (!all_finite(batch.simplex, c.vertices.data(), c.point.data()))
-                return not_finite_error(batch.simplex, c.vertices.data(), c.point.data(),
-                                        case_name(batch) + (" " + std::to_string(first + j)) + ": ");
+                return not_finite_error(
+                    batch.simplex, c.vertices.data(), c.point.data(),
+                    (std::is_same_v<Batch, MeshCells> ? "cell " : "case ") + std::to_string(first + j) + ": ");
             const ExactCase found = exact(first, j, c);
             counts.degenerate += found.degenerate ? 1 : 0;
             counts.not_finite += found.finite_values ? 0 : 1;

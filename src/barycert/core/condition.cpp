@@ -16,13 +16,10 @@ namespace {
 
 namespace formulas = HWY_NAMESPACE;
 
-template <class T>
-[[gnu::always_inline]] inline auto product(const T (&x)[2]) {
-    return x[0] * x[1];
-}
-template <class T>
-[[gnu::always_inline]] inline auto product(const T (&x)[3]) {
-    return x[0] * (x[1] * x[2]);
+template <class T, int d>
+[[gnu::always_inline]] inline auto product(const T (&x)[d]) {
+    if constexpr (d == 2) return x[0] * x[1];
+    if constexpr (d == 3) return x[0] * (x[1] * x[2]);
 }
 
 /// A triangle fills at most half of its box, a tetrahedron a third.

@@ -6,9 +6,7 @@
 #include <type_traits>
 
 #include "barycert/core/fixed_integer.hpp"
-#include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
 namespace barycert::core {
@@ -173,15 +171,13 @@ double ExactWeights::interpolate(std::span<const double> values) const {
 
 int ExactWeights::compare(std::span<const double> values, double t) const {
     Unit unit;
-    unit.add(scaled(t));
-    for (const double value : values) unit.add(scaled(value));
+    unit.add(t);
+    for (const double value : values) unit.add(value);
     std::uint64_t buffer[narrow_limbs];
     // A fifth product, of the denominator, beside the four of interpolate(): at most two bits more.
-    Integer sum =
-        Integer(sign_of(denominator) >= 0, magnitude(denominator, buffer)) * unit.multiple<Integer>(scaled(t));
+    Integer sum = Integer(sign_of(denominator) >= 0, magnitude(denominator, buffer)) * unit.integer(t);
     for (int i = 0; i < count_; ++i)
-        sum = sum + Integer(sign_of(i) < 0, magnitude(i, buffer)) *
-                        unit.multiple<Integer>(scaled(values[static_cast<std::size_t>(i)]));
+        sum = sum + Integer(sign_of(i) < 0, magnitude(i, buffer)) * unit.integer(values[static_cast<std::size_t>(i)]);
     return sum.sign() * orientation();
 }
 
@@ -232,12 +228,11 @@ Sign exact_insphere(const double* a, const double* b, const double* c, const dou
 double exact_dot(const double* x, const double* y, int count) {
     Unit unit_x, unit_y;
     for (int i = 0; i < count; ++i) {
-        unit_x.add(scaled(x[i]));
-        unit_y.add(scaled(y[i]));
+        unit_x.add(x[i]);
+        unit_y.add(y[i]);
     }
     Integer sum;
-    for (int i = 0; i < count; ++i)
-        sum = sum + unit_x.multiple<Integer>(scaled(x[i])) * unit_y.multiple<Integer>(scaled(y[i]));
+    for (int i = 0; i < count; ++i) sum = sum + unit_x.integer(x[i]) * unit_y.integer(y[i]);
     return round_integer(sum, unit_x.exponent + unit_y.exponent - 2 * 1074);
 }
 

@@ -97,10 +97,11 @@ std::size_t quadratic_values(Rounding rounding, Simplex s, const CaseBlock& case
 }
 
 template <PerspectiveAnswer what>
-std::size_t perspective_of(const double* vertices, const PointBlock& points, const double* values, int components,
+std::size_t perspective_of(const double* vertices, const CaseBlock& points, const double* values, int components,
                            double* const* out, std::uint32_t* undecided) {
     return for_padded_lanes(points.count, undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
-        const auto lanes = project_lanes(tag, vertices, hn::LoadU(tag, points.x + at), hn::LoadU(tag, points.y + at));
+        const auto lanes =
+            project_lanes(tag, vertices, hn::LoadU(tag, points.point[0] + at), hn::LoadU(tag, points.point[1] + at));
         auto certain = lanes.valid;
         const auto put = [&](const auto& quotient, int i)
                              HWY_ATTR { hn::StoreU(rounded_quotient(tag, quotient, certain), tag, out[i] + at); };
@@ -119,7 +120,7 @@ std::size_t perspective_of(const double* vertices, const PointBlock& points, con
     });
 }
 
-std::size_t perspective(PerspectiveAnswer what, const double* vertices, const PointBlock& points, const double* values,
+std::size_t perspective(PerspectiveAnswer what, const double* vertices, const CaseBlock& points, const double* values,
                         int components, double* const* out, std::uint32_t* undecided) {
     const auto answers = what == PerspectiveAnswer::weights ? perspective_of<PerspectiveAnswer::weights>
                          : what == PerspectiveAnswer::depth ? perspective_of<PerspectiveAnswer::depth>
@@ -147,7 +148,7 @@ std::size_t quadratic_lanes(Rounding rounding, Simplex s, const CaseBlock& cases
     return HWY_DYNAMIC_DISPATCH(quadratic_values)(rounding, s, cases, values, components, out, undecided);
 }
 
-std::size_t perspective_lanes(PerspectiveAnswer what, const double* vertices, const PointBlock& points,
+std::size_t perspective_lanes(PerspectiveAnswer what, const double* vertices, const CaseBlock& points,
                               const double* values, int components, double* const* out, std::uint32_t* undecided) {
     return HWY_DYNAMIC_DISPATCH(perspective)(what, vertices, points, values, components, out, undecided);
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
-#include <type_traits>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
@@ -23,12 +22,6 @@ struct MeshCells {
     std::size_t count() const { return corners.size() / static_cast<std::size_t>(vertex_count(simplex)); }
 };
 
-/// What stands at one index of a batch.
-template <class Batch>
-const char* case_name(const Batch&) {
-    return std::is_same_v<Batch, MeshCells> ? "cell" : "case";
-}
-
 inline Error size_error(const char* what, const std::string& expected, std::size_t found) {
     return {.what = what, .expected = expected, .found = std::to_string(found)};
 }
@@ -40,7 +33,7 @@ inline Status check_output(std::size_t places, std::size_t per_case, std::size_t
                       std::to_string(per_case) + " for each of " + std::to_string(count) + " " + what + "s", places);
 }
 inline Status check_sizes(const CaseArrays& cases, std::size_t places, std::size_t per_case) {
-    return check_output(places, per_case, cases.count, case_name(cases));
+    return check_output(places, per_case, cases.count, "case");
 }
 inline Status check_sizes(const MeshQueries& q, std::size_t places, std::size_t per_case) {
     const auto d = static_cast<std::size_t>(space_dimension(q.simplex));
@@ -48,13 +41,13 @@ inline Status check_sizes(const MeshQueries& q, std::size_t places, std::size_t 
         return size_error("size of the points",
                           std::to_string(d) + " coordinates for each of " + std::to_string(q.cells.size()) + " queries",
                           q.points.size());
-    return check_output(places, per_case, q.count(), case_name(q));
+    return check_output(places, per_case, q.count(), "case");
 }
 inline Status check_sizes(const MeshCells& cells, std::size_t places, std::size_t per_case) {
     const auto n = static_cast<std::size_t>(vertex_count(cells.simplex));
     if (cells.corners.size() % n != 0)
         return size_error("size of the corners", "a multiple of " + std::to_string(n), cells.corners.size());
-    return check_output(places, per_case, cells.count(), case_name(cells));
+    return check_output(places, per_case, cells.count(), "cell");
 }
 
 inline Status check_components(int components) {

@@ -67,19 +67,12 @@ void mend_plain_values(Simplex s, const CaseBlock& cases, std::span<const std::u
 // Perspective-correct interpolation at points of one triangle, `vertices` as perspective.hpp has them. Arrays of points
 // and answers have room for a multiple of 8, or count is 1. Points and values that are not finite are undecided.
 
-/// x[j], y[j] is point j.
-struct PointBlock {
-    const double* x;
-    const double* y;
-    std::size_t count;  ///< below 2^32
-};
-
 /// Three weights, one depth, or values.
 enum class PerspectiveAnswer : std::uint8_t { weights, depth, values };
 
-/// out[i][j] is number i of the answer at point j. `values`, of PerspectiveAnswer::values alone: values[components * i
-/// + c] is component c at vertex i.
-std::size_t perspective_lanes(PerspectiveAnswer what, const double* vertices, const PointBlock& points,
+/// `points`: a block without vertices. out[i][j] is number i of the answer at point j. `values`, of
+/// PerspectiveAnswer::values alone: values[components * i + c] is component c at vertex i.
+std::size_t perspective_lanes(PerspectiveAnswer what, const double* vertices, const CaseBlock& points,
                               const double* values, int components, double* const* out, std::uint32_t* undecided);
 
 /// a * b + c is rounded once in the lanes as they were compiled for this target.

@@ -45,7 +45,7 @@ Result<Numbers> answer(Numbers& found, double* out, const double* vertices, cons
     double* to[count];
     for (std::size_t i = 0; i < count; ++i) to[i] = out + i;
     std::uint32_t undecided[1];
-    if (perspective_lanes(what, vertices, {point, point + 1, 1}, values, 1, to, undecided) == 0) return found;
+    if (perspective_lanes(what, vertices, {{}, {point, point + 1}, 1}, values, 1, to, undecided) == 0) return found;
     if (!usable(vertices, point)) return unusable_error(vertices, point);
     found.tier = Tier::exact;
     found.degenerate = !exact_perspective(what, vertices, point, values, 1, out);
@@ -99,7 +99,7 @@ Status perspective_values(const double* vertices, std::span<const double> points
             x[j] = points[2 * (first + j)];
             y[j] = points[2 * (first + j) + 1];
         }
-        const std::size_t left = core::perspective_lanes(PerspectiveAnswer::values, vertices, {x, y, some},
+        const std::size_t left = core::perspective_lanes(PerspectiveAnswer::values, vertices, {{}, {x, y}, some},
                                                          values.data(), components, results.data(), undecided);
         double* const to = out.data() + stride * first;
         results.copy_out(some, to);

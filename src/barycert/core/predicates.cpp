@@ -22,10 +22,6 @@ namespace formulas = HWY_NAMESPACE;
 
 constexpr double epsilon = 0x1p-52;
 
-double max_magnitude(double x, double y, double z) {
-    return std::max(std::max(std::fabs(x), std::fabs(y)), std::fabs(z));
-}
-
 // Orientations: the same ranges and constants as the numerators of filter-inl.hpp, which derives them: 2 terms of 4
 // roundings, and 6 of 8 (there the last sign costs no rounding).
 
@@ -51,7 +47,7 @@ bool in_range(double extent) {
         u[k] = q[k] - p[k];
         v[k] = s[k] - r[k];
         w[k] = t1[k] - t0[k];
-        extent[k] = max_magnitude(u[k], v[k], w[k]);
+        extent[k] = std::max(std::max(std::fabs(u[k]), std::fabs(v[k])), std::fabs(w[k]));
     }
     const auto [x, y, z] = extent;
     const double det =

@@ -87,14 +87,14 @@ template <Simplex s>
 QuadraticGradient<s, Integer> gradient_in_integers(const double* vertices, const double* point, const double* values,
                                                    Units<s>& units) {
     constexpr int n = vertex_count(s), d = space_dimension(s), nodes = n + mid_node_count(s);
-    const auto coordinate = [&](int i, int k) { return scaled(i < n ? vertices[d * i + k] : point[k]); };
+    const auto coordinate = [&](int i, int k) { return i < n ? vertices[d * i + k] : point[k]; };
     Integer v[n + 1][d], f[nodes];
     for (int k = 0; k < d; ++k) {
         for (int i = 0; i <= n; ++i) units[k].add(coordinate(i, k));
-        for (int i = 0; i <= n; ++i) v[i][k] = units[k].template multiple<Integer>(coordinate(i, k));
+        for (int i = 0; i <= n; ++i) v[i][k] = units[k].integer(coordinate(i, k));
     }
-    for (int i = 0; i < nodes; ++i) units[d].add(scaled(values[i]));
-    for (int i = 0; i < nodes; ++i) f[i] = units[d].template multiple<Integer>(scaled(values[i]));
+    for (int i = 0; i < nodes; ++i) units[d].add(values[i]);
+    for (int i = 0; i < nodes; ++i) f[i] = units[d].integer(values[i]);
     return quadratic_gradient_in<s, Integer>(v, f, Integer());
 }
 

@@ -40,6 +40,7 @@ struct Unit {
         const int above = x.exponent + static_cast<int>(std::bit_width(x.mantissa));
         top = std::max(top, x.mantissa == 0 ? 0 : above);
     }
+    void add(double x) { add(scaled(x)); }
     void add(const Unit& u) {
         exponent = std::min(exponent, u.exponent);
         top = std::max(top, u.top);
@@ -62,6 +63,7 @@ struct Unit {
             return {{static_cast<std::uint64_t>(value), static_cast<std::uint64_t>(value >> 64)}};
         }
     }
+    Integer integer(double x) const { return multiple<Integer>(scaled(x)); }
 };
 
 /// The width that the widest axis needs.

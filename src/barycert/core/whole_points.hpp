@@ -6,7 +6,8 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 #include <cstdlib>
-#include <utility>
+#include <initializer_list>
+#include <memory>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/quotient.hpp"
@@ -14,18 +15,26 @@
 
 namespace barycert::core {
 
+/// Without heap up to 512 bits: what most of them need.
+using WholeNumber =
+    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
+                                      512, 0, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked,
+                                      std::allocator<boost::multiprecision::limb_type>>,
+                                  boost::multiprecision::et_off>;
+using WholeVector = base::Vector3<WholeNumber>;
+
 /// As whole multiples of 2^exponent().
-template <class Number>
 class WholePoints {
 public:
-    using Vector = base::Vector3<Number>;
-
+    WholePoints(std::initializer_list<const double*> points) {
+        for (const double* const p : points) add(p);
+    }
     void add(const double* p) {
         for (int k = 0; k < 3; ++k) unit_.add(scaled(p[k]));
     }
     /// Precondition: it was added.
-    Vector at(const double* p) const {
-        Vector v;
+    WholeVector at(const double* p) const {
+        WholeVector v;
         for (std::size_t k = 0; k < 3; ++k) {
             const ScaledDouble x = scaled(p[k]);
             if (x.mantissa == 0) continue;

@@ -53,10 +53,10 @@ struct Scale {
     int high = 0;  ///< and less than 2^high in magnitude
     bool empty = true;
 
-    void include(const Dyadic& d) {
+    void include(double x) {
+        const Dyadic d = dyadic(x);
         if (d.mantissa != 0) include(Scale{d.exponent, d.exponent + d.length, false});
     }
-    void include(double x) { include(dyadic(x)); }
     void include(const Scale& other) {
         if (other.empty) return;
         low = empty || other.low < low ? other.low : low;

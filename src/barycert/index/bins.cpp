@@ -1,6 +1,5 @@
 #include "barycert/index/bins.hpp"
 
-#include <algorithm>
 #include <bit>
 
 namespace barycert::index {

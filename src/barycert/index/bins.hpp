@@ -41,15 +41,6 @@ public:
     double half_low(std::size_t k) const { return half_low_[k]; }
     double scale(std::size_t k) const { return scale_[k]; }
 
-    /// Numbers that no coordinate mapped to q falls below, or rises above, by more than a rounding of their own size.
-    /// Infinite on an axis that the halves of its ends do not tell apart.
-    double below(std::size_t k, std::int32_t q) const {
-        return scale_[k] > 0 ? 2 * (half_low_[k] + (q - 1.0) / scale_[k]) : -std::numeric_limits<double>::infinity();
-    }
-    double above(std::size_t k, std::int32_t q) const {
-        return scale_[k] > 0 ? 2 * (half_low_[k] + (q + 2.0) / scale_[k]) : std::numeric_limits<double>::infinity();
-    }
-
 private:
     std::array<double, 3> half_low_{}, scale_{};
 };

@@ -59,7 +59,7 @@ void meeting_pairs(const BoxGroups& boxes, std::size_t g, const BoxGroups::TakeP
         struct Open {
             std::size_t level, group;
         };
-        std::array<Open, 8 * 12> stack;  // as in BoxGroups::descend
+        std::array<Open, 8 * 12> stack;  // as in BoxGroups::for_each_meeting
         std::size_t top = 0;
         stack[top++] = {boxes.levels() - 1, 0};
         while (top > 0) {

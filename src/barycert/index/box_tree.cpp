@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_invoke.h>
 
-#include <algorithm>
 #include <numeric>
 #include <utility>
 

@@ -33,10 +33,13 @@ struct Item {
     const double* place_of(Mesh::Index node) const;
 };
 
+/// So many items at a node that it is not asked for all pairs of them: below it that costs less than groups do; nodes
+/// of good meshes have some tens of cells.
+inline constexpr std::size_t crowd = 256;
+
 class Candidates {
 public:
-    /// `crowd`: below it, asking all pairs costs less than groups do; nodes of good meshes have some tens of cells.
-    Candidates(int d, std::span<const Item> items, std::size_t crowd = 256);
+    Candidates(int d, std::span<const Item> items, std::size_t crowd = index::crowd);
 
     /// found(j), in no special order, for each item j that has a point in common with `item` beside the face of their
     /// common nodes, for each one of the same nodes (their boxes are the same), and for others, until it returns false.

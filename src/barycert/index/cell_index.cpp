@@ -1,10 +1,8 @@
 #include "barycert/index/cell_index.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "barycert/base/arena.hpp"
@@ -199,7 +197,10 @@ void build(const Cells& mesh, const std::vector<Mesh::Index>& used, CellIndex& i
     place_cells<corners>(mesh, order_cells<d, corners>(mesh, index.bins), place_of_node, index);
 }
 
-CellIndex make_index(Simplex simplex, const Cells& mesh) {
+}  // namespace
+
+CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::span<const Mesh::Index> cells) {
+    const Cells mesh{points, cells};
     CellIndex index;
     index.simplex = simplex;
     const std::size_t count = mesh.cells.size() / index.corners();
@@ -222,8 +223,6 @@ CellIndex make_index(Simplex simplex, const Cells& mesh) {
     return index;
 }
 
-}  // namespace
-
 std::size_t CellIndex::bytes() const {
     return cells.bytes() + original.bytes() + nodes.bytes() + original_node.size() * sizeof(Mesh::Index) +
            first.size() * sizeof(Place);
@@ -238,11 +237,7 @@ std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
 }
 
 CellIndex make_cell_index(const Mesh& mesh) {
-    return make_index(mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron, {mesh.points, mesh.cells});
-}
-
-CellIndex make_triangle_index(std::span<const double> points, std::span<const Mesh::Index> triangles) {
-    return make_index(Simplex::triangle3d, {points, triangles});
+    return make_cell_index(mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron, mesh.points, mesh.cells);
 }
 
 }  // namespace barycert::index

@@ -80,8 +80,8 @@ std::array<double, 12> vertices_of(const CellIndex& index, Place cell);
 /// calling arena, which do not change the outcome.
 CellIndex make_cell_index(const Mesh& mesh);
 
-/// The same of triangles in space, three coordinates a point and three points a triangle. Precondition: there are such
-/// points, and they are finite.
-CellIndex make_triangle_index(std::span<const double> points, std::span<const Mesh::Index> triangles);
+/// The same of cells without a mesh, or triangles in space. Precondition: their corners are points, and these are
+/// finite.
+CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::span<const Mesh::Index> cells);
 
 }  // namespace barycert::index

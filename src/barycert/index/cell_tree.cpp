@@ -1,7 +1,5 @@
 #include "barycert/index/cell_tree.hpp"
 
-#include "barycert/base/arena.hpp"
-
 namespace barycert::index {
 
 CellBox box_of(const CellIndex& index, const double* const* points, std::size_t count) {

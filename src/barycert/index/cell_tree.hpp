@@ -66,7 +66,7 @@ class BoxGroups {
 public:
     /// `count` boxes, box_at(i) each. On the threads of the calling arena.
     template <class BoxAt>
-    BoxGroups(std::size_t count, BoxAt box_at) : count_(count) {
+    BoxGroups(std::size_t count, BoxAt box_at) {
         std::size_t groups = 0;
         for (std::size_t boxes = count;; boxes = (boxes + 7) / 8) {
             level_.push_back(groups);
@@ -91,18 +91,6 @@ public:
     /// found(i) for each box i that meets `box`, until it returns false.
     template <class Found>
     void for_each_meeting(const CellBox& box, Found found) const {
-        descend(0, box, found);
-    }
-
-    using TakePairs = std::function<void(std::span<FacetPair>)>;
-    /// take() for all pairs of boxes that meet, the lower number first, in the group g of the lowest level: some at a
-    /// time, in an order that depends on the boxes alone (box_lanes.cpp).
-    void for_pairs(std::size_t g, const TakePairs& take) const;
-
-private:
-    /// found(i) for each box i of level l that meets `box`, until it returns false.
-    template <class Found>
-    void descend(std::size_t l, const CellBox& box, Found found) const {
         struct Open {
             std::size_t level, group;
         };
@@ -113,7 +101,7 @@ private:
             const Open open = stack[--top];
             for (std::uint32_t bits = level(open.level)[open.group].meeting(box); bits != 0; bits &= bits - 1) {
                 const std::size_t i = 8 * open.group + static_cast<std::size_t>(std::countr_zero(bits));
-                if (open.level > l) {
+                if (open.level > 0) {
                     stack[top++] = {open.level - 1, i};
                 } else if (!found(i)) {
                     return;
@@ -122,7 +110,12 @@ private:
         }
     }
 
-    std::size_t count_;
+    using TakePairs = std::function<void(std::span<FacetPair>)>;
+    /// take() for all pairs of boxes that meet, the lower number first, in the group g of the lowest level: some at a
+    /// time, in an order that depends on the boxes alone (box_lanes.cpp).
+    void for_pairs(std::size_t g, const TakePairs& take) const;
+
+private:
     std::vector<std::size_t> level_;  ///< where each begins
     Buffer<BoxGroup> groups_;
 };

@@ -19,10 +19,6 @@ int orient(Point a, Point b, Point c, Point d) {
     return static_cast<int>(orient3d(a, b, c, d));
 }
 
-bool opposite(int s, int t) {
-    return s * t < 0;
-}
-
 // In the plane.
 
 /// On the closed segment from a to b. Precondition: on its line.
@@ -36,7 +32,7 @@ bool between(Point a, Point b, Point p) {
 /// Closed segments ab and cd have a point in common.
 bool segments_meet(Point a, Point b, Point c, Point d) {
     const int abc = orient(a, b, c), abd = orient(a, b, d), cda = orient(c, d, a), cdb = orient(c, d, b);
-    if (opposite(abc, abd) && opposite(cda, cdb)) return true;
+    if (abc * abd < 0 && cda * cdb < 0) return true;
     return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) || (cda == 0 && between(c, d, a)) ||
            (cdb == 0 && between(c, d, b));
 }

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
 

@@ -1,21 +1,14 @@
 #include "barycert/index/open_sheets.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
-#include "barycert/index/candidates.hpp"
 #include "barycert/index/cell_tree.hpp"
 #include "barycert/index/overlap.hpp"
-#include "barycert/index/ridges.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert::index {
 namespace {
@@ -32,60 +25,26 @@ std::size_t largest_fan(std::size_t nodes, const std::vector<PlacedFacet>& facet
     return largest;
 }
 
-/// Facets that have a ridge, in a ring around it.
-class Ring {
-public:
-    Ring(const CellIndex& index, const std::vector<CellFacet>& open, const std::vector<PlacedFacet>& facets)
-        : index_(index), open_(open), facets_(facets) {}
-
-    /// joined(f, g) for facets that come one after the other, if the cells of both lie between them, or neither does.
-    /// They are all the open facets that have the ridge, without conflicts: no two have one direction from it.
-    template <class Joined>
-    void for_each_pair(std::span<const Ridge> ridges, Joined joined) {
-        if (ridges.size() == 2) return joined(ridges[0].facet, ridges[1].facet);
-        blades_.clear();
-        for (const Ridge& ridge : ridges) {
-            const auto& [cell, corner] = open_[ridge.facet];
-            const Place apex = index_.cells[static_cast<std::size_t>(cell)].node[static_cast<std::size_t>(corner)];
-            const double* const at = facets_[ridge.facet].at[ridge.other];
-            const double* const first = blades_.empty() ? at : blades_.front().at;
-            blades_.push_back({ridge.facet, at, 0, false});
-            if (at != first) {
-                const Sign side = turn(ridge, first, at);
-                blades_.back().part = side == Sign::positive ? 1 : side == Sign::zero ? 2 : 3;
-            }
-            blades_.back().cell_follows =
-                turn(ridge, at, index_.nodes[static_cast<std::size_t>(apex)].at.data()) == Sign::positive;
-        }
-        std::sort(blades_.begin(), blades_.end(), [&](const Blade& a, const Blade& b) {
-            return a.part != b.part ? a.part < b.part : turn(ridges[0], a.at, b.at) == Sign::positive;
-        });
-        for (std::size_t i = 0; i < blades_.size(); ++i) {
-            const Blade &blade = blades_[i], &next = blades_[(i + 1) % blades_.size()];
-            if (blade.cell_follows != next.cell_follows) joined(blade.facet, next.facet);
-        }
-    }
-
-private:
-    struct Blade {
-        std::uint32_t facet;
-        const double* at;   ///< of its node that is not the ridge's
-        int part;           ///< of a turn, from the first blade: 0 itself, 1 below a half, 2 a half, 3 beyond
-        bool cell_follows;  ///< it comes next in the turn
+/// Joins facets that come one after the other around a ridge, if the cells of both lie between them, or neither does.
+/// They are all the open facets that have the ridge, without conflicts.
+void join_around(const CellIndex& index, const std::vector<CellFacet>& open, std::span<const Ridge> ridges,
+                 RidgeTurn& turn, base::DisjointSets& sets) {
+    if (ridges.size() == 2) return sets.join(ridges[0].facet, ridges[1].facet);
+    const auto cell_follows = [&](const Ridge& ridge) {  // it comes next in the turn
+        const auto& [cell, corner] = open[ridge.facet];
+        const Place apex = index.cells[static_cast<std::size_t>(cell)].node[static_cast<std::size_t>(corner)];
+        return turn.to(ridge, index.nodes[static_cast<std::size_t>(apex)].at.data()) == Sign::positive;
     };
-
-    /// Positive if the turn from x to y around the ridge is below a half, zero if it is none or a half.
-    Sign turn(const Ridge& ridge, const double* x, const double* y) const {
-        const auto& at = facets_[ridge.facet].at;
-        if (index_.dimension() == 2) return orient2d(at[1 - ridge.other], x, y);
-        return orient3d(at[ridge.other == 0 ? 1 : 0], at[ridge.other == 2 ? 1 : 2], x, y);
+    const std::span<const Ridge> ring = turn.sorted(ridges);
+    const Ridge* before = &ring.back();
+    bool follows_before = cell_follows(*before);
+    for (const Ridge& ridge : ring) {
+        const bool follows = cell_follows(ridge);
+        if (follows != follows_before) sets.join(before->facet, ridge.facet);
+        before = &ridge;
+        follows_before = follows;
     }
-
-    const CellIndex& index_;
-    const std::vector<CellFacet>& open_;
-    const std::vector<PlacedFacet>& facets_;
-    std::vector<Blade> blades_;
-};
+}
 
 /// Pairs of facets whose boxes meet and that no plane is known to separate.
 class Suspects {
@@ -100,7 +59,7 @@ public:
         }
         items_.resize(facets.size());
         for (std::size_t i = 0; i < facets.size(); ++i) items_[i] = item_of(facets[i], d_);
-        candidates_.emplace(d_, items_, crowd);
+        candidates_.emplace(d_, items_);
     }
 
     /// Parts of the work.
@@ -141,6 +100,26 @@ private:
 };
 
 }  // namespace
+
+std::span<const Ridge> RidgeTurn::sorted(std::span<const Ridge> ridges) {
+    if (ridges.size() < 3) return ridges;  // either order is one
+    sorted_.assign(ridges.begin(), ridges.end());
+    const auto first = sorted_.begin() + 1, last = sorted_.end();
+    const auto side = [&](const Ridge& from, const Ridge& r) { return to(from, facets_[r.facet].at[r.other]); };
+    // Below half a turn from the first one, at half a turn, beyond it.
+    const auto half = std::partition(first, last, [&](const Ridge& r) { return side(ridges[0], r) == Sign::positive; });
+    const auto beyond = std::partition(half, last, [&](const Ridge& r) { return side(ridges[0], r) == Sign::zero; });
+    const auto before = [&](const Ridge& a, const Ridge& b) { return side(a, b) == Sign::positive; };
+    std::sort(first, half, before);
+    std::sort(beyond, last, before);
+    return sorted_;
+}
+
+Sign RidgeTurn::to(const Ridge& from, const double* p) const {
+    const auto& at = facets_[from.facet].at;
+    if (d_ == 2) return orient2d(at[1 - from.other], at[from.other], p);
+    return orient3d(at[from.other == 0 ? 1 : 0], at[from.other == 2 ? 1 : 2], at[from.other], p);
+}
 
 Item item_of(const PlacedFacet& facet, int d) {
     const auto& [nodes, at] = facet;
@@ -201,10 +180,11 @@ std::vector<std::vector<std::uint32_t>> find_sheets(const CellIndex& index, cons
                                                     const std::vector<PlacedFacet>& facets,
                                                     const std::vector<std::uint8_t>& conflict) {
     base::DisjointSets sets(facets.size());
-    Ring ring(index, open, facets);
-    for_each_ridge(ridges_of(static_cast<int>(index.dimension()), facets), [&](std::span<const Ridge> same) {
+    const auto d = static_cast<int>(index.dimension());
+    RidgeTurn turn(d, facets);
+    for_each_ridge(ridges_of(d, facets), [&](std::span<const Ridge> same) {
         if (same.size() > 1 && std::ranges::all_of(same, [&](const Ridge& r) { return conflict[r.facet] == 0; }))
-            ring.for_each_pair(same, [&](std::uint32_t f, std::uint32_t g) { sets.join(f, g); });
+            join_around(index, open, same, turn, sets);
     });
     std::vector<std::vector<std::uint32_t>> sheets;
     std::vector<std::uint32_t> sheet_of(facets.size());

@@ -1,13 +1,17 @@
 /// Open facets, as places in space: which conflict, which belong to one sheet (doc/theorem.md).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "barycert/index/candidates.hpp"
 #include "barycert/index/cell_index.hpp"
 #include "barycert/index/facet_contact.hpp"
 #include "barycert/index/facet_links.hpp"
+#include "barycert/index/ridges.hpp"
+#include "barycert/predicates.hpp"
 
 namespace barycert::index {
 
@@ -15,6 +19,25 @@ namespace barycert::index {
 PlacedFacet placed(const CellIndex& index, const CellFacet& facet);
 
 Item item_of(const PlacedFacet& facet, int d);
+
+/// Facets around a ridge.
+class RidgeTurn {
+public:
+    RidgeTurn(int d, const std::vector<PlacedFacet>& facets) : d_(d), facets_(facets) {}
+
+    /// Ridges of the same nodes in the order of a turn around these from the first one on, in space counterclockwise as
+    /// seen along the edge from its lower node to its higher one. They stand until the next call. Precondition: no two
+    /// facets have one direction from there.
+    std::span<const Ridge> sorted(std::span<const Ridge> ridges);
+
+    /// Positive if the turn from that facet to the point is below a half, zero if it is none or a half.
+    Sign to(const Ridge& from, const double* p) const;
+
+private:
+    int d_;
+    const std::vector<PlacedFacet>& facets_;
+    std::vector<Ridge> sorted_;
+};
 
 /// 1 for each facet that conflicts with another one.
 std::vector<std::uint8_t> find_conflicts(const CellIndex& index, const std::vector<PlacedFacet>& facets);

@@ -121,7 +121,7 @@ std::vector<std::uint8_t> find_overlapped(const CellIndex& index, std::span<cons
     const auto d = static_cast<int>(index.dimension());
     std::vector<Item> items(asked.size());
     for (std::size_t i = 0; i < asked.size(); ++i) items[i] = item_of(index, asked[i]);
-    const Candidates candidates(d, items, crowd);
+    const Candidates candidates(d, items);
     base::parallel_for_each(index.cell_count(), 1 << 10, [&](std::size_t c) {
         const auto cell = static_cast<Place>(c);
         if (has(degenerate, cell)) return;

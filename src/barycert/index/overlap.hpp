@@ -24,9 +24,6 @@ bool interiors_meet(int d, const Corners& a, const Corners& b);
 /// A cell as an item of candidates.hpp, its nodes by place.
 Item item_of(const CellIndex& index, Place cell);
 
-/// So many cells or facets at a node that it is not asked for all pairs of them (candidates.hpp).
-inline constexpr std::size_t crowd = 256;
-
 /// A node of more than `crowd` cells exists.
 bool is_crowded(const CellIndex& index);
 

@@ -153,7 +153,7 @@ private:
         }
         std::vector<Item> items(bad.size());
         for (std::size_t f = 0; f < bad.size(); ++f) items[f] = item_of(bad[f], d());
-        const Candidates candidates(d(), items, crowd);
+        const Candidates candidates(d(), items);
         std::vector<std::array<Mesh::Index, 3>> nodes(bad.size());
         for (std::size_t f = 0; f < bad.size(); ++f) nodes[f] = bad[f].nodes;
         std::sort(nodes.begin(), nodes.end());

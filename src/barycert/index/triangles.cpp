@@ -63,11 +63,10 @@ Triangles place_triangles(std::span<const double> points, std::span<const Mesh::
         corners = kept;
         numbers = kept_numbers;
     }
-    all.index = make_triangle_index(points, corners);
+    all.index = make_cell_index(Simplex::triangle3d, points, corners);
     all.same = first_at_place(all.index);
     for (std::size_t i = 0; i < all.same.size(); ++i) all.joined = all.joined || all.same[i] != static_cast<Place>(i);
     const std::size_t count = numbers.size();
-    all.number.resize(count);
     all.facets.resize(count);
     all.odd.resize(count);
     base::parallel_for_each(count, grain, [&](std::size_t i) {
@@ -82,7 +81,7 @@ Triangles place_triangles(std::span<const double> points, std::span<const Mesh::
         for (std::size_t k = 0; k < 3; ++k) f.at[k] = all.index.nodes[static_cast<std::size_t>(f.nodes[k])].at.data();
         all.odd[i] = swaps % 2;
         Mesh::Index& number = all.index.original[i];
-        number = all.number[i] = numbers[static_cast<std::size_t>(number)];
+        number = numbers[static_cast<std::size_t>(number)];
     });
     return all;
 }

@@ -15,7 +15,6 @@ struct Triangles {
     std::vector<Mesh::Index> degenerate;  ///< without an area: left out of all else; ascending
 
     // Of each place:
-    std::vector<Mesh::Index> number;  ///< of the triangle as given
     std::vector<PlacedFacet> facets;  ///< nodes by their places, ascending: of those at one place the first
     std::vector<std::uint8_t> odd;    ///< its nodes in that order turn it round
 
@@ -23,6 +22,8 @@ struct Triangles {
     bool joined = false;      ///< some are at one place
 
     std::size_t size() const { return facets.size(); }
+    /// Of the triangle as given.
+    Mesh::Index number(std::size_t place) const { return index.original[place]; }
     Mesh::Index node(Mesh::Index place) const { return index.original_node[static_cast<std::size_t>(place)]; }
     std::array<Mesh::Index, 3> nodes(std::size_t place) const {
         const auto& n = facets[place].nodes;
@@ -36,7 +37,7 @@ struct Triangles {
     /// The triangle goes along the edge from its lower place to its higher one.
     bool ascends(const Ridge& edge) const { return (edge.other == 1) == (odd[edge.facet] != 0); }
     std::size_t bytes() const {
-        return index.bytes() + size() * (sizeof(PlacedFacet) + sizeof(Mesh::Index) + 1) + same.size() * sizeof(Place);
+        return index.bytes() + size() * (sizeof(PlacedFacet) + 1) + same.size() * sizeof(Place);
     }
 };
 

@@ -1,7 +1,6 @@
 #include "barycert/locate/cells_at_points.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 

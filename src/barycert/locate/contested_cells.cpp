@@ -1,15 +1,12 @@
 #include "barycert/locate/contested_cells.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/index/overlap.hpp"
-#include "barycert/index/proof.hpp"
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/lanes.hpp"
-#include "barycert/locate/names.hpp"
 
 namespace barycert::locate {
 namespace {

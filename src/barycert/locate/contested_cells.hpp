@@ -41,10 +41,7 @@ public:
     void find_owners(const PointRecord* points, const std::uint32_t* which, std::size_t count, Place* owner,
                      Feature* feature, TierCounts& tests) const;
 
-    std::size_t bytes() const {
-        const std::size_t lists = lists_.made() ? lists_.made()->bytes() : 0;
-        return cells_.size() * sizeof(Place) + tree_.bytes() + lists;
-    }
+    std::size_t bytes() const { return cells_.size() * sizeof(Place) + tree_.bytes() + bytes_of(lists_); }
 
 private:
     /// For cells_[i], those of lower number in the mesh that may overlap it: lower[begin[i] .. begin[i + 1]). Empty if

@@ -1,7 +1,6 @@
 #include "barycert/locate/finder.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "barycert/base/random.hpp"
 

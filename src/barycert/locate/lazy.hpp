@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 
@@ -31,5 +32,11 @@ private:
     mutable std::unique_ptr<T> value_;
     mutable std::atomic<const T*> made_ = nullptr;
 };
+
+/// Memory of those that are made.
+template <class... T>
+std::size_t bytes_of(const Lazy<T>&... parts) {
+    return (std::size_t{0} + ... + (parts.made() != nullptr ? parts.made()->bytes() : 0));
+}
 
 }  // namespace barycert::locate

@@ -140,12 +140,9 @@ struct LocatorData {
         });
     }
     std::size_t bytes() const {
-        const auto made = [](const auto&... lazy) {
-            return (std::size_t{0} + ... + (lazy.made() != nullptr ? lazy.made()->bytes() : 0));
-        };
         const std::size_t bits = proved() != nullptr ? proved()->proof.contested.size() : 0;
         return index.bytes() + bits * sizeof(std::uint64_t) +
-               made(tree_, nearest_tree_, coarse_, fine_, node_cells_, contested_cells_) +
+               bytes_of(tree_, nearest_tree_, coarse_, fine_, node_cells_, contested_cells_) +
                (places_.made() != nullptr ? places_.made()->size() * sizeof(Place) : 0);
     }
 

@@ -50,10 +50,6 @@ struct Estimate {
     Real high() const { return value + error; }
 };
 
-constexpr Real magnitude(Real x) {
-    return x < 0 ? -x : x;
-}
-
 /// A place and where it lies from p.
 struct NearPlace {
     Point3 corner{};
@@ -66,7 +62,7 @@ struct NearPlace {
         for (std::size_t k = 0; k < 3; ++k) {
             const Real d = static_cast<Real>(at[k]) - p[k];
             away[k] = d + from[k];
-            reach[k] = magnitude(d) + magnitude(from[k]);
+            reach[k] = std::abs(d) + std::abs(from[k]);
         }
     }
 };
@@ -77,7 +73,7 @@ inline Estimate farther(const NearPlace& x, const NearPlace& o) {
     Estimate sum;
     for (std::size_t k = 0; k < 3; ++k) {
         const Real d = static_cast<Real>(x.corner[k]) - o.corner[k];
-        sum.add(d + (x.offset[k] - o.offset[k]), magnitude(d) + magnitude(x.offset[k]) + magnitude(o.offset[k]),
+        sum.add(d + (x.offset[k] - o.offset[k]), std::abs(d) + std::abs(x.offset[k]) + std::abs(o.offset[k]),
                 x.away[k] + o.away[k], x.reach[k] + o.reach[k]);
     }
     return sum;
@@ -99,8 +95,8 @@ struct NearBest {
             const Real3 e = minus(f.at[i], f.at[0]);
             for (std::size_t k = 0; k < 3; ++k) {
                 offset[k] += weights[i] * e[k];
-                size[k] += magnitude(weights[i] * e[k]);
-                span[k] += magnitude(e[k]);
+                size[k] += std::abs(weights[i] * e[k]);
+                span[k] += std::abs(e[k]);
             }
         }
         place = NearPlace(p, f.at[0], offset);
@@ -186,7 +182,7 @@ inline NearGuess guess_nearest(const NearCell& cell, const Point3& p) {
         Estimate sum;  // y.(x - place)
         for (std::size_t k = 0; k < 3; ++k) {
             const Real d = static_cast<Real>(cell.at[i][k]) - guess.place.corner[k];
-            sum.add(guess.place.offset[k] - d, magnitude(d) + magnitude(guess.place.offset[k]), guess.place.away[k],
+            sum.add(guess.place.offset[k] - d, std::abs(d) + std::abs(guess.place.offset[k]), guess.place.away[k],
                     guess.place.reach[k]);
         }
         const Real max = sum.high();

@@ -1,15 +1,13 @@
 #include "barycert/locate/near_feature.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <memory>
+#include <initializer_list>
 #include <optional>
 
 #include "barycert/base/vectors.hpp"
-#include "barycert/core/exact_tier.hpp"
 #include "barycert/core/whole_points.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
@@ -70,24 +68,19 @@ private:
 
 // Distances to features in exact integers: comparisons, and one rounding.
 
-// Not core's Integer, which has room for degree 7 in differences of any doubles: comparisons have degree 10. Up to 512
-// bits without heap: what most distances need.
-using Number =
-    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
-                                      512, 0, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked,
-                                      std::allocator<boost::multiprecision::limb_type>>,
-                                  boost::multiprecision::et_off>;
-using Vector = base::Vector3<Number>;
+// Not core's Integer, which has room for degree 7 in differences of any doubles: comparisons have degree 10.
+using Number = core::WholeNumber;
+using Vector = core::WholeVector;
 using base::cross, base::dot, base::minus;
 
-class Lattice : public core::WholePoints<Number> {
-public:
-    using core::WholePoints<Number>::add, core::WholePoints<Number>::at;
-    void add(const Point3& p) { add(p.data()); }
-    void add(const NearFeature& f) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(f.count); ++i) add(f.at[i]);
+/// Of p and the corners of features.
+struct Lattice : core::WholePoints {
+    Lattice(const Point3& p, std::initializer_list<const NearFeature*> features) : WholePoints({p.data()}) {
+        for (const NearFeature* const f : features) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(f->count); ++i) add(f->at[i].data());
+        }
     }
-    Vector at(const Point3& p) const { return at(p.data()); }
+    Vector at(const Point3& p) const { return WholePoints::at(p.data()); }
 };
 
 /// Of a distance: numerator / denominator.
@@ -106,10 +99,6 @@ Square square_of(const Lattice& lattice, const Point3& p, const NearFeature& f) 
     const Vector n = cross(e, minus(lattice.at(f.at[2]), a));
     const Number height = dot(q, n);
     return {height * height, dot(n, n)};
-}
-
-int bits_of(const Number& x) {
-    return static_cast<int>(msb(x)) + 1;
 }
 
 /// floor(sqrt(x)). The estimate is off by far less than 2^32, so its square fits and a step of Newton's leaves less
@@ -152,38 +141,26 @@ bool nearest_feature(const NearCell& cell, const Point3& p, unsigned guess, Near
 
 std::array<double, 3> weights_of(const Point3& p, const NearFeature& f) {
     if (f.count == 1) return {1, 0, 0};
-    const std::array<double, 9> vertices = f.vertices();
-    std::array<double, 3> weights{};
-    const Result<Weights> quick = barycentric_weights(f.simplex(), vertices.data(), p.data());
-    // No Error but one of the environment, to which integers do not look.
-    if (quick) {
-        std::copy_n(quick->weights.begin(), 3, weights.begin());
-    } else {
-        const core::ExactWeights exact(f.simplex(), vertices.data(), p.data());
-        for (int i = 0; i < f.count; ++i) weights[static_cast<std::size_t>(i)] = exact.weight(i);
-    }
-    return weights;
+    // All numbers are finite: there is no Error.
+    const auto [a, b, c, none] = barycentric_weights(f.simplex(), f.vertices().data(), p.data()).value().weights;
+    return {a, b, c};
 }
 
 int compare_distances(const Point3& p, const NearFeature& f, const NearFeature& g) {
-    Lattice lattice;
-    lattice.add(p);
-    lattice.add(f);
-    lattice.add(g);
+    const Lattice lattice(p, {&f, &g});
     const Square a = square_of(lattice, p, f), b = square_of(lattice, p, g);
     const Number x = a.numerator * b.denominator, y = b.numerator * a.denominator;
     return x < y ? -1 : x == y ? 0 : 1;
 }
 
 double distance_to(const Point3& p, const NearFeature& f) {
-    Lattice lattice;
-    lattice.add(p);
-    lattice.add(f);
+    const Lattice lattice(p, {&f});
     Square s = square_of(lattice, p, f);
     if (s.numerator == 0) return 0;
     // floor(numerator 4^shift / denominator) has 124 to 126 bits, its root 62 or 63. What was cut off, of either, is
     // one more bit at the end that is not zero: it decides ties, and nothing else.
-    const int excess = bits_of(s.numerator) - bits_of(s.denominator), shift = (125 - excess) >> 1;
+    const int excess = static_cast<int>(msb(s.numerator)) - static_cast<int>(msb(s.denominator));
+    const int shift = (125 - excess) >> 1;
     (shift >= 0 ? s.numerator : s.denominator) <<= static_cast<unsigned>(2 * std::abs(shift));
     Number quotient, rest;
     divide_qr(s.numerator, s.denominator, quotient, rest);
@@ -196,9 +173,7 @@ double distance_to(const Point3& p, const NearFeature& f) {
 
 Point3 projection_on(const Point3& p, const NearFeature& f) {
     if (f.count == 1) return f.at[0];
-    Lattice lattice;
-    lattice.add(p);
-    lattice.add(f);
+    const Lattice lattice(p, {&f});
     // a + e (q.e) / (e.e) on an edge; p - n (q.n) / (n.n) on a face.
     const Vector a = lattice.at(f.at[0]), at_p = lattice.at(p), q = minus(at_p, a), e = minus(lattice.at(f.at[1]), a);
     const Vector n = f.count == 2 ? e : cross(e, minus(lattice.at(f.at[2]), a));

@@ -7,13 +7,11 @@
 #include <array>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/near_bounds.hpp"
-#include "barycert/locate/near_feature.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert {
@@ -97,7 +95,7 @@ private:
 
     void try_cell(std::size_t i) {
         ++work_.cells;
-        const NearCell cell = cell_at(i);
+        const NearCell cell = near_cell(index_, i);
         const NearGuess guess = guess_nearest(cell, p_);
         const Mesh::Index number = index_.original[i];
         if (found_.cell >= 0) {
@@ -128,26 +126,6 @@ private:
         return compare_distances(p_, feature, feature_);
     }
 
-    NearCell cell_at(std::size_t i) const {
-        NearCell cell;
-        cell.count = static_cast<int>(index_.corners());
-        cell.in_space = index_.corners() == index_.dimension();
-        std::array<Place, 4> places{};
-        std::copy_n(index_.cells[i].node.begin(), index_.corners(), places.begin());
-        const auto node = [&](Place q) { return index_.original_node[static_cast<std::size_t>(q)]; };
-        // By insertion: in the part of std::sort that is for more than 16, GCC 12 sees a read past the end when it
-        // compiles for its sanitizers.
-        for (std::size_t k = 1; k < index_.corners(); ++k) {
-            for (std::size_t j = k; j > 0 && node(places[j]) < node(places[j - 1]); --j)
-                std::swap(places[j], places[j - 1]);
-        }
-        for (std::size_t k = 0; k < index_.corners(); ++k) {
-            cell.nodes[k] = node(places[k]);
-            cell.at[k] = index_.nodes[static_cast<std::size_t>(places[k])].at;
-        }
-        return cell;
-    }
-
     const CellIndex& index_;
     const NearestTree& tree_;
     NearestWork& work_;
@@ -160,6 +138,25 @@ private:
 };
 
 }  // namespace
+
+NearCell near_cell(const CellIndex& index, std::size_t place) {
+    const std::size_t corners = index.corners();
+    NearCell cell{.count = static_cast<int>(corners), .in_space = corners == index.dimension()};
+    std::array<Place, 4> places{};
+    std::copy_n(index.cells[place].node.begin(), corners, places.begin());
+    const auto node = [&](Place q) { return index.original_node[static_cast<std::size_t>(q)]; };
+    // By insertion: in the part of std::sort that is for more than 16, GCC 12 sees a read past the end when it
+    // compiles for its sanitizers.
+    for (std::size_t k = 1; k < corners; ++k) {
+        for (std::size_t j = k; j > 0 && node(places[j]) < node(places[j - 1]); --j)
+            std::swap(places[j], places[j - 1]);
+    }
+    for (std::size_t k = 0; k < corners; ++k) {
+        cell.nodes[k] = node(places[k]);
+        cell.at[k] = index.nodes[static_cast<std::size_t>(places[k])].at;
+    }
+    return cell;
+}
 
 NearestTree::NearestTree(const CellIndex& index) {
     std::size_t below = index.cell_count();

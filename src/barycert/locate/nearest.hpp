@@ -7,6 +7,7 @@
 
 #include "barycert/index/box_tree.hpp"
 #include "barycert/locate/names.hpp"
+#include "barycert/locate/near_feature.hpp"
 #include "barycert/locator.hpp"
 
 namespace barycert::locate {
@@ -32,6 +33,9 @@ private:
     std::vector<std::size_t> begin_;
     std::vector<Box> boxes_;
 };
+
+/// The cell at a place of the index.
+NearCell near_cell(const CellIndex& index, std::size_t place);
 
 /// How much a search looked at, for tests of its cost.
 struct NearestWork {

@@ -44,12 +44,10 @@ std::optional<Vector3> direction(const Vector3& v) {
 /// (x / w + 1) * size / 2 = (x + w) * size / (2 w), rounded once.
 double exact_window(double x, double w, std::int32_t size) {
     core::Unit unit;
-    unit.add(core::scaled(x));
-    unit.add(core::scaled(w));
-    const auto depth = unit.multiple<core::Integer>(core::scaled(w));
-    const auto sum = unit.multiple<core::Integer>(core::scaled(x)) + depth;
-    const core::Integer product = sum * core::Integer(false, static_cast<std::uint64_t>(size), 0);
-    return core::round_quotient(product, depth, -1);
+    unit.add(x);
+    unit.add(w);
+    const core::Integer depth = unit.integer(w), sum = unit.integer(x) + depth;
+    return core::round_quotient(sum * core::Integer(false, static_cast<std::uint64_t>(size), 0), depth, -1);
 }
 
 Result<Matrix4> finite_matrix(const Matrix4& m, const char* what) {
@@ -84,15 +82,11 @@ Result<Matrix4> look_at(const Vector3& eye, const Vector3& centre, const Vector3
     if (!upwards || dot(across, across) < 0x1p-100)
         return no_camera("a camera that knows no up", "an upwards direction off the direction of sight", text_of(up));
     const Vector3 right = *direction(across), above = cross(right, *sight);
-    Matrix4 m;
-    for (std::size_t k = 0; k < 3; ++k) {
-        m.m[k] = right[k];
-        m.m[4 + k] = above[k];
-        m.m[8 + k] = -(*sight)[k];
-    }
-    m.m[3] = -dot(right, eye);
-    m.m[7] = -dot(above, eye);
-    m.m[11] = dot(*sight, eye);
+    const auto& [x, y, z] = *sight;
+    const Matrix4 m{{right[0], right[1], right[2], -dot(right, eye),  //
+                     above[0], above[1], above[2], -dot(above, eye),  //
+                     -x, -y, -z, dot(*sight, eye),                    //
+                     0, 0, 0, 1}};
     return finite_matrix(m, "a camera too far away");
 }
 

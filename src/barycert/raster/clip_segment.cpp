@@ -11,8 +11,6 @@
 namespace barycert::raster {
 namespace {
 
-using core::Integer;
-
 struct Segment {
     int dimension;
     std::span<const double> a, b;
@@ -51,7 +49,8 @@ struct SegmentClipper {
         const int at_a = sign(a, 0), at_b = sign(b, 1);
         empty = at_a < 0 && at_b < 0;
         if (empty || (at_a >= 0 && at_b >= 0)) return;
-        (at_a < 0 ? a : b) = zero_on_segment(form);
+        // h_a W_a + h_b W_b = 0 for W_a : W_b = h_b : -h_a.
+        (at_a < 0 ? a : b) = exact_point({form[1], core::Integer() - form[0], core::Integer()});
     }
 
     ClippedSegment result() const {
@@ -74,16 +73,14 @@ struct SegmentClipper {
 Form distance_form(const Segment& s, const HalfSpace& h) {
     const auto d = static_cast<std::size_t>(s.dimension);
     core::Unit of_normal, of_points;
-    of_normal.add(core::scaled(h.offset));
-    of_points.add(core::scaled(1));
+    of_normal.add(h.offset);
+    of_points.add(1);
     for (std::size_t k = 0; k < d; ++k) {
-        of_normal.add(core::scaled(h.normal[k]));
-        of_points.add(core::scaled(s.a[k]));
-        of_points.add(core::scaled(s.b[k]));
+        of_normal.add(h.normal[k]);
+        of_points.add(s.a[k]);
+        of_points.add(s.b[k]);
     }
-    const auto product = [&](double n, double x) {
-        return of_normal.multiple<Integer>(core::scaled(n)) * of_points.multiple<Integer>(core::scaled(x));
-    };
+    const auto product = [&](double n, double x) { return of_normal.integer(n) * of_points.integer(x); };
     Form form;
     for (std::size_t end = 0; end < 2; ++end) {
         form[end] = product(h.offset, 1);

@@ -58,19 +58,18 @@ void divide_by_scale(double* numbers, std::size_t attributes, std::size_t count)
 
 /// fill(j, first, last, numbers): the depth and the attributes of these pixels of row j, 1 + components numbers each.
 template <class Fill>
-PixelCounts draw_rows(Canvas& canvas, const SortedTriangle& sorted, Fill fill) {
+void draw_rows(Canvas& canvas, const SortedTriangle& sorted, Fill fill) {
     const std::size_t n = canvas.shading.components();
-    PixelCounts counts;
     std::vector<double> row;
     for_spans(sorted, canvas.image.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
         fill(j, first, last, row);
-        counts.covered += static_cast<std::uint64_t>(last - first);
+        canvas.counts.covered += static_cast<std::uint64_t>(last - first);
         const std::size_t begin = canvas.image.offset(first, j) / 4;
         for (std::size_t i = 0; i < static_cast<std::size_t>(last - first); ++i) {
             const double* const pixel = row.data() + (1 + n) * i;
             double& depth = canvas.depth[begin + i];
             if (!(pixel[0] < depth)) {
-                ++counts.hidden;
+                ++canvas.counts.hidden;
                 continue;
             }
             depth = pixel[0];
@@ -80,12 +79,11 @@ PixelCounts draw_rows(Canvas& canvas, const SortedTriangle& sorted, Fill fill) {
                 std::copy_n(pixel + 1, n, canvas.attributes->data.data() + n * (begin + i));
         }
     });
-    return counts;
 }
 
 /// With depths and attributes that are each the exact function of the vertices' window coordinates, w and attributes,
 /// rounded once.
-PixelCounts draw_correct(Canvas& canvas, const SortedTriangle& sorted, const WindowTriangle& t) {
+void draw_correct(Canvas& canvas, const SortedTriangle& sorted, const WindowTriangle& t) {
     const auto components = static_cast<int>(canvas.shading.components());
     const bool affine = canvas.shading.interpolation == Interpolation::affine;
     std::array<double, 9> vertices;
@@ -96,7 +94,7 @@ PixelCounts draw_correct(Canvas& canvas, const SortedTriangle& sorted, const Win
     }
     CorrectRows depth{t.window, t.z, 1}, linear{t.window, t.attributes, components};
     std::vector<double> points, depths, values;
-    return draw_rows(canvas, sorted, [&](std::int32_t j, std::int32_t first, std::int32_t last, auto& out) {
+    draw_rows(canvas, sorted, [&](std::int32_t j, std::int32_t first, std::int32_t last, auto& out) {
         const auto n = static_cast<std::size_t>(components), count = static_cast<std::size_t>(last - first);
         depths.resize(count);
         depth.fill(j, first, last, depths.data());
@@ -129,22 +127,22 @@ Rgba Shading::colour(const double* attributes) const {
     return result;
 }
 
-PixelCounts draw_triangle(Canvas& canvas, const WindowTriangle& t) {
+void draw_triangle(Canvas& canvas, const WindowTriangle& t) {
     const Shading& s = canvas.shading;
     const SortedTriangle sorted(t.window.data(), canvas.image.height);
     if (s.rounding == Rounding::correct) return draw_correct(canvas, sorted, t);
     const std::vector<double> values = linear_values(t, s);
     const std::size_t linear = values.size() / 3;
     const auto draw = [&](auto rows) {
-        return draw_rows(canvas, sorted, [&](std::int32_t j, std::int32_t first, std::int32_t last, auto& numbers) {
+        draw_rows(canvas, sorted, [&](std::int32_t j, std::int32_t first, std::int32_t last, auto& numbers) {
             const auto count = static_cast<std::size_t>(last - first);
             numbers.resize(linear * count);
             rows.fill(j, first, last, numbers.data());
             if (s.interpolation != Interpolation::affine) divide_by_scale(numbers.data(), s.components(), count);
         });
     };
-    return with_rows(sorted, t.window.data(), values, static_cast<int>(linear), s.method,
-                     thick_enough(t.window) ? Rounding::plain : Rounding::correct, draw);
+    with_rows(sorted, t.window.data(), values, static_cast<int>(linear), s.method,
+              thick_enough(t.window) ? Rounding::plain : Rounding::correct, draw);
 }
 
 }  // namespace barycert::raster

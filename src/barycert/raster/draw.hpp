@@ -50,13 +50,10 @@ struct Canvas {
     std::vector<double> depth;          ///< of each pixel; infinite where nothing is drawn
     PixelValues* attributes = nullptr;  ///< if they are wanted
     Shading shading;
+    RenderCounts counts;
 };
 
-struct PixelCounts {
-    std::uint64_t covered = 0, hidden = 0;
-};
-
-/// Draws the triangle where it is in front, and returns the number of pixels.
-PixelCounts draw_triangle(Canvas& canvas, const WindowTriangle& triangle);
+/// Draws the triangle where it is in front, and counts the pixels that it covers.
+void draw_triangle(Canvas& canvas, const WindowTriangle& triangle);
 
 }  // namespace barycert::raster

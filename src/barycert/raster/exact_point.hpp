@@ -30,12 +30,11 @@ template <class X, class Y>
 Form difference_form(int count, X x, Y y) {
     core::Unit unit;
     for (int i = 0; i < count; ++i) {
-        unit.add(core::scaled(x(i)));
-        unit.add(core::scaled(y(i)));
+        unit.add(x(i));
+        unit.add(y(i));
     }
     Form form;
-    const auto multiple = [&](double number) { return unit.multiple<core::Integer>(core::scaled(number)); };
-    for (int i = 0; i < count; ++i) form[static_cast<std::size_t>(i)] = multiple(x(i)) - multiple(y(i));
+    for (int i = 0; i < count; ++i) form[static_cast<std::size_t>(i)] = unit.integer(x(i)) - unit.integer(y(i));
     return form;
 }
 
@@ -46,12 +45,6 @@ inline ExactPoint exact_point(const Form& n) {
     for (core::Integer& x : p.numerator) x = core::Integer() - x;
     p.denominator = core::Integer() - p.denominator;
     return p;
-}
-
-/// The point where h is zero on the segment: h_a W_a + h_b W_b = 0 for W_a : W_b = h_b : -h_a. Precondition: h differs
-/// at its ends.
-inline ExactPoint zero_on_segment(const Form& h) {
-    return exact_point({h[1], core::Integer() - h[0], core::Integer()});
 }
 
 /// The point where g and h are zero in the triangle. Precondition: there is exactly one.
@@ -67,10 +60,9 @@ inline int sign_at(const Form& h, const ExactPoint& p) {
 /// The number at the point, correctly rounded, of which each vertex has one.
 inline double value_at(const ExactPoint& p, const double* values, std::size_t stride, std::size_t count) {
     core::Unit unit;
-    for (std::size_t i = 0; i < count; ++i) unit.add(core::scaled(values[stride * i]));
+    for (std::size_t i = 0; i < count; ++i) unit.add(values[stride * i]);
     core::Integer sum;
-    for (std::size_t i = 0; i < count; ++i)
-        sum = sum + p.numerator[i] * unit.multiple<core::Integer>(core::scaled(values[stride * i]));
+    for (std::size_t i = 0; i < count; ++i) sum = sum + p.numerator[i] * unit.integer(values[stride * i]);
     return core::round_quotient(sum, p.denominator, unit.exponent - 1074);
 }
 

@@ -95,11 +95,10 @@ public:
     Renderer(const Scene& scene, Canvas& canvas, std::vector<double> clip)
         : scene_(scene), canvas_(canvas), clip_(std::move(clip)) {}
 
-    RenderCounts run() {
+    void run() {
         for (std::size_t t = 0; t < scene_.triangles.size(); t += 3) draw(scene_.triangles.data() + t);
         counts_.pixels = static_cast<std::uint64_t>(
             std::count_if(canvas_.depth.begin(), canvas_.depth.end(), [](double z) { return z < HUGE_VAL; }));
-        return counts_;
     }
 
 private:
@@ -116,7 +115,7 @@ private:
             return;
         }
         bool area = false;
-        std::uint64_t covered = 0;
+        const std::uint64_t covered = counts_.covered;
         const std::size_t vertices = polygon_.size() / stride;
         window_.clear();
         for (std::size_t i = 0; i < vertices; ++i) {
@@ -127,13 +126,13 @@ private:
             const std::size_t fan[3] = {0, i, i + 1};
             if (orient2d(window_[0].data(), window_[i].data(), window_[i + 1].data()) == Sign::zero) continue;
             area = true;
-            covered += draw_part(fan);
+            draw_part(fan);
         }
-        ++(!area ? counts_.degenerate : covered == 0 ? counts_.between_pixels : counts_.drawn);
+        ++(!area ? counts_.degenerate : counts_.covered == covered ? counts_.between_pixels : counts_.drawn);
     }
 
-    /// A triangle of the fan; returns the number of pixels it covers.
-    std::uint64_t draw_part(const std::size_t (&fan)[3]) {
+    /// A triangle of the fan.
+    void draw_part(const std::size_t (&fan)[3]) {
         const std::size_t n = canvas_.shading.components(), stride = 4 + n;
         WindowTriangle part;
         attributes_.clear();
@@ -146,10 +145,7 @@ private:
             attributes_.insert(attributes_.end(), row + 4, row + stride);
         }
         part.attributes = attributes_;
-        const PixelCounts pixels = draw_triangle(canvas_, part);
-        counts_.covered += pixels.covered;
-        counts_.hidden += pixels.hidden;
-        return pixels.covered;
+        draw_triangle(canvas_, part);
     }
 
     void append_row(std::size_t vertex) {
@@ -168,7 +164,7 @@ private:
     std::vector<double> clip_;
     std::vector<double> rows_, polygon_, attributes_;
     std::vector<std::array<double, 2>> window_;
-    RenderCounts counts_;
+    RenderCounts& counts_ = canvas_.counts;
 };
 
 }  // namespace
@@ -194,8 +190,8 @@ Result<Image> render(const Scene& scene, RenderCounts* counts, PixelValues* attr
         *attributes = std::move(*empty);
         canvas.attributes = attributes;
     }
-    const RenderCounts done = raster::Renderer(scene, canvas, std::move(*clip)).run();
-    if (counts != nullptr) *counts = done;
+    raster::Renderer(scene, canvas, std::move(*clip)).run();
+    if (counts != nullptr) *counts = canvas.counts;
     return std::move(canvas.image);
 }
 

@@ -35,13 +35,6 @@ std::string brief(const Json& value) {
     return text.size() <= 40 ? text : text.substr(0, 40) + "...";
 }
 
-/// As a part of a JSON pointer.
-std::string escaped(const std::string& name) {
-    std::string out;
-    for (const char c : name) out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-    return out;
-}
-
 /// A value of the file and where it stands. Functions that find something else than they ask for throw Exception.
 class SceneValue {
 public:
@@ -55,7 +48,7 @@ public:
             if (std::find(names.begin(), names.end(), name) != names.end()) continue;
             std::string all;
             for (const char* known : names) all += (all.empty() ? "" : ", ") + std::string(known);
-            refuse(place_ + '/' + escaped(name), "one of the members " + all, base::quoted(name));
+            refuse((Json::json_pointer(place_) / name).to_string(), "one of the members " + all, base::quoted(name));
         }
     }
 

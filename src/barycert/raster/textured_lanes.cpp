@@ -13,12 +13,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <string>
 #include <type_traits>
 
-#include "barycert/environment.hpp"
 #include "barycert/raster/edge.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
@@ -189,15 +188,11 @@ Result<Matrix4> fitting_camera(std::span<const Vector3> points, const ViewAxes& 
             std::max(std::abs(dot(axes.right, p) - x.middle()) / aspect, std::abs(dot(axes.up, p) - y.middle()));
         distance = std::max(distance, dot(axes.towards, p) + across / tangent);
     }
-    Matrix4 view;
-    for (std::size_t k = 0; k < 3; ++k) {
-        view.m[k] = axes.right[k];
-        view.m[4 + k] = axes.up[k];
-        view.m[8 + k] = axes.towards[k];
-    }
-    view.m[3] = -x.middle();
-    view.m[7] = -y.middle();
-    view.m[11] = -distance;
+    const auto& [r, u, t] = axes;
+    const Matrix4 view{{r[0], r[1], r[2], -x.middle(),  //
+                        u[0], u[1], u[2], -y.middle(),  //
+                        t[0], t[1], t[2], -distance,    //
+                        0, 0, 0, 1}};
     const double near = distance - z.high, far = distance - z.low;
     const Result<Matrix4> projection = perspective(fovy, aspect, 0.9 * near, 1.1 * far);
     if (!projection) return projection.error();

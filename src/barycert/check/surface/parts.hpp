@@ -1,7 +1,6 @@
 /// A surface as it is checked: its proper triangles in the order of space, and what is found of them.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "barycert/base/disjoint_sets.hpp"
@@ -35,7 +34,7 @@ struct SurfaceParts {
     }
     DefectPlace place_of(const Ridge& edge) const {
         const auto [a, b] = ends(edge);
-        return {.cells = {triangles.number[edge.facet], -1}, .nodes = {triangles.node(a), triangles.node(b), -1}};
+        return {.cells = {triangles.number(edge.facet), -1}, .nodes = {triangles.node(a), triangles.node(b), -1}};
     }
 };
 

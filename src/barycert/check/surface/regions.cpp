@@ -13,36 +13,34 @@ namespace {
 constexpr std::size_t max_shells = 1000;
 
 long double area_of(const std::array<const double*, 3>& t) {
-    long double u[3], v[3];
-    for (int k = 0; k < 3; ++k) {
+    base::Vector3<long double> u, v;
+    for (std::size_t k = 0; k < 3; ++k) {
         u[k] = static_cast<long double>(t[1][k]) - t[0][k];
         v[k] = static_cast<long double>(t[2][k]) - t[0][k];
     }
-    const long double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
-    return std::sqrt(x * x + y * y + z * z) / 2;  // whose range is wide enough where long double is
+    const auto normal = base::cross(u, v);
+    return std::sqrt(base::dot(normal, normal)) / 2;  // whose range is wide enough where long double is
 }
 
 /// As crossing(), of the middle of a triangle, which no double may be: in thirds, exactly.
 int crossing_from_middle(const std::array<const double*, 3>& t, const std::array<const double*, 3>& middle_of) {
-    using Number = boost::multiprecision::cpp_int;
-    core::WholePoints<Number> whole;
-    for (std::size_t i = 0; i < 3; ++i) whole.add(t[i]), whole.add(middle_of[i]);
-    using Vector = base::Vector3<Number>;
+    using Number = core::WholeNumber;
+    using Vector = core::WholeVector;
+    const core::WholePoints whole{t[0], t[1], t[2], middle_of[0], middle_of[1], middle_of[2]};
     Vector p;
     std::array<Vector, 3> at;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vector corner = whole.at(t[i]), part = whole.at(middle_of[i]);
         for (std::size_t k = 0; k < 3; ++k) at[i][k] = 3 * corner[k], p[k] += part[k];
     }
-    const auto sign = [](const Number& x) { return x > 0 ? 1 : x < 0 ? -1 : 0; };
     const auto side = [&](const Vector& a, const Vector& b) {
-        if (const int s = sign((b[1] - a[1]) * (p[2] - a[2]) - (b[2] - a[2]) * (p[1] - a[1])); s != 0) return s;
-        return a[2] != b[2] ? sign(a[2] - b[2]) : sign(b[1] - a[1]);
+        const Number turn = (b[1] - a[1]) * (p[2] - a[2]) - (b[2] - a[2]) * (p[1] - a[1]);
+        return (turn != 0 ? turn : a[2] != b[2] ? Number(a[2] - b[2]) : Number(b[1] - a[1])).sign();
     };
     const int s = side(at[0], at[1]);
     if (s == 0 || side(at[1], at[2]) != s || side(at[2], at[0]) != s) return 0;
     const Vector n = base::cross(base::minus(at[1], at[0]), base::minus(at[2], at[0]));
-    return sign(base::dot(n, base::minus(p, at[0]))) == -s ? s : 0;
+    return base::dot(n, base::minus(p, at[0])).sign() == -s ? s : 0;
 }
 
 /// The sides of triangles that look into one part of space: with normals away from it, a closed surface around it.
@@ -71,7 +69,7 @@ public:
         s_.found.shells.resize(s_.found.shell_count);
         for (std::size_t f = 0; f < count; ++f) {
             SurfaceShell& shell = s_.found.shells[shell_of_[f]];
-            const Mesh::Index number = s_.triangles.number[f];
+            const Mesh::Index number = s_.triangles.number(f);
             shell.first = shell.first < 0 ? number : std::min(shell.first, number);
             ++shell.triangles;
         }
@@ -150,11 +148,10 @@ public:
 private:
     void place_seed(bool hole, std::size_t number, const double* p) {
         PlcSeed seed{hole, number, -1, -1};
-        const CellBox at = box_of(s_.triangles.index, &p, 1);
         if (s_.triangles.index.box_holds(p)) {
-            boxes().for_each_meeting(at, [&](std::size_t f) {
+            boxes().for_each_meeting(box_of(s_.triangles.index, &p, 1), [&](std::size_t f) {
                 if (face_around(3, s_.triangles.facets[f], p)[0] >= 0)
-                    seed.facet = s_.surface.facet(s_.triangles.number[f]);
+                    seed.facet = s_.surface.facet(s_.triangles.number(f));
                 return seed.facet < 0;
             });
         }
@@ -207,10 +204,7 @@ private:
     }
 
     const BoxGroups& boxes() {
-        if (!boxes_)
-            boxes_.emplace(s_.triangles.size(), [&](std::size_t f) {
-                return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3);
-            });
+        if (!boxes_) boxes_.emplace(make_cell_tree(s_.triangles.index));
         return *boxes_;
     }
 

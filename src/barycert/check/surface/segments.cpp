@@ -52,9 +52,9 @@ public:
             const auto found = facets_of_.find(segment);
             if (found == facets_of_.end()) return;
             for (const Ridge& r : edge) {
-                const auto facet = static_cast<std::size_t>(s_.surface.facet(s_.triangles.number[r.facet]));
+                const auto facet = static_cast<std::size_t>(s_.surface.facet(s_.triangles.number(r.facet)));
                 if (found->second.contains(facet)) continue;
-                s_.defects.add_marked(DefectKind::segment_in_facet, {.cells = {s_.triangles.number[r.facet], -1},
+                s_.defects.add_marked(DefectKind::segment_in_facet, {.cells = {s_.triangles.number(r.facet), -1},
                                                                      .nodes = {segment[0], segment[1], -1}});
                 break;
             }
@@ -64,40 +64,35 @@ public:
 
     /// Segments and nodes of no triangle, on triangles or across them.
     void find_loose() {
-        std::vector<std::uint8_t> used(s_.surface.point_count(), 0);
-        std::map<Mesh::Index, Mesh::Index> place;
-        for (std::size_t i = 0; i < s_.triangles.index.original_node.size(); ++i)
-            used[static_cast<std::size_t>(s_.triangles.index.original_node[i])] = 1;
-        if (facets_of_.empty() && std::ranges::find(used, 0) == used.end()) return;
-        for (std::size_t i = 0; i < s_.triangles.index.original_node.size(); ++i)
-            place[s_.triangles.index.original_node[i]] = s_.triangles.same[i];
-        const BoxGroups boxes(s_.triangles.facets.size(), [&](std::size_t f) {
-            return box_of(s_.triangles.index, s_.triangles.facets[f].at.data(), 3);
-        });
+        std::vector<Place> place(s_.surface.point_count(), -1);  // of nodes of triangles
+        for (std::size_t i = 0; i < s_.triangles.same.size(); ++i)
+            place[static_cast<std::size_t>(s_.triangles.node(static_cast<Place>(i)))] = s_.triangles.same[i];
+        if (facets_of_.empty() && std::ranges::find(place, -1) == place.end()) return;
+        const BoxGroups boxes = make_cell_tree(s_.triangles.index);
         const auto point = [&](Mesh::Index n) { return &s_.surface.points[3 * static_cast<std::size_t>(n)]; };
         for (const auto& entry : facets_of_) {
             const Segment& segment = entry.first;
             PlacedFacet f;
             for (std::size_t k = 0; k < 2; ++k) {
-                const auto found = place.find(segment[k]);
-                f.nodes[k] = found == place.end() ? -2 - static_cast<Mesh::Index>(k) : found->second;
+                const Place found = place[static_cast<std::size_t>(segment[k])];
+                f.nodes[k] = found < 0 ? -2 - static_cast<Mesh::Index>(k) : found;
                 f.at[k] = point(segment[k]);
             }
             if (std::equal(f.at[0], f.at[0] + 3, f.at[1])) continue;
             boxes.for_each_meeting(box_of(s_.triangles.index, f.at.data(), 2), [&](std::size_t t) {
                 if (!segment_conflicts(f, s_.triangles.facets[t])) return true;
                 s_.defects.add_marked(DefectKind::segment_in_facet,
-                                      {.cells = {s_.triangles.number[t], -1}, .nodes = {segment[0], segment[1], -1}});
+                                      {.cells = {s_.triangles.number(t), -1}, .nodes = {segment[0], segment[1], -1}});
                 return false;
             });
         }
-        for (std::size_t n = 0; n < used.size(); ++n) {
+        for (std::size_t n = 0; n < place.size(); ++n) {
             const double* const p = point(static_cast<Mesh::Index>(n));
-            if (used[n] != 0 || !s_.triangles.index.box_holds(p)) continue;
+            if (place[n] >= 0 || !s_.triangles.index.box_holds(p)) continue;
             boxes.for_each_meeting(box_of(s_.triangles.index, &p, 1), [&](std::size_t t) {
                 const auto face = face_around(3, s_.triangles.facets[t], p);
                 if (face[1] < 0) return true;  // at a node of it is a coincident node
-                s_.defects.add_marked(DefectKind::node_on_facet, {.cells = {s_.triangles.number[t], -1},
+                s_.defects.add_marked(DefectKind::node_on_facet, {.cells = {s_.triangles.number(t), -1},
                                                                   .nodes = {static_cast<Mesh::Index>(n), -1, -1}});
                 return false;
             });

@@ -1,46 +1,11 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "barycert/check/surface/parts.hpp"
 
 namespace barycert::check {
-namespace {
-
-/// Triangles at an edge in the order of a turn around it, from its lower node to its higher one counterclockwise.
-class Fan {
-public:
-    explicit Fan(const SurfaceParts& s) : s_(s) {}
-
-    std::span<const Ridge> sorted(std::span<const Ridge> edge) {
-        if (edge.size() < 3) return edge;  // either order is one
-        order_.assign(edge.begin(), edge.end());
-        const Ridge first = order_.front();
-        const auto half = [&](const Ridge& r) {  // of a turn from the first one
-            if (r.facet == first.facet) return 0;
-            const int t = turn(first, r);
-            return t > 0 ? 1 : t == 0 ? 2 : 3;
-        };
-        std::ranges::sort(order_, [&](const Ridge& a, const Ridge& b) {
-            const int x = half(a), y = half(b);
-            return x != y ? x < y : a.facet != b.facet && turn(a, b) > 0;
-        });
-        return order_;
-    }
-
-private:
-    int turn(const Ridge& a, const Ridge& b) const {
-        const PlacedFacet &f = s_.triangles.facets[a.facet], &g = s_.triangles.facets[b.facet];
-        const double *const u = f.at[a.other == 0 ? 1 : 0], *const v = f.at[a.other == 2 ? 1 : 2];
-        return static_cast<int>(orient3d(u, v, f.at[a.other], g.at[b.other]));
-    }
-
-    const SurfaceParts& s_;
-    std::vector<Ridge> order_;
-};
-
-}  // namespace
 
 void link_triangles(SurfaceParts& s) {
     s.edges = ridges_of(3, s.triangles.facets);
@@ -87,7 +52,7 @@ void connect_triangles(SurfaceParts& s) {
     s.shells = base::DisjointSets(s.triangles.facets.size());
     s.sides = base::DisjointSets(2 * s.triangles.facets.size());
     s.found.closed = s.found.manifold = s.found.oriented = true;
-    Fan fan(s);
+    RidgeTurn turn(3, s.triangles.facets);
     for_each_ridge(s.edges, [&](std::span<const Ridge> edge) {
         ++s.found.edges;
         const auto ascending = static_cast<std::size_t>(
@@ -103,13 +68,13 @@ void connect_triangles(SurfaceParts& s) {
             s.defects.add_marked(DefectKind::nonmanifold_edge, s.place_of(edge[0]));
         } else if (ascending != 1 && !s.found.plc) {
             DefectPlace place = s.place_of(edge[0]);
-            place.cells[1] = s.triangles.number[edge[1].facet];
+            place.cells[1] = s.triangles.number(edge[1].facet);
             s.defects.add_marked(DefectKind::misoriented_edge, place);
         }
         for (std::size_t i = 1; i < edge.size(); ++i) s.shells.join(edge[0].facet, edge[i].facet);
         if (!s.embedded) return;
         // Of a triangle that ascends, the side where its normal points looks forward in the turn.
-        const std::span<const Ridge> ring = fan.sorted(edge);
+        const std::span<const Ridge> ring = turn.sorted(edge);
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const Ridge &a = ring[i], &b = ring[(i + 1) % ring.size()];
             s.sides.join(2 * std::size_t{a.facet} + (s.triangles.ascends(a) ? 0 : 1),
@@ -119,7 +84,7 @@ void connect_triangles(SurfaceParts& s) {
     for (const auto& [node, triangle] : s.pinched) {
         s.found.manifold = false;
         s.defects.add_marked(DefectKind::nonmanifold_node,
-                             {.cells = {s.triangles.number[static_cast<std::size_t>(triangle)], -1},
+                             {.cells = {s.triangles.number(static_cast<std::size_t>(triangle)), -1},
                               .nodes = {s.triangles.node(node), -1, -1}});
     }
 }
@@ -169,7 +134,7 @@ void find_surface_cracks(SurfaceParts& s) {
         if (keys[i - 1].first != keys[i].first) continue;
         const Ridge &f = open[keys[i - 1].second], &g = open[keys[i].second];
         DefectPlace place = s.place_of(f);
-        place.cells[1] = s.triangles.number[g.facet];
+        place.cells[1] = s.triangles.number(g.facet);
         place.other_nodes = s.place_of(g).nodes;
         s.defects.add_marked(DefectKind::crack, place);
     }

@@ -68,7 +68,7 @@ std::vector<CellPair> find_intersections(SurfaceParts& s) {
     std::vector<HangingNode> hanging;
     for (std::size_t i = 0; i < std::min(pairs.size(), limit); ++i) {
         const auto& [first, second] = pairs[i];
-        const Mesh::Index a = s.triangles.number[first], b = s.triangles.number[second];
+        const Mesh::Index a = s.triangles.number(first), b = s.triangles.number(second);
         cells.push_back({std::min(a, b), std::max(a, b)});
         const bool swap = a > b;
         if (s.triangles.facets[first].nodes == s.triangles.facets[second].nodes) {
@@ -85,7 +85,7 @@ std::vector<CellPair> find_intersections(SurfaceParts& s) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto face = face_around(3, g, f.at[k]);
                 if (face[1] < 0) continue;
-                HangingNode node{s.triangles.node(f.nodes[k]), face, s.triangles.number[on]};
+                HangingNode node{s.triangles.node(f.nodes[k]), face, s.triangles.number(on)};
                 for (Mesh::Index& n : node.face) n = n < 0 ? n : s.triangles.node(n);
                 hanging.push_back(node);
             }

@@ -1,6 +1,5 @@
 // Where a segment meets the triangles, in their exact order along it.
 #include <algorithm>
-#include <cmath>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/whole_points.hpp"
@@ -10,8 +9,8 @@
 namespace barycert::locate {
 namespace {
 
-using Number = boost::multiprecision::cpp_int;
-using Vector = base::Vector3<Number>;
+using Number = core::WholeNumber;
+using Vector = core::WholeVector;
 
 int sign(const double* a, const double* b, const double* c, const double* d) {
     return static_cast<int>(orient3d(a, b, c, d));
@@ -27,7 +26,6 @@ struct Parameter {
     bool operator==(const Parameter& other) const {
         return numerator * other.denominator == other.numerator * denominator;
     }
-    double rounded() const { return core::rounded_quotient(numerator, denominator, 0); }
 };
 
 struct Segment {
@@ -41,8 +39,7 @@ struct Hit : SurfaceHit {
 
 /// Of the point where the line through a and b meets the plane.
 Parameter on_plane(const Segment& s, const std::array<const double*, 3>& t) {
-    core::WholePoints<Number> whole;
-    for (const double* const p : {s.a, s.b, t[0], t[1], t[2]}) whole.add(p);
+    const core::WholePoints whole{s.a, s.b, t[0], t[1], t[2]};
     const Vector a = whole.at(t[0]);
     const Vector n = base::cross(base::minus(whole.at(t[1]), a), base::minus(whole.at(t[2]), a));
     Number from = base::dot(n, base::minus(whole.at(s.a), a)), to = base::dot(n, base::minus(whole.at(s.b), a));
@@ -53,8 +50,7 @@ Parameter on_plane(const Segment& s, const std::array<const double*, 3>& t) {
 
 /// The first common point of a segment in the plane of the triangle, without the axis of the longest projection.
 bool first_in_plane(const Segment& s, const std::array<const double*, 3>& t, Parameter& first) {
-    core::WholePoints<Number> whole;
-    for (const double* const p : {s.a, s.b, t[0], t[1], t[2]}) whole.add(p);
+    const core::WholePoints whole{s.a, s.b, t[0], t[1], t[2]};
     const Vector o = whole.at(t[0]), n = base::cross(base::minus(whole.at(t[1]), o), base::minus(whole.at(t[2]), o));
     const Vector a = whole.at(s.a), d = base::minus(whole.at(s.b), a);
     Parameter low{0, 1}, high{1, 1};
@@ -116,8 +112,8 @@ std::vector<SurfaceHit> SurfaceData::hits(const double* a, const double* b, bool
     boxes->for_each_meeting(box, [&](std::size_t t) {
         Hit one;
         if (hit(segment, triangles.turned(t), one)) {
-            one.triangle = triangles.number[t];
-            one.parameter = one.exact.rounded();
+            one.triangle = triangles.number(t);
+            one.parameter = core::rounded_quotient(one.exact.numerator, one.exact.denominator, 0);
             all.push_back(std::move(one));
         }
         return true;

@@ -110,6 +110,15 @@ bool candidates(const NearGroups& groups, const double (&p)[3], double square, s
     HWY_ALIGN double low[8], high[8], key[8];
     found.count = 0;
     double best = std::min(square, std::numeric_limits<double>::max());
+    const auto drop_farther = [&] {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < found.count; ++i) {
+            if (lows[i] > best) continue;  // a NaN proves nothing
+            lows[kept] = lows[i];
+            found.number[kept++] = found.number[i];
+        }
+        found.count = kept;
+    };
     const auto look = [&](std::size_t group, bool keep) HWY_ATTR {
         bounds(groups.triangles[group], p, low, high);
         const std::size_t here = std::min<std::size_t>(8, groups.count - 8 * group);
@@ -120,17 +129,9 @@ bool candidates(const NearGroups& groups, const double (&p)[3], double square, s
         }
         if (!keep) return true;
         for (std::size_t l = 0; l < here; ++l) {
-            if (low[l] > best) continue;  // a NaN proves nothing
-            if (found.count == NearCandidates::most) {
-                std::size_t kept = 0;
-                for (std::size_t i = 0; i < found.count; ++i) {
-                    if (lows[i] > best) continue;
-                    lows[kept] = lows[i];
-                    found.number[kept++] = found.number[i];
-                }
-                found.count = kept;
-                if (kept == NearCandidates::most) return false;
-            }
+            if (low[l] > best) continue;
+            if (found.count == NearCandidates::most) drop_farther();
+            if (found.count == NearCandidates::most) return false;
             lows[found.count] = low[l];
             found.number[found.count++] = static_cast<std::uint32_t>(8 * group + l);
         }
@@ -159,11 +160,7 @@ bool candidates(const NearGroups& groups, const double (&p)[3], double square, s
             if (!(group.key > best) && !look(group.group, true)) return false;
         }
     }
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < found.count; ++i) {
-        if (!(lows[i] > best)) found.number[kept++] = found.number[i];
-    }
-    found.count = kept;
+    drop_farther();
     return true;
 }
 

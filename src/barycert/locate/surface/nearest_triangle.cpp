@@ -12,21 +12,10 @@
 namespace barycert::locate {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-NearCell cell_of(const Triangles& triangles, std::size_t t) {
-    NearCell cell{.count = 3, .in_space = true};
-    const PlacedFacet& f = triangles.facets[t];
-    std::array<std::size_t, 3> order{0, 1, 2};
-    const std::array<Mesh::Index, 3> nodes = triangles.nodes(t);
-    for (const auto& [a, b] : {std::pair(0U, 1U), {1U, 2U}, {0U, 1U}}) {
-        if (nodes[order[b]] < nodes[order[a]]) std::swap(order[a], order[b]);
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        cell.nodes[k] = nodes[order[k]];
-        std::copy_n(f.at[order[k]], 3, cell.at[k].begin());
-    }
-    return cell;
+SurfaceNearest none() {
+    SurfaceNearest nearest;
+    nearest.distance = std::numeric_limits<double>::infinity();
+    return nearest;
 }
 
 /// Points side by side in space, at most `most` of them.
@@ -34,8 +23,7 @@ class Block {
 public:
     static constexpr std::size_t most = 512;
 
-    Block(const SurfaceData& data, double limit)
-        : data_(data), groups_(data.near_groups()), numbers_(data.triangles.number), limit_(limit) {
+    Block(const SurfaceData& data, double limit) : data_(data), groups_(data.near_groups()), limit_(limit) {
         // The limit is that of rounded distances.
         const double reach = std::ldexp(limit, groups_.exponent) * (1 + 0x1p-50) + 0x1p-500;
         square_ = reach * reach * (1 + 0x1p-50);
@@ -47,8 +35,7 @@ public:
         NearCandidates found;
         const bool taken =
             groups_.take(point, pair.point) && find_candidates(groups_, pair.point, square_, hint_, found);
-        *to = SurfaceNearest{};
-        to->distance = infinity;
+        *to = none();
         if (!taken) return far(query);
         for (std::size_t i = 0; i < found.count; ++i) {
             const std::size_t t = found.number[i];
@@ -109,10 +96,10 @@ private:
         std::array<std::uint8_t, 3> order{}, ignored{};
         if (masks_[query.first] == 0) return false;
         const std::array<Mesh::Index, 3> nodes = nodes_of(query.first, order);
-        Mesh::Index lowest = numbers_[places_[query.first]];
+        Mesh::Index lowest = data_.triangles.number(places_[query.first]);
         for (std::size_t i = query.first + 1; i < query.first + query.count; ++i) {
             if (masks_[i] == 0 || nodes_of(i, ignored) != nodes) return false;
-            lowest = std::min(lowest, numbers_[places_[i]]);
+            lowest = std::min(lowest, data_.triangles.number(places_[i]));
         }
         query.to->cell = lowest;
         query.to->nodes = nodes;
@@ -172,9 +159,7 @@ private:
     }
 
     void keep_within(SurfaceNearest& to) const {
-        if (to.distance <= limit_) return;
-        to = SurfaceNearest{};
-        to.distance = infinity;
+        if (!(to.distance <= limit_)) to = none();
     }
 
     /// Of a query whose triangle and nodes are known.
@@ -197,8 +182,8 @@ private:
         const Point3 p{query.point[0], query.point[1], query.point[2]};
         NearFeature best;
         for (std::size_t i = query.first; i < query.first + query.count; ++i) {
-            const Mesh::Index number = numbers_[places_[i]];
-            const NearCell cell = cell_of(data_.triangles, places_[i]);
+            const Mesh::Index number = data_.triangles.number(places_[i]);
+            const NearCell cell = near_cell(data_.triangles.index, places_[i]);
             NearFeature feature;
             nearest_feature(cell, p, masks_[i] != 0 ? 0 : guess_nearest(cell, p).mask, feature);
             if (query.to->cell >= 0) {
@@ -225,7 +210,6 @@ private:
 
     const SurfaceData& data_;
     const NearGroups& groups_;
-    const std::vector<Mesh::Index>& numbers_;
     double limit_, square_ = 0;
     std::uint32_t hint_ = UINT32_MAX;
     std::vector<Query> queries_;
@@ -241,10 +225,7 @@ private:
 void SurfaceData::nearest(std::span<const double* const> points, double limit,
                           std::span<SurfaceNearest* const> to) const {
     if (empty() || !(limit >= 0)) {
-        for (SurfaceNearest* const one : to) {
-            *one = SurfaceNearest{};
-            one->distance = infinity;
-        }
+        for (SurfaceNearest* const one : to) *one = none();
         return;
     }
     Block block(*this, limit);

@@ -30,8 +30,8 @@ SurfaceLocation SurfaceData::on_the_way(const double* p, const double* end) cons
         const PlacedFacet& f = triangles.facets[t];
         if (box_of_triangle_holds(f, p)) {
             const auto face = index::face_around(3, f, p);
-            if (face[0] >= 0 && (found.triangle < 0 || triangles.number[t] < found.triangle)) {
-                found.triangle = triangles.number[t];
+            if (face[0] >= 0 && (found.triangle < 0 || triangles.number(t) < found.triangle)) {
+                found.triangle = triangles.number(t);
                 found.feature = feature_of(face);
             }
         }

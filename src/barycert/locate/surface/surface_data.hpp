@@ -34,10 +34,7 @@ struct SurfaceData {
         return side_map_.get([&] { return SideMap(*this); });
     }
     std::size_t bytes() const {
-        const auto made = [](const auto&... lazy) {
-            return (std::size_t{0} + ... + (lazy.made() != nullptr ? lazy.made()->bytes() : 0));
-        };
-        return triangles.bytes() + (boxes ? boxes->bytes() : 0) + made(far_tree_, near_groups_, side_map_);
+        return triangles.bytes() + (boxes ? boxes->bytes() : 0) + bytes_of(far_tree_, near_groups_, side_map_);
     }
 
     /// Exact, without the map. Precondition: finite.

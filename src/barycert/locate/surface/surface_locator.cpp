@@ -64,21 +64,20 @@ double value_at(const Surface& s, const Field& field, bool of_cells, const Surfa
         .value;
 }
 
-/// use(numbers) for blocks of points, those near each other one after the other, on some threads.
-template <class Use>
-void in_order_of_space(const SurfaceData& data, std::span<const double> points, Use use) {
-    const std::size_t count = points.size() / 3;
-    const std::size_t block = block_of(count, data.triangles.size());
-    base::parallel_for((count + block - 1) / block, [&](std::size_t b) {
-        const std::size_t first = b * block, last = std::min(count, first + block);
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> order(last - first);
-        for (std::size_t i = first; i < last; ++i)
-            order[i - first] = {data.triangles.index.bins.of(&points[3 * i]), static_cast<std::uint32_t>(i - first)};
-        std::ranges::sort(order);
-        std::vector<std::size_t> numbers(order.size());
-        for (std::size_t i = 0; i < order.size(); ++i) numbers[i] = first + order[i].second;
-        use(numbers);
-    });
+/// Of points [first, last), those near each other one after the other.
+void nearest_of_block(const SurfaceData& data, std::span<const double> points, double limit, std::size_t first,
+                      std::size_t last, std::span<SurfaceNearest> found) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order(last - first);
+    for (std::size_t i = first; i < last; ++i)
+        order[i - first] = {data.triangles.index.bins.of(&points[3 * i]), static_cast<std::uint32_t>(i - first)};
+    std::ranges::sort(order);
+    std::vector<const double*> from;
+    std::vector<SurfaceNearest*> to;
+    for (const auto& [bin, i] : order) {
+        from.push_back(&points[3 * (first + i)]);
+        to.push_back(&found[first + i]);
+    }
+    data.nearest(from, limit, to);
 }
 
 }  // namespace
@@ -158,14 +157,9 @@ Status SurfaceLocator::nearest(std::span<const double> points, double limit, std
     limit = base::held(limit);
     base::in_arena(threads, found.size(), [&] {
         if (!data_->empty()) data_->near_groups();
-        in_order_of_space(*data_, points, [&](const std::vector<std::size_t>& numbers) {
-            std::vector<const double*> from;
-            std::vector<SurfaceNearest*> to;
-            for (const std::size_t i : numbers) {
-                from.push_back(&points[3 * i]);
-                to.push_back(&found[i]);
-            }
-            data_->nearest(from, limit, to);
+        const std::size_t count = found.size(), block = block_of(count, data_->triangles.size());
+        base::parallel_for((count + block - 1) / block, [&](std::size_t b) {
+            nearest_of_block(*data_, points, limit, b * block, std::min(count, (b + 1) * block), found);
         });
     });
     return Done{};
