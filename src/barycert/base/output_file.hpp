@@ -1,7 +1,6 @@
 /// Files that appear whole or not at all.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,17 +24,7 @@ void remove_begun_files_on_signals(bool tell = false);
 /// Removes the unfinished files of this process that have names, for a program that ends without its destructors.
 void remove_begun_files() noexcept;
 
-/// Of an unfinished file, from before it exists until it is renamed or removed. In a list that only grows: a signal
-/// handler may walk it at any moment, in any thread, without a lock. Some tens of bytes for each file that needed a
-/// name.
-struct BegunName {
-    const std::string path;
-    std::atomic<bool> live{true};
-    BegunName* next = nullptr;
-};
-
-/// Safe to call from any thread.
-BegunName* begin_name(std::string path);
+struct BegunName;
 
 /// The path with its links resolved, also where the last of them leads to a file that does not exist yet.
 std::string resolved_path(std::string path);
