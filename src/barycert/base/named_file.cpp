@@ -5,11 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/output_file.hpp"

@@ -1,16 +1,8 @@
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <limits>
-#include <optional>
-#include <string_view>
-#include <system_error>
-#include <utility>
 
-#include "barycert/base/arena.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/io/vtk/collection.hpp"

@@ -1,12 +1,9 @@
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
-#include "barycert/table.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,14 +1,7 @@
 #include "barycert/io/csv/csv_layout.hpp"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <iterator>
 #include <limits>
-#include <optional>
-#include <string>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"

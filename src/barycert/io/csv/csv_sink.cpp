@@ -1,9 +1,5 @@
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
-#include <string_view>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"

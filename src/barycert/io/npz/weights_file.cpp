@@ -5,15 +5,11 @@
 #include <zlib.h>
 #include <algorithm>
 #include <bit>
-#include <cstddef>
 #include <functional>
-#include <string_view>
-#include <vector>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/npy/npy.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 namespace {

@@ -1,8 +1,5 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 

@@ -15,12 +15,8 @@
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
 #include <array>
 #include <initializer_list>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/text_table.hpp"

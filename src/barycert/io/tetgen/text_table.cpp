@@ -1,9 +1,6 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
-#include <algorithm>
 #include <array>
-#include <memory>
-#include <utility>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
