@@ -147,8 +147,8 @@ std::vector<std::string_view> fields_of_line(const TextTable& table, const char*
 
 void refuse_header(const TextTable& table, std::string what, std::string expected, std::string found,
                    std::string remedy) {
-    const char* const at = table.header_at == nullptr ? table.begin() : table.header_at;
-    refuse_at(table, at, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+    refuse_at(table, table.begin() + table.header_at, std::move(what), std::move(expected), std::move(found),
+              std::move(remedy));
 }
 
 void refuse_count(const TextTable& table, std::string_view field, const char* name) {
