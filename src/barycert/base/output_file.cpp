@@ -127,15 +127,11 @@ OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_pa
         fail("cannot give the new file the permissions of the old one", errno);
 }
 
-OutputFile::OutputFile(std::string name, Descriptor file, int error_number)
-    : target_(std::move(name)), file_(std::move(file)) {
-    if (!file_) fail("cannot open the file for writing", error_number);
-}
-
-OutputFile OutputFile::standard_output() {
-    // A copy, so that it can be closed and tell of errors. Not 0 to 2: a process may run with those closed.
-    const int copy = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    return {"standard output", Descriptor(copy), errno};
+OutputFile::OutputFile()
+    : target_("standard output"),
+      // A copy, so that it can be closed and tell of errors. Not 0 to 2: a process may run with those closed.
+      file_(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)) {
+    if (!file_) fail("cannot open the file for writing", errno);
 }
 
 bool OutputFile::open_nameless() {

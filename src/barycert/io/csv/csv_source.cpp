@@ -24,7 +24,7 @@ public:
         : ColumnSource(dimension), lines_(path) {
         for (std::string_view line; lines_.next(line);) {
             if (!holds_fields(line, ' ')) continue;
-            layout_ = settle_csv_layout(line, dimension, options, place());
+            layout_ = settle_csv_layout(line, dimension, options, {lines_.name(), lines_.number()});
             if (kept != nullptr && kept->size() == layout_.kept.size()) layout_.kept = *kept;
             formats_ = layout_.kept;
             notes_ = layout_.notes;
@@ -101,8 +101,6 @@ private:
         fault.line = lines_.number();
         return fault;
     }
-
-    LinePlace place() const { return {lines_.name(), lines_.number()}; }
 
     LineReader lines_;
     CsvLayout layout_;
