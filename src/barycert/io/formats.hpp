@@ -81,7 +81,6 @@ inline std::size_t line_of(std::string_view text, const char* at) {
     return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;
 }
 
-/// In lower case.
 std::string lower(std::string_view text);
 
 /// Whether there is something of that name, as far as one may see.

@@ -43,7 +43,6 @@ struct Place {
     bool label = false;
 };
 
-/// The nodes of a mesh.
 PointTable nodes_of(Mesh mesh) {
     PointTable table;
     table.dimension = mesh.dimension;

@@ -18,7 +18,6 @@
 
 namespace barycert::io {
 
-/// The columns of a file.
 struct TableColumns {
     std::vector<std::string> names;  ///< of files that name none column1, column2, ...
     bool named = true;

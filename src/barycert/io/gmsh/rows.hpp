@@ -167,7 +167,6 @@ public:
                              std::string remedy = {}) const;
     /// Refuses what stands here as a word that is no number.
     [[noreturn]] void refuse_word(std::string expected, std::string found) const;
-    /// Goes on at another place.
     void move_to(const char* at) { at_ = at; }
 
 private:

@@ -52,7 +52,6 @@ char* put(char* at, std::uint64_t bits) {
     return at + sizeof bits;
 }
 
-/// Whether it holds the text.
 bool holds(const CarriedType& type, std::string_view text) {
     if (text.ends_with('\0')) return false;
     if (!type.characters) return text.size() <= type.size;
@@ -138,7 +137,6 @@ private:
         types_ += "]";
     }
 
-    /// What the types of the file cannot hold.
     Status check(const TableView& rows) const override {
         for (std::size_t k = 0; k < carried_.size(); ++k) {
             const auto* const texts = std::get_if<std::vector<std::string>>(&rows.carried[k].values);
