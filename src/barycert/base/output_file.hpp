@@ -1,11 +1,6 @@
 /// Files that appear whole or not at all.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "barycert/base/descriptor.hpp"
 #include "barycert/result.hpp"
 

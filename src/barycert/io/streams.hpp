@@ -3,13 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/environment.hpp"

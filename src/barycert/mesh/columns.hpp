@@ -1,10 +1,8 @@
 /// Columns that are carried through, value by value.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "barycert/mesh.hpp"
 

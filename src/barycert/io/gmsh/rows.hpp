@@ -4,17 +4,6 @@
 ///     [&](auto& row, std::size_t i) { return row.tag(tags[i], "a node's tag"); }
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "barycert/base/workers.hpp"
 #include "barycert/io/gmsh/msh_file.hpp"
 #include "barycert/io/tetgen/scanner.hpp"

@@ -8,17 +8,11 @@
 /// read_guarded() makes a Result.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 
