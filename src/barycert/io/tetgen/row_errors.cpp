@@ -176,8 +176,7 @@ void refuse_row(const TextTable& table, const char* at, std::size_t row) {
             check_field(table, columns, fields[i], row);
     }
     if (!fields.empty() && fields.size() != table.column_count()) refuse_column_count(table, fields);
-    refuse_at(table, at, "the last row has no line end, so the file may be cut short", "a line end",
-              "the end of the file", "if nothing is missing, end the last line, as echo >> FILE does");
+    throw Exception(base::unended_number(table.file, line_of(table.bytes, at)));
 }
 
 void refuse_end(const TextTable& table, std::size_t found) {
