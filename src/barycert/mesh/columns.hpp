@@ -18,9 +18,6 @@ ColumnFormat format_of(const Column& column);
 /// Makes `columns` empty ones of these formats; what memory they have is kept.
 void begin_columns(const std::vector<ColumnFormat>& formats, std::vector<Column>& columns);
 
-/// The values number 0 to count - 1 at most; those behind are removed.
-void shrink(Column& column, std::size_t count);
-
 /// Moves `count` values of `from`, of the same type, from number `first` on to the end of `to`. Those left behind are
 /// not to be read any more.
 void move_values(Column& from, std::size_t first, std::size_t count, Column& to);
