@@ -139,6 +139,7 @@ enum class DefectKind : std::uint8_t {
     self_intersection,
     node_on_facet,
     segment_in_facet,
+    segments_meet,
     open_edge,
     nonmanifold_edge,
     nonmanifold_node,
@@ -158,7 +159,7 @@ struct DefectText {
     std::string_view one = {}, more = {};  ///< of those that do: what it means for the verdict, after its count
 };
 
-inline constexpr std::array<DefectText, 39> defect_texts{{
+inline constexpr std::array<DefectText, 40> defect_texts{{
     {DefectKind::bad_structure, "bad_structure", "P1", "arrays whose sizes are no whole number of nodes or cells",
      "give d coordinates per node and d + 1 vertices per cell", true, "array has a wrong size",
      "arrays have a wrong size"},
@@ -232,6 +233,9 @@ inline constexpr std::array<DefectText, 39> defect_texts{{
     {DefectKind::segment_in_facet, "segment_in_facet", "S2", "segments inside a facet that does not have them",
      "add the segment to that facet, as a polygon of two nodes", true, "segment lies in a facet that does not have it",
      "segments lie in facets that do not have them"},
+    {DefectKind::segments_meet, "segments_meet", "S2", "segments that meet other than in a common node",
+     "split both at a node where they meet", true, "pair of segments meets other than in a common node",
+     "pairs of segments meet other than in common nodes"},
     {DefectKind::open_edge, "open_edge", "S3", "edges of one triangle, where the surface is open", "close the surface",
      false, "edge is open", "edges are open"},
     {DefectKind::nonmanifold_edge, "nonmanifold_edge", "", "edges of more than two triangles", "", false},

@@ -90,7 +90,7 @@ struct SamplingJob : MeshJob {
 
 /// Fields at points: rows to CSV, NPY or VTU files. Of a surface (read_surface): at the nearest point of it, with its
 /// triangle, the feature in which it lies, and the distance, negative where the point is inside; options.outside.limit
-/// bounds it. Maps, weights and fields from files are for meshes.
+/// bounds it. A map has the triangles then, and weights are those of the nearest points: nearest projection.
 struct SampleJob : SamplingJob {
     std::string points;                     ///< as for open_points; or
     std::vector<std::string> columns = {};  ///< PointOptions::columns
@@ -188,6 +188,7 @@ struct CheckJob : MeshJob {
     CheckOptions options = {};  ///< but for plc and progress
     std::string plc;            ///< a PLC, whose facets are to be unions of faces of cells
     std::string measures;       ///< a .vtu file: the mesh with measures and defects of each cell; .vtp: the surface
+    std::string picture;        ///< a .png file: see draw_checked(); of surfaces and PLCs
     /// Where to write a repaired copy, one of them at most: VTK's or Gmsh's file, or a stem of TetGen's. `fix` merges
     /// coincident nodes, drops degenerate and duplicate cells and turns negative ones; fix_orientation turns alone.
     std::string fix, fix_orientation;
@@ -221,6 +222,10 @@ struct CheckedMesh {
 /// Returns an Error, and writes nothing, if the job contradicts itself, an input cannot be read, or an output is an
 /// input or cannot be written. What goes wrong once the mesh is checked does not cost the report: CheckedMesh::written.
 Result<CheckedMesh> check_files(const CheckJob& job);
+
+/// The triangles of a surface or PLC from in front and from behind, grey; those with defects red. At most 256 colours.
+/// Error: no triangles; indices or coordinates that cannot be drawn.
+Result<Image> draw_checked(const CheckReport& report, const Surface& surface);
 
 // The results that some tool wrote into a file, held against the exact ones.
 

@@ -12,11 +12,13 @@
 #include "barycert/mesh.hpp"
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
+#include "barycert/surface.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert {
 
 namespace sample {
+struct MapHeader;
 struct MapWriterData;
 struct MapReaderData;
 }  // namespace sample
@@ -26,6 +28,7 @@ struct MapReaderData;
 /// words: the dimension; the number of coordinates, then the bits of each as float64, -0.0 as 0.0; the number of
 /// corners of cells, then two of them a word, the first in its low half, 0 after the last.
 std::uint64_t mesh_fingerprint(const Mesh& mesh);
+std::uint64_t mesh_fingerprint(const Surface& surface);
 
 /// Writes rows block by block: memory does not grow with their number. The file appears whole at commit(), or not at
 /// all.
@@ -34,6 +37,8 @@ public:
     /// A map for points in `mesh`, which need not stay. `all`: there is a row for every cell that holds a point.
     /// Errors: a path that cannot be written; a pipe or device.
     static Result<MapWriter> open(const std::string& path, const Mesh& mesh, bool all);
+    /// A map to the nearest triangles of a surface: `cells` are triangles, features those in which nearest points lie.
+    static Result<MapWriter> open(const std::string& path, const Surface& surface);
 
     MapWriter(MapWriter&&) noexcept;
     MapWriter& operator=(MapWriter&&) noexcept;
@@ -48,6 +53,7 @@ public:
     Status commit();
 
 private:
+    static Result<MapWriter> begin(const std::string& path, const sample::MapHeader& header);
     explicit MapWriter(std::unique_ptr<sample::MapWriterData> data);
     std::unique_ptr<sample::MapWriterData> data_;
 };
@@ -58,6 +64,7 @@ public:
     /// Errors: the file cannot be read; it is no map, of another version, damaged in its header, cut off or too long;
     /// it was made for another mesh. `mesh` need not stay.
     static Result<MapReader> open(const std::string& path, const Mesh& mesh);
+    static Result<MapReader> open(const std::string& path, const Surface& surface);
 
     MapReader(MapReader&&) noexcept;
     MapReader& operator=(MapReader&&) noexcept;
@@ -73,6 +80,7 @@ public:
     Result<std::size_t> read(std::size_t max_rows, Table& rows);
 
 private:
+    static Result<MapReader> begin(const std::string& path, const sample::MapHeader& of, const char* cells);
     explicit MapReader(std::unique_ptr<sample::MapReaderData> data);
     std::unique_ptr<sample::MapReaderData> data_;
 };

@@ -60,6 +60,8 @@ std::string check_json(const CheckReport& report, const std::string& name, const
 /// Cost: some passes over the mesh, and its boundary once more. Of broken meshes nothing is drawn that has no place.
 std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& mesh_name,
                        const FixedMesh* fixed = nullptr);
+/// Of a surface or a PLC, with draw_checked() if it can be drawn.
+std::string check_html(const CheckReport& report, const Surface& surface, const std::string& name);
 
 // What a run of sampling did, for people.
 

@@ -91,6 +91,11 @@ public:
     Status nearest(std::span<const double> points, double limit, std::span<SurfaceNearest> found,
                    int threads = 0) const;
 
+    /// N1, of that triangle alone for each point; of -1 nothing: what a map (map.hpp) knows without a search. Error:
+    /// also a number that is none of a triangle, or one of zero area.
+    Status nearest_on(std::span<const Mesh::Index> triangles, std::span<const double> points,
+                      std::span<SurfaceNearest> found, int threads = 0) const;
+
     /// V1: a field of nodes, or of triangles, at the nearest points of these points, one value a point; NaN where there
     /// is none. Error: sizes that do not fit.
     Status values(const Field& field, bool of_cells, std::span<const double> points,

@@ -31,7 +31,10 @@ int run_check(Arguments<CheckJob>& a) {
             return told;  // without the copy the reports would say less than was asked for
         }
         told.files["--json"] = [&, fixed] { return check_json(c.report, a.job.mesh, measure_environment(), fixed); };
-        told.files["--html"] = [&c, fixed] { return check_html(c.report, c.mesh, c.name, fixed); };
+        told.files["--html"] = [&c, fixed] {
+            return c.report.surface ? check_html(c.report, c.surface, c.name)
+                                    : check_html(c.report, c.mesh, c.name, fixed);
+        };
         return told;
     });
 }
@@ -72,6 +75,7 @@ a PLC, if it is valid and encloses a region: then TetGen can mesh it.)",
         "Write the report as an HTML page with histograms and pictures of cells; - is stdout and suppresses the table");
     o.text("--vtu", job.measures,
            "Write the mesh with measures and defects of each cell as VTU (a surface: .vtp), for ParaView");
+    o.text("--picture", job.picture, "Draw a surface from two sides, triangles with defects red: .png");
     auto* const all = o.text("--fix", job.fix,
                              "Write a copy with what has one right answer repaired, and check it: coincident nodes "
                              "merged, degenerate and duplicate cells dropped, negative cells turned: .vtu .vtk .msh, "

@@ -428,5 +428,61 @@ TEST(PlcCheck, LooseSegmentsAndPoints) {
     EXPECT_EQ(count(r, DefectKind::node_on_facet), 1);  // the last point
 }
 
+// Two segments of no facet: every way in which they can meet, moved, turned and scaled exactly.
+TEST(PlcCheck, LooseSegmentsThatMeet) {
+    using P = std::array<double, 3>;
+    struct Pair {
+        std::array<P, 4> at;
+        int meet;
+    };
+    const std::array<Pair, 10> pairs{{
+        {{P{0, 0, 0}, {2, 2, 2}, {0, 2, 1}, {2, 0, 1}}, 1},    // cross
+        {{P{0, 0, 0}, {2, 2, 2}, {0, 2, 1}, {2, 0, 1.5}}, 0},  // pass each other
+        {{P{0, 0, 0}, {2, 2, 2}, {1, 1, 1}, {5, 0, 0}}, 1},    // an end on the other
+        {{P{0, 0, 0}, {2, 2, 2}, {1, 1, 1}, {5, 5, 5}}, 1},    // overlap on a line
+        {{P{0, 0, 0}, {2, 2, 2}, {3, 3, 3}, {5, 5, 5}}, 0},    // apart on a line
+        {{P{0, 0, 0}, {0, 0, 2}, {0, 0, 1}, {0, 0, 5}}, 1},    // on a line along an axis
+        {{P{0, 0, 0}, {0, 0, 2}, {0, 0, 3}, {0, 0, 5}}, 0},
+        {{P{0, 0, 0}, {0, 0, 2}, {0, 1, 1}, {0, 5, 1}}, 0},   // in a plane of axes, apart
+        {{P{0, 0, 0}, {0, 0, 2}, {0, -1, 1}, {0, 5, 1}}, 1},  // in it, crossing
+        {{P{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}}, 0},   // parallel
+    }};
+    for (std::size_t turn = 0; turn < 3; ++turn) {
+        for (const double scale : {1.0, 0x1p-400, 0x1p400}) {
+            for (const Pair& pair : pairs) {
+                Plc plc = cube_plc();
+                for (double& x : plc.points) x = x * scale + 16 * scale;
+                for (const P& p : pair.at) {
+                    for (std::size_t k = 0; k < 3; ++k) plc.points.push_back(p[(k + turn) % 3] * scale);
+                }
+                plc.facets.push_back({.polygons = {{8, 9}}, .holes = {}});
+                plc.facets.push_back({.polygons = {{10, 11}}, .holes = {}});
+                EXPECT_EQ(count(check_plc(plc), DefectKind::segments_meet), pair.meet) << turn << ' ' << scale;
+            }
+        }
+    }
+    Plc plc = cube_plc();  // a fan from one node
+    plc.points.insert(plc.points.end(), {5, 5, 5, 6, 5, 5, 7, 5, 5, 5, 6, 5});
+    for (const Mesh::Index end : {9, 11}) plc.facets.push_back({.polygons = {{8, end}}, .holes = {}});
+    EXPECT_TRUE(check_plc(plc).certified());
+    plc.facets.push_back({.polygons = {{8, 10}}, .holes = {}});  // over the first
+    EXPECT_EQ(count(check_plc(plc), DefectKind::segments_meet), 1);
+}
+
+// A point where facets meet is told of the lowest.
+TEST(PlcCheck, SeedsOnSeveralFacets) {
+    Plc plc = cube_plc();
+    for (std::size_t f = 0; f < plc.facets.size(); ++f) {
+        for (std::size_t g = 0; g < plc.facets.size(); ++g) {
+            for (const Mesh::Index node : plc.facets[f].polygons[0]) {
+                if (std::ranges::count(plc.facets[g].polygons[0], node) == 0) continue;
+                plc.holes.assign(&plc.points[3 * static_cast<std::size_t>(node)],
+                                 &plc.points[3 * static_cast<std::size_t>(node)] + 3);
+                EXPECT_LE(check_plc(plc).surface->seeds[0].facet, static_cast<Mesh::Index>(std::min(f, g)));
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace barycert::testing

@@ -1,8 +1,10 @@
 // Surfaces and PLCs on the command line: check, and sample.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "barycert/raster.hpp"
 #include "process.hpp"
 
 namespace barycert::cli_test {
@@ -42,6 +44,39 @@ TEST(SurfaceCommands, ReportsAreWritten) {
     EXPECT_TRUE(contains(read_file(scratch.path("a.vtp")), "Name=\"problems\""));
     const Ended again = run({"check", scratch.path("a.vtp"), "--quiet"});
     EXPECT_EQ(again.code, 1) << again.err;
+}
+
+// Red where triangles have defects, on the page as in the file; grey elsewhere.
+TEST(SurfaceCommands, Pictures) {
+    const Scratch scratch;
+    const std::string whole = scratch.put("a.off", tetrahedron),
+                      torn = scratch.put(
+                          "b.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n.2 .2 -1\n.2 .3 2\n1 1 1\n3 0 2 1\n3 3 4 5\n"),
+                      picture = scratch.path("p.png");
+    const auto red_pixels = [&] {
+        const Result<Image> image = read_png(picture);
+        EXPECT_TRUE(image) << message(image.error());
+        std::size_t red = 0, grey = 0;
+        for (std::int32_t j = 0; image && j < image->height; ++j) {
+            for (std::int32_t i = 0; i < image->width; ++i) {
+                const Rgba c = image->pixel(i, j);
+                (c[0] > c[1] ? red : grey) += c[0] < 250 || c[0] > c[1] ? 1 : 0;
+            }
+        }
+        EXPECT_GT(red + grey, 10000U);
+        return red;
+    };
+    EXPECT_EQ(run({"check", whole, "--picture", picture, "--quiet"}).code, 0);
+    EXPECT_EQ(red_pixels(), 0U);
+    EXPECT_EQ(run({"check", torn, "--picture", picture, "--html", scratch.path("p.html"), "--quiet"}).code, 1);
+    EXPECT_GT(red_pixels(), 5000U);
+    const std::string page = read_file(scratch.path("p.html"));
+    EXPECT_TRUE(contains(page, "data:image/png;base64,"));
+    EXPECT_TRUE(contains(page, "Red: triangles with defects"));
+    EXPECT_EQ(run({"check", torn, "--picture", scratch.path("p.jpg")}).code, 2);
+    const Ended mesh = run({"check", plc + "../meshes/cube-hole", "--picture", picture});
+    EXPECT_EQ(mesh.code, 2);
+    EXPECT_TRUE(contains(mesh.err, "--picture is of surfaces")) << mesh.err;
 }
 
 // A polygon that crosses itself is a fault of the file in every format that has polygons.
@@ -96,11 +131,81 @@ TEST(SurfaceCommands, ValuesAtNearestPoints) {
     r = run({"sample", ply, "--points", points, "--within", "3", "--fields", "id", "--output", "-", "--quiet"});
     EXPECT_TRUE(contains(r.out, "0,0,5,-1,outside,nan,nan")) << r.out;
     for (const std::vector<std::string>& more :
-         {std::vector<std::string>{"--outside", "error"}, {"--fields", "U"}, {"--weights", scratch.path("w.npz")}}) {
+         {std::vector<std::string>{"--outside", "error"}, {"--fields", "U"}, {"--on-boundary", "all"}}) {
         std::vector<std::string> words{"sample", ply, "--points", points, "--output", "-"};
         words.insert(words.end(), more.begin(), more.end());
         EXPECT_EQ(run(words).code, 2) << more[0];
     }
+}
+
+// Rows from a map are those from a search, whatever field; a map is of one surface.
+TEST(SurfaceCommands, MapsAndFieldsFromFiles) {
+    const Scratch scratch;
+    const std::string off = scratch.put("a.off", tetrahedron);
+    const std::string points = scratch.put("p.csv", "x,y,z\n.25,.25,-2\n.125,.125,.125\n0,0,5\n0.5,0,0\n7,7,7\n");
+    const std::string nodes = scratch.put("u.csv", "u\n1\n2\n3\n.1\n"), cells = scratch.put("v.csv", "v\n5\n6\n7\n8\n");
+    const std::vector<std::string> with{"--field", "u=" + nodes, "--field", "cell:v=" + cells, "--quiet"};
+    const auto sample = [&](std::vector<std::string> words) {
+        words.insert(words.end(), with.begin(), with.end());
+        return run(words);
+    };
+    const Ended searched = sample(
+        {"sample", off, "--points", points, "--save-map", scratch.path("a.map"), "--output", "-", "--within", "6"});
+    EXPECT_EQ(searched.code, 0) << searched.err;
+    EXPECT_TRUE(contains(searched.out, "x,y,z,cell,feature,u,v,distance\n0.25,0.25,-2,0,face,1.75,5,2\n"))
+        << searched.out;
+    EXPECT_TRUE(contains(searched.out, "7,7,7,-1,outside,nan,nan,nan")) << searched.out;
+    const Ended mapped = sample({"sample", off, "--map", scratch.path("a.map"), "--output", "-", "--within", "6"});
+    EXPECT_EQ(mapped.code, 0) << mapped.err;
+    EXPECT_EQ(mapped.out, searched.out);
+    const Ended closer = sample({"sample", off, "--map", scratch.path("a.map"), "--output", "-", "--within", "3"});
+    EXPECT_TRUE(contains(closer.out, "0,0,5,-1,outside,nan,nan,nan")) << closer.out;
+    const std::string other = scratch.put("b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 1\n3 0 1 2\n");
+    const Ended refused = run({"sample", other, "--map", scratch.path("a.map"), "--output", "-"});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(contains(refused.err, "the map was made for another mesh")) << refused.err;
+    const Ended both = run({"sample", off, "--points", points, "--field", "u=" + nodes, "--output", "-"});
+    EXPECT_TRUE(contains(both.err, "could belong to nodes or to cells")) << both.err;
+}
+
+// Nearest projection: with any field of the nodes the weights give the values, up to rounding.
+TEST(SurfaceCommands, WeightsOfNearestPoints) {
+    const Scratch scratch;
+    const std::string off = scratch.put("a.off", tetrahedron), npz = scratch.path("w.npz");
+    const std::string points = scratch.put("p.csv", "x,y,z\n.25,.25,-2\n0,0,5\n0.3,-.1,-.1\n1,1,1\n7,7,7\n");
+    ASSERT_EQ(run({"sample", off, "--points", points, "--within", "6", "--weights", npz, "--save-map",
+                   scratch.path("a.map"), "--quiet"})
+                  .code,
+              0);
+    const std::string bytes = read_file(npz);
+    ASSERT_EQ(run({"sample", off, "--map", scratch.path("a.map"), "--within", "6", "--weights", npz, "--quiet"}).code,
+              0);
+    EXPECT_EQ(read_file(npz), bytes) << "from a map";
+    if (std::system("/usr/bin/python3 -c 'import numpy' >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 has no numpy";
+    const std::string script = scratch.put("script.py", R"(
+import sys, numpy as np
+z = np.load(sys.argv[1])
+assert (z['cell'] == [0, 1, 0, 2, -1]).all(), z['cell']
+assert (np.diff(z['indptr']) == [3, 1, 2, 3, 0]).all(), z['indptr']
+assert (z['indices'] == [0, 1, 2, 3, 0, 1, 1, 2, 3]).all(), z['indices']
+assert (z['data'] == [.5, .25, .25, 1, .7, .3, 1/3, 1/3, 1/3]).all(), z['data']
+assert (z['shape'] == [5, 4]).all()
+)");
+    EXPECT_EQ(std::system(("/usr/bin/python3 " + script + " " + npz).c_str()), 0);
+}
+
+TEST(SurfaceCommands, FieldsOfPolygons) {
+    const Scratch scratch;
+    const std::string off = scratch.put("a.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n4 0 1 2 3\n3 0 1 4\n");
+    const std::string points = scratch.put("p.csv", "x,y,z\n.75,.25,-1\n.25,.75,-1\n.25,-1,.25\n");
+    const std::string cells = scratch.put("v.csv", "v\n5\n6\n");
+    const Ended r = run({"sample", off, "--points", points, "--field", "v=" + cells, "--output", "-", "--quiet"});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.out,
+              "x,y,z,cell,feature,v,distance\n0.75,0.25,-1,0,face,5,1\n0.25,0.75,-1,0,face,5,1\n"
+              "0.25,-1,0.25,1,face,6,1\n");
+    const std::string few = scratch.put("w.csv", "w\n5\n6\n7\n");
+    EXPECT_EQ(run({"sample", off, "--points", points, "--field", "w=" + few, "--output", "-"}).code, 2);
 }
 
 TEST(SurfaceCommands, TrianglesInSpaceInFilesOfMeshes) {

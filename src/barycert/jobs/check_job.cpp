@@ -1,6 +1,7 @@
 // A mesh checked, its measures written, and a repaired copy of it.
 
 #include <algorithm>
+#include <limits>
 
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
@@ -29,7 +30,8 @@ void check_job(const CheckJob& job) {
     if (copy == "-")
         refuse("", member + " cannot write to stdout", "", "",
                "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
-    std::vector<base::NamedFile> plc, outputs{{"job.measures", job.measures}};
+    if (!job.picture.empty() && !io::has_suffix(job.picture, ".png")) jobs::refuse_output(job.picture, ".png");
+    std::vector<base::NamedFile> plc, outputs{{"job.measures", job.measures}, {"job.picture", job.picture}};
     if (!copy.empty()) {
         const std::vector<std::string> written = written_mesh_files(copy).value();
         for (const std::string& path : written) outputs.push_back({member, path});
@@ -115,11 +117,47 @@ void write_marks(const CheckJob& job, CheckedMesh& checked) {
 void check_it(const CheckJob& job, const CheckOptions& options, CheckedMesh& checked, const std::optional<Plc>& plc) {
     refuse_options_of_meshes(job, plc ? "a PLC" : "a surface");
     checked.name = checked.artifact = job.mesh;
+    checked.mesh.index_base = checked.surface.index_base;
     checked.report = plc ? check_plc(*plc, options) : check_surface(checked.surface, options);
     if (!job.measures.empty()) write_marks(job, checked);
+    if (job.picture.empty()) return;
+    const Result<Image> image = draw_checked(checked.report, checked.surface);
+    const Status drawn = image ? write_png(job.picture, *image) : Status(image.error());
+    if (checked.written) checked.written = drawn;
 }
 
 }  // namespace
+
+Result<Image> draw_checked(const CheckReport& report, const Surface& surface) {
+    const ExactEnvironment environment;
+    for (const DefectKind kind : {DefectKind::bad_structure, DefectKind::index_out_of_range, DefectKind::not_finite}) {
+        if (report.find(kind) != nullptr) return Error{.what = "a surface with such defects cannot be drawn"};
+    }
+    const std::vector<DefectSet>& defects = report.measures.defects;
+    std::vector<double> marks(surface.cell_count(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < std::min(marks.size(), defects.size()); ++i) {
+        if (defects[i] != 0) marks[i] = 1;
+    }
+    constexpr std::int32_t side = 480;
+    Image both{2 * side, side, std::vector<std::uint8_t>(std::size_t{4} * 2 * side * side)};
+    for (int back = 0; back < 2; ++back) {
+        const ViewOptions view{.size = {side, side}, .azimuth = 30 + 180.0 * back, .range = {{0, 1}}, .bar = false};
+        const Result<Image> one =
+            draw_surface({.points = surface.points, .triangles = surface.cells, .triangle_values = marks}, view);
+        if (!one) return one.error();
+        for (std::int32_t j = 0; j < side; ++j) {
+            for (std::int32_t i = 0; i < side; ++i) {
+                // In 128 shades each, of grey and, where there is a colour, of red.
+                auto [r, g, b, opacity] = one->pixel(i, j);
+                const bool grey = r == g && g == b;
+                r = static_cast<std::uint8_t>(std::max({r, g, b}) | 1);
+                g = b = grey ? r : static_cast<std::uint8_t>(r / 4);
+                both.set_pixel(i + back * side, j, {r, g, b, opacity});
+            }
+        }
+    }
+    return both;
+}
 
 Result<CheckedMesh> check_files(const CheckJob& job) try {
     check_job(job);
@@ -149,6 +187,8 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         check_it(job, options, checked, polygons);
         return checked;
     }
+    if (!job.picture.empty())
+        refuse(job.picture, "job.picture is of surfaces", "", "a mesh", "ParaView shows cells: job.measures FILE.vtu");
     if (io::has_suffix(job.measures, ".vtp"))
         refuse(job.measures, "job.measures writes VTU files of meshes", "a name that ends in .vtu", "",
                "choose another name");

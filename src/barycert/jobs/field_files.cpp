@@ -22,8 +22,7 @@ constexpr const char* say_which =
     "say which: FieldFile::Of::points or FieldFile::Of::cells instead of FieldFile::Of::either";
 
 /// Whether the rows of the field are for cells.
-bool is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& mesh) {
-    const std::size_t nodes = mesh.point_count(), cells = mesh.cell_count();
+bool is_of_cells(const FieldFile& file, std::size_t rows, std::size_t nodes, std::size_t cells) {
     const bool fits_nodes = rows == nodes && file.of != FieldFile::Of::cells;
     const bool fits_cells = rows == cells && file.of != FieldFile::Of::points;
     if (fits_nodes != fits_cells) return fits_cells;
@@ -34,6 +33,11 @@ bool is_of_cells(const FieldFile& file, std::size_t rows, const Mesh& mesh) {
     if (file.of == FieldFile::Of::cells) expected = counted(cells, "row") + ", one for each cell";
     if (file.of == FieldFile::Of::either) expected += ", or " + std::to_string(cells) + ", one for each cell";
     refuse(file.path, "field \"" + file.name + '"', expected, counted(rows, "row"), "use a file made for this mesh");
+}
+
+[[noreturn]] void refuse_second(const FieldFile& file) {
+    refuse(file.path, "a field of this name exists already", "", '"' + file.name + '"',
+           "give it another name: job.field_files OTHER=" + file.path);
 }
 
 std::string names_of(const std::vector<Field>& fields) {
@@ -73,6 +77,28 @@ bool is_solution(const std::string& path) {
     return has_suffix_of(path, {".sol", ".solb"});
 }
 
+/// The array file.column, of nodes or of cells; file.of becomes which.
+Field array_named(const std::vector<Field>& nodal, const std::vector<Field>& of_each_cell, FieldFile& file) {
+    std::vector<std::string> all;
+    for (const auto* fields : {&nodal, &of_each_cell}) {
+        for (const Field& field : *fields) all.push_back(field.name);
+    }
+    const Field* const of_nodes = file.of == FieldFile::Of::cells ? nullptr : sample::field_named(nodal, file.column);
+    const Field* const of_cells =
+        file.of == FieldFile::Of::points ? nullptr : sample::field_named(of_each_cell, file.column);
+    if (of_nodes != nullptr && of_cells != nullptr)
+        refuse(file.path, "there is an array of nodes and one of cells of that name", "", base::quoted(file.column),
+               say_which);
+    if (of_nodes == nullptr && of_cells == nullptr)
+        refuse(file.path, file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
+               file.column.empty() ? "" : base::quoted(file.column),
+               "of nodes " + names_of(nodal) + "; of cells " + names_of(of_each_cell),
+               base::did_you_mean(file.column, all,
+                                  "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY"));
+    file.of = of_nodes != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
+    return of_nodes != nullptr ? *of_nodes : *of_cells;
+}
+
 /// The array file.column of the mesh in the file; file.of becomes what it is of.
 Field read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
     const bool solution = is_solution(file.path);
@@ -84,22 +110,8 @@ Field read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
         const std::vector<std::string> names = sample::all_field_names(other);
         if (file.column.empty() && names.size() == 1) file.column = names.front();
     }
-    const Field* const of_nodes =
-        file.of == FieldFile::Of::cells ? nullptr : sample::field_named(other.point_fields, file.column);
-    const Field* const of_cells =
-        file.of == FieldFile::Of::points ? nullptr : sample::field_named(other.cell_fields, file.column);
-    if (of_nodes != nullptr && of_cells != nullptr)
-        refuse(file.path, "there is an array of nodes and one of cells of that name", "", base::quoted(file.column),
-               say_which);
-    if (of_nodes == nullptr && of_cells == nullptr)
-        refuse(file.path, file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
-               file.column.empty() ? "" : base::quoted(file.column),
-               "of nodes " + names_of(other.point_fields) + "; of cells " + names_of(other.cell_fields),
-               base::did_you_mean(file.column, sample::all_field_names(other),
-                                  "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY"));
-    const bool nodes = of_nodes != nullptr;
-    file.of = nodes ? FieldFile::Of::points : FieldFile::Of::cells;
-    Field field = nodes ? *of_nodes : *of_cells;
+    Field field = array_named(other.point_fields, other.cell_fields, file);
+    const bool nodes = file.of == FieldFile::Of::points;
     const bool same = solution || (other.points == mesh.points && (nodes || other.cells == mesh.cells));
     const std::size_t rows = field.data.size() / static_cast<std::size_t>(field.components);
     if (rows == (nodes ? mesh.point_count() : mesh.cell_count()) && !same)
@@ -163,7 +175,8 @@ Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {
 FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace) {
     FieldFile of = file;
     Field field = read_field(mesh, of, mesh.notes);
-    const bool cells = is_of_cells(of, field.data.size() / static_cast<std::size_t>(field.components), mesh);
+    const std::size_t rows = field.data.size() / static_cast<std::size_t>(field.components);
+    const bool cells = is_of_cells(of, rows, mesh.point_count(), mesh.cell_count());
     std::vector<Field>& fields = cells ? mesh.cell_fields : mesh.point_fields;
     const std::string full = std::string(cells ? cell_prefix : point_prefix) + file.name;
     for (std::size_t i = 0; replace && i < fields.size(); ++i) {
@@ -172,9 +185,7 @@ FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace) {
         fields[i] = std::move(field);
         return {cells, i};
     }
-    if (sample::field_named(fields, file.name) != nullptr)
-        refuse(file.path, "a field of this name exists already", "", '"' + file.name + '"',
-               "give it another name: job.field_files OTHER=" + file.path);
+    if (sample::field_named(fields, file.name) != nullptr) refuse_second(file);
     fields.push_back(std::move(field));
     return {cells, fields.size() - 1};
 }
@@ -192,6 +203,41 @@ void give_each_a_name(Mesh& mesh) {
 void add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
     for (const FieldFile& file : files) add_field(file, mesh, false);
     give_each_a_name(mesh);
+}
+
+void add_fields(const std::vector<FieldFile>& files, Surface& s) {
+    const std::size_t facets = s.facets.empty() ? s.cell_count() : static_cast<std::size_t>(s.facets.back()) + 1;
+    for (FieldFile file : files) {
+        Field field;
+        if (is_file_of_a_mesh(file.path) || io::is_surface_file(file.path)) {
+            const Surface other = read_surface(file.path).value();
+            field = array_named(other.point_fields, other.cell_fields, file);
+            field.name = file.name;
+            if (other.points != s.points)
+                s.notes.push_back(
+                    {Note::Kind::guessed,
+                     "the nodes are in the order of the surface, whose coordinates are others: field " + file.name,
+                     file.path, true});
+        } else {
+            field = io::read_field_file(file.name, file.path, file.column, s.notes).value();
+        }
+        const auto width = static_cast<std::size_t>(field.components);
+        const std::size_t rows = field.data.size() / width;
+        const bool whole = file.of == FieldFile::Of::cells && rows == s.cell_count();  // an array of triangles
+        const bool of_cells = whole || is_of_cells(file, rows, s.point_count(), facets);
+        std::vector<Field>& fields = of_cells ? s.cell_fields : s.point_fields;
+        if (sample::field_named(fields, file.name) != nullptr) refuse_second(file);
+        if (of_cells && !whole) {
+            const std::vector<double> of_facets = std::exchange(field.data, {});
+            for (std::size_t t = 0; t < s.cell_count(); ++t) {
+                const auto first =
+                    of_facets.begin() +
+                    static_cast<std::ptrdiff_t>(width * static_cast<std::size_t>(s.facet(static_cast<Mesh::Index>(t))));
+                field.data.insert(field.data.end(), first, first + static_cast<std::ptrdiff_t>(width));
+            }
+        }
+        fields.push_back(std::move(field));
+    }
 }
 
 FieldChoice field_of_numbers(const Mesh& mesh, const std::string& name, std::deque<Field>& made, Notes& notes) {

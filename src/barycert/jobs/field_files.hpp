@@ -36,6 +36,10 @@ Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes);
 /// neither nodes nor cells, or, where it is not said which, of both.
 FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace);
 
+/// Adds the fields of all files to the surface: a row of numbers for each node, or for each cell as users count them.
+/// Refused: as for meshes; an array of another file than of a surface.
+void add_fields(const std::vector<FieldFile>& files, Surface& surface);
+
 /// So that columns have one name each, a field of cells that has the name of one of nodes is called cell:NAME from then
 /// on, and a field with a name that rows have themselves point:NAME or cell:NAME.
 void give_each_a_name(Mesh& mesh);

@@ -7,7 +7,10 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
+#include "barycert/base/input_file.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/io/npz/weights_file.hpp"
+#include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/stream.hpp"
 #include "barycert/map.hpp"
 #include "barycert/surface_locator.hpp"
@@ -126,10 +129,9 @@ void refuse_what_is_of_meshes(const SampleJob& job) {
     const auto only_meshes = [&](bool given, const char* member) {
         if (given) refuse(job.mesh, std::string(member) + " is for meshes", "", "a surface", "leave it out");
     };
-    only_meshes(!job.map.empty() || !job.save_map.empty(), "a map");
-    only_meshes(!job.weights.empty(), "job.weights");
     only_meshes(job.all.has_value(), "job.all");
-    only_meshes(!job.series.empty() || !job.field_files.empty(), "a field from a file of its own");
+    only_meshes(job.all_steps || job.step.made(), "job.step");
+    only_meshes(!job.series.empty(), "a series of fields");
     only_meshes(job.options.rounding == Rounding::plain, "job.rounding");
     const Outside outside = job.options.outside.kind;
     if (outside != Outside::nan && outside != Outside::nearest)
@@ -158,99 +160,177 @@ Feature feature_of(const SurfaceNearest& n) {
     return n.nodes[2] >= 0 ? Feature::face : n.nodes[1] >= 0 ? Feature::edge : Feature::vertex;
 }
 
-/// `seconds`: what reading it took.
-SampleReport sample_surface(const SampleJob& job, const Surface& s, double seconds) {
-    refuse_what_is_of_meshes(job);
-    jobs::Stopwatch watch;
-    SampleReport report;
-    report.command = "sample";
-    report.mesh = job.mesh;
-    report.surface = true;
-    report.reason = "the nearest triangle, and the nearest point of it, are exact";
-    report.output = job.output;
-    report.points = job.points;
-    report.nodes = s.point_count();
-    report.cells = s.cell_count();
-    report.notes = s.notes;
-    report.outside = {.kind = Outside::nearest, .fill = 0, .limit = job.options.outside.limit};
-    report.threads = base::threads_of(job.options.threads);
-    report.seconds.mesh = seconds;
-    const std::unique_ptr<PointSource> points = points_of(job, 3, NonfinitePoints::error);
-    const Notes notes = points->notes();
-    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
-    const auto fields = chosen_fields(job, s);
-    TableFormat format{.dimension = 3, .distances = true, .carried = points->carried()};
-    for (const auto& [field, of_cells] : fields) format.fields.push_back({field->name, field->components});
-    format.vtk_data = job.vtk_data.value_or(VtkData::raw);
-    report.columns = format.columns();
-    const std::unique_ptr<TableSink> sink = open_table(job.output, format).value();
-    jobs::tell_stage(job, "sorting triangles");
-    const SurfaceLocator locator = SurfaceLocator::build(s, {.threads = job.options.threads}).value();
-    report.seconds.build = watch.lap();
+/// Points and their nearest points, block after block.
+class SurfaceSampling {
+public:
+    SurfaceSampling(const SampleJob& job, const Surface& surface, double seconds_to_read)
+        : job_(job), surface_(surface), fields_(chosen_fields(job, surface)) {
+        report_.command = "sample";
+        report_.mesh = job.mesh;
+        report_.surface = true;
+        report_.reason = "the nearest triangle, and the nearest point of it, are exact";
+        report_.output = job.output;
+        report_.weights = job.weights;
+        report_.points = job.map.empty() ? job.points : job.map;
+        report_.nodes = surface.point_count();
+        report_.cells = surface.cell_count();
+        report_.notes = surface.notes;
+        report_.outside = {.kind = Outside::nearest, .fill = 0, .limit = job.options.outside.limit};
+        report_.threads = base::threads_of(job.options.threads);
+        report_.seconds.mesh = seconds_to_read;
+    }
 
-    const std::size_t width = report.columns.size();
-    constexpr std::size_t block = std::size_t{1} << 18;
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> at, values, part, distances;
-    std::vector<Column> carried;
-    for (;;) {
-        at.clear();
-        const std::size_t count = points->read(block, at).value();
-        if (count == 0) break;
-        points->take_carried(carried);
-        report.seconds.read += watch.lap();
-        std::vector<SurfaceNearest> found(count);
+    SampleReport run() {
+        open();
+        jobs::tell_stage(job_, "sorting triangles");
+        const SurfaceLocator locator = SurfaceLocator::build(surface_, {.threads = job_.options.threads}).value();
+        report_.seconds.build = watch_.lap();
+        while (read(locator)) {
+            report_.seconds.sample += watch_.lap();
+            fill(locator);
+            report_.seconds.sample += watch_.lap();
+            write();
+            report_.seconds.write += watch_.lap();
+            report_.rows += cells_.size();
+            jobs::tell_stage(job_, "points", report_.rows);
+        }
+        if (sink_) sink_->commit().value();
+        if (save_) save_->commit().value();
+        if (weights_) weights_->commit().value();
+        report_.seconds.write += watch_.lap();
+        const JobSeconds& t = report_.seconds;
+        report_.seconds.total = t.mesh + t.build + t.read + t.sample + t.write;
+        return std::move(report_);
+    }
+
+private:
+    static constexpr std::size_t block = std::size_t{1} << 18;
+    static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+    void open() {
+        TableFormat format{.dimension = 3, .distances = true};
+        if (job_.map.empty()) {
+            points_ = points_of(job_, 3, NonfinitePoints::error);
+            const Notes notes = points_->notes();
+            report_.notes.insert(report_.notes.end(), notes.begin(), notes.end());
+            format.carried = points_->carried();
+        } else {
+            map_.emplace(MapReader::open(job_.map, surface_).value());
+            report_.from = PointsFrom::map;
+        }
+        for (const auto& [field, of_cells] : fields_) format.fields.push_back({field->name, field->components});
+        format.vtk_data = job_.vtk_data.value_or(VtkData::raw);
+        report_.columns = format.columns();
+        if (!job_.output.empty()) sink_ = open_table(job_.output, format).value();
+        if (!job_.save_map.empty()) save_.emplace(MapWriter::open(job_.save_map, surface_).value());
+        if (!job_.weights.empty()) weights_ = io::WeightsFile::open(job_.weights, surface_.point_count()).value();
+    }
+
+    /// The next points, and their nearest ones. False after the last.
+    bool read(const SurfaceLocator& locator) {
+        const int threads = job_.options.threads;
+        rows_.points.clear();
+        const std::size_t count = map_ ? map_->read(block, rows_).value() : points_->read(block, rows_.points).value();
+        if (points_) points_->take_carried(rows_.carried);
+        report_.seconds.read += watch_.lap();
+        near_.assign(count, {});
+        if (map_) {
+            locator.nearest_on(rows_.cells, rows_.points, near_, threads).value();
+            for (SurfaceNearest& n : near_) {
+                if (n.distance > report_.outside.limit) n = {};
+            }
+        } else {
+            locator.nearest(rows_.points, report_.outside.limit, near_, threads).value();
+        }
+        return count != 0;
+    }
+
+    void fill(const SurfaceLocator& locator) {
+        const int threads = job_.options.threads;
+        const std::size_t count = near_.size(), width = report_.columns.size();
         std::vector<SurfaceLocation> places(count);
-        locator.nearest(at, report.outside.limit, found, job.options.threads).value();
-        if (locator.turned() != Turned::open) locator.locate(at, places, job.options.threads).value();
-        std::vector<Mesh::Index> cells(count);
-        std::vector<Feature> features(count);
-        values.assign(width * count, nan);
-        distances.resize(count);
+        if (locator.turned() != Turned::open) locator.locate(rows_.points, places, threads).value();
+        cells_.resize(count);
+        rows_.features.resize(count);
+        rows_.distances.resize(count);
+        rows_.values.assign(width * count, nan);
         std::size_t column = 0;
-        for (const auto& [field, of_cells] : fields) {
+        for (const auto& [field, of_cells] : fields_) {
             const auto components = static_cast<std::size_t>(field->components);
-            part.resize(components * count);
-            locator.values(*field, of_cells, at, found, part, job.options.threads).value();
+            part_.resize(components * count);
+            locator.values(*field, of_cells, rows_.points, near_, part_, threads).value();
             for (std::size_t i = 0; i < count; ++i)
-                std::copy_n(&part[components * i], components, &values[width * i + column]);
+                std::copy_n(&part_[components * i], components, &rows_.values[width * i + column]);
             column += components;
         }
         for (std::size_t i = 0; i < count; ++i) {
-            cells[i] = s.facet(found[i].cell);
-            features[i] = feature_of(found[i]);
+            const SurfaceNearest& n = near_[i];
+            cells_[i] = surface_.facet(n.cell);
+            rows_.features[i] = feature_of(n);
             // Negative inside.
-            distances[i] = found[i].cell < 0 ? nan : places[i].winding != 0 ? -found[i].distance : found[i].distance;
-            const bool on = found[i].cell >= 0 && found[i].distance == 0;
-            report.counts.locations.add(on ? features[i] : Feature::outside);
-            report.counts.without_value += found[i].cell < 0 ? 1 : 0;
-            report.counts.snapped += found[i].cell >= 0 && !on ? 1 : 0;
-            if (found[i].cell >= 0) report.counts.farthest = std::max(report.counts.farthest, found[i].distance);
+            rows_.distances[i] = n.cell < 0 ? nan : places[i].winding != 0 ? -n.distance : n.distance;
+            const bool on = n.cell >= 0 && n.distance == 0;
+            report_.counts.locations.add(on ? rows_.features[i] : Feature::outside);
+            report_.counts.without_value += n.cell < 0 ? 1 : 0;
+            report_.counts.snapped += n.cell >= 0 && !on ? 1 : 0;
+            if (n.cell >= 0) report_.counts.farthest = std::max(report_.counts.farthest, n.distance);
         }
-        report.seconds.sample += watch.lap();
-        sink->write({3, report.rows, at, cells, features, values, distances, carried}).value();
-        report.seconds.write += watch.lap();
-        report.rows += count;
-        jobs::tell_stage(job, "points", report.rows);
     }
-    sink->commit().value();
-    report.seconds.write += watch.lap();
-    const JobSeconds& t = report.seconds;
-    report.seconds.total = t.mesh + t.build + t.read + t.sample + t.write;
-    return report;
-}
+
+    void write() {
+        TableView view{
+            3, report_.rows, rows_.points, cells_, rows_.features, rows_.values, rows_.distances, rows_.carried};
+        if (sink_) sink_->write(view).value();
+        if (!weights_ && !save_) return;
+        std::vector<Mesh::Index> triangles;
+        std::vector<std::uint8_t> counts;
+        std::vector<Mesh::Index> nodes;
+        std::vector<double> weights;
+        for (const SurfaceNearest& n : near_) {
+            triangles.push_back(n.cell);
+            const std::size_t before = nodes.size();
+            for (std::size_t k = 0; k < 3 && n.cell >= 0; ++k) {
+                if (n.nodes[k] < 0 || n.weights[k] == 0) continue;
+                nodes.push_back(n.nodes[k]);
+                weights.push_back(n.weights[k]);
+            }
+            counts.push_back(static_cast<std::uint8_t>(nodes.size() - before));
+        }
+        if (weights_) weights_->write(counts, nodes, weights, cells_).value();
+        view.cells = triangles;
+        if (save_) save_->write(view).value();
+    }
+
+    const SampleJob& job_;
+    const Surface& surface_;
+    std::vector<std::pair<const Field*, bool>> fields_;  ///< and whether of cells
+    jobs::Stopwatch watch_;
+    SampleReport report_;
+    std::unique_ptr<PointSource> points_;
+    std::optional<MapReader> map_;
+    std::unique_ptr<TableSink> sink_;
+    std::optional<MapWriter> save_;
+    std::unique_ptr<io::WeightsFile> weights_;
+    Table rows_;  ///< of the block
+    std::vector<SurfaceNearest> near_;
+    std::vector<Mesh::Index> cells_;  ///< as users count them
+    std::vector<double> part_;
+};
 
 /// Nothing if the mesh is one, or cannot be read as a surface either.
 std::optional<Result<SampleReport>> at_surface(const SampleJob& job) {
     try {
+        const base::RunFiles run_files;
+        const jobs::ThreadLimit limit(job.options.threads);
         jobs::Stopwatch watch;
-        const Result<std::variant<Mesh, Surface>> read =
-            read_mesh_or_surface(job.mesh, {.threads = job.options.threads});
-        if (!read && io::is_surface_file(job.mesh)) return read.error();
-        const auto* const surface = read ? std::get_if<Surface>(&*read) : nullptr;
-        if (surface == nullptr) return std::nullopt;
         check_job(job, {});
-        return sample_surface(job, *surface, watch.lap());
+        Result<std::variant<Mesh, Surface>> read = read_mesh_or_surface(job.mesh, {.threads = job.options.threads});
+        if (!read && io::is_surface_file(job.mesh)) return read.error();
+        auto* const surface = read ? std::get_if<Surface>(&*read) : nullptr;
+        if (surface == nullptr) return std::nullopt;
+        refuse_what_is_of_meshes(job);
+        jobs::add_fields(job.field_files, *surface);
+        return SurfaceSampling(job, *surface, watch.lap()).run();
     } catch (const Exception& problem) {
         return problem.error();
     }

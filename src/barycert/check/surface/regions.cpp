@@ -150,9 +150,10 @@ private:
         PlcSeed seed{hole, number, -1, -1};
         if (s_.triangles.index.box_holds(p)) {
             boxes().for_each_meeting(box_of(s_.triangles.index, &p, 1), [&](std::size_t f) {
-                if (face_around(3, s_.triangles.facets[f], p)[0] >= 0)
-                    seed.facet = s_.surface.facet(s_.triangles.number(f));
-                return seed.facet < 0;
+                const auto facet = s_.surface.facet(s_.triangles.number(f));
+                if ((seed.facet < 0 || facet < seed.facet) && face_around(3, s_.triangles.facets[f], p)[0] >= 0)
+                    seed.facet = facet;
+                return true;
             });
         }
         const auto chamber = seed.facet < 0 ? chamber_at(p) : std::nullopt;

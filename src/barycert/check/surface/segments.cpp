@@ -26,6 +26,23 @@ std::vector<Segment> segments_of(const PlcFacet& facet) {
     return all;
 }
 
+/// Two segments in space have a point in common that is no common node. Then they lie in one plane, and so do their
+/// projections along each axis; along one that is not in the plane, nothing else falls together.
+bool segments_conflict(const PlacedFacet& f, const PlacedFacet& g) {
+    if (orient3d(f.at[0], f.at[1], g.at[0], g.at[1]) != Sign::zero) return false;
+    for (std::size_t dropped = 0; dropped < 3; ++dropped) {
+        std::array<PlacedFacet, 2> flat{f, g};
+        std::array<std::array<double, 2>, 4> at{};
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double* const p = flat[i / 2].at[i % 2];
+            at[i] = {p[dropped == 0 ? 1 : 0], p[dropped == 2 ? 1 : 2]};
+            flat[i / 2].at[i % 2] = at[i].data();
+        }
+        if (proper(2, flat[0]) && proper(2, flat[1]) && !facets_conflict(2, flat[0], flat[1])) return false;
+    }
+    return true;
+}
+
 class Segments {
 public:
     Segments(SurfaceParts& s, const Plc& plc) : s_(s), plc_(plc) {
@@ -62,6 +79,26 @@ public:
         });
     }
 
+    /// Segments of no triangle that meet one another. Along the first axis each is held against those that begin before
+    /// it ends.
+    void find_meeting() {
+        std::vector<PlacedFacet> all;
+        for (const auto& entry : facets_of_) {
+            PlacedFacet f{{entry.first[0], entry.first[1], -1}, {point(entry.first[0]), point(entry.first[1])}};
+            if (!std::equal(f.at[0], f.at[0] + 3, f.at[1])) all.push_back(f);
+        }
+        const auto low = [](const PlacedFacet& f) { return std::min(*f.at[0], *f.at[1]); };
+        std::ranges::stable_sort(all, {}, low);
+        for (auto f = all.begin(); f != all.end(); ++f) {
+            const double end = std::max(*f->at[0], *f->at[1]);
+            for (auto g = f + 1; g != all.end() && low(*g) <= end; ++g) {
+                if (segments_conflict(*f, *g))
+                    s_.defects.add(DefectKind::segments_meet, {.nodes = {f->nodes[0], f->nodes[1], -1},
+                                                               .other_nodes = {g->nodes[0], g->nodes[1], -1}});
+            }
+        }
+    }
+
     /// Segments and nodes of no triangle, on triangles or across them.
     void find_loose() {
         std::vector<Place> place(s_.surface.point_count(), -1);  // of nodes of triangles
@@ -69,7 +106,6 @@ public:
             place[static_cast<std::size_t>(s_.triangles.node(static_cast<Place>(i)))] = s_.triangles.same[i];
         if (facets_of_.empty() && std::ranges::find(place, -1) == place.end()) return;
         const BoxGroups boxes = make_cell_tree(s_.triangles.index);
-        const auto point = [&](Mesh::Index n) { return &s_.surface.points[3 * static_cast<std::size_t>(n)]; };
         for (const auto& entry : facets_of_) {
             const Segment& segment = entry.first;
             PlacedFacet f;
@@ -135,6 +171,8 @@ public:
     }
 
 private:
+    const double* point(Mesh::Index n) const { return &s_.surface.points[3 * static_cast<std::size_t>(n)]; }
+
     SurfaceParts& s_;
     const Plc& plc_;
     std::map<Segment, std::set<std::size_t>> facets_of_;
@@ -145,6 +183,7 @@ private:
 void check_segments(SurfaceParts& s, const Plc& plc) {
     Segments segments(s, plc);
     segments.find_inner();
+    segments.find_meeting();
     segments.find_loose();
     segments.measure_planes();
 }

@@ -18,6 +18,13 @@ SurfaceNearest none() {
     return nearest;
 }
 
+void round_on(const Point3& p, const NearFeature& f, SurfaceNearest& to) {
+    to.distance = distance_to(p, f);
+    to.point = projection_on(p, f);
+    for (double& x : to.point) x += 0.0;  // a zero has no sign
+    to.weights = weights_of(p, f);
+}
+
 /// Points side by side in space, at most `most` of them.
 class Block {
 public:
@@ -171,11 +178,7 @@ private:
             f.nodes[static_cast<std::size_t>(f.count)] = node;
             f.at[static_cast<std::size_t>(f.count++)] = {at[0], at[1], at[2]};
         }
-        const Point3 p{query.point[0], query.point[1], query.point[2]};
-        query.to->distance = distance_to(p, f);
-        query.to->point = projection_on(p, f);
-        for (double& x : query.to->point) x += 0.0;  // a zero has no sign
-        query.to->weights = weights_of(p, f);
+        round_on({query.point[0], query.point[1], query.point[2]}, f, *query.to);
     }
 
     void exact(const Query& query) const {
@@ -234,6 +237,25 @@ void SurfaceData::nearest(std::span<const double* const> points, double limit,
         if (block.full()) block.finish();
     }
     block.finish();
+}
+
+bool SurfaceData::nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const {
+    NearCell cell{3, true};
+    const Mesh::Index* const corners = &surface->cells[3 * static_cast<std::size_t>(triangle)];
+    std::copy_n(corners, 3, cell.nodes.begin());
+    std::sort(cell.nodes.begin(), cell.nodes.begin() + 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double* const at = &surface->points[3 * static_cast<std::size_t>(cell.nodes[i])];
+        cell.at[i] = {at[0], at[1], at[2]};
+    }
+    if (!index::proper(3, {{}, {cell.at[0].data(), cell.at[1].data(), cell.at[2].data()}})) return false;
+    const Point3 point{p[0], p[1], p[2]};
+    NearFeature f;
+    nearest_feature(cell, point, guess_nearest(cell, point).mask, f);
+    to.cell = triangle;
+    to.nodes = f.nodes;
+    round_on(point, f, to);
+    return true;
 }
 
 }  // namespace barycert::locate

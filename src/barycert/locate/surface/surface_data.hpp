@@ -42,6 +42,8 @@ struct SurfaceData {
     SurfaceLocation locate_by_map(const double* p) const;
     /// Points are best in the order of space.
     void nearest(std::span<const double* const> points, double limit, std::span<SurfaceNearest* const> to) const;
+    /// False if the triangle has no area.
+    bool nearest_on(Mesh::Index triangle, const double* p, SurfaceNearest& to) const;
     std::vector<SurfaceHit> hits(const double* a, const double* b, bool ray) const;
 
     /// Windings that triangles between p and the end of a ray along the first axis add to the point at its end, and the

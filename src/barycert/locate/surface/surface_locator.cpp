@@ -1,6 +1,7 @@
 #include "barycert/surface_locator.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -162,6 +163,24 @@ Status SurfaceLocator::nearest(std::span<const double> points, double limit, std
             nearest_of_block(*data_, points, limit, b * block, std::min(count, (b + 1) * block), found);
         });
     });
+    return Done{};
+}
+
+Status SurfaceLocator::nearest_on(std::span<const Mesh::Index> triangles, std::span<const double> points,
+                                  std::span<SurfaceNearest> found, int threads) const {
+    const ExactEnvironment environment;
+    if (points.size() != 3 * triangles.size() || found.size() != triangles.size())
+        return Error{.what = "as many triangles and places for results as points"};
+    if (Status status = check_cells(triangles, data_->surface->cell_count()); !status) return status.error();
+    if (Status status = check_finite(points, 3); !status) return status.error();
+    std::atomic<bool> flat{false};
+    base::in_arena(threads, found.size(), [&] {
+        base::parallel_for_each(found.size(), 256, [&](std::size_t i) {
+            found[i] = {};
+            if (triangles[i] >= 0 && !data_->nearest_on(triangles[i], &points[3 * i], found[i])) flat = true;
+        });
+    });
+    if (flat) return Error{.what = "a triangle of zero area, on which no point is nearest"};
     return Done{};
 }
 

@@ -1,10 +1,14 @@
 // What a check of a mesh found, for people.
 
 #include <algorithm>
+#include <map>
 
+#include "barycert/io/png/png_file.hpp"
+#include "barycert/jobs.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/document.hpp"
+#include "barycert/report/common/picture.hpp"
 
 namespace barycert {
 
@@ -285,7 +289,31 @@ Document fix_document(const FixedMesh& fixed) {
     return d;
 }
 
-Document check_document(const CheckReport& r, const Mesh& mesh, const std::string& name, const FixedMesh* fixed) {
+/// As a picture of a page.
+std::string surface_figure(const CheckReport& r, const Surface& surface) {
+    const Result<Image> image = draw_checked(r, surface);
+    if (!image) return "";
+    std::map<Rgba, std::uint8_t> indices;
+    std::vector<io::Colour> colours;
+    std::vector<std::uint8_t> pixels;
+    for (std::int32_t j = 0; j < image->height; ++j) {
+        for (std::int32_t i = 0; i < image->width; ++i) {
+            const Rgba c = image->pixel(i, j);
+            const auto [at, is_new] = indices.try_emplace(c, static_cast<std::uint8_t>(colours.size()));
+            if (is_new) colours.push_back({c[0], c[1], c[2]});
+            pixels.push_back(at->second);
+        }
+    }
+    const bool marked = std::ranges::any_of(r.measures.defects, [](DefectSet d) { return d != 0; });
+    return fmt::format(
+        "<figure><img src=\"{}\" alt=\"the surface from two sides\" width=\"{}\" height=\"{}\"/>\n"
+        "<figcaption>In front, and from behind.{}</figcaption></figure>\n",
+        data_uri("image/png", io::indexed_png(static_cast<std::size_t>(image->width), pixels, colours).value()),
+        image->width, image->height, marked ? " Red: triangles with defects." : "");
+}
+
+Document check_document(const CheckReport& r, const Mesh& mesh, const std::string& name, const FixedMesh* fixed,
+                        const Surface* surface = nullptr) {
     Document d;
     d.title = name + (r.certified() ? fmt::format(": certified{}", for_straight_sides(r.curved)) : ": NOT certified");
     d.heading = (r.surface ? "Surface certificate of " : "Mesh certificate of ") + name;
@@ -307,6 +335,7 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
     tell_defects(d, r, true, "Defects and remedies");
     if (fixed != nullptr) d.append(fix_document(*fixed), For::page);
     if (drawn) d.add(Pictures{[&r, &mesh] { return exhibits(r, mesh); }}, For::page);
+    if (surface != nullptr) d.add(Pictures{[&r, surface] { return surface_figure(r, *surface); }}, For::page);
     tell_contacts(d, r);
     if (r.surface && r.cells != 0) {
         tell_surface(d, r);
@@ -350,6 +379,13 @@ std::string fix_text(const FixedMesh& fixed, const TerminalStyle& style) {
 std::string check_html(const CheckReport& report, const Mesh& mesh, const std::string& name, const FixedMesh* fixed) {
     const ExactEnvironment environment;
     return page_text(check_document(report, mesh, name, fixed));
+}
+
+std::string check_html(const CheckReport& report, const Surface& surface, const std::string& name) {
+    const ExactEnvironment environment;
+    Mesh none;
+    none.index_base = surface.index_base;
+    return page_text(check_document(report, none, name, nullptr, &surface));
 }
 
 }  // namespace barycert

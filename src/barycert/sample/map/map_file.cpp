@@ -13,8 +13,10 @@
 
 namespace barycert {
 
-std::uint64_t mesh_fingerprint(const Mesh& mesh) {
-    const ExactEnvironment environment;
+namespace {
+
+/// Of a mesh or a surface.
+std::uint64_t fingerprint(const auto& mesh) {
     std::uint64_t h = sample::map_step(0, static_cast<std::uint64_t>(mesh.dimension));
     h = sample::map_step(h, mesh.points.size());
     for (const double x : mesh.points)
@@ -26,6 +28,21 @@ std::uint64_t mesh_fingerprint(const Mesh& mesh) {
         h = sample::map_step(h, high << 32 | low);
     }
     return h;
+}
+
+sample::MapHeader header_of(const auto& mesh, bool all) {
+    return {mesh.dimension, all, 0, mesh.point_count(), mesh.cell_count(), fingerprint(mesh)};
+}
+
+}  // namespace
+
+std::uint64_t mesh_fingerprint(const Mesh& mesh) {
+    const ExactEnvironment environment;
+    return fingerprint(mesh);
+}
+std::uint64_t mesh_fingerprint(const Surface& surface) {
+    const ExactEnvironment environment;
+    return fingerprint(surface);
 }
 
 namespace sample {
@@ -166,20 +183,19 @@ struct MapReaderData {
         return Done{};
     }
 
-    Status check_mesh(const Mesh& mesh) const {
-        const bool alike =
-            head.dimension == mesh.dimension && head.nodes == mesh.point_count() && head.cells == mesh.cell_count();
-        if (alike && head.fingerprint == mesh_fingerprint(mesh)) return Done{};
-        const auto size_of = [](int dimension, std::uint64_t nodes, std::uint64_t cells) {
-            return "one of " + std::to_string(nodes) + " nodes and " + std::to_string(cells) +
-                   (dimension == 2 ? " triangles" : " tetrahedra");
+    /// `is`: what it is held against; `cells`: as a word.
+    Status check(const MapHeader& is, const char* cells) const {
+        const bool alike = head.dimension == is.dimension && head.nodes == is.nodes && head.cells == is.cells;
+        if (alike && head.fingerprint == is.fingerprint) return Done{};
+        const auto size_of = [](std::uint64_t nodes, std::uint64_t count, const char* word) {
+            return "one of " + std::to_string(nodes) + " nodes and " + std::to_string(count) + ' ' + word;
         };
-        return Error{.what = "the map was made for another mesh",
-                     .file = name,
-                     .expected = size_of(head.dimension, head.nodes, head.cells),
-                     .found = alike ? "one of that size with other coordinates or cells"
-                                    : size_of(mesh.dimension, mesh.point_count(), mesh.cell_count()),
-                     .remedy = "name the mesh of the map, or create the map again for this mesh"};
+        return Error{
+            .what = "the map was made for another mesh",
+            .file = name,
+            .expected = size_of(head.nodes, head.cells, head.dimension == 2 ? "triangles" : "cells"),
+            .found = alike ? "one of that size with other coordinates or cells" : size_of(is.nodes, is.cells, cells),
+            .remedy = "name the mesh of the map, or create the map again for this mesh"};
     }
 
     Status next_block() {
@@ -239,9 +255,7 @@ struct MapReaderData {
 
 }  // namespace sample
 
-Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, bool all) {
-    const ExactEnvironment environment;
-    const sample::MapHeader head{mesh.dimension, all, 0, mesh.point_count(), mesh.cell_count(), mesh_fingerprint(mesh)};
+Result<MapWriter> MapWriter::begin(const std::string& path, const sample::MapHeader& head) {
     auto data = std::make_unique<sample::MapWriterData>(path, head);
     if (Status opened = data->file.status(); !opened) return opened.error();
     if (!data->file.can_replace())
@@ -252,6 +266,14 @@ Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, boo
     const std::array<char, sample::map_header_size> no_header{};  // a file without its end must not pass for a map
     data->file.write({no_header.data(), no_header.size()});
     return MapWriter(std::move(data));
+}
+Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, bool all) {
+    const ExactEnvironment environment;
+    return begin(path, header_of(mesh, all));
+}
+Result<MapWriter> MapWriter::open(const std::string& path, const Surface& surface) {
+    const ExactEnvironment environment;
+    return begin(path, header_of(surface, false));
 }
 
 Status MapWriter::write(const TableView& rows) {
@@ -290,14 +312,21 @@ MapWriter::MapWriter(MapWriter&&) noexcept = default;
 MapWriter& MapWriter::operator=(MapWriter&&) noexcept = default;
 MapWriter::~MapWriter() = default;
 
-Result<MapReader> MapReader::open(const std::string& path, const Mesh& mesh) {
-    const ExactEnvironment environment;
+Result<MapReader> MapReader::begin(const std::string& path, const sample::MapHeader& of, const char* cells) {
     Result<base::InputFile> opened = base::InputFile::open(path, "save the map to a regular file first");
     if (!opened) return opened.error();
     auto data = std::make_unique<sample::MapReaderData>(path, std::move(*opened));
     if (Status good = data->read_header(); !good) return good.error();
-    if (Status good = data->check_mesh(mesh); !good) return good.error();
+    if (Status good = data->check(of, cells); !good) return good.error();
     return MapReader(std::move(data));
+}
+Result<MapReader> MapReader::open(const std::string& path, const Mesh& mesh) {
+    const ExactEnvironment environment;
+    return begin(path, header_of(mesh, false), mesh.dimension == 2 ? "triangles" : "tetrahedra");
+}
+Result<MapReader> MapReader::open(const std::string& path, const Surface& surface) {
+    const ExactEnvironment environment;
+    return begin(path, header_of(surface, false), "triangles in space");
 }
 
 int MapReader::dimension() const {
