@@ -4,11 +4,8 @@
 #include <type_traits>
 
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/fixed_integer.hpp"
-#include "barycert/core/integer.hpp"
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/quadratic.hpp"
 

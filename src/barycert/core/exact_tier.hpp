@@ -16,7 +16,6 @@
 
 #include "barycert/core/integer.hpp"
 #include "barycert/core/lanes.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
 

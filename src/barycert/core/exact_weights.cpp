@@ -5,7 +5,6 @@
 #include <tuple>
 #include <type_traits>
 
-#include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/scaled_double.hpp"
 
@@ -51,7 +50,7 @@ int sign_of(const Integer& x) {
 
 /// sum += x * f, all in two's complement. `sum` has one limb more than x, of which there are `count`.
 void add_product(std::uint64_t* sum, const std::uint64_t* x, int count, std::uint64_t f) {
-    // The unsigned product less 2^64 x if f is negative and 2^(64 count) f if x is, as in fixed_integer.hpp.
+    // The unsigned product less 2^64 x if f is negative and 2^(64 count) f if x is, as in integer.hpp.
     const std::uint64_t f_mask = (f >> 63) != 0 ? ~std::uint64_t{0} : 0;
     const std::uint64_t x_mask = (x[count - 1] >> 63) != 0 ? ~std::uint64_t{0} : 0;
     std::uint64_t high = 0, above = 0;  // of the product so far; x one limb up, as far as it is to be taken off

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/integer.hpp"
 
 namespace barycert::core {
@@ -48,6 +47,8 @@ struct Unit {
 
     /// All numbers are below 2^bits() in this unit; below 1 if they are all zero.
     int bits() const { return top - exponent; }
+    /// Of two, that the unit is; 0 if all numbers are zero.
+    int power() const { return exponent == ScaledDouble::none ? 0 : exponent - 1074; }
 
     /// x as a multiple of this unit. Preconditions: x was added; Fixed<N> has more than bits() bits.
     template <class T>

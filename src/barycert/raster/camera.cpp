@@ -9,7 +9,6 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/scene.hpp"

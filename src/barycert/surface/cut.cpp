@@ -10,7 +10,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/surface.hpp"
