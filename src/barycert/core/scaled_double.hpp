@@ -91,15 +91,20 @@ struct Lattice {
     const Unit (&units)[d];
 
     T at(int i, int k) const { return units[k].template multiple<T>(parts[i][k]); }
+    /// The same numbers as integers of another type.
+    template <class Other>
+    Lattice<count, d, Other> in() const {
+        return {parts, units};
+    }
     /// Point i less point j. Inline, for GCC 12 folds the copies of different `count` into one and then warns of it.
     [[gnu::always_inline]] void difference(int i, int j, T (&out)[d]) const {
         for (int k = 0; k < d; ++k) out[k] = at(i, k) - at(j, k);
     }
 };
 
-/// Calls decide(lattice) with number(i, k) of point i on axis k as integers of the narrowest type that has 3 bits more
-/// than they need: each axis in a unit of its own, or all in one.
-template <int count, int d, class Number, class Decide>
+/// Calls decide(lattice) with number(i, k) of point i on axis k as integers of the narrowest type that has `room` bits
+/// more than they need: each axis in a unit of its own, or all in one.
+template <int count, int d, int room = 3, class Number, class Decide>
 auto with_lattice(Number number, bool common, Decide decide) {
     ScaledDouble parts[count][d];
     Unit units[d];
@@ -113,7 +118,7 @@ auto with_lattice(Number number, bool common, Decide decide) {
         for (int k = 1; k < d; ++k) units[0].add(units[k]);
         std::fill_n(units, d, units[0]);
     }
-    return with_integers<3>(max_bits(units), [&]<class T>() { return decide(Lattice<count, d, T>{parts, units}); });
+    return with_integers<room>(max_bits(units), [&]<class T>() { return decide(Lattice<count, d, T>{parts, units}); });
 }
 
 }  // namespace barycert::core
