@@ -89,7 +89,7 @@ formulas::Fractions<s, Integer> as_integers(const formulas::Fractions<s, Number>
 /// All components, each in integers of the narrowest type that has room.
 template <Simplex s, class Number>
 bool values_of(const formulas::Fractions<s, Number>& w, const double* values, int components, double* out) {
-    if (as_integer(w.denominator).sign() == 0) return false;
+    if (w.denominator.sign() == 0) return false;
     constexpr int nodes = vertex_count(s) + mid_node_count(s);
     for (int c = 0; c < components; ++c) {
         const auto number = [&](int i, int) { return values[nodes * c + i]; };
@@ -171,8 +171,7 @@ void values_of(const Projected<T>& p, const double* values, int components, doub
     for (int c = 0; c < components; ++c) {
         const auto given = [&](int i) { return values[components * i + c]; };
         bool finite = true;
-        for (int i = 0; i < 3; ++i)
-            finite = finite && (std::isfinite(given(i)) || as_integer(p.numerator[i]).sign() == 0);
+        for (int i = 0; i < 3; ++i) finite = finite && (std::isfinite(given(i)) || p.numerator[i].sign() == 0);
         const auto number = [&](int i, int) { return std::isfinite(given(i)) ? given(i) : 0; };
         out[c] = with_lattice<3, 1>(number, false, [&]<class V>(const Lattice<3, 1, V>& f) {
             if (!finite) return nan;
@@ -208,7 +207,7 @@ bool exact_perspective(PerspectiveAnswer what, const double* vertices, const dou
         Projected<T> p;
         project(lattice, p);
         // The depths' product is zero exactly if the area is: no depth is.
-        if (as_integer(p.depth).sign() == 0 || as_integer(p.denominator).sign() == 0) return false;
+        if (p.depth.sign() == 0 || p.denominator.sign() == 0) return false;
         if (what == PerspectiveAnswer::values) {
             values_of(p, values, components, out);
         } else if (what == PerspectiveAnswer::depth) {

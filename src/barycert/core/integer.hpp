@@ -186,6 +186,9 @@ struct Fixed {
     std::array<std::uint64_t, N> limbs;  ///< the least significant first
 
     bool negative() const { return (limbs[N - 1] >> 63) != 0; }
+    int sign() const {
+        return negative() ? -1 : std::any_of(limbs.begin(), limbs.end(), [](auto limb) { return limb != 0; }) ? 1 : 0;
+    }
 
     [[gnu::always_inline]] friend inline Fixed operator+(const Fixed& x, const Fixed& y) {
         Fixed r;
