@@ -141,8 +141,7 @@ private:
 
 /// The double itself.
 Fraction dyadic(double x) {
-    core::Unit unit;
-    unit.add(x);
+    const core::Unit unit{x};
     return {core::whole(x, unit), 1, unit.power()};
 }
 

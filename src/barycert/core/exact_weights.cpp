@@ -119,8 +119,7 @@ double ExactWeights::interpolate(std::span<const double> values) const {
 }
 
 int ExactWeights::compare(std::span<const double> values, double t) const {
-    Unit unit;
-    unit.add(t);
+    Unit unit{t};
     for (const double value : values) unit.add(value);
     // A fifth product, of the denominator, beside the four of interpolate(): at most two bits more.
     Integer sum = Integer() - numbers_[denominator] * unit.integer(t);

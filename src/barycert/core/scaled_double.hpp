@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <initializer_list>
 #include <type_traits>
 
 #include "barycert/core/integer.hpp"
@@ -34,6 +35,9 @@ struct Unit {
     int exponent = ScaledDouble::none;  ///< the unit is 2^(exponent - 1074)
     int top = 0;                        ///< all numbers are below 2^(top - 1074)
 
+    Unit(std::initializer_list<double> numbers = {}) {
+        for (const double x : numbers) add(x);
+    }
     void add(const ScaledDouble& x) {
         exponent = std::min(exponent, x.exponent);
         const int above = x.exponent + static_cast<int>(std::bit_width(x.mantissa));
