@@ -307,9 +307,8 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     sample::resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
     const locate::CellIndex& index = data_->index();
-    std::vector<double> whole(data_->hidden != 0 ? data_->width * count : 0);  // rows with what is hidden
-    const sample::BlockRows rows{out.cells.data(), out.features.data(),
-                                 data_->hidden != 0 ? whole.data() : out.values.data(),
+    out.values.resize(data_->width * count);
+    const sample::BlockRows rows{out.cells.data(), out.features.data(), out.values.data(),
                                  out.distances.empty() ? nullptr : out.distances.data()};
     constexpr std::size_t grain = std::size_t{1} << 13;
     const auto evaluate_rows = [&](std::size_t first, std::size_t last, SampleCounts& counts) {
@@ -333,7 +332,8 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
         return base::parallel_reduce(count, grain, SampleCounts{}, evaluate_rows,
                                      [](SampleCounts& all, const SampleCounts& part) { all.add(part); });
     });
-    if (data_->hidden != 0) sample::leave_out_hidden(*data_, whole.data(), count, out.values.data());
+    sample::leave_out_hidden(*data_, out.values.data(), count);
+    out.values.resize(data_->columns.size() * count);
     if (Status status = sample::apply_policies(points, finite.has_value(), options, first_point, out); !status)
         return status;
     out.counts.add(counts);
