@@ -263,30 +263,23 @@ private:
     }
 
     /// With depths and attributes that are each the exact function of the vertices' window coordinates, w and
-    /// attributes, rounded once.
+    /// attributes in perspective, rounded once.
     void draw_correct(const SortedTriangle& sorted) {
-        const auto components = static_cast<int>(n_);
-        const bool affine = scene_.interpolation == Interpolation::affine;
         std::array<double, 9> vertices;
         for (std::size_t i = 0; i < 3; ++i) {
             vertices[3 * i] = part_.window[2 * i];
             vertices[3 * i + 1] = part_.window[2 * i + 1];
             vertices[3 * i + 2] = part_.w[i];
         }
-        CorrectRows depth{part_.window, part_.z, 1}, linear{part_.window, part_.attributes, components};
-        std::vector<double> points, depths, values;
+        CorrectRows depth{part_.window, part_.z, 1};
+        std::vector<double> depths, values;
         draw_rows(sorted, [&](std::int32_t j, std::int32_t first, std::int32_t last, auto& out) {
             const auto count = static_cast<std::size_t>(last - first);
             depths.resize(count);
             depth.fill(j, first, last, depths.data());
             values.resize(n_ * count);
-            if (n_ != 0 && affine) {
-                linear.fill(j, first, last, values.data());
-            } else if (n_ != 0) {
-                // No error can occur: sizes fit, coordinates are finite, w > 0.
-                set_centres(j, first, last, points);
-                (void)perspective_values(vertices.data(), points, part_.attributes, components, values);
-            }
+            // No error can occur: sizes fit, coordinates are finite, w > 0.
+            (void)perspective_values(vertices.data(), depth.centres, part_.attributes, static_cast<int>(n_), values);
             out.clear();
             for (std::size_t i = 0; i < count; ++i) {
                 out.push_back(depths[i]);
@@ -298,7 +291,8 @@ private:
     /// Draws the part where it is in front, and counts the pixels that it covers.
     void draw_part() {
         const SortedTriangle sorted(part_.window.data(), image_.height);
-        if (scene_.rounding == Rounding::correct) return draw_correct(sorted);
+        const bool correct = scene_.rounding == Rounding::correct;
+        if (correct && n_ != 0 && scene_.interpolation != Interpolation::affine) return draw_correct(sorted);
         const std::vector<double> values = linear_values();
         const std::size_t linear = values.size() / 3;
         const auto draw = [&](auto rows) {
@@ -310,7 +304,7 @@ private:
             });
         };
         with_rows(sorted, part_.window.data(), values, static_cast<int>(linear), scene_.method,
-                  thick_enough(part_.window) ? Rounding::plain : Rounding::correct, draw);
+                  correct || !thick_enough(part_.window) ? Rounding::correct : Rounding::plain, draw);
     }
 
     const Scene& scene_;
