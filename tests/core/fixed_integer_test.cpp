@@ -1,5 +1,5 @@
 // Two's complement of fixed width against GMP, and doubles brought to a common unit.
-#include "barycert/core/fixed_integer.hpp"
+#include "barycert/core/integer.hpp"
 
 #include "barycert/core/scaled_double.hpp"
 #include "core/rational.hpp"

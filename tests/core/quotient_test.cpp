@@ -1,5 +1,5 @@
 // Quotients and integers rounded to doubles, held against the definition of rounding.
-#include "barycert/core/quotient.hpp"
+#include "barycert/core/integer.hpp"
 
 #include "core/rational.hpp"
 

@@ -14,7 +14,6 @@
 
 #include "barycert/base/random.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/integer.hpp"
 
 namespace barycert::testing_rational {

@@ -18,7 +18,7 @@ SOURCES = ["quotient.cpp", "exact_weights.cpp", "lanes.cpp", "predicates.cpp", "
 # Which sources to compile anew. The integers' inline functions are called from these two alone.
 INTEGERS = ["exact_weights.cpp", "quotient.cpp"]
 USERS = {
-    "integer.hpp": INTEGERS, "fixed_integer.hpp": INTEGERS, "scaled_double.hpp": INTEGERS,
+    "integer.hpp": INTEGERS, "scaled_double.hpp": INTEGERS,
     "numerators-inl.hpp": ["exact_weights.cpp", "lanes.cpp", "predicates.cpp"],
     "filter-inl.hpp": ["lanes.cpp"], "refinement-inl.hpp": ["lanes.cpp"],
     "error_free-inl.hpp": ["lanes.cpp"], "lane_loop-inl.hpp": ["lanes.cpp"],

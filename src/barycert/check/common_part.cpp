@@ -16,49 +16,9 @@ namespace {
 // Homogeneous coordinates, whole numbers: no quotient is ever put in lowest terms on the way, which for coordinates
 // over the whole range of doubles took all the time. Each axis has its own unit; what follows is affine.
 
-using Number = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
-using Vector = base::Vector3<Number>;
+using Number = core::WholeNumber;
+using Vector = core::WholeVector;
 using base::cross, base::dot, base::minus;
-
-/// Coordinates as multiples of a power of two, one an axis.
-class Lattice {
-public:
-    /// Of cells with so many corners.
-    Lattice(int d, std::size_t count, const Corners& a, const Corners& b)
-        : d_(static_cast<std::size_t>(d)), count_(count) {
-        for (std::size_t i = 0; i < count_; ++i) {
-            for (std::size_t k = 0; k < d_; ++k) {
-                units_[k].add(core::scaled(a[i][k]));
-                units_[k].add(core::scaled(b[i][k]));
-            }
-        }
-    }
-    std::vector<Vector> corners(const Corners& cell) const {
-        std::vector<Vector> all;
-        for (std::size_t i = 0; i < count_; ++i) all.push_back(at(cell[i]));
-        return all;
-    }
-    /// The unit of an axis as a power of two; any if all is zero.
-    int exponent(std::size_t k) const {
-        return units_[k].exponent == core::ScaledDouble::none ? 0 : units_[k].exponent - 1074;
-    }
-
-private:
-    Vector at(const double* p) const {
-        Vector v{};
-        for (std::size_t k = 0; k < d_; ++k) {
-            const core::ScaledDouble x = core::scaled(p[k]);
-            if (x.mantissa == 0) continue;
-            v[k] = x.mantissa;
-            v[k] <<= static_cast<unsigned>(x.exponent - units_[k].exponent);
-            if (x.negative) v[k] = -v[k];
-        }
-        return v;
-    }
-
-    std::size_t d_, count_;
-    std::array<core::Unit, 3> units_;
-};
 
 /// x / weight. The weight is positive.
 struct Point {
@@ -181,10 +141,8 @@ private:
 
 /// The double itself.
 Fraction dyadic(double x) {
-    const core::ScaledDouble s = core::scaled(x);
-    Number mantissa = s.mantissa;
-    if (s.negative) mantissa = -mantissa;
-    return {mantissa, 1, s.mantissa == 0 ? 0 : s.exponent - 1074};
+    const core::Unit unit{x};
+    return {core::whole(x, unit), 1, unit.power()};
 }
 
 /// The rounded point itself lies in both cells; in both interiors if `inside`.
@@ -201,8 +159,21 @@ bool lies_in(Simplex s, const Corners& cell, const double* point, bool inside) {
 
 CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a, const Corners& b) {
     const int d = space_dimension(simplex);
-    const Lattice lattice(d, static_cast<std::size_t>(vertex_count(simplex)), a, b);
-    const std::vector<Vector> p = lattice.corners(a), q = lattice.corners(b);
+    std::array<core::Unit, 3> units;
+    const auto for_coordinates = [&](const Corners& cell, const auto& visit) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(vertex_count(simplex)); ++i) {
+            for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) visit(i, k, cell[i][k]);
+        }
+    };
+    for (const Corners& cell : {a, b})
+        for_coordinates(cell, [&](std::size_t, std::size_t k, double x) { units[k].add(x); });
+    const auto whole = [&](const Corners& cell) {
+        std::vector<Vector> corners(static_cast<std::size_t>(vertex_count(simplex)));
+        for_coordinates(cell,
+                        [&](std::size_t i, std::size_t k, double x) { corners[i][k] = core::whole(x, units[k]); });
+        return corners;
+    };
+    const std::vector<Vector> p = whole(a), q = whole(b);
     std::vector<Point> all;
     add_extreme_points(p, q, all);
     add_extreme_points(q, p, all);
@@ -227,7 +198,7 @@ CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
         Number sum = 0;
         for (std::size_t i = 0; i < points.size(); ++i) sum += points[i].x[k] * factors[i];
-        const Fraction& mean = means.emplace_back(sum, denominator, lattice.exponent(k));
+        const Fraction& mean = means.emplace_back(sum, denominator, units[k].power());
         common.point[k] = mean.rounded();
         finite = finite && std::isfinite(common.point[k]);
         short_enough = short_enough && mean.size() <= max_bits;

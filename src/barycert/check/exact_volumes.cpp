@@ -3,8 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "barycert/core/integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quotient.hpp"
 
 namespace barycert::check {
 namespace {

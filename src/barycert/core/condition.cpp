@@ -7,7 +7,6 @@
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
 

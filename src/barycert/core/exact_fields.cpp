@@ -4,11 +4,8 @@
 #include <type_traits>
 
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/fixed_integer.hpp"
-#include "barycert/core/integer.hpp"
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/quadratic.hpp"
 
@@ -16,6 +13,11 @@ namespace barycert::core {
 namespace {
 
 namespace formulas = HWY_NAMESPACE;
+
+template <class Number, class Divisor>
+double rounded(const Number& number, const Divisor& divisor, int exponent) {
+    return round_quotient(as_integer(number), as_integer(divisor), exponent);
+}
 
 /// Cramer's rule: component k is the determinant of the edges with column k replaced by the values, over that of the
 /// edges.
@@ -57,10 +59,10 @@ static_assert(64 * (Integer::capacity - 2) >= 2 * (3 * 2099 + 3) + 2098 + 6);
 /// is below (1 + 3 * 6) * 3 * 2^(192 N + 64 M - 9) < 2^(192 N + 64 M - 3), the outer one below
 /// (4 + 6 * 6) * 9 * 2^(384 N + 64 M - 14) < 2^(384 N + 64 M - 5); in the plane below 13 * 2^(128 N + 64 M - 7) and
 /// 21 * 2^(256 N + 64 M - 10): no sum overflows.
-template <class T, Simplex s, class Number>
-double value(const formulas::Fractions<s, Number>& w, const ScaledDouble* parts, const Unit& unit) {
+template <Simplex s, class Number, int nodes, class T>
+double value(const formulas::Fractions<s, Number>& w, const Lattice<nodes, 1, T>& values) {
     constexpr int n = vertex_count(s);
-    const auto at = [&](int i) { return unit.multiple<T>(parts[i]); };
+    const auto at = [&](int i) { return values.at(i, 0); };
     using Inner = decltype(w.numerator[0] * at(0));
     using Outer = decltype(w.numerator[0] * Inner());
     Outer sum{};
@@ -72,7 +74,7 @@ double value(const formulas::Fractions<s, Number>& w, const ScaledDouble* parts,
         }
         sum = sum + w.numerator[i] * inner;
     }
-    return round_quotient(as_integer(sum), as_integer(w.denominator * w.denominator), unit.exponent - 1074);
+    return rounded(sum, w.denominator * w.denominator, values.units[0].exponent - 1074);
 }
 
 /// The same numbers without a fixed width.
@@ -87,20 +89,15 @@ formulas::Fractions<s, Integer> as_integers(const formulas::Fractions<s, Number>
 /// All components, each in integers of the narrowest type that has room.
 template <Simplex s, class Number>
 bool values_of(const formulas::Fractions<s, Number>& w, const double* values, int components, double* out) {
-    if (as_integer(w.denominator).sign() == 0) return false;
+    if (w.denominator.sign() == 0) return false;
     constexpr int nodes = vertex_count(s) + mid_node_count(s);
     for (int c = 0; c < components; ++c) {
-        ScaledDouble parts[nodes];
-        Unit unit;
-        for (int i = 0; i < nodes; ++i) {
-            parts[i] = scaled(values[nodes * c + i]);
-            unit.add(parts[i]);
-        }
-        out[c] = with_integers<4>(unit.bits(), [&]<class T>() {
+        const auto number = [&](int i, int) { return values[nodes * c + i]; };
+        out[c] = with_lattice<nodes, 1, 4>(number, false, [&]<class T>(const Lattice<nodes, 1, T>& f) {
             if constexpr (std::is_same_v<Number, Integer> || std::is_same_v<T, Integer>)
-                return value<Integer, s>(as_integers<s>(w), parts, unit);
+                return value(as_integers<s>(w), f.template in<Integer>());
             else
-                return value<T, s>(w, parts, unit);
+                return value(w, f);
         });
     }
     return true;
@@ -159,43 +156,30 @@ void project(const Lattice<4, 3, T>& lattice, Projected<T>& out) {
     out.depth = (window.denominator * (w[0] * w[1])) * w[2];
 }
 
-template <class Number, class Divisor>
-double rounded(const Number& number, const Divisor& divisor, int exponent) {
-    return round_quotient(as_integer(number), as_integer(divisor), exponent);
-}
-
 /// sum m_i f_i / m. Widths: values below 2^(64 M - 3) in M limbs give products below 2^(256 N + 64 M - 12) in
 /// 4 N + M limbs.
 template <class V, class Number>
-double value(const Number (&numerator)[3], const Integer& denominator, const ScaledDouble* parts, const Unit& unit) {
-    const auto product = [&](int i) { return numerator[i] * unit.multiple<V>(parts[i]); };
-    return rounded(product(0) + product(1) + product(2), denominator, unit.exponent - 1074);
+double value(const Number (&numerator)[3], const Integer& denominator, const Lattice<3, 1, V>& values) {
+    const auto product = [&](int i) { return numerator[i] * values.at(i, 0); };
+    return rounded(product(0) + product(1) + product(2), denominator, values.units[0].exponent - 1074);
 }
 
 /// `components` values.
 template <class T>
 void values_of(const Projected<T>& p, const double* values, int components, double* out) {
+    const auto whole = [&](int i) { return Integer(as_integer(p.numerator[i])); };
     for (int c = 0; c < components; ++c) {
-        ScaledDouble parts[3];
-        Unit unit;
+        const auto given = [&](int i) { return values[components * i + c]; };
         bool finite = true;
-        for (int i = 0; i < 3; ++i) {
-            double f = values[components * i + c];
-            if (!std::isfinite(f)) {
-                finite = finite && as_integer(p.numerator[i]).sign() == 0;
-                f = 0;
-            }
-            parts[i] = scaled(f);
-            unit.add(parts[i]);
-        }
-        const auto whole = [&](int i) { return Integer(as_integer(p.numerator[i])); };
-        if (!finite) {
-            out[c] = nan;
-        } else if (std::is_same_v<T, Integer> || unit.bits() > 64 - 3) {
-            out[c] = value<Integer>({whole(0), whole(1), whole(2)}, as_integer(p.denominator), parts, unit);
-        } else if constexpr (!std::is_same_v<T, Integer>) {
-            out[c] = value<Fixed<1>>(p.numerator, as_integer(p.denominator), parts, unit);
-        }
+        for (int i = 0; i < 3; ++i) finite = finite && (std::isfinite(given(i)) || p.numerator[i].sign() == 0);
+        const auto number = [&](int i, int) { return std::isfinite(given(i)) ? given(i) : 0; };
+        out[c] = with_lattice<3, 1>(number, false, [&]<class V>(const Lattice<3, 1, V>& f) {
+            if (!finite) return nan;
+            if constexpr (std::is_same_v<T, Integer> || !std::is_same_v<V, Fixed<1>>)
+                return value({whole(0), whole(1), whole(2)}, as_integer(p.denominator), f.template in<Integer>());
+            else
+                return value(p.numerator, as_integer(p.denominator), f);
+        });
     }
 }
 
@@ -223,7 +207,7 @@ bool exact_perspective(PerspectiveAnswer what, const double* vertices, const dou
         Projected<T> p;
         project(lattice, p);
         // The depths' product is zero exactly if the area is: no depth is.
-        if (as_integer(p.depth).sign() == 0 || as_integer(p.denominator).sign() == 0) return false;
+        if (p.depth.sign() == 0 || p.denominator.sign() == 0) return false;
         if (what == PerspectiveAnswer::values) {
             values_of(p, values, components, out);
         } else if (what == PerspectiveAnswer::depth) {

@@ -16,7 +16,6 @@
 
 #include "barycert/core/integer.hpp"
 #include "barycert/core/lanes.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/simplex.hpp"
 
@@ -53,21 +52,14 @@ public:
     bool leave_out_not_finite(std::span<double> values) const;
 
 private:
-    static constexpr int denominator = 4;   ///< its place behind the numerators
-    static constexpr int narrow_limbs = 8;  ///< of the widest product of four numbers of two limbs
-
+    static constexpr int denominator = 4;  ///< its place behind the numerators
     template <Simplex s>
     void solve(const double* vertices, const double* point);
-    template <class T>
-    void store(int i, const T& number);
-    int sign_of(int i) const;
+    int sign_of(int i) const { return numbers_[i].sign(); }
     bool has_part(int node, bool quadratic) const;
-    Magnitude magnitude(int i, std::uint64_t* buffer) const;
 
     int count_;
-    int limbs_ = 0;  ///< of each number in narrow_, two's complement; 0 if wide_ is used
-    std::uint64_t narrow_[5][narrow_limbs];
-    Integer wide_[5];
+    Integer numbers_[5];
 };
 
 /// The predicates of predicates.hpp.

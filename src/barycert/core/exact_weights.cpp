@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <type_traits>
 
-#include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/scaled_double.hpp"
 
@@ -28,43 +25,20 @@ auto with_points(const double* const (&points)[count], bool common, Decide decid
     return with_lattice<count, d>([&](int i, int k) { return points[i][k]; }, common, decide);
 }
 
-/// The magnitude of a number in two's complement.
-Magnitude absolute(const std::uint64_t* limbs, int count, std::uint64_t* buffer) {
-    if ((limbs[count - 1] >> 63) == 0) return {limbs, static_cast<std::size_t>(count)};
-    Carry borrow = 0;
-    for (int i = 0; i < count; ++i) buffer[i] = subtract_with_borrow(0, limbs[i], borrow);
-    return {buffer, static_cast<std::size_t>(count)};
-}
-
-int sign_of(const std::uint64_t* limbs, int count) {
-    if ((limbs[count - 1] >> 63) != 0) return -1;
-    return std::any_of(limbs, limbs + count, [](std::uint64_t limb) { return limb != 0; }) ? 1 : 0;
-}
-
+/// sum += x * f. Precondition: x has fewer limbs than the sum.
 template <int N>
-int sign_of(const Fixed<N>& x) {
-    return sign_of(x.limbs.data(), N);
-}
-int sign_of(const Integer& x) {
-    return x.sign();
-}
-
-/// sum += x * f, all in two's complement. `sum` has one limb more than x, of which there are `count`.
-void add_product(std::uint64_t* sum, const std::uint64_t* x, int count, std::uint64_t f) {
-    // The unsigned product less 2^64 x if f is negative and 2^(64 count) f if x is, as in fixed_integer.hpp.
-    const std::uint64_t f_mask = (f >> 63) != 0 ? ~std::uint64_t{0} : 0;
-    const std::uint64_t x_mask = (x[count - 1] >> 63) != 0 ? ~std::uint64_t{0} : 0;
-    std::uint64_t high = 0, above = 0;  // of the product so far; x one limb up, as far as it is to be taken off
-    Carry carry = 0, borrow = 0;
-    for (int i = 0; i < count; ++i) {
-        const UInt128 t = static_cast<UInt128>(x[i]) * f + high;
+void add_product(Fixed<N>& sum, const Integer& x, const Fixed<1>& f) {
+    const bool negative = (x.sign() < 0) != f.negative();
+    const std::uint64_t factor = f.negative() ? 0 - f.limbs[0] : f.limbs[0];
+    std::uint64_t high = 0;  // of the product so far
+    Carry carry = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+        const UInt128 t = static_cast<UInt128>(i < x.magnitude().size() ? x.magnitude()[i] : 0) * factor + high;
+        const auto limb = static_cast<std::uint64_t>(t);
         high = static_cast<std::uint64_t>(t >> 64);
-        const std::uint64_t limb = subtract_with_borrow(static_cast<std::uint64_t>(t), above, borrow);
-        sum[i] = add_with_carry(sum[i], limb, carry);
-        above = x[i] & f_mask;
+        sum.limbs[i] =
+            negative ? subtract_with_borrow(sum.limbs[i], limb, carry) : add_with_carry(sum.limbs[i], limb, carry);
     }
-    const std::uint64_t limb = subtract_with_borrow(high - (f & x_mask), above, borrow);
-    sum[count] = add_with_carry(sum[count], limb, carry);
 }
 
 /// Sign of the determinant of d differences, each from one point to another.
@@ -73,7 +47,7 @@ Sign sign_of_determinant(const double* const (&points)[count], const int (&ends)
     return with_points<count, d>(points, false, [&]<class T>(const Lattice<count, d, T>& lattice) {
         T rows[d][d];
         for (int i = 0; i < d; ++i) lattice.difference(ends[i][1], ends[i][0], rows[i]);
-        return static_cast<Sign>(sign_of(formulas::determinant(rows)));
+        return static_cast<Sign>(formulas::determinant(rows).sign());
     });
 }
 
@@ -91,7 +65,7 @@ Sign sign_of_lifted(const double* const (&points)[vertex_count(s) + 1]) {
         formulas::Lifted<s, T> lifted;
         for (int i = 0; i < n; ++i) lattice.difference(i, n, c.r[i]);
         formulas::lift(c, lifted);
-        return static_cast<Sign>(sign_of(lifted.sum));
+        return static_cast<Sign>(lifted.sum.sign());
     });
 }
 
@@ -117,67 +91,39 @@ void ExactWeights::solve(const double* vertices, const double* point) {
         }
         formulas::Fractions<s, T> solution;
         formulas::solve(c, formulas::Numerator<s, T>{}, solution);
-        for (int i = 0; i < n; ++i) store(i, solution.numerator[i]);
-        store(denominator, solution.denominator);
+        for (int i = 0; i < n; ++i) numbers_[i] = as_integer(solution.numerator[i]);
+        numbers_[denominator] = as_integer(solution.denominator);
     });
 }
 
-template <class T>
-void ExactWeights::store(int i, const T& number) {
-    if constexpr (std::is_same_v<T, Integer>) {
-        wide_[i] = number;
-    } else {
-        static_assert(std::tuple_size_v<decltype(number.limbs)> <= narrow_limbs);
-        limbs_ = static_cast<int>(number.limbs.size());
-        std::copy(number.limbs.begin(), number.limbs.end(), narrow_[i]);
-    }
-}
-
-int ExactWeights::sign_of(int i) const {
-    return limbs_ == 0 ? wide_[i].sign() : core::sign_of(narrow_[i], limbs_);
-}
-
-Magnitude ExactWeights::magnitude(int i, std::uint64_t* buffer) const {
-    return limbs_ == 0 ? wide_[i].magnitude() : absolute(narrow_[i], limbs_, buffer);
-}
-
 double ExactWeights::weight(int i) const {
-    std::uint64_t buffers[2][narrow_limbs];
-    return round_quotient(sign(i) < 0, magnitude(i, buffers[0]), magnitude(denominator, buffers[1]), 0);
+    return round_quotient(numbers_[i], numbers_[denominator], 0);
 }
 
 double ExactWeights::interpolate(std::span<const double> values) const {
-    ScaledDouble parts[4];
     Unit unit;
-    for (int i = 0; i < count_; ++i) {
-        parts[i] = scaled(values[static_cast<std::size_t>(i)]);
-        unit.add(parts[i]);
-    }
-    std::uint64_t buffer[narrow_limbs + 1];
-    if (limbs_ != 0 && unit.bits() <= 64 - 3) {
-        // Four products of a value and a numerator: room as for a numerator of one degree more.
-        std::uint64_t sum[narrow_limbs + 1] = {}, sum_buffer[narrow_limbs + 1];
-        for (int i = 0; i < count_; ++i)
-            add_product(sum, narrow_[i], limbs_, unit.multiple<Fixed<1>>(parts[i]).limbs[0]);
-        return round_quotient(core::sign_of(sum, limbs_ + 1) != orientation(), absolute(sum, limbs_ + 1, sum_buffer),
-                              magnitude(denominator, buffer), unit.exponent - 1074);
-    }
+    for (const double value : values) unit.add(value);
     Integer sum;
-    for (int i = 0; i < count_; ++i)
-        sum = sum + Integer(sign_of(i) < 0, magnitude(i, buffer)) * unit.multiple<Integer>(parts[i]);
-    return round_quotient(sum.sign() != orientation(), sum.magnitude(), magnitude(denominator, buffer),
-                          unit.exponent - 1074);
+    constexpr std::size_t narrow = 7;  // limbs: numerators of a tetrahedron in two limbs, and one more
+    const auto fits = [](const Integer& x) { return x.magnitude().size() < narrow; };
+    if (unit.bits() <= 64 - 3 && std::all_of(numbers_, numbers_ + count_, fits)) {
+        // Four products of a value and a numerator: room as for a numerator of one degree more.
+        Fixed<narrow> all{};
+        for (int i = 0; i < count_; ++i)
+            add_product(all, numbers_[i], unit.multiple<Fixed<1>>(scaled(values[static_cast<std::size_t>(i)])));
+        sum = as_integer(all);
+    } else {
+        for (int i = 0; i < count_; ++i) sum = sum + numbers_[i] * unit.integer(values[static_cast<std::size_t>(i)]);
+    }
+    return round_quotient(sum, numbers_[denominator], unit.exponent - 1074);
 }
 
 int ExactWeights::compare(std::span<const double> values, double t) const {
-    Unit unit;
-    unit.add(t);
+    Unit unit{t};
     for (const double value : values) unit.add(value);
-    std::uint64_t buffer[narrow_limbs];
     // A fifth product, of the denominator, beside the four of interpolate(): at most two bits more.
-    Integer sum = Integer(sign_of(denominator) >= 0, magnitude(denominator, buffer)) * unit.integer(t);
-    for (int i = 0; i < count_; ++i)
-        sum = sum + Integer(sign_of(i) < 0, magnitude(i, buffer)) * unit.integer(values[static_cast<std::size_t>(i)]);
+    Integer sum = Integer() - numbers_[denominator] * unit.integer(t);
+    for (int i = 0; i < count_; ++i) sum = sum + numbers_[i] * unit.integer(values[static_cast<std::size_t>(i)]);
     return sum.sign() * orientation();
 }
 

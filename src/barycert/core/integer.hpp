@@ -14,6 +14,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #if defined(__x86_64__) && defined(__clang__)
@@ -175,5 +176,88 @@ private:
     bool negative_ = false;          ///< of no meaning for zero
     std::uint64_t limbs_[capacity];  ///< set below size_ alone: most numbers need three or four
 };
+
+/// An integer of a width known when compiling, for the frequent case of coordinates of like magnitude.
+///
+/// Two's complement in N limbs of 64 bits, no branches. A product has the limbs of both factors and cannot overflow; a
+/// sum keeps its width, so that whoever adds has to show that there is room.
+template <int N>
+struct Fixed {
+    std::array<std::uint64_t, N> limbs;  ///< the least significant first
+
+    bool negative() const { return (limbs[N - 1] >> 63) != 0; }
+    int sign() const {
+        return negative() ? -1 : std::any_of(limbs.begin(), limbs.end(), [](auto limb) { return limb != 0; }) ? 1 : 0;
+    }
+
+    [[gnu::always_inline]] friend inline Fixed operator+(const Fixed& x, const Fixed& y) {
+        Fixed r;
+        Carry carry = 0;
+        for (std::size_t i = 0; i < N; ++i) r.limbs[i] = add_with_carry(x.limbs[i], y.limbs[i], carry);
+        return r;
+    }
+
+    [[gnu::always_inline]] friend inline Fixed operator-(const Fixed& x, const Fixed& y) {
+        Fixed r;
+        Carry borrow = 0;
+        for (std::size_t i = 0; i < N; ++i) r.limbs[i] = subtract_with_borrow(x.limbs[i], y.limbs[i], borrow);
+        return r;
+    }
+};
+
+/// The unsigned product, less 2^(64 N) y if x is negative and 2^(64 M) x if y is: a negative number stands for itself
+/// plus 2^(64 N).
+template <int N, int M>
+[[gnu::always_inline]] inline Fixed<N + M> operator*(const Fixed<N>& x, const Fixed<M>& y) {
+    Fixed<N + M> r{};
+    for (std::size_t i = 0; i < N; ++i) {
+        std::uint64_t carry = 0;
+        for (std::size_t j = 0; j < M; ++j) {
+            const UInt128 t = static_cast<UInt128>(x.limbs[i]) * y.limbs[j] + r.limbs[i + j] + carry;
+            r.limbs[i + j] = static_cast<std::uint64_t>(t);
+            carry = static_cast<std::uint64_t>(t >> 64);
+        }
+        r.limbs[i + M] = carry;
+    }
+    const std::uint64_t x_mask = x.negative() ? ~std::uint64_t{0} : 0, y_mask = y.negative() ? ~std::uint64_t{0} : 0;
+    Carry borrow = 0;
+    for (std::size_t i = 0; i < M; ++i)
+        r.limbs[N + i] = subtract_with_borrow(r.limbs[N + i], y.limbs[i] & x_mask, borrow);
+    borrow = 0;
+    for (std::size_t i = 0; i < N; ++i)
+        r.limbs[M + i] = subtract_with_borrow(r.limbs[M + i], x.limbs[i] & y_mask, borrow);
+    return r;
+}
+
+/// The same number without a fixed width.
+template <int N>
+inline Integer as_integer(const Fixed<N>& x) {
+    if (!x.negative()) return {false, x.limbs};
+    const Fixed<N> magnitude = Fixed<N>{} - x;
+    return {true, magnitude.limbs};
+}
+inline const Integer& as_integer(const Integer& x) {
+    return x;
+}
+
+// Quotients of exact integers, rounded to the nearest double.
+
+/// A magnitude: limbs of 64 bits, the least significant first; leading zeros are allowed.
+using Magnitude = std::span<const std::uint64_t>;
+
+/// (numerator / denominator) * 2^exponent with a sign, rounded to nearest, ties to even, subnormal results and overflow
+/// to infinity included. An exact zero gives +0; what is smaller than half of the smallest subnormal gives a zero with
+/// its sign. Works on bits alone: the floating-point environment has no influence. Preconditions: denominator not zero;
+/// both fit an Integer.
+double round_quotient(bool negative, Magnitude numerator, Magnitude denominator, int exponent);
+
+/// The same of two numbers with their signs.
+inline double round_quotient(const Integer& numerator, const Integer& denominator, int exponent) {
+    return round_quotient(numerator.sign() != denominator.sign(), numerator.magnitude(), denominator.magnitude(),
+                          exponent);
+}
+
+/// number * 2^exponent rounded in the same way.
+double round_integer(const Integer& number, int exponent);
 
 }  // namespace barycert::core

@@ -5,10 +5,8 @@
 
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/core/input_checks.hpp"
-#include "barycert/core/integer.hpp"
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/quadratic.hpp"

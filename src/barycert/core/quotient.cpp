@@ -1,4 +1,4 @@
-#include "barycert/core/quotient.hpp"
+#include "barycert/core/integer.hpp"
 
 #include <algorithm>
 #include <bit>

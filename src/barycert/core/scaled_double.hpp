@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <initializer_list>
 #include <type_traits>
 
-#include "barycert/core/fixed_integer.hpp"
 #include "barycert/core/integer.hpp"
 
 namespace barycert::core {
@@ -35,6 +35,9 @@ struct Unit {
     int exponent = ScaledDouble::none;  ///< the unit is 2^(exponent - 1074)
     int top = 0;                        ///< all numbers are below 2^(top - 1074)
 
+    Unit(std::initializer_list<double> numbers = {}) {
+        for (const double x : numbers) add(x);
+    }
     void add(const ScaledDouble& x) {
         exponent = std::min(exponent, x.exponent);
         const int above = x.exponent + static_cast<int>(std::bit_width(x.mantissa));
@@ -48,6 +51,8 @@ struct Unit {
 
     /// All numbers are below 2^bits() in this unit; below 1 if they are all zero.
     int bits() const { return top - exponent; }
+    /// Of two, that the unit is; 0 if all numbers are zero.
+    int power() const { return exponent == ScaledDouble::none ? 0 : exponent - 1074; }
 
     /// x as a multiple of this unit. Preconditions: x was added; Fixed<N> has more than bits() bits.
     template <class T>
@@ -90,15 +95,20 @@ struct Lattice {
     const Unit (&units)[d];
 
     T at(int i, int k) const { return units[k].template multiple<T>(parts[i][k]); }
+    /// The same numbers as integers of another type.
+    template <class Other>
+    Lattice<count, d, Other> in() const {
+        return {parts, units};
+    }
     /// Point i less point j. Inline, for GCC 12 folds the copies of different `count` into one and then warns of it.
     [[gnu::always_inline]] void difference(int i, int j, T (&out)[d]) const {
         for (int k = 0; k < d; ++k) out[k] = at(i, k) - at(j, k);
     }
 };
 
-/// Calls decide(lattice) with number(i, k) of point i on axis k as integers of the narrowest type that has 3 bits more
-/// than they need: each axis in a unit of its own, or all in one.
-template <int count, int d, class Number, class Decide>
+/// Calls decide(lattice) with number(i, k) of point i on axis k as integers of the narrowest type that has `room` bits
+/// more than they need: each axis in a unit of its own, or all in one.
+template <int count, int d, int room = 3, class Number, class Decide>
 auto with_lattice(Number number, bool common, Decide decide) {
     ScaledDouble parts[count][d];
     Unit units[d];
@@ -112,7 +122,7 @@ auto with_lattice(Number number, bool common, Decide decide) {
         for (int k = 1; k < d; ++k) units[0].add(units[k]);
         std::fill_n(units, d, units[0]);
     }
-    return with_integers<3>(max_bits(units), [&]<class T>() { return decide(Lattice<count, d, T>{parts, units}); });
+    return with_integers<room>(max_bits(units), [&]<class T>() { return decide(Lattice<count, d, T>{parts, units}); });
 }
 
 }  // namespace barycert::core

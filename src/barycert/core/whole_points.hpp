@@ -10,7 +10,6 @@
 #include <memory>
 
 #include "barycert/base/vectors.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
 namespace barycert::core {
@@ -23,6 +22,14 @@ using WholeNumber =
                                   boost::multiprecision::et_off>;
 using WholeVector = base::Vector3<WholeNumber>;
 
+/// x as a multiple of the unit. Precondition: it was added.
+inline WholeNumber whole(double x, const Unit& unit) {
+    const ScaledDouble parts = scaled(x);
+    WholeNumber n = parts.mantissa;
+    if (parts.mantissa != 0) n <<= static_cast<unsigned>(parts.exponent - unit.exponent);
+    return parts.negative ? WholeNumber(-n) : n;
+}
+
 /// As whole multiples of 2^exponent().
 class WholePoints {
 public:
@@ -30,22 +37,11 @@ public:
         for (const double* const p : points) add(p);
     }
     void add(const double* p) {
-        for (int k = 0; k < 3; ++k) unit_.add(scaled(p[k]));
+        for (int k = 0; k < 3; ++k) unit_.add(p[k]);
     }
     /// Precondition: it was added.
-    WholeVector at(const double* p) const {
-        WholeVector v;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const ScaledDouble x = scaled(p[k]);
-            if (x.mantissa == 0) continue;
-            v[k] = x.mantissa;
-            v[k] <<= static_cast<unsigned>(x.exponent - unit_.exponent);
-            if (x.negative) v[k] = -v[k];
-        }
-        return v;
-    }
-    /// Of the unit; 0 if all is zero.
-    int exponent() const { return unit_.exponent == ScaledDouble::none ? 0 : unit_.exponent - 1074; }
+    WholeVector at(const double* p) const { return {whole(p[0], unit_), whole(p[1], unit_), whole(p[2], unit_)}; }
+    int exponent() const { return unit_.power(); }
 
 private:
     Unit unit_;

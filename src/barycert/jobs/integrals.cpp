@@ -8,7 +8,6 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check/stages.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 

@@ -9,7 +9,6 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/scene.hpp"
@@ -43,9 +42,7 @@ std::optional<Vector3> direction(const Vector3& v) {
 
 /// (x / w + 1) * size / 2 = (x + w) * size / (2 w), rounded once.
 double exact_window(double x, double w, std::int32_t size) {
-    core::Unit unit;
-    unit.add(x);
-    unit.add(w);
+    const core::Unit unit{x, w};
     const core::Integer depth = unit.integer(w), sum = unit.integer(x) + depth;
     return core::round_quotient(sum * core::Integer(false, static_cast<std::uint64_t>(size), 0), depth, -1);
 }

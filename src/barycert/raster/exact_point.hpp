@@ -11,8 +11,6 @@
 #include <array>
 #include <cstddef>
 
-#include "barycert/core/integer.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 
 namespace barycert::raster {

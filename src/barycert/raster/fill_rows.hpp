@@ -120,26 +120,21 @@ private:
     std::vector<Component> components_;
 };
 
-/// The centres of the pixels of a row, one after the other, as `points`.
-inline void set_centres(std::int32_t j, std::int32_t first, std::int32_t last, std::vector<double>& points) {
-    points.clear();
-    for (std::int32_t i = first; i < last; ++i) points.insert(points.end(), {i + 0.5, j + 0.5});
-}
-
 /// Each value the exact one at the centre, rounded once, by weights.hpp.
 struct CorrectRows {
     std::span<const double> vertices, values;
     int components;
-    std::vector<double> points = {};
+    std::vector<double> centres = {};  ///< of the pixels of the last row
     std::vector<std::int32_t> cells = {};
 
     void fill(std::int32_t j, std::int32_t first, std::int32_t last, double* out) {
         constexpr std::array<std::int32_t, 3> corners{0, 1, 2};
         const auto count = static_cast<std::size_t>(last - first), all = count * static_cast<std::size_t>(components);
         cells.assign(count, 0);
-        set_centres(j, first, last, points);
+        centres.clear();
+        for (std::int32_t i = first; i < last; ++i) centres.insert(centres.end(), {i + 0.5, j + 0.5});
         // No error can occur: sizes fit, and coordinates are finite.
-        (void)interpolate(MeshQueries{Simplex::triangle, vertices, corners, cells, points},
+        (void)interpolate(MeshQueries{Simplex::triangle, vertices, corners, cells, centres},
                           NodalValues<double>{values, components}, {out, all});
     }
 };

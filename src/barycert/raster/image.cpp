@@ -6,7 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/io/png/png_file.hpp"
 #include "barycert/raster.hpp"
-#include "barycert/raster/draw.hpp"
+#include "barycert/raster/colour_bytes.hpp"
 
 namespace barycert {
 namespace {

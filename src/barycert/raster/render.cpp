@@ -6,9 +6,11 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/perspective.hpp"
 #include "barycert/predicates.hpp"
 #include "barycert/raster.hpp"
-#include "barycert/raster/draw.hpp"
+#include "barycert/raster/colour_bytes.hpp"
+#include "barycert/raster/fill_rows.hpp"
 #include "barycert/scene.hpp"
 
 namespace barycert {
@@ -90,21 +92,79 @@ Result<std::vector<double>> clip_positions(const Scene& s) {
     return clip;
 }
 
+/// Numbers of a vertex or pixel from which its colour is made: the colour if there is one, u and v likewise.
+std::size_t attribute_count(const Scene& s) {
+    return (s.colours.empty() ? 0U : 3U) + (s.texture_coordinates.empty() ? 0U : 2U);
+}
+
+/// NaN counts as 0.
+Rgba colour_of(const Scene& s, const double* attributes) {
+    const bool colours = !s.colours.empty();
+    const double* const place = attributes + (colours ? 3 : 0);
+    Rgba result{0, 0, 0, 255};
+    if (s.texture) result = texel(*s.texture, place[0], place[1]);
+    if (!colours) return result;
+    for (std::size_t k = 0; k < 3; ++k)
+        result[k] = !s.texture ? component_byte(attributes[k])
+                               : component_byte(std::clamp(attributes[k], 0.0, 1.0) * (result[k] / 255.0));
+    return result;
+}
+
+/// A triangle within the clip volume, in the window. Numbers are finite, w > 0, the area in the window is not zero.
+struct WindowTriangle {
+    std::array<double, 6> window;  ///< x and y of each vertex
+    std::array<double, 3> z;       ///< z / w, the depth
+    std::array<double, 3> w;
+    std::vector<double> attributes;  ///< attribute_count numbers a vertex
+};
+
+/// False where plain weights may be off by more than 2^-38. With X and Y the extent of the triangle, a pixel's centre
+/// in it is within X and Y of each vertex, so that the four differences of a signed area are exact or off by half an
+/// ulp, and the area by at most 2 * 3.01 * 2^-53 X Y + 2^-53 X Y < 2^-50 X Y. Twice the triangle's area D is as exact.
+/// For |D| >= 2^-11 X Y the quotient of both is off by less than 2^-50 * 2^11 * 2 + 2^-53 < 2^-37.9.
+bool thick_enough(const std::array<double, 6>& v) {
+    const double area = (v[2] - v[0]) * (v[5] - v[1]) - (v[4] - v[0]) * (v[3] - v[1]);
+    const double wide = std::max({v[0], v[2], v[4]}) - std::min({v[0], v[2], v[4]});
+    const double tall = std::max({v[1], v[3], v[5]}) - std::min({v[1], v[3], v[5]});
+    return std::abs(area) >= 0x1p-11 * wide * tall;
+}
+
+/// The depth and the attributes of `count` pixels from what is linear in the window, in place.
+///
+/// With perspective, 1/w and v/w are interpolated. All are multiplied by the least w, so that 1/w cannot overflow; it
+/// may underflow, for a vertex 2^1074 times as far away as another one, whose share is then below the last place.
+void divide_by_scale(double* numbers, std::size_t attributes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const double* const in = numbers + (2 + attributes) * i;
+        double* const to = numbers + (1 + attributes) * i;  // never ahead of what is still to be read
+        const double depth = in[0], scale = in[1];
+        to[0] = depth;
+        for (std::size_t k = 0; k < attributes; ++k) to[1 + k] = in[2 + k] / scale;
+    }
+}
+
 class Renderer {
 public:
-    Renderer(const Scene& scene, Canvas& canvas, std::vector<double> clip)
-        : scene_(scene), canvas_(canvas), clip_(std::move(clip)) {}
+    /// `attributes`: of each pixel, if they are wanted. The size of the scene is checked.
+    Renderer(const Scene& scene, std::vector<double> clip, PixelValues* attributes)
+        : scene_(scene),
+          clip_(std::move(clip)),
+          image_(blank_image(scene.size.width, scene.size.height, scene.background).value()),
+          depth_(image_.data.size() / 4, HUGE_VAL),
+          attributes_(attributes) {}
 
-    void run() {
+    Image run(RenderCounts* counts) {
         for (std::size_t t = 0; t < scene_.triangles.size(); t += 3) draw(scene_.triangles.data() + t);
         counts_.pixels = static_cast<std::uint64_t>(
-            std::count_if(canvas_.depth.begin(), canvas_.depth.end(), [](double z) { return z < HUGE_VAL; }));
+            std::count_if(depth_.begin(), depth_.end(), [](double z) { return z < HUGE_VAL; }));
+        if (counts != nullptr) *counts = counts_;
+        return std::move(image_);
     }
 
 private:
     void draw(const std::int32_t* corners) {
         ++counts_.triangles;
-        const std::size_t n = canvas_.shading.components(), stride = 4 + n;
+        const std::size_t stride = 4 + n_;
         rows_.clear();
         for (int c = 0; c < 3; ++c) append_row(static_cast<std::size_t>(corners[c]));
         // No error can occur: all numbers are finite.
@@ -126,26 +186,24 @@ private:
             const std::size_t fan[3] = {0, i, i + 1};
             if (orient2d(window_[0].data(), window_[i].data(), window_[i + 1].data()) == Sign::zero) continue;
             area = true;
-            draw_part(fan);
+            set_part(fan);
+            draw_part();
         }
         ++(!area ? counts_.degenerate : counts_.covered == covered ? counts_.between_pixels : counts_.drawn);
     }
 
-    /// A triangle of the fan.
-    void draw_part(const std::size_t (&fan)[3]) {
-        const std::size_t n = canvas_.shading.components(), stride = 4 + n;
-        WindowTriangle part;
-        attributes_.clear();
+    /// To a triangle of the fan.
+    void set_part(const std::size_t (&fan)[3]) {
+        const std::size_t stride = 4 + n_;
+        part_.attributes.clear();
         for (std::size_t i = 0; i < 3; ++i) {
             const double* const row = polygon_.data() + stride * fan[i];
-            part.window[2 * i] = window_[fan[i]][0];
-            part.window[2 * i + 1] = window_[fan[i]][1];
-            part.z[i] = row[2] / row[3];
-            part.w[i] = row[3];
-            attributes_.insert(attributes_.end(), row + 4, row + stride);
+            part_.window[2 * i] = window_[fan[i]][0];
+            part_.window[2 * i + 1] = window_[fan[i]][1];
+            part_.z[i] = row[2] / row[3];
+            part_.w[i] = row[3];
+            part_.attributes.insert(part_.attributes.end(), row + 4, row + stride);
         }
-        part.attributes = attributes_;
-        draw_triangle(canvas_, part);
     }
 
     void append_row(std::size_t vertex) {
@@ -159,12 +217,106 @@ private:
         append(scene_.texture_coordinates, 2);
     }
 
+    /// What is linear in the window at each vertex: the depth, the scale if there is one, attributes times the scale.
+    std::vector<double> linear_values() const {
+        std::array<double, 3> depth = part_.w;
+        if (scene_.interpolation == Interpolation::projected_z) {
+            for (std::size_t i = 0; i < 3; ++i) depth[i] = (part_.z[i] + 1) / 2;
+        }
+        const double least = *std::min_element(depth.begin(), depth.end());
+        std::vector<double> values;
+        for (std::size_t i = 0; i < 3; ++i) {
+            values.push_back(part_.z[i]);
+            double scale = 1;
+            if (scene_.interpolation != Interpolation::affine) {
+                scale = (scene_.interpolation == Interpolation::projected_z ? 1 : least) / depth[i];
+                values.push_back(scale);
+            }
+            for (std::size_t k = 0; k < n_; ++k) values.push_back(scale * part_.attributes[n_ * i + k]);
+        }
+        return values;
+    }
+
+    /// fill(j, first, last, numbers): the depth and the attributes of these pixels of row j, 1 + components numbers
+    /// each.
+    template <class Fill>
+    void draw_rows(const SortedTriangle& sorted, Fill fill) {
+        const std::size_t n = n_;
+        std::vector<double> row;
+        for_spans(sorted, image_.width, [&](std::int32_t j, std::int32_t first, std::int32_t last) {
+            fill(j, first, last, row);
+            counts_.covered += static_cast<std::uint64_t>(last - first);
+            const std::size_t begin = image_.offset(first, j) / 4;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(last - first); ++i) {
+                const double* const pixel = row.data() + (1 + n) * i;
+                double& depth = depth_[begin + i];
+                if (!(pixel[0] < depth)) {
+                    ++counts_.hidden;
+                    continue;
+                }
+                depth = pixel[0];
+                const Rgba colour = colour_of(scene_, pixel + 1);
+                std::copy_n(colour.data(), 4, image_.data.data() + 4 * (begin + i));
+                if (attributes_ != nullptr) std::copy_n(pixel + 1, n, attributes_->data.data() + n * (begin + i));
+            }
+        });
+    }
+
+    /// With depths and attributes that are each the exact function of the vertices' window coordinates, w and
+    /// attributes in perspective, rounded once.
+    void draw_correct(const SortedTriangle& sorted) {
+        std::array<double, 9> vertices;
+        for (std::size_t i = 0; i < 3; ++i) {
+            vertices[3 * i] = part_.window[2 * i];
+            vertices[3 * i + 1] = part_.window[2 * i + 1];
+            vertices[3 * i + 2] = part_.w[i];
+        }
+        CorrectRows depth{part_.window, part_.z, 1};
+        std::vector<double> depths, values;
+        draw_rows(sorted, [&](std::int32_t j, std::int32_t first, std::int32_t last, auto& out) {
+            const auto count = static_cast<std::size_t>(last - first);
+            depths.resize(count);
+            depth.fill(j, first, last, depths.data());
+            values.resize(n_ * count);
+            // No error can occur: sizes fit, coordinates are finite, w > 0.
+            (void)perspective_values(vertices.data(), depth.centres, part_.attributes, static_cast<int>(n_), values);
+            out.clear();
+            for (std::size_t i = 0; i < count; ++i) {
+                out.push_back(depths[i]);
+                out.insert(out.end(), values.data() + n_ * i, values.data() + n_ * (i + 1));
+            }
+        });
+    }
+
+    /// Draws the part where it is in front, and counts the pixels that it covers.
+    void draw_part() {
+        const SortedTriangle sorted(part_.window.data(), image_.height);
+        const bool correct = scene_.rounding == Rounding::correct;
+        if (correct && n_ != 0 && scene_.interpolation != Interpolation::affine) return draw_correct(sorted);
+        const std::vector<double> values = linear_values();
+        const std::size_t linear = values.size() / 3;
+        const auto draw = [&](auto rows) {
+            draw_rows(sorted, [&](std::int32_t j, std::int32_t first, std::int32_t last, auto& numbers) {
+                const auto count = static_cast<std::size_t>(last - first);
+                numbers.resize(linear * count);
+                rows.fill(j, first, last, numbers.data());
+                if (scene_.interpolation != Interpolation::affine) divide_by_scale(numbers.data(), n_, count);
+            });
+        };
+        with_rows(sorted, part_.window.data(), values, static_cast<int>(linear), scene_.method,
+                  correct || !thick_enough(part_.window) ? Rounding::correct : Rounding::plain, draw);
+    }
+
     const Scene& scene_;
-    Canvas& canvas_;
+    std::size_t n_ = attribute_count(scene_);
     std::vector<double> clip_;
-    std::vector<double> rows_, polygon_, attributes_;
+    Image image_;
+    std::vector<double> depth_;  ///< of each pixel; infinite where nothing is drawn
+    PixelValues* attributes_;
+    RenderCounts counts_;
+    std::vector<double> rows_, polygon_;
     std::vector<std::array<double, 2>> window_;
-    RenderCounts& counts_ = canvas_.counts;
+    WindowTriangle part_;
 };
 
 }  // namespace
@@ -175,24 +327,12 @@ Result<Image> render(const Scene& scene, RenderCounts* counts, PixelValues* attr
     if (Status good = raster::check(scene); !good) return good.error();
     Result<std::vector<double>> clip = raster::clip_positions(scene);
     if (!clip) return clip.error();
-    raster::Canvas canvas;
-    canvas.image = blank_image(scene.size.width, scene.size.height, scene.background).value();  // its size is checked
-    canvas.depth.assign(canvas.image.data.size() / 4, HUGE_VAL);
-    canvas.shading = {!scene.colours.empty(),
-                      !scene.texture_coordinates.empty(),
-                      scene.texture ? &*scene.texture : nullptr,
-                      scene.method,
-                      scene.interpolation,
-                      scene.rounding};
     if (attributes != nullptr) {
-        Result<PixelValues> empty = empty_pixels(scene.size, static_cast<int>(canvas.shading.components()));
+        Result<PixelValues> empty = empty_pixels(scene.size, static_cast<int>(raster::attribute_count(scene)));
         if (!empty) return empty.error();
         *attributes = std::move(*empty);
-        canvas.attributes = attributes;
     }
-    raster::Renderer(scene, canvas, std::move(*clip)).run();
-    if (counts != nullptr) *counts = canvas.counts;
-    return std::move(canvas.image);
+    return raster::Renderer(scene, std::move(*clip), attributes).run(counts);
 }
 
 }  // namespace barycert

@@ -16,7 +16,7 @@
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "barycert/raster/draw.hpp"
+#include "barycert/raster/colour_bytes.hpp"
 #include "barycert/scene.hpp"
 
 namespace barycert {

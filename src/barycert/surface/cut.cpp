@@ -1,6 +1,5 @@
 #include <atomic>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <string>
 
@@ -10,7 +9,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/surface.hpp"
@@ -21,20 +19,12 @@ namespace barycert::surface {
 namespace {
 
 using core::Integer;
-using core::scaled;
 using core::Unit;
 
 /// An edge with an end `in` of the set and an end `out` outside.
 struct Edge {
     Mesh::Index in = 0, out = 0;
 };
-
-/// Of which all of these are multiples.
-Unit unit_of(std::initializer_list<double> numbers) {
-    Unit unit;
-    for (const double x : numbers) unit.add(scaled(x));
-    return unit;
-}
 
 /// g(in) >= 0 and -g(out) > 0 as integers in one unit.
 struct ExactCrossing {
@@ -43,8 +33,8 @@ struct ExactCrossing {
     /// The number that is `in` and `out` at the ends, where g is zero, correctly rounded. Precondition: finite numbers.
     double value(double in, double out) const {
         // The weights of the ends are of_out / (of_in + of_out) and of_in / (of_in + of_out).
-        const Unit unit = unit_of({in, out});
-        const Integer sum = of_out * unit.multiple<Integer>(scaled(in)) + of_in * unit.multiple<Integer>(scaled(out));
+        const Unit unit{in, out};
+        const Integer sum = of_out * unit.integer(in) + of_in * unit.integer(out);
         return core::round_quotient(sum, of_in + of_out, unit.exponent - 1074);
     }
 };
@@ -75,10 +65,9 @@ public:
         return level_lanes(value_, own, edges, out, undecided);
     }
     ExactCrossing exact(const Edge& edge) const {
-        const Unit unit = unit_of({at(edge.in), at(edge.out), value_});
-        const Integer level = unit.multiple<Integer>(scaled(value_));
-        return {unit.multiple<Integer>(scaled(at(edge.in))) - level,
-                level - unit.multiple<Integer>(scaled(at(edge.out)))};
+        const Unit unit{at(edge.in), at(edge.out), value_};
+        const Integer level = unit.integer(value_);
+        return {unit.integer(at(edge.in)) - level, level - unit.integer(at(edge.out))};
     }
 
 private:
@@ -108,7 +97,7 @@ public:
         // One branch, for nodes may come in any order.
         if (std::fabs(height) > bound) [[likely]]
             return static_cast<State>(height > 0);
-        const int sign = exact_height(x, unit_of({1, x[0], x[1], x[2]})).sign();
+        const int sign = exact_height(x, Unit{1, x[0], x[1], x[2]}).sign();
         return sign > 0 ? inside : sign < 0 ? outside : on;
     }
 
@@ -120,7 +109,7 @@ public:
     ExactCrossing exact(const Edge& edge) const {
         const double* const in = points_ + 3 * static_cast<std::size_t>(edge.in);
         const double* const out = points_ + 3 * static_cast<std::size_t>(edge.out);
-        const Unit of_points = unit_of({1, in[0], in[1], in[2], out[0], out[1], out[2]});
+        const Unit of_points{1, in[0], in[1], in[2], out[0], out[1], out[2]};
         return {exact_height(in, of_points), Integer() - exact_height(out, of_points)};
     }
 
@@ -128,10 +117,9 @@ private:
     /// offset - normal.x in units that depend on the plane and on `of_points` alone.
     Integer exact_height(const double* x, const Unit& of_points) const {
         const auto& [normal, offset] = plane_;
-        const Unit of_plane = unit_of({offset, normal[0], normal[1], normal[2]});
-        Integer sum = of_plane.multiple<Integer>(scaled(offset)) * of_points.multiple<Integer>(scaled(1));
-        for (std::size_t k = 0; k < 3; ++k)
-            sum = sum - of_plane.multiple<Integer>(scaled(normal[k])) * of_points.multiple<Integer>(scaled(x[k]));
+        const Unit of_plane{offset, normal[0], normal[1], normal[2]};
+        Integer sum = of_plane.integer(offset) * of_points.integer(1);
+        for (std::size_t k = 0; k < 3; ++k) sum = sum - of_plane.integer(normal[k]) * of_points.integer(x[k]);
         return sum;
     }
 

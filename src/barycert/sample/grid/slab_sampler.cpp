@@ -122,7 +122,7 @@ void SlabSampler::finish() {
         }
     }
     sampler_->flush();
-    if (data_.hidden != 0) leave_out_hidden(data_, values_.data(), points_, values_.data());
+    leave_out_hidden(data_, values_.data(), points_);
     counts_.locations.add(finished_.locations);
     counts_.locations.add(Feature::outside, finished_.outside);
     counts_.without_value += finished_.outside;

@@ -186,9 +186,9 @@ void ChunkSampler::operator()(const locate::PointRecord* points, std::size_t cou
 void ChunkSampler::interpolate_linear(const locate::PointRecord* points, std::size_t count) {
     const locate::CellIndex& index = data_.index();
     const NodeValues nodes = data_.node_values();
-    const std::size_t undecided =
-        interpolate_lanes({index.simplex, index.cells.data(), nodes, points, std::span(inside_).first(count)},
-                          options_.rounding, {rows_.values, data_.width}, undecided_.data());
+    const std::size_t undecided = interpolate_lanes(
+        {index.simplex, index.cells.data(), nodes, points, std::span(inside_).first(count), rows_.values, data_.width},
+        options_.rounding, undecided_.data());
     if (options_.rounding == Rounding::plain) {
         for (std::size_t i = 0; !data_.finite && i < count; ++i) mend_plain(points[inside_[i].point], inside_[i].cell);
         return;

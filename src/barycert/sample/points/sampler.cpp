@@ -33,18 +33,14 @@ public:
                          BlockRows{rows_->cells.data(), rows_->features.data(), values(0),
                                    gives_distances(options.outside) ? rows_->distances.data() : nullptr});
     }
-    SortedRows(SortedRows&&) = default;
-    ~SortedRows() {
-        if (rows_) data_.rows.put(std::move(rows_));
-    }
 
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
                     const Feature* feature) {
         (*sampler_)(points, count, owner, feature);
     }
-    const ChunkSampler& sampler() const { return *sampler_; }
 
-    void write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
+    /// The rows, and what was counted. Once, in the end.
+    SampleCounts write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
         const std::size_t last = sorted.size(), left_out = sorted.left_out();
         if (left_out != 0) {
             rows_->cells[last] = -1;
@@ -63,21 +59,20 @@ public:
             out.features[first + i] = rows_->features[place];
             for (std::size_t c = 0; c < columns_; ++c) out.values[columns_ * (first + i) + c] = from[c];
         });
-        if (out.distances.empty()) return;
-        sorted.for_each_in_callers_order(
-            [](std::size_t) {},
-            [&](std::size_t i, std::size_t place) {
-                if (place == last) {  // the row of all points left out serves for one after the other
-                    locate::PointRecord point{};
-                    point.number = static_cast<std::uint32_t>(last);
-                    std::copy_n(sorted.point(i), data_.index().dimension(), point.at.begin());
-                    constexpr locate::Place no_owner = -1;
-                    constexpr Feature outside = Feature::outside;
-                    (*sampler_)(&point, 1, &no_owner, &outside);
-                    std::copy_n(values(last) + data_.hidden, columns_, out.values.data() + columns_ * (first + i));
-                }
-                out.distances[first + i] = rows_->distances[place];
-            });
+        const auto set_distance = [&](std::size_t i, std::size_t place) {
+            if (place == last) {  // the row of all points left out serves for one after the other
+                locate::PointRecord point{};
+                point.number = static_cast<std::uint32_t>(last);
+                std::copy_n(sorted.point(i), data_.index().dimension(), point.at.begin());
+                sampler_->push(point, -1, Feature::outside);
+                sampler_->flush();
+                std::copy_n(values(last) + data_.hidden, columns_, out.values.data() + columns_ * (first + i));
+            }
+            out.distances[first + i] = rows_->distances[place];
+        };
+        if (!out.distances.empty()) sorted.for_each_in_callers_order([](std::size_t) {}, set_distance);
+        data_.rows.put(std::move(rows_));
+        return sampler_->counts();
     }
 
 private:
@@ -278,8 +273,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
         std::vector<SampleCounts> counts((count + block - 1) / block);
         const auto make = [&](std::size_t, std::size_t size) { return sample::SortedRows(*data_, options, size); };
         const auto keep = [&](std::size_t first, const locate::SortedPoints& sorted, sample::SortedRows& rows) {
-            rows.write(sorted, first, out);
-            counts[first / block] = rows.sampler().counts();
+            counts[first / block] = rows.write(sorted, first, out);
         };
         finite =
             locate::for_chunks(data_->located(), data_->node_values().first, points, out.counts.locations, make, keep);
@@ -313,9 +307,8 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     sample::resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
     const locate::CellIndex& index = data_->index();
-    std::vector<double> whole(data_->hidden != 0 ? data_->width * count : 0);  // rows with what is hidden
-    const sample::BlockRows rows{out.cells.data(), out.features.data(),
-                                 data_->hidden != 0 ? whole.data() : out.values.data(),
+    out.values.resize(data_->width * count);
+    const sample::BlockRows rows{out.cells.data(), out.features.data(), out.values.data(),
                                  out.distances.empty() ? nullptr : out.distances.data()};
     constexpr std::size_t grain = std::size_t{1} << 13;
     const auto evaluate_rows = [&](std::size_t first, std::size_t last, SampleCounts& counts) {
@@ -339,7 +332,8 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
         return base::parallel_reduce(count, grain, SampleCounts{}, evaluate_rows,
                                      [](SampleCounts& all, const SampleCounts& part) { all.add(part); });
     });
-    if (data_->hidden != 0) sample::leave_out_hidden(*data_, whole.data(), count, out.values.data());
+    sample::leave_out_hidden(*data_, out.values.data(), count);
+    out.values.resize(data_->columns.size() * count);
     if (Status status = sample::apply_policies(points, finite.has_value(), options, first_point, out); !status)
         return status;
     out.counts.add(counts);

@@ -1,6 +1,7 @@
 /// All that a Sampler keeps.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <string>
@@ -70,13 +71,11 @@ struct SamplerData {
     }
 };
 
-/// Copies the columns of `count` rows that are `width` numbers each; `to` may be where they begin.
-inline void leave_out_hidden(const SamplerData& data, const double* rows, std::size_t count, double* to) {
+/// Of `count` rows that are `width` numbers each leaves the columns, row after row.
+inline void leave_out_hidden(const SamplerData& data, double* rows, std::size_t count) {
     const std::size_t columns = data.columns.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const double* const from = rows + data.width * i + data.hidden;
-        for (std::size_t c = 0; c < columns; ++c) to[columns * i + c] = from[c];
-    }
+    for (std::size_t i = 0; data.hidden != 0 && i < count; ++i)
+        std::copy_n(rows + data.width * i + data.hidden, columns, rows + columns * i);
 }
 
 }  // namespace barycert::sample

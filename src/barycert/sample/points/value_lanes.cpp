@@ -24,7 +24,7 @@ HWY_INLINE void scatter(D tag, hn::Vec<D> v, double* const* to, std::size_t offs
 
 /// Items [at, at + width). Returns the mask of those decided.
 template <Simplex s, template <Simplex, class, class> class Values, class D>
-HWY_INLINE hn::Mask<D> evaluate(D tag, const LanePoints& of, std::size_t at, const ValueTarget& target) {
+HWY_INLINE hn::Mask<D> evaluate(D tag, const LanePoints& of, std::size_t at) {
     const auto* const cells = of.cells;
     const auto* const points = of.points;
     const auto* const items = of.items.data() + at;
@@ -33,7 +33,7 @@ HWY_INLINE hn::Mask<D> evaluate(D tag, const LanePoints& of, std::size_t at, con
     constexpr std::size_t width = hn::MaxLanes(D());
     constexpr int n = vertex_count(s), d = space_dimension(s);
     double* to[width];
-    for (std::size_t l = 0; l < width; ++l) to[l] = target.out + target.stride * points[items[l].point].number;
+    for (std::size_t l = 0; l < width; ++l) to[l] = of.out + of.stride * points[items[l].point].number;
     const auto node = [&](std::size_t l, int i) HWY_ATTR {
         return static_cast<std::size_t>(cells[items[l].cell].node[static_cast<std::size_t>(i)]);
     };
@@ -68,20 +68,19 @@ HWY_INLINE hn::Mask<D> evaluate(D tag, const LanePoints& of, std::size_t at, con
 }
 
 template <template <Simplex, class, class> class Values, Simplex s>
-std::size_t evaluate_all(const LanePoints& points, const ValueTarget& target, std::uint32_t* undecided) {
+std::size_t evaluate_all(const LanePoints& points, std::uint32_t* undecided) {
     return for_lanes(points.items.size(), undecided, [&](auto tag, std::size_t at) BARYCERT_LANE_LAMBDA {
-        return evaluate<s, Values>(tag, points, at, target);
+        return evaluate<s, Values>(tag, points, at);
     });
 }
 
-std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, const ValueTarget& target,
-                              std::uint32_t* undecided) {
+std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, std::uint32_t* undecided) {
     const bool plain = rounding == Rounding::plain;
     if (points.simplex == Simplex::triangle)
-        return plain ? evaluate_all<PlainValues, Simplex::triangle>(points, target, undecided)
-                     : evaluate_all<RefinedValues, Simplex::triangle>(points, target, undecided);
-    return plain ? evaluate_all<PlainValues, Simplex::tetrahedron>(points, target, undecided)
-                 : evaluate_all<RefinedValues, Simplex::tetrahedron>(points, target, undecided);
+        return plain ? evaluate_all<PlainValues, Simplex::triangle>(points, undecided)
+                     : evaluate_all<RefinedValues, Simplex::triangle>(points, undecided);
+    return plain ? evaluate_all<PlainValues, Simplex::tetrahedron>(points, undecided)
+                 : evaluate_all<RefinedValues, Simplex::tetrahedron>(points, undecided);
 }
 
 }  // namespace barycert::sample::HWY_NAMESPACE
@@ -92,9 +91,8 @@ namespace barycert::sample {
 
 HWY_EXPORT(interpolate_lanes);
 
-std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, const ValueTarget& target,
-                              std::uint32_t* undecided) {
-    return HWY_DYNAMIC_DISPATCH(interpolate_lanes)(points, rounding, target, undecided);
+std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, std::uint32_t* undecided) {
+    return HWY_DYNAMIC_DISPATCH(interpolate_lanes)(points, rounding, undecided);
 }
 
 }  // namespace barycert::sample

@@ -26,24 +26,20 @@ struct NodeValues {
     std::size_t components = 0;  ///< at least 1
 };
 
-/// Points in their cells.
+/// Points in their cells. Component c of the value of a point goes to out[stride * number + c], with the number in the
+/// record of the point.
 struct LanePoints {
     Simplex simplex;  ///< of the cells, linear
     const locate::CellRecord* cells;
     const NodeValues& nodes;
     const locate::PointRecord* points;
     std::span<const locate::Walk> items;  ///< points[item.point] lies in cells[item.cell]
-};
-
-/// Component c of the value of a point goes to out[stride * number + c], with the number in the record of the point.
-struct ValueTarget {
     double* out;
     std::size_t stride;
 };
 
 /// Returns how many items are undecided, these in undecided[0 ...], ascending; their values are unspecified.
 /// Rounding::plain decides all.
-std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, const ValueTarget& target,
-                              std::uint32_t* undecided);
+std::size_t interpolate_lanes(const LanePoints& points, Rounding rounding, std::uint32_t* undecided);
 
 }  // namespace barycert::sample

@@ -6,7 +6,6 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/core/numerators-inl.hpp"
-#include "barycert/core/quotient.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/sample/quantity/mean_lanes.hpp"
