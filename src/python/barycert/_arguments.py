@@ -14,11 +14,6 @@ Progress = Union[None, bool, Callable[[str, int, int], Any]]
 Shape = Tuple[int, ...]
 
 
-def contiguous(array: Any, dtype: Any = np.float64) -> np.ndarray:
-    """The array itself, if it is of the type and contiguous in C order; else a copy."""
-    return np.asarray(array, dtype=dtype, order="C")
-
-
 def real(array: Any, what: str) -> np.ndarray:
     """An array of real numbers, as it is; Error if it is of another kind."""
     if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
@@ -51,7 +46,7 @@ def exact_doubles(array: Any, what: str, nonfinite_points: Optional[str] = None)
         if not (inside & (back == array)).all():
             _core.fail(f"an integer of the {what}", expected="a number that a double represents",
                        found=str(array[~(inside & (back == array))][0]))  # fmt: skip
-    return np.asarray(doubles, order="C")
+    return doubles
 
 
 def points_of(points: Any, dimension: int, nonfinite_points: Optional[str] = None) -> Tuple[np.ndarray, Shape]:
@@ -102,30 +97,25 @@ def options_of(
 @contextlib.contextmanager
 def telling(progress: Progress) -> Iterator[Optional[Callable[[str, int, int], Any]]]:
     """Who is told of progress: None, a callable, or True for tqdm where that is installed."""
-    bars: Dict[str, Any] = {}
+    bars: Dict[str, Any] = {}  # of the last stage
+    with contextlib.ExitStack() as shown:
 
-    def close() -> None:
-        while bars:
-            bars.popitem()[1].close()
+        def show(stage: str, done: int, total: int) -> None:
+            if stage not in bars:
+                shown.close()
+                bars.clear()
+                bars[stage] = shown.enter_context(tqdm(total=total or None, desc=stage, unit_scale=True, leave=False))
+            bars[stage].update(done - bars[stage].n)
 
-    def show(stage: str, done: int, total: int) -> None:
-        if stage not in bars:
-            close()
-            bars[stage] = tqdm(total=total or None, desc=stage, unit_scale=True, leave=False)
-        bars[stage].update(done - bars[stage].n)
+        tell: Any = None if isinstance(progress, bool) else progress
+        if progress is True:
+            with contextlib.suppress(ImportError):
+                from tqdm.auto import tqdm
 
-    tell: Any = None if isinstance(progress, bool) else progress
-    if progress is True:
-        with contextlib.suppress(ImportError):
-            from tqdm.auto import tqdm
-
-            tell = show
-    if tell is not None and not callable(tell):
-        _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
-    try:
+                tell = show
+        if tell is not None and not callable(tell):
+            _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
         yield tell
-    finally:
-        close()
 
 
 def forwarded(path: str, doc: str) -> Any:

@@ -41,28 +41,27 @@ def parts_of(source: Any, in_space: bool = False) -> Parts:
     if hasattr(source, "triangles"):  # matplotlib.tri.Triangulation
         return _of_triangulation(source)
     if hasattr(source, "GetPoints"):  # of VTK, and so of pyvista
-        return _of_vtk(source, in_space)
-    if hasattr(source, "cells") and hasattr(source, "points"):  # meshio.Mesh
-        return _of_meshio(source, in_space)
-    _core.fail("what a mesh is made of",
-               expected="points and cells, or a mesh of SciPy, matplotlib, meshio, pyvista or VTK",
-               found=type(source).__name__)  # fmt: skip
+        parts = _of_vtk(source)
+    elif hasattr(source, "cells") and hasattr(source, "points"):  # meshio.Mesh
+        parts = _of_meshio(source)
+    else:
+        _core.fail("what a mesh is made of",
+                   expected="points and cells, or a mesh of SciPy, matplotlib, meshio, pyvista or VTK",
+                   found=type(source).__name__)  # fmt: skip
+    if parts.cells.shape[1] in (3, 6) and not in_space:
+        parts.points = _in_plane(parts.points, "triangles in space are no mesh")
+    return parts
 
 
 def points_of_dataset(source: Any, dimension: int) -> np.ndarray:
     """The points of a data set, in the plane without their z, which must be 0."""
-    if hasattr(source, "points"):
-        points = np.asarray(source.points)
-    elif source.GetPoints() is None:
-        _core.fail("a data set without points", found=type(source).__name__)
-    else:
-        points = _numpy(source.GetPoints().GetData())
-    if dimension == 2 and points.ndim == 2 and points.shape[1] == 3:
-        return _in_plane(points, "points beside a mesh in the plane")
-    return points
+    points = np.asarray(source.points) if hasattr(source, "points") else _points_of_vtk(source)
+    return _in_plane(points, "points beside a mesh in the plane") if dimension == 2 else points
 
 
 def _in_plane(points: np.ndarray, what: str) -> np.ndarray:
+    if points.ndim != 2 or points.shape[1] != 3:
+        return points
     off = np.flatnonzero(points[:, 2])
     if off.size:
         _core.fail(what, expected="z = 0 throughout", found=f"z = {points[off[0], 2]} at point {off[0]}")
@@ -84,9 +83,7 @@ def _of_triangulation(source: Any) -> Parts:
 Block = Tuple[Any, np.ndarray, np.ndarray]
 
 
-def _of_blocks(
-    points: Any, blocks: List[Block], ghosts: int, point_data: Any, cell_data: Any, in_space: bool = False,
-) -> Parts:  # fmt: skip
+def _of_blocks(points: Any, blocks: List[Block], ghosts: int, point_data: Any, cell_data: Any) -> Parts:
     """The cells of the highest dimension make a mesh. `ghosts`: cells of the source that are in no block."""
     count = {dimension: 0 for dimension in (1, 2, 3)}
     for kind, _, numbers in blocks:
@@ -108,13 +105,11 @@ def _of_blocks(
     nodes, numbers = nodes[order], numbers[order]
     whole = numbers[0] == 0 and numbers[-1] == numbers.size - 1 and not others
     notes = [f"left out: {other}" for other in others]
-    points = np.asarray(points)
-    if not solid and not in_space and points.ndim == 2 and points.shape[1] == 3:
-        points = _in_plane(points, "triangles in space are no mesh")
     cell_arrays = _numbers_only(cell_data, notes)
     if not whole:
         cell_arrays = {name: values[numbers] for name, values in cell_arrays.items()}
-    return Parts(points, nodes, None if whole else numbers, _numbers_only(point_data, notes), cell_arrays, notes)
+    point_arrays = _numbers_only(point_data, notes)
+    return Parts(np.asarray(points), nodes, None if whole else numbers, point_arrays, cell_arrays, notes)
 
 
 def _dimension(kind: Any) -> int:
@@ -146,9 +141,14 @@ def _arrays_of(attributes: Any, notes: List[str]) -> Dict[str, np.ndarray]:
     return arrays
 
 
-def _of_vtk(source: Any, in_space: bool) -> Parts:
+def _points_of_vtk(source: Any) -> np.ndarray:
     if source.GetPoints() is None:
         _core.fail("a data set without points", found=type(source).__name__)
+    return _numpy(source.GetPoints().GetData())
+
+
+def _of_vtk(source: Any) -> Parts:
+    points = _points_of_vtk(source)
     if hasattr(source, "GetCellTypesArray"):  # vtkUnstructuredGrid
         grid = source.GetCells()
         types = _numpy(source.GetCellTypesArray()) if grid.GetNumberOfCells() else np.empty(0, dtype=np.uint8)
@@ -175,12 +175,12 @@ def _of_vtk(source: Any, in_space: bool) -> Parts:
         if len(wrong):
             _core.fail(f"nodes of cell {numbers[wrong[0]]}", expected=str(columns), found=str(sizes[wrong[0]]))
         blocks.append((kind, connectivity[offsets[numbers][:, None] + np.arange(columns)], numbers))
-    parts = _of_blocks(_numpy(source.GetPoints().GetData()), blocks, np.count_nonzero(ghost), point_data, cell_data, in_space)
+    parts = _of_blocks(points, blocks, np.count_nonzero(ghost), point_data, cell_data)
     parts.notes = notes + parts.notes
     return parts
 
 
-def _of_meshio(source: Any, in_space: bool) -> Parts:
+def _of_meshio(source: Any) -> Parts:
     blocks: List[Block] = []
     first = 0
     for block in source.cells:
@@ -189,7 +189,7 @@ def _of_meshio(source: Any, in_space: bool) -> Parts:
         blocks.append((_MESHIO.get(block.type, block.type), np.asarray(block.data), numbers))
         first += len(numbers)
     cell_data = {name: np.concatenate([np.asarray(part) for part in parts]) for name, parts in source.cell_data.items()}
-    return _of_blocks(source.points, blocks, 0, source.point_data, cell_data, in_space)
+    return _of_blocks(source.points, blocks, 0, source.point_data, cell_data)
 
 
 class GivenBack:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import threading
 from typing import Any, Optional, Tuple
 
@@ -54,9 +55,7 @@ class Interpolator:
         self.mesh = _mesh_of(points, cells)
         self._values = values = np.asanyarray(values)
         self._complex = values.dtype.kind == "c"
-        rows, self._shape = values_of(_parts(values) if self._complex else values, len(self.mesh.points), "values")
-        if self._complex:
-            self._shape = self._shape[:-1]
+        rows, _ = values_of(_parts(values) if self._complex else values, len(self.mesh.points), "values")
         self._given = {"fill_value": fill_value, "outside": outside, "limit": limit, "rounding": rounding,
                        "nonfinite_points": nonfinite_points, "threads": threads}  # fmt: skip
         self._nonfinite_count, self._lock = 0, threading.Lock()
@@ -99,7 +98,7 @@ class Interpolator:
             result = result.view(np.complex128)
             if self._fill_after:
                 result[(cell < 0) & finite] = self._given["fill_value"]
-        return result.reshape(shape + self._shape)
+        return result.reshape(shape + self._values.shape[1:])
 
     def _coordinates(self, args: Tuple[Any, ...]) -> Tuple[np.ndarray, Tuple[int, ...]]:
         d, nonfinite = self.mesh.dimension, self._given["nonfinite_points"]
@@ -116,7 +115,7 @@ class Interpolator:
         return points_of(points, d)
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _unpickle, (self.mesh, self._values, self._given)
+        return functools.partial(Interpolator, **self._given), (self.mesh, self._values)
 
     def __repr__(self) -> str:
         kind = "triangles" if self.mesh.dimension == 2 else "tetrahedra"
@@ -144,7 +143,3 @@ def _parts(values: np.ndarray) -> np.ndarray:
     if np.ma.is_masked(values):
         _core.fail("masked entries of the values", remedy="say what they are: .filled(numpy.nan)")
     return np.stack([values.real, values.imag], axis=-1)
-
-
-def _unpickle(mesh: Mesh, values: np.ndarray, options: Any) -> Interpolator:
-    return Interpolator(mesh, values, **options)

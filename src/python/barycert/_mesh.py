@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _core
 from ._arguments import (
-    Progress, contiguous, count_of, exact_doubles, forwarded, options_of, points_of, real, telling, values_of,
+    Progress, count_of, exact_doubles, forwarded, options_of, points_of, real, telling, values_of,
 )  # fmt: skip
 from ._check import CheckReport, Repair
 from ._exchange import GivenBack, parts_of
@@ -196,7 +196,7 @@ class Mesh(GivenBack):
         _refuse(~np.isfinite(points), points, "points", "is not finite")
         corners = points.shape[1] + 1
         indices = (cells[:, :corners], cells[:, corners:], () if numbers is None else numbers)
-        self._set_core(_core.Mesh(contiguous(points), *(contiguous(some, np.int32) for some in indices)), notes)
+        self._set_core(_core.Mesh(points, *(np.ascontiguousarray(some, dtype=np.int32) for some in indices)), notes)
         self.point_data.update(point_data)
         self.cell_data.update(cell_data)
 

@@ -160,7 +160,7 @@ class Surface:
         ends = exact_doubles(np.array([start, end]), "ends")
         if ends.shape != (2, 3):
             _core.fail("ends of a segment", expected="two points of three coordinates", found=str(ends.shape))
-        return self._core.hits(np.ascontiguousarray(ends), ray)
+        return self._core.hits(ends, ray)
 
     def __reduce__(self) -> Tuple[Any, ...]:
         arrays = (self.points, self.triangles, self._core.facets)

@@ -8,7 +8,7 @@ from typing import Any, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, contiguous, count_of, exact_doubles, points_of, telling
+from ._arguments import Progress, count_of, exact_doubles, points_of, telling
 from ._location import Feature
 from ._mesh import Fields, Mesh
 
@@ -144,7 +144,7 @@ def verify(
         array = np.asarray(array)
         if array.size != count:
             _core.fail(f"shape of {what}", expected=str(shape), found=str(array.shape))
-        return contiguous(array, dtype).reshape(-1)
+        return np.ascontiguousarray(array, dtype=dtype).reshape(-1)
 
     if cells is not None and np.asarray(cells).dtype.kind not in "iu":
         _core.fail("type of cells", expected="integers", found=str(np.asarray(cells).dtype))
