@@ -63,14 +63,13 @@ Field field_of(std::string name, const Given<double>& values) {
 /// No values: takes the field out.
 void set_field(MeshObject& mesh, const std::string& name, const std::optional<Given<double>>& values, bool of_cells) {
     std::vector<Field>& fields = mesh.fields(of_cells);
-    const auto place = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+    const auto named = [&](const Field& f) { return f.name == name; };
     if (!values) {
-        if (place != fields.end()) fields.erase(place);
-    } else if (place == fields.end()) {
-        fields.push_back(field_of(name, *values));
-    } else {
-        *place = field_of(name, *values);
+        std::erase_if(fields, named);
+        return;
     }
+    const auto place = std::find_if(fields.begin(), fields.end(), named);
+    (place == fields.end() ? fields.emplace_back() : *place) = field_of(name, *values);
 }
 
 /// values (nodes, components): (cells, components * dimension).

@@ -101,10 +101,12 @@ py::tuple nearest(const MeshObject& object, const Given<double>& points, double 
     return py::make_tuple(owned(std::move(cells)), owned(std::move(distances)));
 }
 
-SampleOptions sample_options(Outside outside, double fill, double limit, Rounding rounding, int threads,
+/// No word for what points outside get: the number to fill in, which is NaN unless it is given.
+SampleOptions sample_options(std::optional<Outside> outside, double fill, double limit, Rounding rounding, int threads,
                              NonfinitePoints nonfinite) {
+    const Outside kind = outside.value_or(std::isnan(fill) ? Outside::nan : Outside::fill);
     return {.rounding = rounding,
-            .outside = {.kind = outside, .fill = fill, .limit = limit},
+            .outside = {.kind = kind, .fill = fill, .limit = limit},
             .threads = threads,
             .nonfinite_points = nonfinite};
 }

@@ -10,24 +10,18 @@ namespace {
 using SurfaceObject = Located<Surface, SurfaceLocator>;
 using Shared = std::shared_ptr<SurfaceObject>;
 
-Shared object_of(Surface surface) {
-    auto object = std::make_shared<SurfaceObject>();
-    object->data = std::move(surface);
-    return object;
-}
-
 /// points (n, 3), finite; triangles (m, 3); facets (m), or none.
 Shared made(const Given<double>& points, const Given<Mesh::Index>& triangles, const Given<Mesh::Index>& facets) {
     Surface surface;
     surface.points = points.copy();
     surface.cells = triangles.copy();
     surface.facets = facets.copy();
-    return object_of(std::move(surface));
+    return std::make_shared<SurfaceObject>(std::move(surface));
 }
 
 Shared read(const std::string& path) {
     const py::gil_scoped_release unlocked;
-    return object_of(read_surface(path).value());
+    return std::make_shared<SurfaceObject>(read_surface(path).value());
 }
 
 py::dict fields_of(const std::vector<Field>& fields) {

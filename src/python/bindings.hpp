@@ -213,6 +213,8 @@ template <class Data, class Locator>
 struct Located {
     Data data;
 
+    explicit Located(Data all = {}) : data(std::move(all)) {}
+
     /// Made once, by the thread that asks first; the others wait.
     const Locator& locator(const Progress& progress) {
         const py::gil_scoped_release unlocked;

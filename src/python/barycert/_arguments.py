@@ -88,9 +88,6 @@ def count_of(number: Any, what: str) -> int:
 def options_of(
     outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int, nonfinite_points: str = "error",
 ) -> _core.SampleOptions:  # fmt: skip
-    """outside None: fill_value, which is NaN unless it is given."""
-    if outside is None:
-        outside = "nan" if np.isnan(fill_value) else "fill"
     return _core.SampleOptions(outside, float(fill_value), float(limit), rounding, count_of(threads, "threads="), nonfinite_points)
 
 

@@ -13,6 +13,7 @@ from . import _core
 _TETRA, _QUADRATIC_TETRA, _TRIANGLE, _QUADRATIC_TRIANGLE = 10, 24, 5, 22
 _COLUMNS = {_TETRA: 4, _QUADRATIC_TETRA: 10, _TRIANGLE: 3, _QUADRATIC_TRIANGLE: 6}
 _KINDS = {columns: kind for kind, columns in _COLUMNS.items()}
+_DIMENSION = {_TETRA: 3, _QUADRATIC_TETRA: 3, _TRIANGLE: 2, _QUADRATIC_TRIANGLE: 2}
 # Vertices, poly-vertices, lines, poly-lines, quadratic edges: of lower dimension than any cell of a mesh.
 _LOWER = (1, 2, 3, 4, 21)
 _MESHIO = {"tetra": _TETRA, "tetra10": _QUADRATIC_TETRA, "triangle": _TRIANGLE, "triangle6": _QUADRATIC_TRIANGLE,
@@ -85,15 +86,15 @@ Block = Tuple[Any, np.ndarray, np.ndarray]
 
 def _of_blocks(points: Any, blocks: List[Block], ghosts: int, point_data: Any, cell_data: Any) -> Parts:
     """The cells of the highest dimension make a mesh. `ghosts`: cells of the source that are in no block."""
-    count = {dimension: 0 for dimension in (1, 2, 3)}
+    count = {dimension: 0 for dimension in (1, 2, 3)}  # 1: of all that are left out
     for kind, _, numbers in blocks:
         if len(numbers) and kind not in _COLUMNS and kind not in _LOWER:
             _core.fail("cells of another kind", expected="triangles or tetrahedra",
                        found=f"{len(numbers)} cells of type {kind}, the first is cell {numbers[0]}",
                        remedy="vtkDataSetTriangleFilter, or pyvista's triangulate(), makes tetrahedra of them")  # fmt: skip
-        count[_dimension(kind)] += len(numbers)
+        count[_DIMENSION.get(kind, 1)] += len(numbers)
     solid = count[3] > 0
-    chosen = [block for block in blocks if len(block[2]) and _dimension(block[0]) == (3 if solid else 2)]
+    chosen = [block for block in blocks if len(block[2]) and _DIMENSION.get(block[0]) == (3 if solid else 2)]
     left_out = {"ghost cells": ghosts, "vertices and lines": count[1], "triangles beside tetrahedra": count[2] if solid else 0}
     others = [f"{number} {what}" for what, number in left_out.items() if number]
     if len({kind for kind, _, _ in chosen}) > 1:
@@ -110,11 +111,6 @@ def _of_blocks(points: Any, blocks: List[Block], ghosts: int, point_data: Any, c
         cell_arrays = {name: values[numbers] for name, values in cell_arrays.items()}
     point_arrays = _numbers_only(point_data, notes)
     return Parts(np.asarray(points), nodes, None if whole else numbers, point_arrays, cell_arrays, notes)
-
-
-def _dimension(kind: Any) -> int:
-    """Of cells of that type; 1 stands for all that are left out."""
-    return 3 if kind in (_TETRA, _QUADRATIC_TETRA) else 2 if kind in _COLUMNS else 1
 
 
 def _numbers_only(data: Dict[str, Any], notes: List[str]) -> Dict[str, np.ndarray]:

@@ -15,7 +15,7 @@ from ._arguments import (
     Progress, count_of, exact_doubles, forwarded, options_of, points_of, real, telling, values_of,
 )  # fmt: skip
 from ._check import CheckReport, Repair
-from ._exchange import GivenBack, parts_of
+from ._exchange import GivenBack, Parts, parts_of
 from ._location import Location
 
 Fields = Union[None, str, Sequence[str]]
@@ -157,19 +157,18 @@ class Mesh(GivenBack):
         self, points: Any, cells: Any = None, *, point_data: Optional[Mapping[str, Any]] = None,
         cell_data: Optional[Mapping[str, Any]] = None, curved: str = "straight",
     ) -> None:  # fmt: skip
-        numbers: Optional[np.ndarray] = None
-        notes: List[str] = []
-        if cells is None or hasattr(cells, "simplices") or hasattr(cells, "triangles"):
-            parts = parts_of(points if cells is None else cells)
-            if cells is None:
-                points = parts.points
-            elif len(points) != len(parts.points):
+        parts = Parts(points, cells)
+        if cells is None:
+            parts = parts_of(points)
+        elif hasattr(cells, "simplices") or hasattr(cells, "triangles"):
+            parts = parts_of(cells)
+            if len(points) != len(parts.points):
                 # The points need not be those that were triangulated: they may have been scaled for that.
                 _core.fail("points and their triangulation", expected=f"{len(parts.points)} points", found=str(len(points)))
-            cells, numbers, notes = parts.cells, parts.cell_numbers, parts.notes
-            point_data = {**parts.point_data, **(point_data or {})}
-            cell_data = {**parts.cell_data, **(cell_data or {})}
-        coordinates, indices = exact_doubles(points, "points"), np.asarray(cells)
+            parts.points = points
+        parts.point_data.update(point_data or {})
+        parts.cell_data.update(cell_data or {})
+        coordinates, indices = parts.points, parts.cells = exact_doubles(parts.points, "points"), np.asarray(parts.cells)
         if coordinates.ndim != 2 or coordinates.shape[1] not in (2, 3):
             _core.fail("shape of the points of a mesh", expected="(n, 2) or (n, 3)", found=str(coordinates.shape))
         dimension = coordinates.shape[1]
@@ -181,13 +180,11 @@ class Mesh(GivenBack):
                        remedy="triangles in space are no mesh; in a plane z = 0 pass points[:, :2]" if in_space else "")  # fmt: skip
         if indices.dtype.kind not in "iu":
             _core.fail("type of the cells", expected="integers", found=str(indices.dtype))
-        self._make(coordinates, indices, numbers, point_data or {}, cell_data or {}, notes)
+        self._make(parts)
         self._take_as_straight("", curved)
 
-    def _make(
-        self, points: np.ndarray, cells: np.ndarray, numbers: Optional[np.ndarray], point_data: Mapping[str, Any],
-        cell_data: Mapping[str, Any], notes: Sequence[str],
-    ) -> None:  # fmt: skip
+    def _make(self, parts: Parts) -> None:
+        points, cells = parts.points, parts.cells
         if max(len(points), len(cells)) > 2**31 - 1:
             _core.fail("a mesh has at most 2147483647 nodes and cells")
         nodes = f"0 to {len(points) - 1}" if len(points) else "no cells, as there are no nodes"
@@ -195,10 +192,10 @@ class Mesh(GivenBack):
                 remedy="indices count from 0: see where they were made")  # fmt: skip
         _refuse(~np.isfinite(points), points, "points", "is not finite")
         corners = points.shape[1] + 1
-        indices = (cells[:, :corners], cells[:, corners:], () if numbers is None else numbers)
-        self._set_core(_core.Mesh(points, *(np.ascontiguousarray(some, dtype=np.int32) for some in indices)), notes)
-        self.point_data.update(point_data)
-        self.cell_data.update(cell_data)
+        indices = (cells[:, :corners], cells[:, corners:], () if parts.cell_numbers is None else parts.cell_numbers)
+        self._set_core(_core.Mesh(points, *(np.ascontiguousarray(some, dtype=np.int32) for some in indices)), parts.notes)
+        self.point_data.update(parts.point_data)
+        self.cell_data.update(parts.cell_data)
 
     def _set_core(self, core: _core.Mesh, notes: Sequence[str] = ()) -> None:
         self._core = core
@@ -459,12 +456,10 @@ class Mesh(GivenBack):
         self._core.write(os.fspath(path), comment, data)
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        parts = parts_of(self)
-        return _unpickle, (parts.points, parts.cells, parts.cell_numbers, parts.point_data, parts.cell_data, parts.notes)
+        return _unpickle, (parts_of(self),)
 
     def __deepcopy__(self, _: Any) -> Mesh:
-        make, arguments = self.__reduce__()
-        return make(*arguments)
+        return _unpickle(parts_of(self))
 
     def __repr__(self) -> str:
         kind = "triangles" if self.dimension == 2 else "tetrahedra"
@@ -489,9 +484,9 @@ class Mesh(GivenBack):
 
     def _sampled(self, fields: Fields, shape: Tuple[int, ...], progress: Progress, ask: Callable) -> np.ndarray:
         """The values of ask(sampler, tell) at points of that shape, as `sample` returns them."""
-        if fields is not None and not isinstance(fields, str) and not list(fields):
-            _core.fail("no fields", expected="a name, names, or None for all")
         names = [] if fields is None else [fields] if isinstance(fields, str) else list(fields)
+        if fields is not None and not names:
+            _core.fail("no fields", expected="a name, names, or None for all")
         with telling(progress) as tell:
             sampler = self._core.sampler(names, tell)
             values = ask(sampler, tell)
@@ -508,9 +503,9 @@ class Mesh(GivenBack):
         return values.view(np.dtype(members)).reshape(shape)
 
 
-def _unpickle(*parts: Any) -> Mesh:
+def _unpickle(parts: Parts) -> Mesh:
     mesh = Mesh.__new__(Mesh)
-    mesh._make(*parts)
+    mesh._make(parts)
     return mesh
 
 
