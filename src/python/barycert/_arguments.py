@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import operator
-from typing import Any, Callable, Dict, Iterator, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Optional, Tuple, Union
 
 import numpy as np
 
@@ -91,28 +91,27 @@ def options_of(
     return _core.SampleOptions(outside, float(fill_value), float(limit), rounding, count_of(threads, "threads="), nonfinite_points)
 
 
-@contextlib.contextmanager
-def telling(progress: Progress) -> Iterator[Optional[Callable[[str, int, int], Any]]]:
-    """Who is told of progress: None, a callable, or True for tqdm where that is installed."""
-    bars: Dict[str, Any] = {}  # of the last stage
-    with contextlib.ExitStack() as shown:
-
-        def show(stage: str, done: int, total: int) -> None:
-            if stage not in bars:
-                shown.close()
-                bars.clear()
-                bars[stage] = shown.enter_context(tqdm(total=total or None, desc=stage, unit_scale=True, leave=False))
-            bars[stage].update(done - bars[stage].n)
-
-        tell: Any = None if isinstance(progress, bool) else progress
-        if progress is True:
-            with contextlib.suppress(ImportError):
-                from tqdm.auto import tqdm
-
-                tell = show
-        if tell is not None and not callable(tell):
+def telling(progress: Progress) -> Optional[Callable[[str, int, int], Any]]:
+    """Who is told of progress: None, a callable, or for True a bar of tqdm where that is installed. It is to be held by the
+    call that tells alone: tqdm closes a bar that nobody holds any more."""
+    if not isinstance(progress, bool):
+        if progress is not None and not callable(progress):
             _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
-        yield tell
+        return progress
+    bars: Dict[str, Any] = {}  # of the last stage
+
+    def show(stage: str, done: int, total: int) -> None:
+        if stage not in bars:
+            bars.clear()
+            bars[stage] = tqdm(total=total or None, desc=stage, unit_scale=True, leave=False)
+        bars[stage].update(done - bars[stage].n)
+
+    with contextlib.suppress(ImportError):
+        if progress:
+            from tqdm.auto import tqdm
+
+            return show
+    return None
 
 
 def forwarded(path: str, doc: str) -> Any:

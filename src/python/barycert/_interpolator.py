@@ -65,8 +65,7 @@ class Interpolator:
         self._options = options_of(*filled, limit, rounding, threads, nonfinite_points)
         if not self._complex and np.iscomplexobj(fill_value):
             _core.fail("fill_value", expected="a real number, as the values are", found=repr(fill_value))
-        with telling(progress) as tell:
-            self._sampler = self.mesh._core.sampler_of(rows, tell)
+        self._sampler = self.mesh._core.sampler_of(rows, telling(progress))
 
     points: np.ndarray = forwarded("mesh.points", "(n, d) the nodes.")
     cells: np.ndarray = forwarded("mesh.cells", "(m, d + 1) the vertices of the cells.")
@@ -88,10 +87,10 @@ class Interpolator:
         """
         rows, shape = self._coordinates(args)
         finite = np.isfinite(rows).all(axis=1)
-        with telling(progress) as tell:
-            result = self._sampler.sample(rows, self._options, tell)
-            if self._fill_after:
-                cell, _ = _core.locate(self.mesh._core, rows, self._given["threads"], tell, self._given["nonfinite_points"])
+        result = self._sampler.sample(rows, self._options, telling(progress))
+        if self._fill_after:
+            threads, nonfinite = self._given["threads"], self._given["nonfinite_points"]
+            cell, _ = _core.locate(self.mesh._core, rows, threads, telling(progress), nonfinite)
         with self._lock:
             self._nonfinite_count += len(rows) - np.count_nonzero(finite)
         if self._complex:

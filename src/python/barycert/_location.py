@@ -72,8 +72,7 @@ class Location:
 
         if outside not in ("nan", "nearest", "extrapolate"):
             _core.fail("what points outside get (outside=)", expected="nan, nearest or extrapolate", found=repr(outside))
-        with telling(progress) as tell:
-            begin, nodes, weights = _core.matrix(self.mesh._core, self._points, self._cell, outside, float(limit), tell)
+        begin, nodes, weights = _core.matrix(self.mesh._core, self._points, self._cell, outside, float(limit), telling(progress))
         return csr_matrix((weights, nodes, begin), shape=(len(self._cell), len(self.mesh.points)))
 
     def sample(
@@ -84,8 +83,8 @@ class Location:
         """As `Mesh.sample` at these points, which are not located again."""
         # Points that are not finite are here only if they were to be outside.
         options = options_of(outside, fill_value, limit, rounding, threads, "nan")
-        return self.mesh._sampled(fields, self.cell.shape, progress, lambda sampler, tell: sampler.sample(
-            self._points, options, tell, self._cell, self._feature))  # fmt: skip
+        return self.mesh._sampled(fields, self.cell.shape, progress, lambda sampler: sampler.sample(
+            self._points, options, telling(progress), self._cell, self._feature))  # fmt: skip
 
     def __len__(self) -> int:
         return len(self.cell)

@@ -296,8 +296,7 @@ class Mesh(GivenBack):
         if rows.flags.writeable and not made_here:
             rows = rows.copy()
         rows.flags.writeable = False
-        with telling(progress) as tell:
-            cell, feature = _core.locate(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
+        cell, feature = _core.locate(self._core, rows, count_of(threads, "threads="), telling(progress), nonfinite_points)
         return Location(self, rows, shape, cell, feature)
 
     def locate_all(
@@ -309,8 +308,7 @@ class Mesh(GivenBack):
             begin (n + 1) int64 and cells int32: those of point i are cells[begin[i]:begin[i + 1]], ascending.
         """
         rows, _ = points_of(points, self.dimension, nonfinite_points)
-        with telling(progress) as tell:
-            return _core.locate_all(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
+        return _core.locate_all(self._core, rows, count_of(threads, "threads="), telling(progress), nonfinite_points)
 
     def nearest(
         self, points: Any, *, limit: float = np.inf, nonfinite_points: str = "error", progress: Progress = None,
@@ -323,8 +321,7 @@ class Mesh(GivenBack):
             where there is no cell.
         """
         rows, shape = points_of(points, self.dimension, nonfinite_points)
-        with telling(progress) as tell:
-            cells, distances = _core.nearest(self._core, rows, float(limit), tell, nonfinite_points)
+        cells, distances = _core.nearest(self._core, rows, float(limit), telling(progress), nonfinite_points)
         return cells.reshape(shape), distances.reshape(shape)
 
     def sample(
@@ -352,7 +349,7 @@ class Mesh(GivenBack):
         """
         rows, shape = points_of(points, self.dimension, nonfinite_points)
         options = options_of(outside, fill_value, limit, rounding, threads, nonfinite_points)
-        return self._sampled(fields, shape, progress, lambda sampler, tell: sampler.sample(rows, options, tell))
+        return self._sampled(fields, shape, progress, lambda sampler: sampler.sample(rows, options, telling(progress)))
 
     def resample(
         self, shape: Union[int, Sequence[int]], bounds: Any = None, fields: Fields = None, *,
@@ -374,7 +371,7 @@ class Mesh(GivenBack):
         grid, counts = self._grid(shape, bounds)
         options = options_of(outside, fill_value, limit, rounding, threads)
         flipped = self._sampled(fields, tuple(reversed(counts)), progress,
-                                lambda sampler, tell: sampler.on_grid(grid, options, tell))  # fmt: skip
+                                lambda sampler: sampler.on_grid(grid, options, telling(progress)))  # fmt: skip
         axes = tuple(reversed(range(self.dimension)))
         return flipped.transpose(axes + tuple(range(self.dimension, flipped.ndim)))
 
@@ -408,8 +405,7 @@ class Mesh(GivenBack):
                 _core.fail("no such field of nodes", found=repr(field), expected=", ".join(self.point_data) or "none")
             field = self.point_data[field]
         values, shape = values_of(field, len(self.points), "values")
-        with telling(progress) as tell:
-            gradients = self._core.gradients(values, tell)
+        gradients = self._core.gradients(values, telling(progress))
         return gradients.reshape((len(self.cells),) + shape + (self.dimension,))
 
     def check(
@@ -424,11 +420,10 @@ class Mesh(GivenBack):
             verdict_only: stop at the first defect that breaks the certificate.
             progress: called with the name of each stage, 0, 0.
         """
-        with telling(progress) as tell:
-            core = _core.check(
-                self._core, delaunay, count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only,
-                count_of(threads, "threads="), tell,
-            )  # fmt: skip
+        core = _core.check(
+            self._core, delaunay, count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only,
+            count_of(threads, "threads="), telling(progress),
+        )  # fmt: skip
         return CheckReport(core, self)
 
     def fix(
@@ -483,13 +478,12 @@ class Mesh(GivenBack):
         return _core.Grid(d, counts + [1] * (3 - d), low, high), counts
 
     def _sampled(self, fields: Fields, shape: Tuple[int, ...], progress: Progress, ask: Callable) -> np.ndarray:
-        """The values of ask(sampler, tell) at points of that shape, as `sample` returns them."""
+        """The values of ask(sampler) at points of that shape, as `sample` returns them."""
         names = [] if fields is None else [fields] if isinstance(fields, str) else list(fields)
         if fields is not None and not names:
             _core.fail("no fields", expected="a name, names, or None for all")
-        with telling(progress) as tell:
-            sampler = self._core.sampler(names, tell)
-            values = ask(sampler, tell)
+        sampler = self._core.sampler(names, telling(progress))
+        values = ask(sampler)
         members: List[Tuple[str, Any, Tuple[int, ...]]] = []
         for name, components in sampler.fields:
             # Of two fields with one name that of the cells comes second.

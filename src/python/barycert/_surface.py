@@ -91,11 +91,10 @@ class Surface:
 
         `to_dict()["surface"]` has shells, the regions that they enclose, volumes and areas.
         """
-        with telling(progress) as tell:
-            core = self._core.check(
-                count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only, float(near),
-                count_of(threads, "threads="), tell,
-            )  # fmt: skip
+        core = self._core.check(
+            count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only, float(near),
+            count_of(threads, "threads="), telling(progress),
+        )  # fmt: skip
         return CheckReport(core, self)
 
     def locate(self, points: Any, *, threads: int = 0) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -148,22 +148,21 @@ def verify(
 
     if cells is not None and np.asarray(cells).dtype.kind not in "iu":
         _core.fail("type of cells", expected="integers", found=str(np.asarray(cells).dtype))
-    with telling(progress) as tell:
-        sampler = mesh._core.sampler(list(claimed), tell) if claimed else mesh._core.sampler_of(None, tell)
-        parts = []
-        for name, components in sampler.fields:
-            part = exact_doubles(claimed[name], f'values of "{name}"')
-            if part.size != count * components:
-                _core.fail(f'shape of the values of "{name}"', expected=f"{shape}, {components} numbers each",
-                           found=str(part.shape))  # fmt: skip
-            parts.append(part.reshape(count, components))
-        table = np.ascontiguousarray(np.hstack(parts)) if parts else None
-        found = _core.verify(
-            sampler, rows, flat(cells, np.int64, "cells"),
-            None if inside is None else flat(np.asarray(inside) != 0, np.uint8, "inside"),
-            table, tolerance, exact, outside_value, count_of(examples, "examples="), count_of(threads, "threads="), tell,
-            nonfinite_points,
-        )  # fmt: skip
+    sampler = mesh._core.sampler(list(claimed), telling(progress)) if claimed else mesh._core.sampler_of(None, telling(progress))
+    parts = []
+    for name, components in sampler.fields:
+        part = exact_doubles(claimed[name], f'values of "{name}"')
+        if part.size != count * components:
+            _core.fail(f'shape of the values of "{name}"', expected=f"{shape}, {components} numbers each",
+                       found=str(part.shape))  # fmt: skip
+        parts.append(part.reshape(count, components))
+    table = np.ascontiguousarray(np.hstack(parts)) if parts else None
+    found = _core.verify(
+        sampler, rows, flat(cells, np.int64, "cells"),
+        None if inside is None else flat(np.asarray(inside) != 0, np.uint8, "inside"),
+        table, tolerance, exact, outside_value, count_of(examples, "examples="), count_of(threads, "threads="), telling(progress),
+        nonfinite_points,
+    )  # fmt: skip
     columns = [ColumnErrors(**c) for c in found.pop("columns")]
     wrong = [WrongRow(feature=Feature(row.pop("feature")), **row) for row in found.pop("examples")]
     return Verification(columns=columns, examples=wrong, **found)
