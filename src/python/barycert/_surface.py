@@ -138,14 +138,15 @@ class Surface:
             fields: a name for one array; names, or None for all, for a dict of them.
         """
         rows, shape = points_of(points, 3)
-        names = [fields] if isinstance(fields, str) else list(fields if fields is not None else [*self.point_data, *self.cell_data])
+        known = [*self.point_data, *self.cell_data]
+        names = [fields] if isinstance(fields, str) else known if fields is None else list(fields)
         given, shapes = [], []
         for name in names:
+            if name not in known:
+                _core.fail("the name of a field", expected=", ".join(known) or "none", found=name)
             of_cells = name not in self.point_data
-            if of_cells and name not in self.cell_data:
-                _core.fail("the name of a field", expected=", ".join([*self.point_data, *self.cell_data]) or "none", found=name)
-            count = len(self.triangles if of_cells else self.points)
-            values, one = values_of(self.cell_data[name] if of_cells else self.point_data[name], count, f"values of {name}")
+            data, places = (self.cell_data, self.triangles) if of_cells else (self.point_data, self.points)
+            values, one = values_of(data[name], len(places), f"values of {name}")
             given.append((values, of_cells))
             shapes.append(one)
         arrays = self._core.nearest(rows, float(limit), given, count_of(threads, "threads="))[5]

@@ -77,15 +77,10 @@ def _stage(settings, folder):
     build = settings.get("prebuilt")
     if build is None:
         build = settings.get("build-dir", os.path.join(ROOT, "build", "wheel-" + sysconfig.get_config_var("SOABI")))
-        options = {
-            "CMAKE_BUILD_TYPE": "Release",
-            "BARYCERT_PYTHON": "ON",
-            "BARYCERT_AUDIT": settings.get("audit", "ON"),
-            "BARYCERT_CLI": "OFF",
-            "BARYCERT_TETGEN": "OFF",
-            "Python3_EXECUTABLE": sys.executable,
-        }
-        _run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *(f"-D{name}={value}" for name, value in options.items()))
+        audit = settings.get("audit", "ON")
+        _run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBARYCERT_PYTHON=ON",
+             f"-DBARYCERT_AUDIT={audit}", "-DBARYCERT_CLI=OFF", "-DBARYCERT_TETGEN=OFF",
+             f"-DPython3_EXECUTABLE={sys.executable}")  # fmt: skip
         _run("cmake", "--build", build, "--target", "barycert_python")
     _run("cmake", "--install", build, "--component", "python", "--prefix", folder, "--strip")
     for path, _, files in os.walk(folder):
