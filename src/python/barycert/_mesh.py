@@ -183,7 +183,7 @@ class Mesh(GivenBack):
         self._make(parts)
         self._take_as_straight("", curved)
 
-    def _make(self, parts: Parts) -> None:
+    def _make(self, parts: Parts) -> Mesh:
         points, cells = parts.points, parts.cells
         if max(len(points), len(cells)) > 2**31 - 1:
             _core.fail("a mesh has at most 2147483647 nodes and cells")
@@ -196,12 +196,14 @@ class Mesh(GivenBack):
         self._set_core(_core.Mesh(points, *(np.ascontiguousarray(some, dtype=np.int32) for some in indices)), parts.notes)
         self.point_data.update(parts.point_data)
         self.cell_data.update(parts.cell_data)
+        return self
 
-    def _set_core(self, core: _core.Mesh, notes: Sequence[str] = ()) -> None:
+    def _set_core(self, core: _core.Mesh, notes: Sequence[str] = ()) -> Mesh:
         self._core = core
         self._more_notes = list(notes)
         self._point_data = FieldData(core, False, len(core.points))
         self._cell_data = FieldData(core, True, len(core.cells))
+        return self
 
     def _take_as_straight(self, file: str, curved: str) -> None:
         if curved not in ("straight", "refuse"):
@@ -209,12 +211,6 @@ class Mesh(GivenBack):
         _, told = self._core.take_as_straight(file, curved == "refuse")
         if told:
             warnings.warn(f"{file}: {told}" if file else told, stacklevel=3)
-
-    @classmethod
-    def _of_core(cls, core: _core.Mesh) -> Mesh:
-        mesh = cls.__new__(cls)
-        mesh._set_core(core)
-        return mesh
 
     # What it is made of.
 
@@ -438,7 +434,7 @@ class Mesh(GivenBack):
             orientation: turn negative cells.
         """
         core, done = _core.fix(self._core, float(merge_within), nodes, cells, orientation, count_of(threads, "threads="))
-        return Mesh._of_core(core), Repair(**done)
+        return Mesh.__new__(Mesh)._set_core(core), Repair(**done)
 
     # Out and in.
 
@@ -498,9 +494,7 @@ class Mesh(GivenBack):
 
 
 def _unpickle(parts: Parts) -> Mesh:
-    mesh = Mesh.__new__(Mesh)
-    mesh._make(parts)
-    return mesh
+    return Mesh.__new__(Mesh)._make(parts)
 
 
 def read(
@@ -526,7 +520,7 @@ def read(
     if isinstance(step, str) and not last:
         _core.fail("step of a series", expected='a number from 0, or "last"', found=repr(step))
     number = None if step is None or last else count_of(step, "step=")
-    mesh = Mesh._of_core(_core.read(os.fspath(path), number, last, time))
+    mesh = Mesh.__new__(Mesh)._set_core(_core.read(os.fspath(path), number, last, time))
     mesh._take_as_straight(os.fspath(path), curved)
     for text, important in mesh._core.notes:
         if important:

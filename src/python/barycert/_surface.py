@@ -65,7 +65,7 @@ class Surface:
     def _make(
         self, core: _core.Surface, point_data: Mapping[str, Any], cell_data: Mapping[str, Any], notes: List[str],
     ) -> Surface:  # fmt: skip
-        self._core, self._notes = core, notes
+        self._core, self._notes = core, list(notes)
         self.point_data: Dict[str, np.ndarray] = {name: np.asarray(values) for name, values in point_data.items()}
         self.cell_data: Dict[str, np.ndarray] = {name: np.asarray(values) for name, values in cell_data.items()}
         return self
