@@ -105,7 +105,7 @@ py::dict dict_of(const Verdicts& v, const BoundSampler& bound, const std::vector
                                 "spurious"_a = e.spurious, "max_ulps"_a = e.max_ulps,
                                 "max_relative"_a = e.max_relative));
     }
-    for (const WrongRow& row : v.examples) examples.append(row_of(row, bound.geometry->mesh.corners() - 1, names));
+    for (const WrongRow& row : v.examples) examples.append(row_of(row, bound.geometry->data.corners() - 1, names));
     return py::dict("rows"_a = v.rows, "right"_a = v.right, "missed"_a = v.missed, "invented"_a = v.invented,
                     "wrong_cell"_a = v.wrong_cell, "wrong_value"_a = v.wrong_value, "inside"_a = v.inside,
                     "outside"_a = v.outside, "on_boundary"_a = v.on_boundary,
@@ -147,11 +147,11 @@ void bind_check(py::module_& module) {
         .def_property_readonly("certified", [](Bound r) { return r.report.certified(); })
         .def_property_readonly("defects", [](Bound r) { return defects_of(r.report); })
         .def_property_readonly("contacts",
-                               [](Bound r) { return contacts_of(r.report, r.geometry->mesh.corners() - 1); })
+                               [](Bound r) { return contacts_of(r.report, r.geometry->data.corners() - 1); })
         .def_property_readonly("measures", &measures_of)
-        .def("text", [](Bound r, Text name) { return check_text(r.report, r.geometry->mesh, name, {}); })
+        .def("text", [](Bound r, Text name) { return check_text(r.report, r.geometry->data, name, {}); })
         .def("json", [](Bound r, Text name) { return check_json(r.report, name, measure_environment()); })
-        .def("html", [](Bound r, Text name) { return check_html(r.report, r.geometry->mesh, name); });
+        .def("html", [](Bound r, Text name) { return check_html(r.report, r.geometry->data, name); });
     module.def("check", &check_of);
     module.def("fix", &fix_of);
     module.def("verify", &verify);

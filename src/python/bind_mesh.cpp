@@ -16,8 +16,9 @@ using namespace pybind11::literals;
 /// `choices` may lie in `fields`.
 std::shared_ptr<BoundSampler> made(std::shared_ptr<Geometry> geometry, std::shared_ptr<const Mesh> fields,
                                    const std::vector<FieldChoice>& choices, const Progress& progress) {
+    const Locator& locator = geometry->locator(progress);
     const py::gil_scoped_release unlocked;
-    Sampler sampler = Sampler::build(geometry->locator(progress), choices).value();
+    Sampler sampler = Sampler::build(locator, choices).value();
     return std::make_shared<BoundSampler>(BoundSampler{std::move(geometry), std::move(fields), std::move(sampler)});
 }
 
@@ -62,14 +63,13 @@ Field field_of(std::string name, const Given<double>& values) {
 /// No values: takes the field out.
 void set_field(MeshObject& mesh, const std::string& name, const std::optional<Given<double>>& values, bool of_cells) {
     std::vector<Field>& fields = mesh.fields(of_cells);
-    const auto place = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
+    const auto named = [&](const Field& f) { return f.name == name; };
     if (!values) {
-        if (place != fields.end()) fields.erase(place);
-    } else if (place == fields.end()) {
-        fields.push_back(field_of(name, *values));
-    } else {
-        *place = field_of(name, *values);
+        std::erase_if(fields, named);
+        return;
     }
+    const auto place = std::find_if(fields.begin(), fields.end(), named);
+    (place == fields.end() ? fields.emplace_back() : *place) = field_of(name, *values);
 }
 
 /// values (nodes, components): (cells, components * dimension).
@@ -79,8 +79,8 @@ py::array gradients_of(const MeshObject& object, const Given<double>& values, co
     std::vector<double> all(row * mesh.cell_count());
     const NodalValues<double> nodal{values.all(), static_cast<int>(values.columns())};
     in_blocks(progress, "gradients", mesh.cell_count(), [&](std::size_t first, std::size_t count) {
-        check(gradients(object.simplex(), mesh.points, std::span(mesh.cells).subspan(n * first, n * count), nodal,
-                        std::span(all).subspan(row * first, row * count)));
+        return gradients(object.simplex(), mesh.points, std::span(mesh.cells).subspan(n * first, n * count), nodal,
+                         std::span(all).subspan(row * first, row * count));
     });
     return owned(std::move(all), row);
 }
@@ -110,21 +110,12 @@ void write(const MeshObject& object, const std::string& path, const std::string&
 
 }  // namespace
 
-const Locator& Geometry::locator(const Progress& progress) {
-    const std::lock_guard once(making_);
-    if (!locator_) {
-        const auto on_stage = [&](const char* stage) { tell(progress, stage, 0, 0); };
-        locator_ = Locator::build(mesh, {.prove = Prove::when_it_pays, .progress = on_stage}).value();
-    }
-    return *locator_;
-}
-
 MeshObject::MeshObject(Mesh mesh) : geometry_(std::make_shared<Geometry>()), fields_(std::make_shared<Mesh>()) {
     fields_->dimension = mesh.dimension;
     fields_->mid_nodes = mesh.mid_nodes;
     fields_->point_fields = std::exchange(mesh.point_fields, {});
     fields_->cell_fields = std::exchange(mesh.cell_fields, {});
-    geometry_->mesh = std::move(mesh);
+    geometry_->data = std::move(mesh);
 }
 
 std::vector<Field>& MeshObject::fields(bool of_cells) {

@@ -17,8 +17,8 @@ py::tuple locate(const MeshObject& object, const Given<double>& points, int thre
     std::vector<Mesh::Index> cells(points.rows());
     std::vector<Feature> features(points.rows());
     const auto block = [&](std::size_t first, std::size_t n) {
-        check(locator.locate(points.part(first, n), std::span(cells).subspan(first, n),
-                             std::span(features).subspan(first, n), nullptr, threads, nonfinite));
+        return locator.locate(points.part(first, n), std::span(cells).subspan(first, n),
+                              std::span(features).subspan(first, n), nullptr, threads, nonfinite);
     };
     in_blocks(progress, "points", points.rows(), block, first_block(locator, points.rows()));
     return py::make_tuple(owned(std::move(cells)), owned(std::move(features)));
@@ -31,14 +31,16 @@ py::tuple locate_all(const MeshObject& object, const Given<double>& points, int 
     std::vector<std::int64_t> begin{0};
     std::vector<Mesh::Index> cells;
     begin.reserve(points.rows() + 1);
-    in_blocks(progress, "points", points.rows(), [&](std::size_t first, std::size_t n) {
-        const Table rows = locator.locate_all(points.part(first, n), threads, nonfinite).value();
+    in_blocks(progress, "points", points.rows(), [&](std::size_t first, std::size_t n) -> Status {
+        const Result<Table> rows = locator.locate_all(points.part(first, n), threads, nonfinite);
+        if (!rows) return rows.error();
         for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t row = rows.point_begin[i]; row < rows.point_begin[i + 1]; ++row) {
-                if (rows.cells[row] >= 0) cells.push_back(rows.cells[row]);
+            for (std::size_t row = rows->point_begin[i]; row < rows->point_begin[i + 1]; ++row) {
+                if (rows->cells[row] >= 0) cells.push_back(rows->cells[row]);
             }
             begin.push_back(static_cast<std::int64_t>(cells.size()));
         }
+        return Done{};
     });
     return py::make_tuple(owned(std::move(begin)), owned(std::move(cells)));
 }
@@ -49,9 +51,9 @@ py::array weights_of(const MeshObject& object, const Given<double>& points, cons
     const std::size_t corners = mesh.corners();
     std::vector<double> weights(corners * cells.rows());
     in_blocks(Progress(), "weights", cells.rows(), [&](std::size_t first, std::size_t n) {
-        check(barycentric_weights(
+        return barycentric_weights(
             MeshQueries{object.simplex(), mesh.points, mesh.cells, cells.part(first, n), points.part(first, n)},
-            std::span(weights).subspan(corners * first, corners * n)));
+            std::span(weights).subspan(corners * first, corners * n));
     });
     return owned(std::move(weights), corners);
 }
@@ -99,10 +101,12 @@ py::tuple nearest(const MeshObject& object, const Given<double>& points, double 
     return py::make_tuple(owned(std::move(cells)), owned(std::move(distances)));
 }
 
-SampleOptions sample_options(Outside outside, double fill, double limit, Rounding rounding, int threads,
+/// No word for what points outside get: the number to fill in, which is NaN unless it is given.
+SampleOptions sample_options(std::optional<Outside> outside, double fill, double limit, Rounding rounding, int threads,
                              NonfinitePoints nonfinite) {
+    const Outside kind = outside.value_or(std::isnan(fill) ? Outside::nan : Outside::fill);
     return {.rounding = rounding,
-            .outside = {.kind = outside, .fill = fill, .limit = limit},
+            .outside = {.kind = kind, .fill = fill, .limit = limit},
             .threads = threads,
             .nonfinite_points = nonfinite};
 }
@@ -165,12 +169,9 @@ py::array on_grid(const BoundSampler& bound, const Grid& grid, const SampleOptio
         }
         return Done{};
     };
-    {
-        const py::gil_scoped_release unlocked;
-        const Result<SampleCounts> done = resample(bound.sampler, grid, options, sink);
-        if (raised) std::rethrow_exception(raised);
-        if (!done) throw Exception(done.error());
-    }
+    const Result<SampleCounts> done = unlocked([&] { return resample(bound.sampler, grid, options, sink); });
+    if (raised) std::rethrow_exception(raised);
+    if (!done) throw Exception(done.error());
     return out;
 }
 

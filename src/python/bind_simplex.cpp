@@ -55,9 +55,9 @@ void for_cases(Simplex simplex, const Given<double>& vertices, const Given<doubl
     in_blocks(Progress(), "cases", points.rows(), [&](std::size_t first, std::size_t size) {
         for (std::size_t i = numbers.size(); i < n * size; ++i) numbers.push_back(static_cast<std::int32_t>(i));
         const std::span<const std::int32_t> all = numbers;
-        visit(MeshQueries{simplex, vertices.all().subspan(n * d * first, n * d * size), all.first(n * size),
-                          all.first(size), points.part(first, size)},
-              first);
+        return visit(MeshQueries{simplex, vertices.all().subspan(n * d * first, n * d * size), all.first(n * size),
+                                 all.first(size), points.part(first, size)},
+                     first);
     });
 }
 
@@ -66,7 +66,7 @@ py::array weights(const Given<double>& vertices, const Given<double>& points) {
     const std::size_t n = vertices.columns();
     std::vector<double> out(points.rows() * n);
     for_cases(simplex_of(vertices), vertices, points, [&](const MeshQueries& queries, std::size_t first) {
-        check(barycentric_weights(queries, std::span(out).subspan(n * first, n * queries.count())));
+        return barycentric_weights(queries, std::span(out).subspan(n * first, n * queries.count()));
     });
     return owned(std::move(out), n);
 }
@@ -78,11 +78,12 @@ py::array signs_of_weights(const Given<double>& vertices, const Given<double>& p
     std::vector<WeightSigns> part;
     for_cases(simplex_of(vertices), vertices, points, [&](const MeshQueries& queries, std::size_t first) {
         part.resize(queries.count());
-        check(weight_signs(queries, part));
-        for (std::size_t j = 0; j < part.size(); ++j) {
+        const Status done = weight_signs(queries, part);
+        for (std::size_t j = 0; done && j < part.size(); ++j) {
             for (std::size_t i = 0; i < n; ++i)
                 out[n * (first + j) + i] = static_cast<std::int8_t>(part[j].sign(static_cast<int>(i)));
         }
+        return done;
     });
     return owned(std::move(out), n);
 }

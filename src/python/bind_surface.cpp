@@ -7,30 +7,15 @@
 namespace barycert::python {
 namespace {
 
-/// A surface with its locator, which is made once.
-class SurfaceObject {
-public:
-    explicit SurfaceObject(Surface surface) : surface_(std::move(surface)) {}
-
-    const Surface& surface() const { return surface_; }
-    /// To be called without the lock.
-    const SurfaceLocator& locator() {
-        const std::lock_guard lock(making_);
-        if (!locator_) locator_ = SurfaceLocator::build(surface_).value();
-        return *locator_;
-    }
-
-private:
-    Surface surface_;
-    std::mutex making_;
-    std::optional<SurfaceLocator> locator_;
-};
+using SurfaceObject = Located<Surface, SurfaceLocator>;
 using Shared = std::shared_ptr<SurfaceObject>;
 
-Shared made(const Given<double>& points, const Given<Mesh::Index>& triangles) {
+/// points (n, 3), finite; triangles (m, 3); facets (m), or none.
+Shared made(const Given<double>& points, const Given<Mesh::Index>& triangles, const Given<Mesh::Index>& facets) {
     Surface surface;
     surface.points = points.copy();
     surface.cells = triangles.copy();
+    surface.facets = facets.copy();
     return std::make_shared<SurfaceObject>(std::move(surface));
 }
 
@@ -57,7 +42,7 @@ std::shared_ptr<BoundReport> check_of(const SurfaceObject& object, std::size_t e
                                .progress = [&](const char* stage) { tell(progress, stage, 0, 0); }};
     const py::gil_scoped_release unlocked;
     return std::make_shared<BoundReport>(
-        BoundReport{std::make_shared<Geometry>(), check_surface(object.surface(), options)});
+        BoundReport{std::make_shared<Geometry>(), check_surface(object.data, options)});
 }
 
 /// A member of each item, that many numbers as it has: (items), or (items, numbers).
@@ -73,8 +58,16 @@ py::array member_of(const std::vector<Item>& items, T Owner::*member) {
 
 /// triangle, feature, winding: one a point.
 py::tuple locate(SurfaceObject& object, const Given<double>& points, int threads) {
+    const SurfaceLocator& locator = object.locator(Progress());
     std::vector<SurfaceLocation> found(points.rows());
-    check(unlocked([&] { return object.locator().locate(points.all(), found, threads); }));
+    // The locator has a map of sides for more points than a fourth of the triangles: then no part has fewer.
+    const std::size_t many = object.data.cell_count() / 4 + 1;
+    const bool map = locator.turned() != Turned::open && found.size() >= many;
+    const std::size_t least = map ? std::max(few, many) : few;
+    const auto block = [&](std::size_t first, std::size_t n) {
+        return locator.locate(points.part(first, n), std::span(found).subspan(first, n), threads);
+    };
+    in_blocks(Progress(), "points", found.size(), block, least, least);
     return py::make_tuple(member_of<Mesh::Index>(found, &SurfaceLocation::triangle),
                           member_of<std::uint8_t>(found, &SurfaceLocation::feature),
                           member_of<std::int32_t>(found, &SurfaceLocation::winding));
@@ -83,15 +76,22 @@ py::tuple locate(SurfaceObject& object, const Given<double>& points, int threads
 /// triangle, distance, point, nodes, weights: one a point; and the values of fields there.
 py::tuple nearest(SurfaceObject& object, const Given<double>& points, double limit,
                   const std::vector<std::pair<Given<double>, bool>>& fields, int threads) {
+    const SurfaceLocator& locator = object.locator(Progress());
     std::vector<SurfaceNearest> found(points.rows());
-    check(unlocked([&] { return object.locator().nearest(points.all(), limit, found, threads); }));
+    const auto block = [&](std::size_t first, std::size_t n) {
+        return locator.nearest(points.part(first, n), limit, std::span(found).subspan(first, n), threads);
+    };
+    // Parts are sorted: fewer points would lie farther from each other, and take longer.
+    in_blocks(Progress(), "points", found.size(), block, std::size_t{1} << 16, std::size_t{1} << 14);
     py::list arrays;
     for (const std::pair<Given<double>, bool>& given : fields) {
         const std::size_t columns = given.first.columns();
         const Field field{"", static_cast<int>(columns), given.first.copy()};
         std::vector<double> out(found.size() * columns);
-        check(
-            unlocked([&] { return object.locator().values(field, given.second, points.all(), found, out, threads); }));
+        in_blocks(Progress(), "values", found.size(), [&](std::size_t first, std::size_t n) {
+            return locator.values(field, given.second, points.part(first, n), std::span(found).subspan(first, n),
+                                  std::span(out).subspan(columns * first, columns * n), threads);
+        });
         arrays.append(owned(std::move(out), columns));
     }
     for (SurfaceNearest& one : found) {
@@ -106,14 +106,14 @@ py::tuple nearest(SurfaceObject& object, const Given<double>& points, double lim
 }
 
 py::list hits(SurfaceObject& object, const Given<double>& ends, bool ray) {
-    const auto found = unlocked([&] { return object.locator().hits(ends.data(), ends.data() + 3, ray).value(); });
+    const SurfaceLocator& locator = object.locator(Progress());
+    const auto found = unlocked([&] { return locator.hits(ends.data(), ends.data() + 3, ray).value(); });
     return list_of(
         found, [](const SurfaceHit& h) { return py::make_tuple(h.triangle, name(h.feature), h.parameter, h.side); });
 }
 
 const char* turned(SurfaceObject& object) {
-    const py::gil_scoped_release unlocked;
-    const Turned turned = object.locator().turned();
+    const Turned turned = object.locator(Progress()).turned();
     return turned == Turned::alike ? "alike" : turned == Turned::even ? "even" : "open";
 }
 
@@ -123,13 +123,13 @@ void bind_surface(py::module_& module) {
     py::class_<SurfaceObject, Shared>(module, "Surface")
         .def(py::init(&made))
         .def_static("read", &read)
-        .def_property_readonly("points", [](const Shared& s) { return view(s->surface().points, s, 3); })
-        .def_property_readonly("triangles", [](const Shared& s) { return view(s->surface().cells, s, 3); })
-        .def_property_readonly("point_fields", [](const Shared& s) { return fields_of(s->surface().point_fields); })
-        .def_property_readonly("cell_fields", [](const Shared& s) { return fields_of(s->surface().cell_fields); })
+        .def_property_readonly("points", [](const Shared& s) { return view(s->data.points, s, 3); })
+        .def_property_readonly("triangles", [](const Shared& s) { return view(s->data.cells, s, 3); })
+        .def_property_readonly("facets", [](const Shared& s) { return view(s->data.facets, s); })
+        .def_property_readonly("point_fields", [](const Shared& s) { return fields_of(s->data.point_fields); })
+        .def_property_readonly("cell_fields", [](const Shared& s) { return fields_of(s->data.cell_fields); })
         .def_property_readonly(
-            "notes",
-            [](const Shared& s) { return list_of(s->surface().notes, [](const Note& n) { return message(n); }); })
+            "notes", [](const Shared& s) { return list_of(s->data.notes, [](const Note& n) { return message(n); }); })
         .def_property_readonly("turned", &turned)
         .def("check", &check_of)
         .def("locate", &locate)

@@ -181,39 +181,56 @@ inline std::size_t first_block(const Locator& locator, std::size_t points) {
 }
 
 /// body(first, count) for parts of [0, total), without the lock. Parts grow and shrink such that one takes some tenths
-/// of a second, after which Ctrl-C is noticed.
+/// of a second, after which Ctrl-C is noticed; none but the only one is smaller than `least`. A Status that a body
+/// returns counts points from the first of the part: an Error is asked for again of all points up to there.
 template <class Body>
 void in_blocks(const Progress& progress, std::string_view stage, std::size_t total, const Body& body,
-               std::size_t size = few) {
+               std::size_t size = few, std::size_t least = 64) {
     using Clock = std::chrono::steady_clock;
     using std::chrono_literals::operator""ms;
-    constexpr std::size_t smallest = 64;
     const py::gil_scoped_release unlocked;
     for (std::size_t first = 0; first < total;) {
-        const std::size_t count = std::min(size, total - first);
+        const std::size_t rest = total - first, count = rest < size + least ? rest : size;
         const Clock::time_point begin = Clock::now();
-        body(first, count);
+        if constexpr (std::is_void_v<decltype(body(first, count))>) {
+            body(first, count);
+        } else if (!body(first, count)) {
+            check(body(0, first + count));
+        }
         const Clock::duration taken = Clock::now() - begin;
         first += count;
         tell(progress, stage, first, total);
         if (taken < 50ms) size *= 4;
-        if (taken > 400ms) size = std::max(size / 4, smallest);
+        if (taken > 400ms) size = std::max(size / 4, least);
     }
 }
 
 // A mesh as Python holds it: its geometry, shared and never changed; its locator, made when it is first needed; and its
 // fields, of which every sampler keeps those that it was made with.
 
-struct Geometry {
-    Mesh mesh;  ///< without fields
+/// A mesh without fields, or a surface.
+template <class Data, class Locator>
+struct Located {
+    Data data;
 
-    /// Made once, by the thread that asks first; the others wait. To be called without the lock.
-    const Locator& locator(const Progress& progress);
+    explicit Located(Data all = {}) : data(std::move(all)) {}
+
+    /// Made once, by the thread that asks first; the others wait.
+    const Locator& locator(const Progress& progress) {
+        const py::gil_scoped_release unlocked;
+        const std::lock_guard once(making_);
+        if (!locator_) {
+            const auto on_stage = [&](const char* stage) { tell(progress, stage, 0, 0); };
+            locator_ = Locator::build(data, {.prove = Prove::when_it_pays, .progress = on_stage}).value();
+        }
+        return *locator_;
+    }
 
 private:
     std::mutex making_;
     std::optional<Locator> locator_;
 };
+using Geometry = Located<Mesh, Locator>;
 
 /// A report with the mesh that it is of, which is empty if it is of a surface.
 struct BoundReport {
@@ -233,13 +250,10 @@ public:
     explicit MeshObject(Mesh mesh);
 
     const std::shared_ptr<Geometry>& geometry() const { return geometry_; }
-    const Mesh& mesh() const { return geometry_->mesh; }
+    const Mesh& mesh() const { return geometry_->data; }
     std::size_t dimension() const { return static_cast<std::size_t>(mesh().dimension); }
     Simplex simplex() const { return mesh().dimension == 2 ? Simplex::triangle : Simplex::tetrahedron; }
-    const Locator& locator(const Progress& progress) const {
-        const py::gil_scoped_release unlocked;
-        return geometry_->locator(progress);
-    }
+    const Locator& locator(const Progress& progress) const { return geometry_->locator(progress); }
 
     /// A mesh that has the fields alone, and what names of quantities need to know.
     std::shared_ptr<const Mesh> fields() const { return fields_; }

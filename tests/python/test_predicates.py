@@ -129,3 +129,7 @@ def test_more_cases_than_a_part_has():
     signs = barycert.weight_signs(vertices, points)
     np.testing.assert_array_equal(signs, np.sign(whole))
     assert Fraction(float(whole[0].sum())) != 0
+    points[9500, 1] = np.nan
+    for function in (barycert.barycentric_weights, barycert.weight_signs):
+        with pytest.raises(barycert.Error, match="case 9500"):
+            function(vertices, points)

@@ -94,6 +94,7 @@ from conftest import kuhn
 signal.signal(signal.SIGINT, signal.default_int_handler)
 points, cells = kuhn(12, 3)
 mesh = barycert.Mesh(points, cells, point_data={{"T": points[:, 0]}})
+surface = barycert.Surface(points, cells[:, :3])
 sampler = mesh._core.sampler(["T"], None)
 options = lambda outside, threads: _core.SampleOptions(outside, np.nan, np.inf, "correct", threads, "error")
 rng = np.random.default_rng(1)
@@ -104,6 +105,8 @@ prepare, make = {{
     "sample": (lambda: inside(16_000_000), lambda at: (sampler.sample, at, options("nan", 1), None)),
     "nearest": (lambda: inside(3_000_000) * 100 + 20, lambda at: (sampler.sample, at, options("nearest", 1), None)),
     "locate": (lambda: inside(16_000_000), lambda at: (_core.locate, mesh._core, at, 1, None, "error")),
+    "surface_locate": (lambda: inside(2_000_000), lambda at: (surface._core.locate, at, 1)),
+    "surface_nearest": (lambda: inside(2_000_000), lambda at: (surface._core.nearest, at, np.inf, [], 1)),
     "matrix": (
         lambda: inside(8_000_000), lambda at: (_core.matrix, mesh._core, at, owners(at), "nan", np.inf, None)
     ),
@@ -126,7 +129,11 @@ except KeyboardInterrupt:
 """
 
 
-@pytest.mark.parametrize("what", ["sample", "nearest", "locate", "matrix", "resample", "insphere", "audit", "audit_core"])
+@pytest.mark.parametrize(
+    "what",
+    ["sample", "nearest", "locate", "surface_locate", "surface_nearest", "matrix", "resample", "insphere", "audit",
+     "audit_core"],
+)  # fmt: skip
 def test_ctrl_c_ends_long_work(what):
     program = CTRL_C.format(tests=os.path.dirname(os.path.abspath(__file__)), what=what)
     process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)

@@ -278,6 +278,11 @@ def test_points_that_are_not_finite(dimension):
     for call in (mesh.locate_all, mesh.nearest, lambda p: barycert.verify(mesh, p, {"T": right})):
         with pytest.raises(barycert.Error, match="expected a finite number"):
             call(at)
+    many = np.full((10_000, dimension), 0.5)
+    many[9500, 1] = np.nan
+    for call in (mesh.locate, mesh.locate_all):
+        with pytest.raises(barycert.Error, match="coordinate 1 of point 9500"):
+            call(many)
     masked = np.ma.array(np.full((2, dimension), 0.5), mask=[[False] * dimension, [True] + [False] * (dimension - 1)])
     np.testing.assert_array_equal(np.isnan(mesh.sample(masked, "T", nonfinite_points="nan")), [False, True])
 

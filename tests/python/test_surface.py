@@ -1,5 +1,7 @@
 """Surfaces: what lies inside, what is nearest, and whether they are clean."""
 
+import copy
+import pickle
 import struct
 from fractions import Fraction
 
@@ -106,6 +108,46 @@ def test_files(tmp_path):
     assert surface.check()
 
 
+def test_copies_and_pickles(tmp_path):
+    points, triangles = cube()
+    surface = barycert.Surface(points, triangles, {"p": points}, {"n": np.arange(12)})
+    at = np.array([[0.3, 0.2, 5], [0.1, 0.7, -2]])
+    for other in (pickle.loads(pickle.dumps(surface)), copy.copy(surface), copy.deepcopy(surface)):
+        np.testing.assert_array_equal(other.points, points)
+        np.testing.assert_array_equal(other.triangles, triangles)
+        assert repr(other) == repr(surface) and other.check()
+        for name, values in surface.sample(at).items():
+            np.testing.assert_array_equal(other.sample(at, name), values)
+        other.point_data["new"] = np.ones(8)
+        assert "new" not in surface.point_data
+    deep = copy.deepcopy(surface)
+    deep.point_data["p"][:] = 0
+    np.testing.assert_array_equal(surface.point_data["p"], points)
+    # What a file says of polygons goes along.
+    lines = ["OFF", "8 6 0", *("%g %g %g" % tuple(p) for p in points), "4 0 1 3 2", "4 4 6 7 5", "4 0 4 5 1", "4 2 3 7 6",
+             "4 0 2 6 4", "4 1 5 7 3", ""]  # fmt: skip
+    (tmp_path / "cube.off").write_text("\n".join(lines))
+    read = barycert.Surface.read(tmp_path / "cube.off")
+    other = pickle.loads(pickle.dumps(read))
+    assert other.notes == read.notes and other.check().to_dict()["surface"] == read.check().to_dict()["surface"]
+    assert other.check().to_dict()["surface"]["facets"] == 6
+
+
+def test_more_points_than_a_part_has():
+    surface = barycert.Surface(*cube(), {"x": cube()[0][:, 0]})
+    at = np.random.default_rng(1).random((100_000, 3)) * 2 - 0.5
+    whole, near, values = surface.locate(at), surface.nearest(at), surface.sample(at, "x")
+    np.testing.assert_array_equal(whole[2] != 0, ((at > 0) & (at < 1)).all(axis=1))
+    np.testing.assert_array_equal(values, near.point[:, 0])
+    for all_of, part in zip(whole, surface.locate(at[90_000:])):
+        np.testing.assert_array_equal(all_of[90_000:], part)
+    np.testing.assert_array_equal(near.distance[90_000:], surface.nearest(at[90_000:]).distance)
+    at[95_000, 1] = np.nan
+    for ask in (surface.locate, surface.nearest):
+        with pytest.raises(barycert.Error, match="coordinate 1 of point 95000"):
+            ask(at)
+
+
 def test_other_packages():
     class Trimesh:
         vertices, faces = cube()
@@ -128,7 +170,8 @@ def test_vtk():
 @pytest.mark.parametrize(
     "points, triangles, what",
     [([[0, 0]], [[0, 0, 0]], "shape of the points"), (cube()[0], [[0, 1]], "triangles"),
-     (cube()[0], [[0, 1, 8]], "a corner of a triangle"), (cube()[0], [[0.0, 1, 2]], "triangles")],
+     (cube()[0], [[0, 1, 8]], "a corner of a triangle"), (cube()[0], [[0.0, 1, 2]], "triangles"),
+     (cube()[0], np.broadcast_to(np.int8(0), (2**31, 3)), "at most 2147483647 points and triangles")],
 )  # fmt: skip
 def test_errors(points, triangles, what):
     with pytest.raises(barycert.Error, match=what):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import operator
-from typing import Any, Callable, Dict, Iterator, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Optional, Tuple, Union
 
 import numpy as np
 
@@ -12,11 +12,6 @@ from . import _core
 
 Progress = Union[None, bool, Callable[[str, int, int], Any]]
 Shape = Tuple[int, ...]
-
-
-def contiguous(array: Any, dtype: Any = np.float64) -> np.ndarray:
-    """The array itself, if it is of the type and contiguous in C order; else a copy."""
-    return np.asarray(array, dtype=dtype, order="C")
 
 
 def real(array: Any, what: str) -> np.ndarray:
@@ -51,7 +46,7 @@ def exact_doubles(array: Any, what: str, nonfinite_points: Optional[str] = None)
         if not (inside & (back == array)).all():
             _core.fail(f"an integer of the {what}", expected="a number that a double represents",
                        found=str(array[~(inside & (back == array))][0]))  # fmt: skip
-    return np.asarray(doubles, order="C")
+    return doubles
 
 
 def points_of(points: Any, dimension: int, nonfinite_points: Optional[str] = None) -> Tuple[np.ndarray, Shape]:
@@ -93,39 +88,30 @@ def count_of(number: Any, what: str) -> int:
 def options_of(
     outside: Optional[str], fill_value: float, limit: float, rounding: str, threads: int, nonfinite_points: str = "error",
 ) -> _core.SampleOptions:  # fmt: skip
-    """outside None: fill_value, which is NaN unless it is given."""
-    if outside is None:
-        outside = "nan" if np.isnan(fill_value) else "fill"
     return _core.SampleOptions(outside, float(fill_value), float(limit), rounding, count_of(threads, "threads="), nonfinite_points)
 
 
-@contextlib.contextmanager
-def telling(progress: Progress) -> Iterator[Optional[Callable[[str, int, int], Any]]]:
-    """Who is told of progress: None, a callable, or True for tqdm where that is installed."""
-    bars: Dict[str, Any] = {}
-
-    def close() -> None:
-        while bars:
-            bars.popitem()[1].close()
+def telling(progress: Progress) -> Optional[Callable[[str, int, int], Any]]:
+    """Who is told of progress: None, a callable, or for True a bar of tqdm where that is installed. It is to be held by the
+    call that tells alone: tqdm closes a bar that nobody holds any more."""
+    if not isinstance(progress, bool):
+        if progress is not None and not callable(progress):
+            _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
+        return progress
+    bars: Dict[str, Any] = {}  # of the last stage
 
     def show(stage: str, done: int, total: int) -> None:
         if stage not in bars:
-            close()
+            bars.clear()
             bars[stage] = tqdm(total=total or None, desc=stage, unit_scale=True, leave=False)
         bars[stage].update(done - bars[stage].n)
 
-    tell: Any = None if isinstance(progress, bool) else progress
-    if progress is True:
-        with contextlib.suppress(ImportError):
+    with contextlib.suppress(ImportError):
+        if progress:
             from tqdm.auto import tqdm
 
-            tell = show
-    if tell is not None and not callable(tell):
-        _core.fail("progress=", expected="None, True or a callable of (stage, done, total)", found=repr(progress))
-    try:
-        yield tell
-    finally:
-        close()
+            return show
+    return None
 
 
 def forwarded(path: str, doc: str) -> Any:

@@ -124,13 +124,12 @@ def audit(
             # The loader of shared libraries looks elsewhere for a name without a folder.
             libraries.append(os.path.abspath(text)) if is_path else catalogue.append(text)
     named = meshes.items() if isinstance(meshes, Mapping) else ((f"mesh{i}", mesh) for i, mesh in enumerate(meshes))
-    with telling(progress) as tell:
-        core = _core.audit(
-            callable_kernel, simplex, name or "", declares_degenerate, tolerance, libraries, catalogue, contained,
-            count_of(count, "count="), count_of(seed, "seed="),
-            [families] if isinstance(families, str) else list(families),
-            [(label, mesh._core) for label, mesh in named], count_of(threads, "threads="), oracle, tell,
-        )  # fmt: skip
+    core = _core.audit(
+        callable_kernel, simplex, name or "", declares_degenerate, tolerance, libraries, catalogue, contained,
+        count_of(count, "count="), count_of(seed, "seed="),
+        [families] if isinstance(families, str) else list(families),
+        [(label, mesh._core) for label, mesh in named], count_of(threads, "threads="), oracle, telling(progress),
+    )  # fmt: skip
     return AuditReport(core)
 
 

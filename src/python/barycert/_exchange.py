@@ -13,6 +13,7 @@ from . import _core
 _TETRA, _QUADRATIC_TETRA, _TRIANGLE, _QUADRATIC_TRIANGLE = 10, 24, 5, 22
 _COLUMNS = {_TETRA: 4, _QUADRATIC_TETRA: 10, _TRIANGLE: 3, _QUADRATIC_TRIANGLE: 6}
 _KINDS = {columns: kind for kind, columns in _COLUMNS.items()}
+_DIMENSION = {_TETRA: 3, _QUADRATIC_TETRA: 3, _TRIANGLE: 2, _QUADRATIC_TRIANGLE: 2}
 # Vertices, poly-vertices, lines, poly-lines, quadratic edges: of lower dimension than any cell of a mesh.
 _LOWER = (1, 2, 3, 4, 21)
 _MESHIO = {"tetra": _TETRA, "tetra10": _QUADRATIC_TETRA, "triangle": _TRIANGLE, "triangle6": _QUADRATIC_TRIANGLE,
@@ -41,28 +42,27 @@ def parts_of(source: Any, in_space: bool = False) -> Parts:
     if hasattr(source, "triangles"):  # matplotlib.tri.Triangulation
         return _of_triangulation(source)
     if hasattr(source, "GetPoints"):  # of VTK, and so of pyvista
-        return _of_vtk(source, in_space)
-    if hasattr(source, "cells") and hasattr(source, "points"):  # meshio.Mesh
-        return _of_meshio(source, in_space)
-    _core.fail("what a mesh is made of",
-               expected="points and cells, or a mesh of SciPy, matplotlib, meshio, pyvista or VTK",
-               found=type(source).__name__)  # fmt: skip
+        parts = _of_vtk(source)
+    elif hasattr(source, "cells") and hasattr(source, "points"):  # meshio.Mesh
+        parts = _of_meshio(source)
+    else:
+        _core.fail("what a mesh is made of",
+                   expected="points and cells, or a mesh of SciPy, matplotlib, meshio, pyvista or VTK",
+                   found=type(source).__name__)  # fmt: skip
+    if parts.cells.shape[1] in (3, 6) and not in_space:
+        parts.points = _in_plane(parts.points, "triangles in space are no mesh")
+    return parts
 
 
 def points_of_dataset(source: Any, dimension: int) -> np.ndarray:
     """The points of a data set, in the plane without their z, which must be 0."""
-    if hasattr(source, "points"):
-        points = np.asarray(source.points)
-    elif source.GetPoints() is None:
-        _core.fail("a data set without points", found=type(source).__name__)
-    else:
-        points = _numpy(source.GetPoints().GetData())
-    if dimension == 2 and points.ndim == 2 and points.shape[1] == 3:
-        return _in_plane(points, "points beside a mesh in the plane")
-    return points
+    points = np.asarray(source.points) if hasattr(source, "points") else _points_of_vtk(source)
+    return _in_plane(points, "points beside a mesh in the plane") if dimension == 2 else points
 
 
 def _in_plane(points: np.ndarray, what: str) -> np.ndarray:
+    if points.ndim != 2 or points.shape[1] != 3:
+        return points
     off = np.flatnonzero(points[:, 2])
     if off.size:
         _core.fail(what, expected="z = 0 throughout", found=f"z = {points[off[0], 2]} at point {off[0]}")
@@ -84,19 +84,17 @@ def _of_triangulation(source: Any) -> Parts:
 Block = Tuple[Any, np.ndarray, np.ndarray]
 
 
-def _of_blocks(
-    points: Any, blocks: List[Block], ghosts: int, point_data: Any, cell_data: Any, in_space: bool = False,
-) -> Parts:  # fmt: skip
+def _of_blocks(points: Any, blocks: List[Block], ghosts: int, point_data: Any, cell_data: Any) -> Parts:
     """The cells of the highest dimension make a mesh. `ghosts`: cells of the source that are in no block."""
-    count = {dimension: 0 for dimension in (1, 2, 3)}
+    count = {dimension: 0 for dimension in (1, 2, 3)}  # 1: of all that are left out
     for kind, _, numbers in blocks:
         if len(numbers) and kind not in _COLUMNS and kind not in _LOWER:
             _core.fail("cells of another kind", expected="triangles or tetrahedra",
                        found=f"{len(numbers)} cells of type {kind}, the first is cell {numbers[0]}",
                        remedy="vtkDataSetTriangleFilter, or pyvista's triangulate(), makes tetrahedra of them")  # fmt: skip
-        count[_dimension(kind)] += len(numbers)
+        count[_DIMENSION.get(kind, 1)] += len(numbers)
     solid = count[3] > 0
-    chosen = [block for block in blocks if len(block[2]) and _dimension(block[0]) == (3 if solid else 2)]
+    chosen = [block for block in blocks if len(block[2]) and _DIMENSION.get(block[0]) == (3 if solid else 2)]
     left_out = {"ghost cells": ghosts, "vertices and lines": count[1], "triangles beside tetrahedra": count[2] if solid else 0}
     others = [f"{number} {what}" for what, number in left_out.items() if number]
     if len({kind for kind, _, _ in chosen}) > 1:
@@ -108,18 +106,11 @@ def _of_blocks(
     nodes, numbers = nodes[order], numbers[order]
     whole = numbers[0] == 0 and numbers[-1] == numbers.size - 1 and not others
     notes = [f"left out: {other}" for other in others]
-    points = np.asarray(points)
-    if not solid and not in_space and points.ndim == 2 and points.shape[1] == 3:
-        points = _in_plane(points, "triangles in space are no mesh")
     cell_arrays = _numbers_only(cell_data, notes)
     if not whole:
         cell_arrays = {name: values[numbers] for name, values in cell_arrays.items()}
-    return Parts(points, nodes, None if whole else numbers, _numbers_only(point_data, notes), cell_arrays, notes)
-
-
-def _dimension(kind: Any) -> int:
-    """Of cells of that type; 1 stands for all that are left out."""
-    return 3 if kind in (_TETRA, _QUADRATIC_TETRA) else 2 if kind in _COLUMNS else 1
+    point_arrays = _numbers_only(point_data, notes)
+    return Parts(np.asarray(points), nodes, None if whole else numbers, point_arrays, cell_arrays, notes)
 
 
 def _numbers_only(data: Dict[str, Any], notes: List[str]) -> Dict[str, np.ndarray]:
@@ -146,9 +137,14 @@ def _arrays_of(attributes: Any, notes: List[str]) -> Dict[str, np.ndarray]:
     return arrays
 
 
-def _of_vtk(source: Any, in_space: bool) -> Parts:
+def _points_of_vtk(source: Any) -> np.ndarray:
     if source.GetPoints() is None:
         _core.fail("a data set without points", found=type(source).__name__)
+    return _numpy(source.GetPoints().GetData())
+
+
+def _of_vtk(source: Any) -> Parts:
+    points = _points_of_vtk(source)
     if hasattr(source, "GetCellTypesArray"):  # vtkUnstructuredGrid
         grid = source.GetCells()
         types = _numpy(source.GetCellTypesArray()) if grid.GetNumberOfCells() else np.empty(0, dtype=np.uint8)
@@ -175,12 +171,12 @@ def _of_vtk(source: Any, in_space: bool) -> Parts:
         if len(wrong):
             _core.fail(f"nodes of cell {numbers[wrong[0]]}", expected=str(columns), found=str(sizes[wrong[0]]))
         blocks.append((kind, connectivity[offsets[numbers][:, None] + np.arange(columns)], numbers))
-    parts = _of_blocks(_numpy(source.GetPoints().GetData()), blocks, np.count_nonzero(ghost), point_data, cell_data, in_space)
+    parts = _of_blocks(points, blocks, np.count_nonzero(ghost), point_data, cell_data)
     parts.notes = notes + parts.notes
     return parts
 
 
-def _of_meshio(source: Any, in_space: bool) -> Parts:
+def _of_meshio(source: Any) -> Parts:
     blocks: List[Block] = []
     first = 0
     for block in source.cells:
@@ -189,7 +185,7 @@ def _of_meshio(source: Any, in_space: bool) -> Parts:
         blocks.append((_MESHIO.get(block.type, block.type), np.asarray(block.data), numbers))
         first += len(numbers)
     cell_data = {name: np.concatenate([np.asarray(part) for part in parts]) for name, parts in source.cell_data.items()}
-    return _of_blocks(source.points, blocks, 0, source.point_data, cell_data, in_space)
+    return _of_blocks(source.points, blocks, 0, source.point_data, cell_data)
 
 
 class GivenBack:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import threading
 from typing import Any, Optional, Tuple
 
@@ -54,9 +55,7 @@ class Interpolator:
         self.mesh = _mesh_of(points, cells)
         self._values = values = np.asanyarray(values)
         self._complex = values.dtype.kind == "c"
-        rows, self._shape = values_of(_parts(values) if self._complex else values, len(self.mesh.points), "values")
-        if self._complex:
-            self._shape = self._shape[:-1]
+        rows, _ = values_of(_parts(values) if self._complex else values, len(self.mesh.points), "values")
         self._given = {"fill_value": fill_value, "outside": outside, "limit": limit, "rounding": rounding,
                        "nonfinite_points": nonfinite_points, "threads": threads}  # fmt: skip
         self._nonfinite_count, self._lock = 0, threading.Lock()
@@ -66,8 +65,7 @@ class Interpolator:
         self._options = options_of(*filled, limit, rounding, threads, nonfinite_points)
         if not self._complex and np.iscomplexobj(fill_value):
             _core.fail("fill_value", expected="a real number, as the values are", found=repr(fill_value))
-        with telling(progress) as tell:
-            self._sampler = self.mesh._core.sampler_of(rows, tell)
+        self._sampler = self.mesh._core.sampler_of(rows, telling(progress))
 
     points: np.ndarray = forwarded("mesh.points", "(n, d) the nodes.")
     cells: np.ndarray = forwarded("mesh.cells", "(m, d + 1) the vertices of the cells.")
@@ -89,17 +87,17 @@ class Interpolator:
         """
         rows, shape = self._coordinates(args)
         finite = np.isfinite(rows).all(axis=1)
-        with telling(progress) as tell:
-            result = self._sampler.sample(rows, self._options, tell)
-            if self._fill_after:
-                cell, _ = _core.locate(self.mesh._core, rows, self._given["threads"], tell, self._given["nonfinite_points"])
+        result = self._sampler.sample(rows, self._options, telling(progress))
+        if self._fill_after:
+            threads, nonfinite = self._given["threads"], self._given["nonfinite_points"]
+            cell, _ = _core.locate(self.mesh._core, rows, threads, telling(progress), nonfinite)
         with self._lock:
             self._nonfinite_count += len(rows) - np.count_nonzero(finite)
         if self._complex:
             result = result.view(np.complex128)
             if self._fill_after:
                 result[(cell < 0) & finite] = self._given["fill_value"]
-        return result.reshape(shape + self._shape)
+        return result.reshape(shape + self._values.shape[1:])
 
     def _coordinates(self, args: Tuple[Any, ...]) -> Tuple[np.ndarray, Tuple[int, ...]]:
         d, nonfinite = self.mesh.dimension, self._given["nonfinite_points"]
@@ -116,7 +114,7 @@ class Interpolator:
         return points_of(points, d)
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _unpickle, (self.mesh, self._values, self._given)
+        return functools.partial(Interpolator, **self._given), (self.mesh, self._values)
 
     def __repr__(self) -> str:
         kind = "triangles" if self.mesh.dimension == 2 else "tetrahedra"
@@ -144,7 +142,3 @@ def _parts(values: np.ndarray) -> np.ndarray:
     if np.ma.is_masked(values):
         _core.fail("masked entries of the values", remedy="say what they are: .filled(numpy.nan)")
     return np.stack([values.real, values.imag], axis=-1)
-
-
-def _unpickle(mesh: Mesh, values: np.ndarray, options: Any) -> Interpolator:
-    return Interpolator(mesh, values, **options)

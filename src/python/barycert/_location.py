@@ -37,10 +37,7 @@ class Location:
 
     def __init__(self, mesh: Mesh, points: np.ndarray, shape: Tuple[int, ...], cell: np.ndarray, feature: np.ndarray):
         self.mesh = mesh
-        self._points = points
-        self._shape = shape
-        self._cell = cell
-        self._feature = feature
+        self._points, self._cell, self._feature = points, cell, feature
         self._weights: Optional[np.ndarray] = None
         self.points = points.reshape(shape + points.shape[1:])
         self.cell = cell.reshape(shape)
@@ -58,10 +55,10 @@ class Location:
         Of cells of second order these are the weights in the cell with straight sides; `matrix` has those of their
         nodes."""
         if self._weights is None:
-            inside = self._cell >= 0
-            self._weights = np.full((len(inside), self.mesh.dimension + 1), np.nan)
-            self._weights[inside] = _core.weights_of(self.mesh._core, self._points[inside], self._cell[inside])
-        return self._weights.reshape(self._shape + (self.mesh.dimension + 1,))
+            inside, weights = self.inside, np.full(self.cell.shape + (self.mesh.dimension + 1,), np.nan)
+            weights[inside] = _core.weights_of(self.mesh._core, self.points[inside], self.cell[inside])
+            self._weights = weights
+        return self._weights
 
     def matrix(self, *, outside: str = "nan", limit: float = np.inf, progress: Progress = None) -> Any:
         """The weights of the points on the nodes of the mesh, a scipy.sparse.csr_matrix (points, nodes): `matrix @ values`
@@ -75,8 +72,7 @@ class Location:
 
         if outside not in ("nan", "nearest", "extrapolate"):
             _core.fail("what points outside get (outside=)", expected="nan, nearest or extrapolate", found=repr(outside))
-        with telling(progress) as tell:
-            begin, nodes, weights = _core.matrix(self.mesh._core, self._points, self._cell, outside, float(limit), tell)
+        begin, nodes, weights = _core.matrix(self.mesh._core, self._points, self._cell, outside, float(limit), telling(progress))
         return csr_matrix((weights, nodes, begin), shape=(len(self._cell), len(self.mesh.points)))
 
     def sample(
@@ -87,8 +83,8 @@ class Location:
         """As `Mesh.sample` at these points, which are not located again."""
         # Points that are not finite are here only if they were to be outside.
         options = options_of(outside, fill_value, limit, rounding, threads, "nan")
-        return self.mesh._sampled(fields, self._shape, progress, lambda sampler, tell: sampler.sample(
-            self._points, options, tell, self._cell, self._feature))  # fmt: skip
+        return self.mesh._sampled(fields, self.cell.shape, progress, lambda sampler: sampler.sample(
+            self._points, options, telling(progress), self._cell, self._feature))  # fmt: skip
 
     def __len__(self) -> int:
         return len(self.cell)

@@ -12,10 +12,10 @@ import numpy as np
 
 from . import _core
 from ._arguments import (
-    Progress, contiguous, count_of, exact_doubles, forwarded, options_of, points_of, real, telling, values_of,
+    Progress, count_of, exact_doubles, forwarded, options_of, points_of, real, telling, values_of,
 )  # fmt: skip
 from ._check import CheckReport, Repair
-from ._exchange import GivenBack, parts_of
+from ._exchange import GivenBack, Parts, parts_of
 from ._location import Location
 
 Fields = Union[None, str, Sequence[str]]
@@ -157,19 +157,18 @@ class Mesh(GivenBack):
         self, points: Any, cells: Any = None, *, point_data: Optional[Mapping[str, Any]] = None,
         cell_data: Optional[Mapping[str, Any]] = None, curved: str = "straight",
     ) -> None:  # fmt: skip
-        numbers: Optional[np.ndarray] = None
-        notes: List[str] = []
-        if cells is None or hasattr(cells, "simplices") or hasattr(cells, "triangles"):
-            parts = parts_of(points if cells is None else cells)
-            if cells is None:
-                points = parts.points
-            elif len(points) != len(parts.points):
+        parts = Parts(points, cells)
+        if cells is None:
+            parts = parts_of(points)
+        elif hasattr(cells, "simplices") or hasattr(cells, "triangles"):
+            parts = parts_of(cells)
+            if len(points) != len(parts.points):
                 # The points need not be those that were triangulated: they may have been scaled for that.
                 _core.fail("points and their triangulation", expected=f"{len(parts.points)} points", found=str(len(points)))
-            cells, numbers, notes = parts.cells, parts.cell_numbers, parts.notes
-            point_data = {**parts.point_data, **(point_data or {})}
-            cell_data = {**parts.cell_data, **(cell_data or {})}
-        coordinates, indices = exact_doubles(points, "points"), np.asarray(cells)
+            parts.points = points
+        parts.point_data.update(point_data or {})
+        parts.cell_data.update(cell_data or {})
+        coordinates, indices = parts.points, parts.cells = exact_doubles(parts.points, "points"), np.asarray(parts.cells)
         if coordinates.ndim != 2 or coordinates.shape[1] not in (2, 3):
             _core.fail("shape of the points of a mesh", expected="(n, 2) or (n, 3)", found=str(coordinates.shape))
         dimension = coordinates.shape[1]
@@ -181,13 +180,11 @@ class Mesh(GivenBack):
                        remedy="triangles in space are no mesh; in a plane z = 0 pass points[:, :2]" if in_space else "")  # fmt: skip
         if indices.dtype.kind not in "iu":
             _core.fail("type of the cells", expected="integers", found=str(indices.dtype))
-        self._make(coordinates, indices, numbers, point_data or {}, cell_data or {}, notes)
+        self._make(parts)
         self._take_as_straight("", curved)
 
-    def _make(
-        self, points: np.ndarray, cells: np.ndarray, numbers: Optional[np.ndarray], point_data: Mapping[str, Any],
-        cell_data: Mapping[str, Any], notes: Sequence[str],
-    ) -> None:  # fmt: skip
+    def _make(self, parts: Parts) -> Mesh:
+        points, cells = parts.points, parts.cells
         if max(len(points), len(cells)) > 2**31 - 1:
             _core.fail("a mesh has at most 2147483647 nodes and cells")
         nodes = f"0 to {len(points) - 1}" if len(points) else "no cells, as there are no nodes"
@@ -195,16 +192,18 @@ class Mesh(GivenBack):
                 remedy="indices count from 0: see where they were made")  # fmt: skip
         _refuse(~np.isfinite(points), points, "points", "is not finite")
         corners = points.shape[1] + 1
-        indices = (cells[:, :corners], cells[:, corners:], () if numbers is None else numbers)
-        self._set_core(_core.Mesh(contiguous(points), *(contiguous(some, np.int32) for some in indices)), notes)
-        self.point_data.update(point_data)
-        self.cell_data.update(cell_data)
+        indices = (cells[:, :corners], cells[:, corners:], () if parts.cell_numbers is None else parts.cell_numbers)
+        self._set_core(_core.Mesh(points, *(np.ascontiguousarray(some, dtype=np.int32) for some in indices)), parts.notes)
+        self.point_data.update(parts.point_data)
+        self.cell_data.update(parts.cell_data)
+        return self
 
-    def _set_core(self, core: _core.Mesh, notes: Sequence[str] = ()) -> None:
+    def _set_core(self, core: _core.Mesh, notes: Sequence[str] = ()) -> Mesh:
         self._core = core
         self._more_notes = list(notes)
         self._point_data = FieldData(core, False, len(core.points))
         self._cell_data = FieldData(core, True, len(core.cells))
+        return self
 
     def _take_as_straight(self, file: str, curved: str) -> None:
         if curved not in ("straight", "refuse"):
@@ -212,12 +211,6 @@ class Mesh(GivenBack):
         _, told = self._core.take_as_straight(file, curved == "refuse")
         if told:
             warnings.warn(f"{file}: {told}" if file else told, stacklevel=3)
-
-    @classmethod
-    def _of_core(cls, core: _core.Mesh) -> Mesh:
-        mesh = cls.__new__(cls)
-        mesh._set_core(core)
-        return mesh
 
     # What it is made of.
 
@@ -299,8 +292,7 @@ class Mesh(GivenBack):
         if rows.flags.writeable and not made_here:
             rows = rows.copy()
         rows.flags.writeable = False
-        with telling(progress) as tell:
-            cell, feature = _core.locate(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
+        cell, feature = _core.locate(self._core, rows, count_of(threads, "threads="), telling(progress), nonfinite_points)
         return Location(self, rows, shape, cell, feature)
 
     def locate_all(
@@ -312,8 +304,7 @@ class Mesh(GivenBack):
             begin (n + 1) int64 and cells int32: those of point i are cells[begin[i]:begin[i + 1]], ascending.
         """
         rows, _ = points_of(points, self.dimension, nonfinite_points)
-        with telling(progress) as tell:
-            return _core.locate_all(self._core, rows, count_of(threads, "threads="), tell, nonfinite_points)
+        return _core.locate_all(self._core, rows, count_of(threads, "threads="), telling(progress), nonfinite_points)
 
     def nearest(
         self, points: Any, *, limit: float = np.inf, nonfinite_points: str = "error", progress: Progress = None,
@@ -326,8 +317,7 @@ class Mesh(GivenBack):
             where there is no cell.
         """
         rows, shape = points_of(points, self.dimension, nonfinite_points)
-        with telling(progress) as tell:
-            cells, distances = _core.nearest(self._core, rows, float(limit), tell, nonfinite_points)
+        cells, distances = _core.nearest(self._core, rows, float(limit), telling(progress), nonfinite_points)
         return cells.reshape(shape), distances.reshape(shape)
 
     def sample(
@@ -355,7 +345,7 @@ class Mesh(GivenBack):
         """
         rows, shape = points_of(points, self.dimension, nonfinite_points)
         options = options_of(outside, fill_value, limit, rounding, threads, nonfinite_points)
-        return self._sampled(fields, shape, progress, lambda sampler, tell: sampler.sample(rows, options, tell))
+        return self._sampled(fields, shape, progress, lambda sampler: sampler.sample(rows, options, telling(progress)))
 
     def resample(
         self, shape: Union[int, Sequence[int]], bounds: Any = None, fields: Fields = None, *,
@@ -377,7 +367,7 @@ class Mesh(GivenBack):
         grid, counts = self._grid(shape, bounds)
         options = options_of(outside, fill_value, limit, rounding, threads)
         flipped = self._sampled(fields, tuple(reversed(counts)), progress,
-                                lambda sampler, tell: sampler.on_grid(grid, options, tell))  # fmt: skip
+                                lambda sampler: sampler.on_grid(grid, options, telling(progress)))  # fmt: skip
         axes = tuple(reversed(range(self.dimension)))
         return flipped.transpose(axes + tuple(range(self.dimension, flipped.ndim)))
 
@@ -411,8 +401,7 @@ class Mesh(GivenBack):
                 _core.fail("no such field of nodes", found=repr(field), expected=", ".join(self.point_data) or "none")
             field = self.point_data[field]
         values, shape = values_of(field, len(self.points), "values")
-        with telling(progress) as tell:
-            gradients = self._core.gradients(values, tell)
+        gradients = self._core.gradients(values, telling(progress))
         return gradients.reshape((len(self.cells),) + shape + (self.dimension,))
 
     def check(
@@ -427,11 +416,10 @@ class Mesh(GivenBack):
             verdict_only: stop at the first defect that breaks the certificate.
             progress: called with the name of each stage, 0, 0.
         """
-        with telling(progress) as tell:
-            core = _core.check(
-                self._core, delaunay, count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only,
-                count_of(threads, "threads="), tell,
-            )  # fmt: skip
+        core = _core.check(
+            self._core, delaunay, count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only,
+            count_of(threads, "threads="), telling(progress),
+        )  # fmt: skip
         return CheckReport(core, self)
 
     def fix(
@@ -446,7 +434,7 @@ class Mesh(GivenBack):
             orientation: turn negative cells.
         """
         core, done = _core.fix(self._core, float(merge_within), nodes, cells, orientation, count_of(threads, "threads="))
-        return Mesh._of_core(core), Repair(**done)
+        return Mesh.__new__(Mesh)._set_core(core), Repair(**done)
 
     # Out and in.
 
@@ -459,12 +447,10 @@ class Mesh(GivenBack):
         self._core.write(os.fspath(path), comment, data)
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        parts = parts_of(self)
-        return _unpickle, (parts.points, parts.cells, parts.cell_numbers, parts.point_data, parts.cell_data, parts.notes)
+        return _unpickle, (parts_of(self),)
 
     def __deepcopy__(self, _: Any) -> Mesh:
-        make, arguments = self.__reduce__()
-        return make(*arguments)
+        return _unpickle(parts_of(self))
 
     def __repr__(self) -> str:
         kind = "triangles" if self.dimension == 2 else "tetrahedra"
@@ -488,13 +474,12 @@ class Mesh(GivenBack):
         return _core.Grid(d, counts + [1] * (3 - d), low, high), counts
 
     def _sampled(self, fields: Fields, shape: Tuple[int, ...], progress: Progress, ask: Callable) -> np.ndarray:
-        """The values of ask(sampler, tell) at points of that shape, as `sample` returns them."""
-        if fields is not None and not isinstance(fields, str) and not list(fields):
-            _core.fail("no fields", expected="a name, names, or None for all")
+        """The values of ask(sampler) at points of that shape, as `sample` returns them."""
         names = [] if fields is None else [fields] if isinstance(fields, str) else list(fields)
-        with telling(progress) as tell:
-            sampler = self._core.sampler(names, tell)
-            values = ask(sampler, tell)
+        if fields is not None and not names:
+            _core.fail("no fields", expected="a name, names, or None for all")
+        sampler = self._core.sampler(names, telling(progress))
+        values = ask(sampler)
         members: List[Tuple[str, Any, Tuple[int, ...]]] = []
         for name, components in sampler.fields:
             # Of two fields with one name that of the cells comes second.
@@ -508,10 +493,8 @@ class Mesh(GivenBack):
         return values.view(np.dtype(members)).reshape(shape)
 
 
-def _unpickle(*parts: Any) -> Mesh:
-    mesh = Mesh.__new__(Mesh)
-    mesh._make(*parts)
-    return mesh
+def _unpickle(parts: Parts) -> Mesh:
+    return Mesh.__new__(Mesh)._make(parts)
 
 
 def read(
@@ -537,7 +520,7 @@ def read(
     if isinstance(step, str) and not last:
         _core.fail("step of a series", expected='a number from 0, or "last"', found=repr(step))
     number = None if step is None or last else count_of(step, "step=")
-    mesh = Mesh._of_core(_core.read(os.fspath(path), number, last, time))
+    mesh = Mesh.__new__(Mesh)._set_core(_core.read(os.fspath(path), number, last, time))
     mesh._take_as_straight(os.fspath(path), curved)
     for text, important in mesh._core.notes:
         if important:

@@ -11,7 +11,7 @@ import numpy as np
 from . import _core
 from ._arguments import Progress, count_of, exact_doubles, forwarded, points_of, telling, values_of
 from ._check import CheckReport
-from ._exchange import parts_of
+from ._exchange import Parts, parts_of
 
 
 @dataclass(frozen=True)
@@ -41,52 +41,45 @@ class Surface:
         triangles: (m, 3), indices of points.
         point_data, cell_data: fields by name, a value a node or triangle.
 
-    `Surface.read(path)` reads .stl .ply .off .obj .vtp, .poly and .smesh, and triangles of any file of meshes.
+    `Surface.read(path)` reads .stl .ply .off .obj .vtp, .poly and .smesh, and triangles of any file of meshes. Surfaces
+    can be pickled and copied.
     """
 
     def __init__(
         self, points: Any, triangles: Any = None, point_data: Optional[Mapping[str, Any]] = None,
         cell_data: Optional[Mapping[str, Any]] = None,
     ) -> None:  # fmt: skip
-        self.point_data: Dict[str, np.ndarray] = {}
-        self.cell_data: Dict[str, np.ndarray] = {}
-        if triangles is None:
-            points, triangles = self._take(points)
-        coordinates = exact_doubles(points, "points")
-        corners = np.asarray(triangles)
+        parts = _triangles_of(points) if triangles is None else Parts(points, triangles)
+        coordinates, corners = exact_doubles(parts.points, "points"), np.asarray(parts.cells)
         if coordinates.ndim != 2 or coordinates.shape[1] != 3:
             _core.fail("shape of the points", expected="(n, 3)", found=str(coordinates.shape))
         if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
             _core.fail("triangles", expected="integers (m, 3)", found=f"{corners.dtype} {corners.shape}")
+        if max(len(coordinates), len(corners)) > 2**31 - 1:
+            _core.fail("a surface has at most 2147483647 points and triangles")
         if corners.size and (corners.min() < 0 or corners.max() >= len(coordinates)):
             _core.fail("a corner of a triangle", expected=f"0 to {len(coordinates) - 1}", found=f"{corners.min()} to {corners.max()}")
-        self._core = _core.Surface(np.ascontiguousarray(coordinates), np.ascontiguousarray(corners, dtype=np.int32))
-        self.point_data.update({name: np.asarray(values) for name, values in (point_data or {}).items()})
-        self.cell_data.update({name: np.asarray(values) for name, values in (cell_data or {}).items()})
+        core = _core.Surface(coordinates, np.ascontiguousarray(corners, dtype=np.int32), np.empty(0, dtype=np.int32))
+        self._make(core, {**parts.point_data, **(point_data or {})}, {**parts.cell_data, **(cell_data or {})}, [])
 
-    def _take(self, source: Any) -> Tuple[Any, Any]:
-        if hasattr(source, "vertices") and hasattr(source, "faces"):  # trimesh.Trimesh
-            return np.asarray(source.vertices), np.asarray(source.faces)
-        parts = parts_of(source, in_space=True)
-        if parts.cells.shape[1] not in (3, 6):
-            _core.fail("what a surface is made of", expected="triangles", found="tetrahedra")
-        self.point_data.update(parts.point_data)
-        self.cell_data.update(parts.cell_data)
-        return parts.points, parts.cells[:, :3]
+    def _make(
+        self, core: _core.Surface, point_data: Mapping[str, Any], cell_data: Mapping[str, Any], notes: List[str],
+    ) -> Surface:  # fmt: skip
+        self._core, self._notes = core, list(notes)
+        self.point_data: Dict[str, np.ndarray] = {name: np.asarray(values) for name, values in point_data.items()}
+        self.cell_data: Dict[str, np.ndarray] = {name: np.asarray(values) for name, values in cell_data.items()}
+        return self
 
     @classmethod
     def read(cls, path: Union[str, "os.PathLike[str]"]) -> Surface:
         """Reads a surface with its fields."""
-        self = cls.__new__(cls)
-        self._core = _core.Surface.read(os.fspath(path))
-        self.point_data = dict(self._core.point_fields)
-        self.cell_data = dict(self._core.cell_fields)
-        return self
+        core = _core.Surface.read(os.fspath(path))
+        return cls.__new__(cls)._make(core, core.point_fields, core.cell_fields, core.notes)
 
     points: np.ndarray = forwarded("_core.points", "(n, 3).")
     triangles: np.ndarray = forwarded("_core.triangles", "(m, 3).")
     cells: np.ndarray = forwarded("_core.triangles", "The triangles, as a mesh has its cells.")
-    notes: List[str] = forwarded("_core.notes", "What the reader left out, converted or guessed.")
+    notes: List[str] = forwarded("_notes", "What the reader left out, converted or guessed.")
     turned: str = forwarded("_core.turned", """What tells the sides apart: "alike": each edge has as many triangles one way as
         the other; "even": an even number of triangles; "open": neither, there is no inside.""")  # fmt: skip
 
@@ -98,11 +91,10 @@ class Surface:
 
         `to_dict()["surface"]` has shells, the regions that they enclose, volumes and areas.
         """
-        with telling(progress) as tell:
-            core = self._core.check(
-                count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only, float(near),
-                count_of(threads, "threads="), tell,
-            )  # fmt: skip
+        core = self._core.check(
+            count_of(examples, "examples="), count_of(contacts, "contacts="), verdict_only, float(near),
+            count_of(threads, "threads="), telling(progress),
+        )  # fmt: skip
         return CheckReport(core, self)
 
     def locate(self, points: Any, *, threads: int = 0) -> Tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -146,14 +138,15 @@ class Surface:
             fields: a name for one array; names, or None for all, for a dict of them.
         """
         rows, shape = points_of(points, 3)
-        names = [fields] if isinstance(fields, str) else list(fields if fields is not None else [*self.point_data, *self.cell_data])
+        known = [*self.point_data, *self.cell_data]
+        names = [fields] if isinstance(fields, str) else known if fields is None else list(fields)
         given, shapes = [], []
         for name in names:
+            if name not in known:
+                _core.fail("the name of a field", expected=", ".join(known) or "none", found=name)
             of_cells = name not in self.point_data
-            if of_cells and name not in self.cell_data:
-                _core.fail("the name of a field", expected=", ".join([*self.point_data, *self.cell_data]) or "none", found=name)
-            count = len(self.triangles if of_cells else self.points)
-            values, one = values_of(self.cell_data[name] if of_cells else self.point_data[name], count, f"values of {name}")
+            data, places = (self.cell_data, self.triangles) if of_cells else (self.point_data, self.points)
+            values, one = values_of(data[name], len(places), f"values of {name}")
             given.append((values, of_cells))
             shapes.append(one)
         arrays = self._core.nearest(rows, float(limit), given, count_of(threads, "threads="))[5]
@@ -167,10 +160,28 @@ class Surface:
         ends = exact_doubles(np.array([start, end]), "ends")
         if ends.shape != (2, 3):
             _core.fail("ends of a segment", expected="two points of three coordinates", found=str(ends.shape))
-        return self._core.hits(np.ascontiguousarray(ends), ray)
+        return self._core.hits(ends, ray)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        arrays = (self.points, self.triangles, self._core.facets)
+        return _unpickle, (arrays, self.point_data, self.cell_data, self.notes)
 
     def __len__(self) -> int:
         return len(self.triangles)
 
     def __repr__(self) -> str:
         return f"<barycert.Surface: {len(self.points)} points, {len(self.triangles)} triangles>"
+
+
+def _triangles_of(source: Any) -> Parts:
+    if hasattr(source, "vertices") and hasattr(source, "faces"):  # trimesh.Trimesh
+        return Parts(np.asarray(source.vertices), np.asarray(source.faces))
+    parts = parts_of(source, in_space=True)
+    if parts.cells.shape[1] not in (3, 6):
+        _core.fail("what a surface is made of", expected="triangles", found="tetrahedra")
+    parts.cells = parts.cells[:, :3]
+    return parts
+
+
+def _unpickle(arrays: Tuple[np.ndarray, ...], *others: Any) -> Surface:
+    return Surface.__new__(Surface)._make(_core.Surface(*arrays), *others)

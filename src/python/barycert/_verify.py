@@ -8,7 +8,7 @@ from typing import Any, List, Mapping, Optional, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._arguments import Progress, contiguous, count_of, exact_doubles, points_of, telling
+from ._arguments import Progress, count_of, exact_doubles, points_of, telling
 from ._location import Feature
 from ._mesh import Fields, Mesh
 
@@ -144,26 +144,25 @@ def verify(
         array = np.asarray(array)
         if array.size != count:
             _core.fail(f"shape of {what}", expected=str(shape), found=str(array.shape))
-        return contiguous(array, dtype).reshape(-1)
+        return np.ascontiguousarray(array, dtype=dtype).reshape(-1)
 
     if cells is not None and np.asarray(cells).dtype.kind not in "iu":
         _core.fail("type of cells", expected="integers", found=str(np.asarray(cells).dtype))
-    with telling(progress) as tell:
-        sampler = mesh._core.sampler(list(claimed), tell) if claimed else mesh._core.sampler_of(None, tell)
-        parts = []
-        for name, components in sampler.fields:
-            part = exact_doubles(claimed[name], f'values of "{name}"')
-            if part.size != count * components:
-                _core.fail(f'shape of the values of "{name}"', expected=f"{shape}, {components} numbers each",
-                           found=str(part.shape))  # fmt: skip
-            parts.append(part.reshape(count, components))
-        table = np.ascontiguousarray(np.hstack(parts)) if parts else None
-        found = _core.verify(
-            sampler, rows, flat(cells, np.int64, "cells"),
-            None if inside is None else flat(np.asarray(inside) != 0, np.uint8, "inside"),
-            table, tolerance, exact, outside_value, count_of(examples, "examples="), count_of(threads, "threads="), tell,
-            nonfinite_points,
-        )  # fmt: skip
+    sampler = mesh._core.sampler(list(claimed), telling(progress)) if claimed else mesh._core.sampler_of(None, telling(progress))
+    parts = []
+    for name, components in sampler.fields:
+        part = exact_doubles(claimed[name], f'values of "{name}"')
+        if part.size != count * components:
+            _core.fail(f'shape of the values of "{name}"', expected=f"{shape}, {components} numbers each",
+                       found=str(part.shape))  # fmt: skip
+        parts.append(part.reshape(count, components))
+    table = np.ascontiguousarray(np.hstack(parts)) if parts else None
+    found = _core.verify(
+        sampler, rows, flat(cells, np.int64, "cells"),
+        None if inside is None else flat(np.asarray(inside) != 0, np.uint8, "inside"),
+        table, tolerance, exact, outside_value, count_of(examples, "examples="), count_of(threads, "threads="), telling(progress),
+        nonfinite_points,
+    )  # fmt: skip
     columns = [ColumnErrors(**c) for c in found.pop("columns")]
     wrong = [WrongRow(feature=Feature(row.pop("feature")), **row) for row in found.pop("examples")]
     return Verification(columns=columns, examples=wrong, **found)

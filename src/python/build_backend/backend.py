@@ -2,6 +2,7 @@
 
 import base64
 import hashlib
+import io
 import os
 import re
 import subprocess
@@ -9,6 +10,7 @@ import sys
 import sysconfig
 import tarfile
 import tempfile
+import tomllib
 import zipfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
@@ -20,11 +22,10 @@ def _read(*path):
 
 
 def _project():
-    import tomllib
-
     project = tomllib.loads(_read("pyproject.toml").decode())["project"]
     project["version"] = re.search(r"project\(barycert VERSION ([0-9.]+)", _read("CMakeLists.txt").decode()).group(1)
     project["base"] = f"{project['name']}-{project['version']}"
+    project["info"] = project["base"] + ".dist-info"
     return project
 
 
@@ -53,18 +54,18 @@ def _tag():
 def _information(project):
     """Files of the folder .dist-info, but the record of all."""
     wheel = f"Wheel-Version: 1.0\nGenerator: barycert\nRoot-Is-Purelib: false\nTag: {_tag()}\n"
-    return {"LICENSE": _read("LICENSE"), "METADATA": _metadata(project), "WHEEL": wheel.encode()}
+    files = {"LICENSE": _read("LICENSE"), "METADATA": _metadata(project), "WHEEL": wheel.encode()}
+    return {f"{project['info']}/{name}": content for name, content in files.items()}
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
     """Without this, pip would build the wheel to learn its name."""
     project = _project()
-    folder = project["base"] + ".dist-info"
-    os.mkdir(os.path.join(metadata_directory, folder))
-    for name, content in _information(project).items():
-        with open(os.path.join(metadata_directory, folder, name), "wb") as file:
+    os.mkdir(os.path.join(metadata_directory, project["info"]))
+    for path, content in _information(project).items():
+        with open(os.path.join(metadata_directory, path), "wb") as file:
             file.write(content)
-    return folder
+    return project["info"]
 
 
 def _run(*command):
@@ -76,15 +77,10 @@ def _stage(settings, folder):
     build = settings.get("prebuilt")
     if build is None:
         build = settings.get("build-dir", os.path.join(ROOT, "build", "wheel-" + sysconfig.get_config_var("SOABI")))
-        options = {
-            "CMAKE_BUILD_TYPE": "Release",
-            "BARYCERT_PYTHON": "ON",
-            "BARYCERT_AUDIT": settings.get("audit", "ON"),
-            "BARYCERT_CLI": "OFF",
-            "BARYCERT_TETGEN": "OFF",
-            "Python3_EXECUTABLE": sys.executable,
-        }
-        _run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *(f"-D{name}={value}" for name, value in options.items()))
+        audit = settings.get("audit", "ON")
+        _run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBARYCERT_PYTHON=ON",
+             f"-DBARYCERT_AUDIT={audit}", "-DBARYCERT_CLI=OFF", "-DBARYCERT_TETGEN=OFF",
+             f"-DPython3_EXECUTABLE={sys.executable}")  # fmt: skip
         _run("cmake", "--build", build, "--target", "barycert_python")
     _run("cmake", "--install", build, "--component", "python", "--prefix", folder, "--strip")
     for path, _, files in os.walk(folder):
@@ -97,24 +93,20 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Settings (pip --config-settings): build-dir=FOLDER; audit=OFF leaves out the audit, and GMP and MPFR with it;
     prebuilt=FOLDER takes the package from a build by CMake that has it."""
     project = _project()
-    info = project["base"] + ".dist-info"
     name = f"{project['base']}-{_tag()}.whl"
-    record = []
-    with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(
-        os.path.join(wheel_directory, name), "w", zipfile.ZIP_DEFLATED
-    ) as wheel:
-
-        def add(path, content):
-            wheel.writestr(path, content)
-            digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
-            record.append(f"{path},sha256={digest},{len(content)}")
-
+    with tempfile.TemporaryDirectory() as folder:
         package = _stage(config_settings or {}, folder)
-        for file in sorted(os.listdir(package)):
-            add(f"barycert/{file}", _read(package, file))
-        for file, content in _information(project).items():
-            add(f"{info}/{file}", content)
-        wheel.writestr(f"{info}/RECORD", "\n".join([*record, f"{info}/RECORD,,", ""]))
+        files = {f"barycert/{file}": _read(package, file) for file in sorted(os.listdir(package))}
+    files.update(_information(project))
+    record = f"{project['info']}/RECORD"
+    lines = []
+    for path, content in files.items():
+        digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+        lines.append(f"{path},sha256={digest},{len(content)}")
+    files[record] = "\n".join([*lines, f"{record},,", ""])
+    with zipfile.ZipFile(os.path.join(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as wheel:
+        for path, content in files.items():
+            wheel.writestr(path, content)
     return name
 
 
@@ -122,14 +114,12 @@ def build_sdist(sdist_directory, config_settings=None):
     """What git knows of."""
     project = _project()
     base = project["base"]
+    metadata = _metadata(project)
     files = subprocess.run(["git", "ls-files", "-z"], check=True, cwd=ROOT, capture_output=True).stdout.decode().split("\0")
-    with tempfile.TemporaryDirectory() as folder, tarfile.open(
-        os.path.join(sdist_directory, base + ".tar.gz"), "w:gz", format=tarfile.PAX_FORMAT
-    ) as archive:
+    with tarfile.open(os.path.join(sdist_directory, base + ".tar.gz"), "w:gz", format=tarfile.PAX_FORMAT) as archive:
         for file in filter(None, files):
             archive.add(os.path.join(ROOT, file), f"{base}/{file}", recursive=False)
-        info = os.path.join(folder, "PKG-INFO")
-        with open(info, "wb") as out:
-            out.write(_metadata(project))
-        archive.add(info, f"{base}/PKG-INFO")
+        info = tarfile.TarInfo(f"{base}/PKG-INFO")
+        info.size = len(metadata)
+        archive.addfile(info, io.BytesIO(metadata))
     return base + ".tar.gz"
