@@ -2,13 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/audit_search.hpp"
-#include "barycert/io.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -1,9 +1,6 @@
 /// What an audit is made of: meshes, kernels and families, by the words of the user.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "barycert/audit.hpp"
 #include "reports.hpp"
 

@@ -1,9 +1,6 @@
 /// What all subcommands do around their job: exit codes, what is said on stderr, how the program is called.
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "barycert/result.hpp"
 
 namespace barycert::cli {

@@ -2,13 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/audit_search.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -6,14 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
-#include <cstddef>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <string_view>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"

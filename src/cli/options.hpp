@@ -4,15 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <concepts>
-#include <cstdint>
-#include <functional>
 #include <initializer_list>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/text.hpp"
 #include "barycert/jobs.hpp"

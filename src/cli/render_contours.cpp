@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/weights.hpp"

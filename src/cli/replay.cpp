@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <utility>
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"

@@ -3,17 +3,9 @@
 
 #include <chrono>
 #include <deque>
-#include <functional>
-#include <map>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/named_file.hpp"
-#include "barycert/jobs.hpp"
 #include "barycert/report.hpp"
-#include "barycert/result.hpp"
 #include "command.hpp"
 #include "options.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/audit_search.hpp"
 
 namespace barycert::cli {
 namespace {

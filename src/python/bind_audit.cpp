@@ -3,10 +3,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include "barycert/audit.hpp"
-#include "barycert/audit_pictures.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/kernels.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {

@@ -1,7 +1,5 @@
-#include <limits>
 
 #include "barycert/report.hpp"
-#include "barycert/verify.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {

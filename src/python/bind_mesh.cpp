@@ -1,6 +1,5 @@
 #include "barycert/check.hpp"
 #include "barycert/gradient.hpp"
-#include "barycert/io.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {

@@ -1,10 +1,7 @@
 #include <cmath>
 #include <exception>
-#include <limits>
 
 #include "barycert/grid.hpp"
-#include "barycert/sampler.hpp"
-#include "barycert/weights.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {

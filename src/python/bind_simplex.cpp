@@ -1,4 +1,3 @@
-#include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 #include "bindings.hpp"
 

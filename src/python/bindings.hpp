@@ -7,24 +7,11 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
 #include <mutex>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "barycert/check.hpp"
-#include "barycert/locator.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
 
 namespace barycert::python {

@@ -5,7 +5,6 @@
 #endif
 
 #include "barycert/base/measured_environment.hpp"
-#include "barycert/base/strict_math.hpp"
 
 namespace barycert {
 

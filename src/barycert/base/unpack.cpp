@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <memory>
 
 #include "barycert/base/input_file.hpp"
 

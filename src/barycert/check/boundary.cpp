@@ -1,5 +1,4 @@
 #include <numeric>
-#include <span>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"

@@ -1,8 +1,6 @@
 #include <cmath>
-#include <limits>
 #include <numbers>
 
-#include "barycert/base/large_pages.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"

@@ -1,14 +1,9 @@
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <string>
-#include <utility>
 
 #include "barycert/base/vectors.hpp"
-#include "barycert/check/stages.hpp"
 #include "barycert/check/surface/parts.hpp"
 #include "barycert/core/whole_points.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::check {
 namespace {

@@ -12,8 +12,6 @@
 // else it is violated. The share of it that is covered is then the area of what faces close to its plane, wherever
 // their centroids lie, have in common with it. Facets without area (single segments) are left out.
 #include <iterator>
-#include <span>
-#include <utility>
 
 #include "barycert/check/plc_facet.hpp"
 #include "barycert/mesh/adjacency.hpp"

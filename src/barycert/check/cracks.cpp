@@ -1,4 +1,3 @@
-#include <limits>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"

@@ -1,11 +1,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <numeric>
-#include <optional>
-#include <span>
-#include <utility>
 
-#include "barycert/base/large_pages.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/mesh/adjacency.hpp"

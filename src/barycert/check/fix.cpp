@@ -1,6 +1,4 @@
-#include <array>
 #include <cmath>
-#include <variant>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/base/text.hpp"

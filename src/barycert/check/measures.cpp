@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <span>
 #include <tuple>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/check.hpp"

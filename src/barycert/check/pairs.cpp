@@ -1,7 +1,4 @@
-#include <limits>
-#include <span>
 #include <tuple>
-#include <variant>
 
 #include "barycert/check/stages.hpp"
 #include "barycert/index/open_sheets.hpp"

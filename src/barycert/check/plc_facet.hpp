@@ -1,9 +1,7 @@
 /// A facet of a PLC as a region of its plane.
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/check/stages.hpp"

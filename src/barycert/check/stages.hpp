@@ -1,9 +1,7 @@
 /// The stages of a check, in their order. Each reads what those before it have found of the mesh, and adds to it.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
-#include <functional>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/check.hpp"
@@ -11,7 +9,6 @@
 #include "barycert/index/box_tree.hpp"
 #include "barycert/index/facet_contact.hpp"
 #include "barycert/index/overlap.hpp"
-#include "barycert/io.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::check {

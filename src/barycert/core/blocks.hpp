@@ -2,16 +2,10 @@
 /// and hands single cases that these leave undecided to the last tier.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <string>
 #include <type_traits>
-#include <vector>
 
 #include "barycert/core/input_checks.hpp"
 #include "barycert/core/lanes.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::core {
 

@@ -10,14 +10,10 @@
 /// integers too (scaled_double.hpp).
 #pragma once
 
-#include <cstdint>
 #include <limits>
-#include <span>
 
 #include "barycert/core/integer.hpp"
 #include "barycert/core/lanes.hpp"
-#include "barycert/predicates.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::core {
 

@@ -1,10 +1,7 @@
 #include "barycert/gradient.hpp"
 
-#include <cmath>
-
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/lanes.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert::core {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"

@@ -1,7 +1,4 @@
-#include "barycert/weights.hpp"
 
-#include <algorithm>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/core/exact_tier.hpp"

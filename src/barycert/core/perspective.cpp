@@ -1,12 +1,7 @@
 #include "barycert/perspective.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/lanes.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert::core {

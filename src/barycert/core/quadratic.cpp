@@ -1,13 +1,7 @@
 #include "barycert/quadratic.hpp"
 
-#include <algorithm>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/lanes.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert::core {

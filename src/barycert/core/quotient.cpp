@@ -1,6 +1,5 @@
 #include "barycert/core/integer.hpp"
 
-#include <algorithm>
 #include <bit>
 
 namespace barycert::core {

@@ -2,9 +2,7 @@
 
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/lanes.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert::core {
 namespace {

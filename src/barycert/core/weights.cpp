@@ -1,14 +1,7 @@
-#include "barycert/weights.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <type_traits>
-#include <vector>
 
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
-#include "barycert/core/lanes.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert::core {

@@ -2,11 +2,8 @@
 /// computed is rare, and of a high degree.
 #pragma once
 
-#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
-#include <cstdint>
 #include <cstdlib>
-#include <initializer_list>
 #include <memory>
 
 #include "barycert/base/vectors.hpp"

@@ -1,10 +1,8 @@
 #include "barycert/index/candidates.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <unordered_map>
-#include <utility>
 
 #include "barycert/base/vectors.hpp"
 

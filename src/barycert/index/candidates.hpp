@@ -11,12 +11,8 @@
 /// the node (3D): of n blades that are a stretch each, some n^2 / 100 pairs are named.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "barycert/index/box_tree.hpp"
 #include "barycert/mesh.hpp"

@@ -2,8 +2,6 @@
 
 #include <atomic>
 #include <bit>
-#include <limits>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 

@@ -1,13 +1,6 @@
 /// The cells of a mesh in the order of a space-filling curve, ready to be walked through.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/index/bins.hpp"
 #include "barycert/index/buffer.hpp"
 #include "barycert/mesh.hpp"

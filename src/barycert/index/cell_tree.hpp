@@ -1,17 +1,10 @@
 /// Boxes in a tree of groups of eight, to find every cell that may hold a point.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <span>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/index/buffer.hpp"
 #include "barycert/index/cell_index.hpp"
 #include "barycert/index/facet_contact.hpp"
 

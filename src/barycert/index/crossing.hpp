@@ -1,8 +1,6 @@
 /// How a ray crosses a triangle in space, exactly, for winding numbers.
 #pragma once
 
-#include <array>
-
 #include "barycert/predicates.hpp"
 
 namespace barycert::index {

@@ -3,11 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
 
-#include <algorithm>
-#include <array>
 #include <bit>
-#include <span>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 

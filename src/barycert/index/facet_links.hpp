@@ -1,10 +1,6 @@
 /// Cells linked over their facets, and what that leaves open.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 #include "barycert/index/cell_index.hpp"
 
 namespace barycert::index {

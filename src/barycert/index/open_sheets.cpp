@@ -1,13 +1,8 @@
 #include "barycert/index/open_sheets.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <optional>
-#include <utility>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
-#include "barycert/index/cell_tree.hpp"
 #include "barycert/index/overlap.hpp"
 
 namespace barycert::index {

@@ -1,13 +1,7 @@
 /// Open facets, as places in space: which conflict, which belong to one sheet (doc/theorem.md).
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/index/candidates.hpp"
-#include "barycert/index/cell_index.hpp"
 #include "barycert/index/facet_contact.hpp"
 #include "barycert/index/facet_links.hpp"
 #include "barycert/index/ridges.hpp"

@@ -1,10 +1,7 @@
 #include "barycert/index/overlap.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <cstddef>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/predicates.hpp"
 
 namespace barycert::index {

@@ -1,12 +1,6 @@
 /// Do the interiors of two cells meet? Exactly, by separating planes. Which cells have others in their interiors?
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
 #include "barycert/index/candidates.hpp"
 #include "barycert/index/cell_tree.hpp"
 

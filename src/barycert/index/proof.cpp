@@ -1,16 +1,10 @@
 #include "barycert/index/proof.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <bit>
-#include <cstddef>
-#include <span>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/index/open_sheets.hpp"
 #include "barycert/index/overlap.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert::index {
 namespace {

@@ -9,11 +9,6 @@
 /// *open*.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <vector>
-
-#include "barycert/index/cell_index.hpp"
 #include "barycert/index/cell_tree.hpp"
 #include "barycert/index/facet_links.hpp"
 

@@ -1,10 +1,5 @@
 #include "barycert/index/triangles.hpp"
 
-#include <algorithm>
-#include <utility>
-
-#include "barycert/base/arena.hpp"
-
 namespace barycert::index {
 namespace {
 

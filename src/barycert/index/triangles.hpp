@@ -1,9 +1,6 @@
 /// Triangles in space in the order of a curve, nodes at one place as one.
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "barycert/index/cell_index.hpp"
 #include "barycert/index/facet_contact.hpp"
 #include "barycert/index/ridges.hpp"

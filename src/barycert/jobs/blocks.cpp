@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <limits>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

@@ -1,13 +1,7 @@
 /// Which columns of a file of results say what, and their values as claims.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "barycert/jobs.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/sampler.hpp"
 
 namespace barycert::jobs {
 

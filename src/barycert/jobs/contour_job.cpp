@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"

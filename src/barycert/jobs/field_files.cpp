@@ -1,13 +1,11 @@
 #include "barycert/jobs/field_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <system_error>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/jobs/job_files.hpp"

@@ -1,16 +1,9 @@
 /// Fields from files, among those of the mesh; and labels of its cells, among the fields that a job names.
 #pragma once
 
-#include <cstddef>
 #include <deque>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "barycert/jobs.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/sampler.hpp"
 
 namespace barycert::jobs {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/text.hpp"

@@ -3,7 +3,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "barycert/base/workers.hpp"

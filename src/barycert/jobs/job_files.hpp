@@ -5,17 +5,10 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
-#include <functional>
 #include <initializer_list>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/named_file.hpp"
 #include "barycert/jobs.hpp"
-#include "barycert/locator.hpp"
 
 namespace barycert::jobs {
 

@@ -1,14 +1,11 @@
 // Pictures of scenes and of meshes, and small ones that show what rasterising does.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "barycert/environment.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
-#include "barycert/raster.hpp"
 
 namespace barycert {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/resampled.hpp"

@@ -1,7 +1,6 @@
 /// Where resampled values go: files of grids, files of the other mesh; and their integrals.
 #pragma once
 
-#include "barycert/grid.hpp"
 #include "barycert/jobs/stream.hpp"
 
 namespace barycert::jobs {

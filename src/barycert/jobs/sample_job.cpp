@@ -1,16 +1,11 @@
 // Fields at points.
 
 #include <algorithm>
-#include <array>
-#include <limits>
-#include <variant>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npz/weights_file.hpp"
-#include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/stream.hpp"
 #include "barycert/map.hpp"
 #include "barycert/surface_locator.hpp"

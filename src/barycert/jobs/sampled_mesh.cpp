@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"

@@ -1,9 +1,6 @@
 /// The mesh of a job of sampling with its fields, what finds points in it, and what samples the fields.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "barycert/base/input_file.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"

@@ -7,7 +7,6 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/collection.hpp"
 #include "barycert/jobs/field_files.hpp"

@@ -1,14 +1,6 @@
 /// Points through the sampler into rows, block by block: read, located and evaluated, written.
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "barycert/jobs/sampled_mesh.hpp"
 
 namespace barycert::jobs {

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <numeric>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"

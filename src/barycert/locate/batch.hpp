@@ -1,21 +1,8 @@
 /// Many points, in blocks and chunks, on several threads.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/locate/finder.hpp"
-#include "barycert/locate/sorted_points.hpp"
 
 namespace barycert::locate {
 

@@ -1,11 +1,5 @@
 #include "barycert/locate/cell_signs.hpp"
 
-#include <bit>
-#include <cstdint>
-#include <optional>
-
-#include "barycert/base/strict_math.hpp"
-
 namespace barycert::locate {
 namespace {
 

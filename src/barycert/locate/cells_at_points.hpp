@@ -6,17 +6,8 @@
 /// its corners, include that of every point in its box, and a cell none of whose bins holds a point holds no point.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <vector>
-
-#include "barycert/index/bins.hpp"
 #include "barycert/index/box_tree.hpp"
 #include "barycert/locate/names.hpp"
-#include "barycert/mesh.hpp"
 
 namespace barycert::locate {
 

@@ -1,9 +1,5 @@
 #include "barycert/locate/contested_cells.hpp"
 
-#include <algorithm>
-#include <utility>
-
-#include "barycert/base/arena.hpp"
 #include "barycert/index/overlap.hpp"
 #include "barycert/locate/cell_signs.hpp"
 #include "barycert/locate/lanes.hpp"

@@ -1,18 +1,11 @@
 /// The cells that others may meet beside common faces (doc/theorem.md), to find who else holds a point.
 #pragma once
 
-#include <atomic>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/index/cell_tree.hpp"
 #include "barycert/index/proof.hpp"
 #include "barycert/locate/lazy.hpp"
 #include "barycert/locate/names.hpp"
 #include "barycert/predicates.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::locate {
 

@@ -1,7 +1,5 @@
 #include "barycert/locate/finder.hpp"
 
-#include <algorithm>
-
 #include "barycert/base/random.hpp"
 
 namespace barycert::locate {

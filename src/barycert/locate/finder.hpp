@@ -1,15 +1,10 @@
 /// Points to owners, a chunk at a time.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <numeric>
-#include <vector>
 
 #include "barycert/locate/cell_signs.hpp"
-#include "barycert/locate/lanes.hpp"
 #include "barycert/locate/locator_data.hpp"
-#include "barycert/locate/sorted_points.hpp"
 
 namespace barycert::locate {
 

@@ -1,12 +1,6 @@
 /// Many points at once, on SIMD lanes: their bins, the cells whose boxes hold them, steps of their walks.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/index/cell_tree.hpp"
 #include "barycert/locate/names.hpp"
 

@@ -1,14 +1,8 @@
-#include "barycert/locator.hpp"
 
-#include <algorithm>
-#include <utility>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
-#include "barycert/locate/locator_data.hpp"
 #include "barycert/mesh/consistency.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert {
 Locator::Locator(std::unique_ptr<locate::LocatorData> data) : data_(std::move(data)) {}

@@ -1,27 +1,13 @@
 /// All that a Locator keeps.
 #pragma once
 
-#include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <utility>
-#include <vector>
 
-#include "barycert/base/arena.hpp"
-#include "barycert/index/cell_tree.hpp"
-#include "barycert/index/facet_links.hpp"
-#include "barycert/index/proof.hpp"
 #include "barycert/locate/contested_cells.hpp"
-#include "barycert/locate/lazy.hpp"
-#include "barycert/locate/names.hpp"
 #include "barycert/locate/nearest.hpp"
 #include "barycert/locate/node_cells.hpp"
 #include "barycert/locate/occupancy.hpp"
 #include "barycert/locate/sorted_points.hpp"
-#include "barycert/locator.hpp"
 
 namespace barycert::locate {
 

@@ -14,10 +14,7 @@
 /// is added.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 
 #include "barycert/base/vectors.hpp"

@@ -1,15 +1,11 @@
 #include "barycert/locate/near_feature.hpp"
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
-#include <optional>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/whole_points.hpp"
-#include "barycert/predicates.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert::locate {

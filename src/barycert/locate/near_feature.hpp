@@ -5,8 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"

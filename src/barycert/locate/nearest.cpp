@@ -3,16 +3,9 @@
 // exactly.
 #include "barycert/locate/nearest.hpp"
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <utility>
-
-#include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/near_bounds.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert {
 namespace locate {

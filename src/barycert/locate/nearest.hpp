@@ -1,10 +1,6 @@
 /// The nearest point of a mesh: boxes of cells to find it from anywhere, and the search, with its work counted.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 #include "barycert/index/box_tree.hpp"
 #include "barycert/locate/names.hpp"
 #include "barycert/locate/near_feature.hpp"

@@ -1,13 +1,6 @@
 /// The cells at each node, to name all cells around a vertex or edge.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/locate/names.hpp"
 #include "barycert/predicates.hpp"
 

@@ -1,11 +1,6 @@
 /// Where a mesh surely has no cell.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 #include "barycert/locate/names.hpp"
 
 namespace barycert::locate {

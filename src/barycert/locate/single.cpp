@@ -1,15 +1,8 @@
 // One point: a walk without the buffers of many.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <cstdlib>
 
-#include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
-#include "barycert/locate/cell_signs.hpp"
-#include "barycert/locate/locator_data.hpp"
-#include "barycert/locator.hpp"
 
 namespace barycert {
 namespace locate {

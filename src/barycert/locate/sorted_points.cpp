@@ -1,8 +1,5 @@
 #include "barycert/locate/sorted_points.hpp"
 
-#include <algorithm>
-#include <utility>
-
 namespace barycert::locate {
 
 bool SortedPoints::sort(const CellIndex& index, const Occupancy* occupancy, std::span<const double> points) {

@@ -1,14 +1,7 @@
 /// Points in the order of the bins.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "barycert/index/buffer.hpp"
 #include "barycert/locate/lanes.hpp"
-#include "barycert/locate/names.hpp"
 
 namespace barycert::locate {
 

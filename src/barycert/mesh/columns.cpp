@@ -1,12 +1,9 @@
 #include "barycert/mesh/columns.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <limits>
-#include <string>
 #include <type_traits>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 

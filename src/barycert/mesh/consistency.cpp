@@ -1,9 +1,6 @@
 #include "barycert/mesh/consistency.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"

@@ -2,9 +2,7 @@
 
 #include <array>
 #include <bit>
-#include <cstdint>
 #include <span>
-#include <utility>
 
 namespace barycert::mesh {
 Field Part::field(const Field& whole, bool of_cells) const {

@@ -1,9 +1,6 @@
 #include "barycert/pieces/distribution.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstring>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace barycert::pieces {

@@ -1,10 +1,6 @@
 /// Values at the points of all ranks, from the pieces of a mesh that they have.
 #pragma once
 
-#include <span>
-#include <string>
-#include <utility>
-
 #include "barycert/pieces/piece.hpp"
 
 namespace barycert::pieces {

@@ -1,16 +1,10 @@
 #include "barycert/pieces/piece.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
-#include <span>
-#include <utility>
 
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/locate/near_feature.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert::pieces {
 namespace {

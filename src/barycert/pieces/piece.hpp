@@ -1,17 +1,11 @@
 /// A piece of a mesh as it lies in space, and what all pieces of the mesh are taken for.
 #pragma once
 
-#include <array>
-#include <functional>
-#include <optional>
-
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/index/box_tree.hpp"
 #include "barycert/locator.hpp"
-#include "barycert/mesh.hpp"
 #include "barycert/pieces/exchange.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::pieces {
 

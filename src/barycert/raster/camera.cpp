@@ -2,8 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"

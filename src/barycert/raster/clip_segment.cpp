@@ -1,10 +1,6 @@
-#include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/core/scaled_double.hpp"
 #include "barycert/raster.hpp"
 #include "barycert/raster/exact_point.hpp"
 

@@ -1,4 +1,3 @@
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"

@@ -1,14 +1,8 @@
-#include "barycert/raster.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/predicates.hpp"
-#include "barycert/raster/edge.hpp"
 #include "barycert/raster/fill_rows.hpp"
 
 namespace barycert {

@@ -3,12 +3,6 @@
 /// upwards.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/raster.hpp"
 #include "barycert/raster/edge.hpp"
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"

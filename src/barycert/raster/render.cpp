@@ -1,14 +1,9 @@
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/perspective.hpp"
-#include "barycert/predicates.hpp"
-#include "barycert/raster.hpp"
 #include "barycert/raster/colour_bytes.hpp"
 #include "barycert/raster/fill_rows.hpp"
 #include "barycert/scene.hpp"

@@ -1,16 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"

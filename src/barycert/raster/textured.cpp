@@ -1,12 +1,7 @@
 // Textured triangles: checked, and drawn band by band of the image, each band by one thread.
 #include "barycert/raster/textured.hpp"
 
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <string>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"

@@ -2,7 +2,6 @@
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/adjacency.hpp"
-#include "barycert/surface.hpp"
 #include "barycert/surface/parts.hpp"
 
 namespace barycert::surface {

@@ -1,7 +1,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
@@ -11,7 +10,6 @@
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/mesh/consistency.hpp"
-#include "barycert/surface.hpp"
 #include "barycert/surface/cell_cases.hpp"
 #include "barycert/surface/parts.hpp"
 

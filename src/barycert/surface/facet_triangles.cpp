@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <deque>
 #include <unordered_map>
 #include <unordered_set>
-#include <utility>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/predicates.hpp"

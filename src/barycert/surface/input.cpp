@@ -1,7 +1,6 @@
 #include "barycert/surface/parts.hpp"
 
 #include <atomic>
-#include <string>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"

@@ -3,16 +3,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/mesh.hpp"
 #include "barycert/predicates.hpp"
-#include "barycert/result.hpp"
 #include "barycert/surface.hpp"
 
 namespace barycert::surface {

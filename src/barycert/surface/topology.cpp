@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <numeric>
-#include <string>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/adjacency.hpp"

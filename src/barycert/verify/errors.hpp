@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <tuple>
 
 #include "barycert/base/decades.hpp"

@@ -1,5 +1,3 @@
-#include <optional>
-#include <string>
 
 #include "barycert/base/random.hpp"
 #include "barycert/environment.hpp"

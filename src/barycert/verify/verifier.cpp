@@ -1,8 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"

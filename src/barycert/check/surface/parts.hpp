@@ -1,11 +1,8 @@
 /// A surface as it is checked: its proper triangles in the order of space, and what is found of them.
 #pragma once
 
-#include <vector>
-
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"
-#include "barycert/index/cell_tree.hpp"
 #include "barycert/index/open_sheets.hpp"
 #include "barycert/index/ridges.hpp"
 #include "barycert/index/triangles.hpp"

@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "barycert/check/surface/parts.hpp"
 #include "barycert/core/whole_points.hpp"

@@ -1,9 +1,6 @@
 // What a PLC has besides triangles: segments and nodes of its own, and how flat its facets are.
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "barycert/check/plc_facet.hpp"

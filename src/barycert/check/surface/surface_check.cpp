@@ -2,9 +2,7 @@
 
 #include <tbb/task_group.h>
 
-#include <algorithm>
 #include <chrono>
-#include <utility>
 
 #include "barycert/check/surface/parts.hpp"
 #include "barycert/environment.hpp"

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <limits>
-#include <span>
-#include <utility>
 
 #include "barycert/check/surface/parts.hpp"
 

@@ -1,5 +1,4 @@
 // Where a segment meets the triangles, in their exact order along it.
-#include <algorithm>
 
 #include "barycert/base/vectors.hpp"
 #include "barycert/core/whole_points.hpp"

@@ -1,10 +1,6 @@
 /// Which triangles may be the nearest to a point: in floating point, with bounds, eight at a time.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "barycert/index/buffer.hpp"
 #include "barycert/locate/names.hpp"
 
 namespace barycert::locate {

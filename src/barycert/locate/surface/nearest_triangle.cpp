@@ -1,9 +1,5 @@
 // The nearest triangle: floating point leaves those that it cannot tell apart, and says what is certain of them; the
 // rest is decided and rounded exactly.
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
 
 #include "barycert/locate/near_bounds.hpp"
 #include "barycert/locate/surface/near_round.hpp"

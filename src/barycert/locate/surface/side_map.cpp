@@ -1,9 +1,6 @@
 #include "barycert/locate/surface/side_map.hpp"
 
-#include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <limits>
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/locate/surface/surface_data.hpp"

@@ -1,10 +1,6 @@
 /// On which side of a surface the bins of a grid lie that no triangle touches.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 #include "barycert/locate/names.hpp"
 
 namespace barycert::locate {

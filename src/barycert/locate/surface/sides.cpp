@@ -1,5 +1,4 @@
 // On a triangle, inside or outside.
-#include <algorithm>
 #include <cmath>
 
 #include "barycert/index/crossing.hpp"

@@ -1,8 +1,6 @@
 /// All that a SurfaceLocator keeps.
 #pragma once
 
-#include <memory>
-
 #include "barycert/index/cell_tree.hpp"
 #include "barycert/index/triangles.hpp"
 #include "barycert/locate/lazy.hpp"

@@ -1,12 +1,5 @@
-#include "barycert/surface_locator.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <limits>
-#include <numeric>
-#include <utility>
 
-#include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/surface/surface_data.hpp"

@@ -1,12 +1,6 @@
 /// Cells fill in the points of a grid that they hold, on SIMD lanes.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "barycert/sample/points/value_lanes.hpp"
 #include "barycert/table.hpp"
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <string>
-#include <utility>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"

@@ -1,13 +1,6 @@
-#include "barycert/grid.hpp"
 
 #include <tbb/parallel_pipeline.h>
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-
-#include "barycert/base/arena.hpp"
-#include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/sample/grid/slab_sampler.hpp"
 

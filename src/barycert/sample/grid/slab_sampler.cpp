@@ -1,10 +1,5 @@
 #include "barycert/sample/grid/slab_sampler.hpp"
 
-#include <algorithm>
-#include <limits>
-
-#include "barycert/locate/cell_signs.hpp"
-
 namespace barycert::sample {
 
 void SlabSampler::run(std::int32_t first, std::int32_t last, const SlabCells& cells, std::size_t slab) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "barycert/grid.hpp"
-#include "barycert/index/buffer.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 

@@ -1,9 +1,6 @@
 #include "barycert/map.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/output_file.hpp"

@@ -2,13 +2,8 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <string_view>
 
 #include "barycert/base/random.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/simplex.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert::sample {

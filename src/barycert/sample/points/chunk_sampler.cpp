@@ -1,15 +1,7 @@
 #include "barycert/sample/points/chunk_sampler.hpp"
 
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <span>
-
 #include "barycert/base/finite.hpp"
-#include "barycert/base/strict_math.hpp"
 #include "barycert/core/blocks.hpp"
-#include "barycert/locate/near_feature.hpp"
-#include "barycert/quadratic.hpp"
 #include "barycert/sample/points/near_piece.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 

@@ -1,10 +1,6 @@
 /// Rows for a chunk of points whose owners are known.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <optional>
-
 #include "barycert/locate/finder.hpp"
 #include "barycert/sample/points/sampler_data.hpp"
 

@@ -2,14 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 
 #include "barycert/locate/near_feature.hpp"
 #include "barycert/locator.hpp"
-#include "barycert/mesh.hpp"
 #include "barycert/quadratic.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::sample {
 

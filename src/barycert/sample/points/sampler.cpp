@@ -1,17 +1,10 @@
-#include <algorithm>
-#include <limits>
-#include <utility>
 
-#include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
-#include "barycert/locate/sorted_points.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
-#include "barycert/sample/points/sampler_data.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
-#include "barycert/sampler.hpp"
 
 namespace barycert {
 namespace sample {

@@ -1,11 +1,7 @@
 /// All that a Sampler keeps.
 #pragma once
 
-#include <algorithm>
 #include <deque>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/sample/points/value_lanes.hpp"

@@ -1,11 +1,6 @@
 /// Values of many points in their cells at once, on SIMD lanes.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
 #include "barycert/locate/lanes.hpp"
 #include "barycert/locate/names.hpp"
 #include "barycert/weights.hpp"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/strict_math.hpp"

@@ -1,16 +1,8 @@
 #include "barycert/sampler.hpp"
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <span>
-#include <string>
-#include <utility>
-
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
-#include "barycert/quadratic.hpp"
 #include "barycert/sample/points/near_piece.hpp"
 
 namespace barycert {
