@@ -25,6 +25,7 @@
 #include "barycert/report.hpp"
 #include "barycert/sampler.hpp"
 #include "barycert/surface.hpp"
+#include "barycert/surface_locator.hpp"
 #include "check/meshes.hpp"
 #include "core/same_everywhere.hpp"
 #include "mesh/curved_mesh.hpp"
@@ -541,6 +542,68 @@ TEST(EveryEnvironment, Contours) {
             out.add(std::string_view(contour_json(*summary, {})));
             if (!summary->pixels) continue;
             for (const double x : summary->pixels->middle(5, 7)) out.add(x);
+        }
+    });
+}
+
+TEST(EveryEnvironment, Surfaces) {
+    for (const double scale : {1.0, 0x1p-1040}) {
+        // The faces of two tetrahedra that meet, one of them open.
+        Surface s;
+        for (const double x : {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4, 1, 1, 1, 9, 1, 1, 1, 9, 1, 1, 1, 9})
+            s.points.push_back(x * scale);
+        s.cells = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 4, 6, 5, 4, 5, 7, 5, 6, 7};
+        s.point_fields.push_back({"u", 1, {1, 2, 3, .1, .2, .3, .4, .5}});
+        std::vector<double> points;
+        base::Random random(9);
+        for (int i = 0; i < 900; ++i) points.push_back(random.integer(-8, 80) * 0.125 * scale);
+        expect_same_everywhere("surface", [&](Answers& out) {
+            CheckReport report = check_surface(s, {.threads = 1});
+            report.seconds = 0;
+            out.add(std::string_view(check_json(report, "surface", {})));
+            out.add(std::string_view(check_html(report, s, "surface")));
+            const auto image = draw_checked(report, s);
+            out.add(image.has_value());
+            for (std::size_t i = 0; image && i < image->data.size(); i += 97) out.add(static_cast<int>(image->data[i]));
+            out.add(mesh_fingerprint(s));
+            const auto locator = SurfaceLocator::build(s);
+            std::vector<SurfaceNearest> near(points.size() / 3), again(near.size());
+            std::vector<SurfaceLocation> places(near.size());
+            std::vector<double> values(near.size());
+            out.add(locator->nearest(points, HUGE_VAL, near).has_value());
+            out.add(locator->locate(points, places).has_value());
+            out.add(locator->values(s.point_fields[0], false, points, near, values).has_value());
+            std::vector<Mesh::Index> triangles;
+            for (const SurfaceNearest& n : near) triangles.push_back(n.cell);
+            out.add(locator->nearest_on(triangles, points, again).has_value());
+            for (const auto& all : {near, again}) {
+                for (const SurfaceNearest& n : all) {
+                    out.add(n.cell);
+                    for (const double x : {n.distance, n.point[0], n.point[1], n.point[2], n.weights[0], n.weights[1]})
+                        out.add(x);
+                }
+            }
+            for (std::size_t i = 0; i < near.size(); ++i) {
+                out.add(places[i].winding);
+                out.add(values[i]);
+                if (i + 1 == near.size()) break;
+                const auto hits = locator->hits(&points[3 * i], &points[3 * i + 3]);
+                for (std::size_t k = 0; hits && k < hits->size(); ++k) out.add((*hits)[k].parameter);
+            }
+        });
+    }
+    expect_same_everywhere("audit of surfaces", [&](Answers& out) {
+        SurfaceAudit audit{.count = 12, .threads = 2};
+        audit_surfaces(audit);
+        out.add(std::string_view(surfaces_json(audit)));
+        out.add(std::string_view(surfaces_text(audit, {})));
+        out.add(std::string_view(surfaces_html(audit)));
+        for (const SurfaceFamily& family : surface_families()) {
+            const SurfaceCase c = make_surface_case(family, 1, 3);
+            for (const double x : c.triangles[0]) out.add(x);
+            out.add(oracle_distance(c.triangles[0], c.point.data()));
+            out.add(oracle_meet(c.triangles[0], c.triangles.back()));
+            out.add(oracle_side(c.triangles, c.point.data()));
         }
     });
 }
