@@ -1,11 +1,14 @@
-// Meshes as VTK's files, in XML and in the legacy format.
+// Meshes as VTK's files, in XML and in the legacy format, and rows as points of an unstructured grid.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <functional>
 #include <new>
 
 #include "barycert/base/output_file.hpp"
+#include "barycert/base/spool.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -14,16 +17,51 @@
 namespace barycert::io {
 namespace {
 
+/// An unstructured grid of cells of one type, of so many nodes each.
+struct OutGrid {
+    std::vector<OutArray> point_arrays, cell_arrays;
+    OutArray points, connectivity;
+    std::size_t cells = 0, nodes = 1;
+    std::uint8_t type = 0;  ///< VTK's number
+};
+
+Status write_grid(OutGrid grid, const std::string& path, VtkData data) {
+    const auto end = [nodes = grid.nodes](std::size_t i) { return nodes * (i + 1); };
+    const auto type = [own = grid.type](std::size_t) { return own; };
+    const bool wide = grid.nodes * grid.cells > std::numeric_limits<std::int32_t>::max();
+    return write_xml({.data_set = "UnstructuredGrid",
+                      .piece = " NumberOfPoints=\"" + std::to_string(grid.points.count / 3) + "\" NumberOfCells=\"" +
+                               std::to_string(grid.cells) + "\"",
+                      .sections = {{"PointData", std::move(grid.point_arrays)},
+                                   {"CellData", std::move(grid.cell_arrays)},
+                                   {"Points", {std::move(grid.points)}},
+                                   {"Cells",
+                                    {std::move(grid.connectivity),
+                                     wide ? array_made<std::int64_t>("offsets", grid.cells, end)
+                                          : array_made<std::int32_t>("offsets", grid.cells, end),
+                                     array_made<std::uint8_t>("types", grid.cells, type)}}}},
+                     path, data);
+}
+
+bool has_zero_byte(const std::string& text) {
+    return text.find('\0') != std::string::npos;
+}
+
+/// Each text with a zero byte behind it.
+std::string with_ends(const std::vector<std::string>& texts) {
+    std::string all;
+    for (const std::string& text : texts) all.append(text).push_back('\0');
+    return all;
+}
+
 /// What is wrong with the mesh but for the names of its fields, in one clause; empty if nothing is.
 std::string fault_of_mesh(const Mesh& mesh) {
     if (const char* const found = mesh::inconsistency(mesh, mesh::FieldValues::any); found != nullptr) return found;
     for (const Column& labels : mesh.cell_labels) {
         if (labels.size() != mesh.cell_count()) return "the labels of cells do not match the cells";
         if (labels.type() != Column::Type::text) continue;
-        for (const std::string& text : std::get<std::vector<std::string>>(labels.values)) {
-            if (text.find('\0') != std::string::npos)
-                return "the labels \"" + labels.name + "\" hold a zero byte, which ends a text there";
-        }
+        if (std::ranges::any_of(std::get<std::vector<std::string>>(labels.values), has_zero_byte))
+            return "the labels \"" + labels.name + "\" hold a zero byte, which ends a text there";
     }
     return {};
 }
@@ -61,7 +99,7 @@ std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>&
         std::visit(
             [&, &name = name, &text = room[i]]<class T>(const std::vector<T>& all) {
                 if constexpr (std::is_same_v<T, std::string>) {
-                    for (const std::string& one : all) text.append(one).push_back('\0');
+                    text = with_ends(all);
                     arrays.push_back(array_in_memory<char>(name, text));
                 } else {
                     arrays.push_back(array_in_memory<T>(name, all));
@@ -214,7 +252,106 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
     }
 }
 
+/// Rows in a .vtu file: each point a cell of type VTK_VERTEX (z = 0 in dimension 2), the rest as point arrays: `cell`
+/// (Int64), `feature` (UInt8: 0 interior, 1 face, 2 edge, 3 vertex, 4 outside, 5 degenerate), `vtkValidPointMask`
+/// (Int8: 1 inside, 0 outside, as VTK's own probes name it), `distance` (Float64), the fields (Float64, any value) and
+/// what is carried through (Int64, Float64 or String).
+class VtuSink final : public TableSink {
+public:
+    VtuSink(const std::string& path, const TableFormat& format) : path_(path), format_(format) {
+        const auto add = [&](const std::string& name, int components, NumberType type) {
+            arrays_.emplace_back(ArrayFormat{name, components, type}, base::Spool(path));
+        };
+        add("cell", 1, NumberType::int64);
+        add("feature", 1, NumberType::uint8);
+        add("vtkValidPointMask", 1, NumberType::int8);
+        if (format.distances) add("distance", 1, NumberType::float64);
+        for (const TableField& field : format.fields) {
+            add(field.name, field.components, NumberType::float64);
+            numbers_.push_back({field.name, field.components, {}});
+        }
+        constexpr std::array types{NumberType::int64, NumberType::float64, NumberType::text};  // by Column::Type
+        for (const ColumnFormat& column : format.carried)
+            add(column.name, 1, types[static_cast<std::size_t>(column.type)]);
+    }
+
+    Status write(const TableView& rows) override {
+        if (Status fits = check_rows(rows, format_, path_); !fits) return fits;
+        const std::size_t count = rows.cells.size(), dimension = static_cast<std::size_t>(format_.dimension);
+        for (std::size_t i = 0; i < rows.points.size(); ++i) {
+            // A point of a row outside may be anywhere.
+            if (!std::isfinite(rows.points[i]) && rows.cells[i / dimension] >= 0)
+                return cannot_write("the points", "a coordinate is not finite", path_);
+        }
+        Status good = points_.append(rows.points);
+        auto array = arrays_.begin();
+        const auto append = [&](const auto& values) {
+            base::Spool& spool = (array++)->second;
+            if (good) good = spool.append(std::span(values));
+        };
+        append(std::vector<std::int64_t>(rows.cells.begin(), rows.cells.end()));
+        append(rows.features);
+        std::vector<std::int8_t> inside(count);
+        for (std::size_t i = 0; i < count; ++i) inside[i] = rows.cells[i] >= 0 ? 1 : 0;
+        append(inside);
+        if (format_.distances) append(rows.distances);
+        for (Field& field : numbers_) field.data.clear();
+        append_rows(rows, numbers_);
+        for (const Field& field : numbers_) append(field.data);
+        const auto append_column = [&]<class T>(const std::vector<T>& values) {
+            if constexpr (std::is_same_v<T, std::string>) {
+                const auto bad = std::ranges::find_if(values, has_zero_byte);
+                if (bad != values.end() && good)
+                    good = file_error(path_, "a text with a zero byte, which ends a text in VTK's files", {},
+                                      bad->substr(0, 40), "carry another column through, or write a .csv file");
+                append(with_ends(values));
+            } else {
+                append(values);
+            }
+        };
+        for (const Column& column : rows.carried) std::visit(append_column, column.values);
+        count_ += count;
+        return good;
+    }
+
+    Status commit() override {
+        std::vector<OutArray> found;
+        std::string fault = count_ > max_entities ? "there are more than 2147483647 points" : "";
+        for (auto& [format, spool] : arrays_) {
+            if (Status done = spool.finish(); !done) return done;
+            const std::span<const char> bytes = spool.values<char>();
+            found.push_back({format, bytes.size() / number_bytes(format.type), bytes.data()});
+            if (fault.empty() && format.components < 1) fault = "a field has no components";
+        }
+        if (fault.empty()) fault = fault_of_names(found, Names::xml);
+        if (!fault.empty()) return cannot_write("the points", fault, path_);
+        if (Status done = points_.finish(); !done) return done;
+        if (count_ == 0) found.clear();
+        // Each point a cell. Node numbers go up to 2^31 - 1.
+        return write_grid({.point_arrays = std::move(found),
+                           .cell_arrays = {},
+                           .points = array_of_points(points_.values<double>(), format_.dimension),
+                           .connectivity = array_made<std::int32_t>("connectivity", count_, std::identity()),
+                           .cells = count_,
+                           .type = vtk_vertex},
+                          path_, format_.vtk_data);
+    }
+
+private:
+    std::string path_;
+    TableFormat format_;
+    base::Spool points_{path_};
+    std::vector<std::pair<ArrayFormat, base::Spool>> arrays_;  ///< in the order of the file
+    std::vector<Field> numbers_;                               ///< of the last rows, each field for itself
+    std::size_t count_ = 0;
+};
+
 }  // namespace
+
+Result<std::unique_ptr<TableSink>> open_vtu_sink(const std::string& path, const TableFormat& format) {
+    return std::unique_ptr<TableSink>(std::make_unique<VtuSink>(path, format));
+}
+
 }  // namespace barycert::io
 
 namespace barycert {
