@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,8 +34,8 @@ struct XmlTree : FileText {
     /// The appended data, from behind the underscore to the end of the file; empty if there are none.
     std::string_view appended;
     bool appended_raw = false;  ///< as they are; else in base64
-    /// Reads a part of them, if they are not in memory: see Encoded.
-    Encoded::ReadPart read_part = {};
+    /// Reads a part of them to that place, if they are not in memory: the part is where it would stand there.
+    std::function<void(std::string_view part, char* to)> read_part = {};
 
     const XmlElement& root() const { return elements.front(); }
     /// The first child of that name, or whose attribute `key` is that; nullptr if there is none, or no parent.

@@ -5,11 +5,162 @@
 #include <atomic>
 #include <bit>
 #include <limits>
+#include <memory>
 #include <span>
 #include <type_traits>
 
 namespace barycert::io {
 namespace {
+
+constexpr int base64_space = -1, base64_padding = -2, base64_other = -3;
+
+/// What each character stands for.
+constexpr std::array<std::int8_t, 256> base64_values = [] {
+    std::array<std::int8_t, 256> table{};
+    table.fill(base64_other);
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < digits.size(); ++i)
+        table[static_cast<unsigned char>(digits[i])] = static_cast<std::int8_t>(i);
+    for (const char c : {' ', '\t', '\n', '\r'}) table[static_cast<unsigned char>(c)] = base64_space;
+    table['='] = base64_padding;
+    return table;
+}();
+
+int base64_value(char c) {
+    return base64_values[static_cast<unsigned char>(c)];
+}
+
+/// Whether all `quadruples` are digits, which give three bytes each.
+bool decode_digits(const char* from, std::size_t quadruples, char* to) {
+    int all = 0;
+    for (std::size_t i = 0; i < quadruples; ++i, from += 4, to += 3) {
+        const int a = base64_value(from[0]), b = base64_value(from[1]), c = base64_value(from[2]),
+                  d = base64_value(from[3]);
+        all |= a | b | c | d;
+        const auto word = static_cast<std::uint32_t>(a << 18 | b << 12 | c << 6 | d);
+        to[0] = static_cast<char>(word >> 16U);
+        to[1] = static_cast<char>(word >> 8U);
+        to[2] = static_cast<char>(word);
+    }
+    return all >= 0;
+}
+
+/// Room for bytes, which hold anything until they are written.
+class ByteRoom {
+public:
+    /// `size` bytes; what stood there is lost.
+    char* of(std::size_t size) {
+        if (size_ < size) {
+            bytes_.reset();
+            bytes_ = std::make_unique_for_overwrite<char[]>(size);
+            base::ask_for_large_pages(bytes_.get(), size);
+            size_ = size;
+        }
+        return bytes_.get();
+    }
+
+private:
+    std::unique_ptr<char[]> bytes_;
+    std::size_t size_ = 0;
+};
+
+/// Bytes of a file as they stand or in base64: RFC 4648's, white space passed over. After padding it goes on with the
+/// next quadruple: VTK encodes the head of compressed data apart from the data. It ends at any other character.
+class Encoded {
+public:
+    /// Those in base64 are in memory, the others if the tree does not read parts.
+    Encoded(std::string_view bytes, bool base64, const XmlTree& tree) : left_(bytes), base64_(base64), tree_(tree) {}
+
+    /// The next `count` bytes: of the file itself, or read or decoded into `room`, which must live as long as the view.
+    /// Nothing if there are fewer.
+    std::optional<std::string_view> take(std::uint64_t count, ByteRoom& room) {
+        if (count > left()) return std::nullopt;
+        const auto size = static_cast<std::size_t>(count);
+        if (!base64_) {
+            const std::string_view taken = take_as_they_stand(size);
+            if (!is_unread()) return taken;
+            read_part(taken, room.of(size));
+            return std::string_view(room.of(size), size);
+        }
+        char* const to = room.of(size);
+        bool quick = true;
+        for (std::size_t done = 0; done < size;) {
+            if (quick && held_ == 0) {
+                const std::size_t got = take_quadruples(to + done, size - done);
+                quick = got >= 3 * (std::size_t{1} << 14);  // lines of text: one after the other from here on
+                done += got;
+                if (done == size) break;
+            }
+            if (held_ == 0 && !next_quadruple()) return std::nullopt;
+            const std::size_t step = std::min(size - done, held_);
+            std::copy_n(bytes_ + first_, step, to + done);
+            first_ += step;
+            held_ -= step;
+            done += step;
+        }
+        return std::string_view(to, size);
+    }
+
+    /// The next `count` bytes where they stand in the file or, if is_unread(), would stand in memory: read_part() reads
+    /// them. Precondition: there are so many; no base64.
+    std::string_view take_as_they_stand(std::size_t count) {
+        const std::string_view taken = left_.substr(0, count);
+        left_.remove_prefix(count);
+        return taken;
+    }
+    bool is_unread() const { return !base64_ && tree_.read_part; }
+    void read_part(std::string_view part, char* to) const { tree_.read_part(part, to); }
+
+    /// That many bytes are left at most.
+    std::uint64_t left() const { return base64_ ? left_.size() / 4 * 3 + 3 + held_ : left_.size(); }
+
+private:
+    bool next_quadruple() {
+        std::uint32_t word = 0;
+        int digits = 0, pads = 0;
+        std::size_t at = 0;
+        for (; digits + pads < 4 && at < left_.size(); ++at) {
+            const int value = base64_value(left_[at]);
+            if (value == base64_space) continue;
+            if (value == base64_padding) {
+                ++pads;
+            } else if (value == base64_other || pads != 0) {
+                break;
+            } else {
+                word = word << 6U | static_cast<std::uint32_t>(value);
+                ++digits;
+            }
+        }
+        if (digits + pads < 4 || digits < 2) {
+            left_ = {};
+            return false;
+        }
+        left_.remove_prefix(at);
+        word <<= 6 * static_cast<unsigned>(pads);
+        for (std::size_t i = 0; i < 3; ++i) bytes_[i] = static_cast<char>(word >> (16 - 8 * i));
+        first_ = 0;
+        held_ = static_cast<std::size_t>(3 - pads);
+        return true;
+    }
+
+    /// Whole quadruples without white space, on all threads; the bytes of those before the first that is none.
+    std::size_t take_quadruples(char* to, std::size_t count) {
+        constexpr std::size_t part = std::size_t{1} << 16;
+        const std::size_t wanted = std::min(count / 3, left_.size() / 4);
+        const std::size_t good = first_bad(wanted, part, [&](std::size_t first, std::size_t last) {
+            return decode_digits(left_.data() + 4 * first, last - first, to + 3 * first) ? last : first;
+        });
+        left_.remove_prefix(4 * good);
+        return 3 * good;
+    }
+
+    std::string_view left_;
+    bool base64_;
+    const XmlTree& tree_;
+    char bytes_[3] = {};
+    std::size_t first_ = 0;  // of the bytes not yet given
+    std::size_t held_ = 0;   // how many they are
+};
 
 /// The data of an array, of which a header tells the sizes. Compressed block by block: number of blocks, bytes of a
 /// block, bytes of the last one if it is shorter (else 0), then the compressed bytes of each block; then the blocks.
@@ -200,7 +351,7 @@ NumberFault XmlArrays::read_any(const XmlElement& array, const std::string& what
                 in_quotes(offset), cut_off);
         text.remove_prefix(static_cast<std::size_t>(begin));
     }
-    ArrayData data(Encoded(text, format == "binary" || !tree_.appended_raw, tree_.read_part), layout_);
+    ArrayData data(Encoded(text, format == "binary" || !tree_.appended_raw, tree_), layout_);
     if (const std::string found = data.open(); !found.empty())
         tree_.refuse_at(array, "the data of " + what, {}, found, "write the file again");
     if (count && data.size() != *size)
