@@ -95,17 +95,15 @@ std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>&
     room.resize(mesh.cell_labels.size());
     for (const Field& field : mesh.cell_fields) arrays.push_back(array_of_field(field));
     for (std::size_t i = 0; i < room.size(); ++i) {
-        const auto& [name, values] = mesh.cell_labels[i];
-        std::visit(
-            [&, &name = name, &text = room[i]]<class T>(const std::vector<T>& all) {
-                if constexpr (std::is_same_v<T, std::string>) {
-                    text = with_ends(all);
-                    arrays.push_back(array_in_memory<char>(name, text));
-                } else {
-                    arrays.push_back(array_in_memory<T>(name, all));
-                }
-            },
-            values);
+        const Column& labels = mesh.cell_labels[i];
+        const auto add = [&]<class T>(const std::vector<T>& all) {
+            if constexpr (std::is_same_v<T, std::string>) {
+                arrays.push_back(array_in_memory<char>(labels.name, room[i] = with_ends(all)));
+            } else {
+                arrays.push_back(array_in_memory<T>(labels.name, all));
+            }
+        };
+        std::visit(add, labels.values);
     }
     return arrays;
 }
@@ -125,12 +123,29 @@ std::string legacy_name(std::string_view name, char but = '!') {
     return text;
 }
 
-class LegacyFile {
+/// A legacy file: numbers in big-endian order, or as text.
+class LegacyWriter {
 public:
-    LegacyFile(const std::string& path, bool text) : file_(path), text_(text) {}
+    LegacyWriter(const std::string& path, bool text) : file_(path), text_(text) {}
 
-    void write(std::string_view bytes) { file_.write(bytes); }
-    void write(const OutArray& array, std::size_t per_line) {
+    Status write(OutGrid grid, const CellNodes& node) {
+        const std::size_t points = grid.points.count / 3, cells = grid.cells;
+        // Version 4.2 counts all numbers of the cells, the lengths among them, with 32 bits.
+        const bool wide = cells * (node.nodes + 1) > max_entities;
+        file_.write(std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") + "\nmesh\n" +
+                    (text_ ? "ASCII" : "BINARY") + "\nDATASET UNSTRUCTURED_GRID\nPOINTS " + std::to_string(points) +
+                    " double\n");
+        write_array(grid.points, 3);
+        wide ? write_wide_cells(node, cells) : write_cells(node, cells);
+        file_.write("CELL_TYPES " + std::to_string(cells) + "\n");
+        write_array(array_made<std::int32_t>("types", cells, [type = grid.type](std::size_t) { return type; }), 12);
+        write_arrays("CELL_DATA", cells, grid.cell_arrays);
+        write_arrays("POINT_DATA", points, grid.point_arrays);
+        return file_.commit();
+    }
+
+private:
+    void write_array(const OutArray& array, std::size_t per_line) {
         const auto out = [&](std::string_view bytes) { file_.write(bytes); };
         if (text_) return write_as_text(array, per_line, out);
         const auto size = static_cast<std::ptrdiff_t>(number_bytes(array.format.type));
@@ -141,6 +156,27 @@ public:
         write_parts(array, std::size_t{1} << 15, reverse_numbers, out);
         file_.write("\n");
     }
+
+    /// Version 4.2: the number of its nodes before the nodes of each cell.
+    void write_cells(const CellNodes& node, std::size_t cells) {
+        const std::size_t row = node.nodes + 1;
+        file_.write("CELLS " + std::to_string(cells) + " " + std::to_string(cells * row) + "\n");
+        const auto number = [node, row](std::size_t i) {
+            return i % row == 0 ? static_cast<std::int32_t>(node.nodes) : node(i / row * node.nodes + i % row - 1);
+        };
+        write_array(array_made<std::int32_t>("cells", cells * row, number), row);
+    }
+
+    /// Version 5.1: where the nodes of each cell begin and the last ones end, then all nodes.
+    void write_wide_cells(const CellNodes& node, std::size_t cells) {
+        const std::size_t nodes = node.nodes, numbers = cells * nodes;
+        file_.write("CELLS " + std::to_string(cells + 1) + " " + std::to_string(numbers) + "\nOFFSETS vtktypeint64\n");
+        const auto begin = [nodes](std::size_t i) { return nodes * i; };
+        write_array(array_made<std::int64_t>("offsets", cells + 1, begin), 12);
+        file_.write("CONNECTIVITY vtktypeint64\n");
+        write_array(array_made<std::int64_t>("connectivity", numbers, node), nodes);
+    }
+
     /// FIELD FieldData: any number of arrays of any type; texts last.
     void write_arrays(const char* section, std::size_t rows, std::vector<OutArray>& arrays) {
         if (arrays.empty()) return;
@@ -155,12 +191,10 @@ public:
                          : type == NumberType::int64 ? " vtktypeint64\n"
                                                      : " double\n"));
             is_text(a) ? write_texts({a.bytes, a.count})
-                       : write(a, components > 1 ? static_cast<std::size_t>(components) : 12);
+                       : write_array(a, components > 1 ? static_cast<std::size_t>(components) : 12);
         }
     }
-    Status commit() { return file_.commit(); }
 
-private:
     /// In a binary file each text follows its length, of 1, 2, 4 or 8 bytes, whose two highest bits are 3, 2, 1 or 0.
     void write_texts(std::string_view all) {
         for (std::size_t end = all.find('\0'); end != std::string_view::npos; end = all.find('\0')) {
@@ -187,44 +221,6 @@ private:
     bool text_;
 };
 
-/// Version 4.2: the number of its nodes before the nodes of each cell.
-void write_cells(const CellNodes& node, std::size_t cells, LegacyFile& file) {
-    const std::size_t row = node.nodes + 1;
-    file.write("CELLS " + std::to_string(cells) + " " + std::to_string(cells * row) + "\n");
-    const auto number = [node, row](std::size_t i) {
-        return i % row == 0 ? static_cast<std::int32_t>(node.nodes) : node(i / row * node.nodes + i % row - 1);
-    };
-    file.write(array_made<std::int32_t>("cells", cells * row, number), row);
-}
-
-/// Version 5.1: where the nodes of each cell begin and the last ones end, then all nodes.
-void write_wide_cells(const CellNodes& node, std::size_t cells, LegacyFile& file) {
-    const std::size_t nodes = node.nodes;
-    file.write("CELLS " + std::to_string(cells + 1) + " " + std::to_string(cells * nodes) + "\nOFFSETS vtktypeint64\n");
-    const auto begin = [nodes](std::size_t i) { return nodes * i; };
-    file.write(array_made<std::int64_t>("offsets", cells + 1, begin), 12);
-    file.write("CONNECTIVITY vtktypeint64\n");
-    file.write(array_made<std::int64_t>("connectivity", cells * nodes, node), nodes);
-}
-
-/// A legacy file: numbers in big-endian order, or as text.
-Status write_legacy(OutGrid grid, const CellNodes& node, const std::string& path, VtkData data) {
-    const std::size_t points = grid.points.count / 3, cells = grid.cells;
-    // Version 4.2 counts all numbers of the cells, the lengths among them, with 32 bits.
-    const bool wide = cells * (node.nodes + 1) > max_entities;
-    LegacyFile file(path, data == VtkData::ascii);
-    file.write(std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") + "\nmesh\n" +
-               (data == VtkData::ascii ? "ASCII" : "BINARY") + "\nDATASET UNSTRUCTURED_GRID\nPOINTS " +
-               std::to_string(points) + " double\n");
-    file.write(grid.points, 3);
-    wide ? write_wide_cells(node, cells, file) : write_cells(node, cells, file);
-    file.write("CELL_TYPES " + std::to_string(cells) + "\n");
-    file.write(array_made<std::int32_t>("types", cells, [type = grid.type](std::size_t) { return type; }), 12);
-    file.write_arrays("CELL_DATA", cells, grid.cell_arrays);
-    file.write_arrays("POINT_DATA", points, grid.point_arrays);
-    return file.commit();
-}
-
 Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names names) {
     const ExactEnvironment environment;
     try {
@@ -246,7 +242,7 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
         if (fault.empty()) fault = fault_of_names(grid.cell_arrays, names);
         if (!fault.empty()) return cannot_write("the mesh", fault, path);
         return names == Names::xml ? write_grid(std::move(grid), path, data)
-                                   : write_legacy(std::move(grid), node, path, data);
+                                   : LegacyWriter(path, data == VtkData::ascii).write(std::move(grid), node);
     } catch (const std::bad_alloc&) {
         return file_error(path, "too little memory to write the mesh", {}, {}, "free some memory");
     }

@@ -55,26 +55,26 @@ std::string_view bytes_of_words(const std::vector<std::uint64_t>& words) {
     return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(std::uint64_t)};
 }
 
-/// All elements but those of appended data; rest(array) writes what follows the name of each array.
-template <class Rest>
-void write_elements(const OutFile& f, std::string_view compressor, const std::function<void(std::string_view)>& write,
-                    const Rest& rest) {
+/// All elements but those of appended data, in parts: each but the last ends behind the name of an array.
+std::vector<std::string> elements_of(const OutFile& f, std::string_view compressor) {
     const bool big = std::endian::native == std::endian::big;
-    write("<VTKFile type=\"" + f.data_set + "\" version=\"1.0\" byte_order=\"" + (big ? "BigEndian" : "LittleEndian") +
-          "\" header_type=\"UInt64\"" + (compressor.empty() ? "" : " compressor=\"" + std::string(compressor) + '"') +
-          ">\n  <" + f.data_set + f.attributes + ">\n    <Piece" + f.piece + ">\n");
+    std::vector<std::string> parts{"<VTKFile type=\"" + f.data_set + "\" version=\"1.0\" byte_order=\"" +
+                                   (big ? "BigEndian" : "LittleEndian") + "\" header_type=\"UInt64\"" +
+                                   (compressor.empty() ? "" : " compressor=\"" + std::string(compressor) + '"') +
+                                   ">\n  <" + f.data_set + f.attributes + ">\n    <Piece" + f.piece + ">\n"};
     for (const OutSection& section : f.sections) {
-        write("      <" + section.element + ">\n");
+        parts.back() += "      <" + section.element + ">\n";
         for (const OutArray& a : section.arrays) {
             const auto& [name, components, type] = a.format;
-            write(std::string("        <") + element_of(type) + " type=\"" + std::string(xml_name(type)) +
-                  "\" Name=\"" + *xml_attribute(name) + '"' +
-                  (components != 1 ? " NumberOfComponents=\"" + std::to_string(components) + '"' : ""));
-            rest(a);
+            parts.back() += std::string("        <") + element_of(type) + " type=\"" + std::string(xml_name(type)) +
+                            "\" Name=\"" + *xml_attribute(name) + '"' +
+                            (components != 1 ? " NumberOfComponents=\"" + std::to_string(components) + '"' : "");
+            parts.emplace_back();
         }
-        write("      </" + section.element + ">\n");
+        parts.back() += "      </" + section.element + ">\n";
     }
-    write("    </Piece>\n  </" + f.data_set + ">\n");
+    parts.back() += "    </Piece>\n  </" + f.data_set + ">\n";
+    return parts;
 }
 
 template <class Write>
@@ -87,16 +87,14 @@ void for_each_array(const OutFile& f, const Write& write) {
 /// All before the arrays, which begin at these offsets from behind the underscore. `width`: of each, with its quote.
 std::string head_of(const OutFile& f, std::string_view compressor, const std::vector<std::uint64_t>& offsets,
                     std::size_t width) {
+    const std::vector<std::string> parts = elements_of(f, compressor);
     std::string head;
-    auto offset = offsets.begin();
-    write_elements(
-        f, compressor, [&](std::string_view text) { head += text; },
-        [&](const OutArray&) {
-            std::string place = std::to_string(*offset++) + '"';
-            place.resize(std::max(place.size(), width), ' ');
-            head += " format=\"appended\" offset=\"" + place + "/>\n";
-        });
-    return head + "  <AppendedData encoding=\"raw\">\n    _";
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+        std::string place = std::to_string(offsets[i]) + '"';
+        place.resize(std::max(place.size(), width), ' ');
+        head += parts[i] + " format=\"appended\" offset=\"" + place + "/>\n";
+    }
+    return head + parts.back() + "  <AppendedData encoding=\"raw\">\n    _";
 }
 
 void write_raw(const OutFile& f, base::OutputFile& file) {
@@ -160,14 +158,16 @@ bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile&
 
 void write_text(const OutFile& f, base::OutputFile& file) {
     constexpr std::size_t numbers_a_line = 12;
-    const auto write = [&](std::string_view text) { file.write(text); };
-    write_elements(f, {}, write, [&](const OutArray& a) {
-        file.write(" format=\"ascii\">\n");
+    const std::vector<std::string> parts = elements_of(f, {});
+    auto part = parts.begin();
+    for_each_array(f, [&](const OutArray& a) {
+        file.write(*part++ + " format=\"ascii\">\n");
         const auto components = static_cast<std::size_t>(a.format.components);
-        write_as_text(a, components > 1 ? components : numbers_a_line, write);
+        write_as_text(a, components > 1 ? components : numbers_a_line,
+                      [&](std::string_view text) { file.write(text); });
         file.write(std::string("        </") + element_of(a.format.type) + ">\n");
     });
-    file.write("</VTKFile>\n");
+    file.write(*part + "</VTKFile>\n");
 }
 
 }  // namespace
@@ -234,16 +234,13 @@ std::optional<std::string> xml_attribute(std::string_view name) {
 }
 
 std::string fault_of_names(const std::vector<OutArray>& arrays, Names names) {
-    const auto is_plain = [](char c) {
-        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-    };
     for (const OutArray& array : arrays) {
         const std::string &name = array.format.name, named = "the name of field \"" + name + '"';
         if (name.empty()) return "a field has no name";
         if (names == Names::xml && !xml_attribute(name)) return named + " has bytes that XML cannot hold";
         if (names == Names::xml) continue;
         // VTK's readers take words of up to 255 bytes, and others than these may be written as three.
-        const auto plain = static_cast<std::size_t>(std::ranges::count_if(name, is_plain));
+        const auto plain = static_cast<std::size_t>(std::ranges::count_if(name, is_letter_or_digit));
         if (3 * name.size() - 2 * plain > 200) return named + " is too long for the format";
         if (name == "METADATA" || name == "NULL_ARRAY") return named + " means something else in the format";
     }
