@@ -2,14 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
-#include <system_error>
 
-#include "barycert/base/arena.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
@@ -370,14 +365,12 @@ std::vector<std::string> vtk_mesh_files(const std::string& path) {
     if (suffix == ".vtu" || suffix == ".vtk" || suffix == ".vtp") return all;
     std::set<std::string> known{path};
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const auto add_named = [&, file = all[i]] {
-            const io::Collection named = io::open_vtk(file).collection.value_or(io::Collection());
-            for (const io::CollectionFile& one : named.files) {
-                if (known.insert(one.path).second) all.push_back(one.path);
-            }
-        };
+        std::optional<io::Collection> named;
         // Names within names; what cannot be read is told by the reader.
-        static_cast<void>(io::status_of(add_named));
+        static_cast<void>(io::status_of([&] { named = io::open_vtk(all[i]).collection; }));
+        for (const io::CollectionFile& one : named.value_or(io::Collection()).files) {
+            if (known.insert(one.path).second) all.push_back(one.path);
+        }
     }
     return all;
 }
