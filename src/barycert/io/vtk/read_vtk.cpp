@@ -233,10 +233,10 @@ public:
         if (!seen_.insert(std::filesystem::weakly_canonical(path, ignored).string()).second)
             refuse_file(path, "a file that is named twice in a collection of files", "every piece once", {},
                         "correct the file that names it");
-        const VtkFile file = open_vtk(path);
+        VtkFile file = open_vtk(path);
         if (const auto& named = file.collection; named)
             return named->is_series ? read_step(named->files, path, depth) : read_all(named->files, path, depth);
-        RawGrid grid = file.tree ? read_xml(*file.tree, part_) : read_legacy(file.text, path, part_);
+        RawGrid grid = file.tree ? read_xml(*std::move(file.tree), part_) : read_legacy(file.text, path, part_);
         file.input->unchanged(path).value();
         return grid;
     }

@@ -297,91 +297,90 @@ private:
     std::uint64_t block_ = 0, size_ = 0, packed_size_ = 0;
 };
 
-}  // namespace
-
-XmlArrays::XmlArrays(const XmlTree& tree) : tree_(tree) {
-    // What each attribute may be; the first is that of files without it.
-    constexpr std::array<std::string_view, 2> orders{"LittleEndian", "BigEndian"}, headers{"UInt32", "UInt64"};
-    const auto choose = [&](const char* key, std::span<const std::string_view> values) {
-        const std::string_view value = tree.root().attribute_or(key, values.front());
-        const auto found = std::ranges::find(values, value);
-        if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
-        std::string names;
-        for (const std::string_view name : values) names.append(names.empty() ? "" : ", ").append(name);
-        tree.refuse_at(tree.root(), std::string("the attribute ") + key + " of the file", names, in_quotes(value));
-    };
-    layout_.swap_bytes = (choose("byte_order", orders) == 0) != (std::endian::native == std::endian::little);
-    layout_.header_bytes = choose("header_type", headers) == 0 ? 4 : 8;
-    layout_.compressor = static_cast<Compressor>(choose("compressor", compressor_names));
-}
-
-std::optional<NumberType> XmlArrays::type_of(const XmlElement& array) {
-    const std::string_view name = array.attribute_or("type", "");
-    const std::optional<NumberType> type = type_of_name(name);
-    return array.name == "DataArray" && type && xml_name(*type) == name && type != NumberType::text ? type
-                                                                                                    : std::nullopt;
-}
-
 /// `count` numbers, or all where it is not known.
-NumberFault XmlArrays::read_any(const XmlElement& array, const std::string& what, NumberType type,
-                                std::optional<std::uint64_t> count, NumbersTo values) const {
+NumberFault read_any(const XmlTree& tree, const XmlElement& array, const std::string& what, NumberType type,
+                     std::optional<std::uint64_t> count, NumbersTo values) {
     constexpr std::uint64_t all = std::numeric_limits<std::size_t>::max();
     constexpr const char* other_count = "its numbers do not match the counts of points, cells and components";
     const std::string_view format = array.attribute_or("format", "ascii");
     if (format != "ascii" && format != "binary" && format != "appended")
-        tree_.refuse_at(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
-    std::string_view text = format == "appended" ? tree_.appended : tree_.text_of(array);
+        tree.refuse_at(array, "the format of " + what, "ascii, binary or appended", in_quotes(format));
+    std::string_view text = format == "appended" ? tree.appended : tree.text_of(array);
     if (format == "ascii") {
         NumberFault fault = read_text(text, type, static_cast<std::size_t>(count.value_or(all)), values);
         if (fault.kind == NumberFault::Kind::too_few) return count ? fault : NumberFault{};
         if (fault.kind != NumberFault::Kind::no_number && !next_word(text).empty())
-            tree_.refuse_at(array, what, std::to_string(*count) + " numbers", "more", other_count);
+            tree.refuse_at(array, what, std::to_string(*count) + " numbers", "more", other_count);
         return fault;
     }
     if (count == 0U) return {};  // without a number there may be no header either
     const std::optional<std::uint64_t> size = byte_count(type, count.value_or(0));
-    if (!size) tree_.refuse_at(array, "the size of " + what, "less than 2^64 bytes", "more");
+    if (!size) tree.refuse_at(array, "the size of " + what, "less than 2^64 bytes", "more");
     if (format == "appended") {
         const std::string_view offset = array.attribute_or("offset", "");
         const std::uint64_t begin = parse_count(offset).value_or(all);
         if (begin >= text.size())
-            tree_.refuse_at(
-                array, "the offset of " + what + " into the appended data",
-                "less than " + std::to_string(text.size()) + ", the bytes from there to the end of the file",
-                in_quotes(offset), cut_off);
+            tree.refuse_at(array, "the offset of " + what + " into the appended data",
+                           "less than " + std::to_string(text.size()) + ", the bytes from there to the end of the file",
+                           in_quotes(offset), cut_off);
         text.remove_prefix(static_cast<std::size_t>(begin));
     }
-    ArrayData data(Encoded(text, format == "binary" || !tree_.appended_raw, tree_), layout_);
+    ArrayData data(Encoded(text, format == "binary" || !tree.appended_raw, tree), tree.layout);
     if (const std::string found = data.open(); !found.empty())
-        tree_.refuse_at(array, "the data of " + what, {}, found, "write the file again");
+        tree.refuse_at(array, "the data of " + what, {}, found, "write the file again");
     if (count && data.size() != *size)
-        tree_.refuse_at(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(data.size()),
-                        other_count);
+        tree.refuse_at(array, "the size of " + what, std::to_string(*size) + " bytes", std::to_string(data.size()),
+                       other_count);
     const auto numbers = static_cast<std::size_t>(count.value_or(data.size() / number_bytes(type)));
     return std::visit([&](auto to) { return data.read(type, numbers, to.get()); }, values);
 }
 
-void XmlArrays::read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
-                     NumberFault* inexact) const {
-    const std::optional<NumberType> type = type_of(array);
+}  // namespace
+
+void XmlTree::take_layout() {
+    // What each attribute may be; the first is that of files without it.
+    constexpr std::array<std::string_view, 2> orders{"LittleEndian", "BigEndian"}, headers{"UInt32", "UInt64"};
+    const auto choose = [&](const char* key, std::span<const std::string_view> values) {
+        const std::string_view value = root().attribute_or(key, values.front());
+        const auto found = std::ranges::find(values, value);
+        if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
+        std::string names;
+        for (const std::string_view name : values) names.append(names.empty() ? "" : ", ").append(name);
+        refuse_at(root(), std::string("the attribute ") + key + " of the file", names, in_quotes(value));
+    };
+    layout.swap_bytes = (choose("byte_order", orders) == 0) != (std::endian::native == std::endian::little);
+    layout.header_bytes = choose("header_type", headers) == 0 ? 4 : 8;
+    layout.compressor = static_cast<Compressor>(choose("compressor", compressor_names));
+}
+
+std::optional<NumberType> XmlElement::number_type() const {
+    const std::string_view type_name = attribute_or("type", "");
+    const std::optional<NumberType> type = type_of_name(type_name);
+    return name == "DataArray" && type && xml_name(*type) == type_name && type != NumberType::text ? type
+                                                                                                   : std::nullopt;
+}
+
+void XmlTree::read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
+                   NumberFault* inexact) const {
+    const std::optional<NumberType> type = array.number_type();
     if (!type)
-        tree_.refuse_at(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
-                        in_quotes(array.attribute_or("type", "")));
-    tree_.check(read_any(array, what, *type, count, values), tree_.bytes.data() + array.begin, what, count, inexact);
+        refuse_at(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
+                  in_quotes(array.attribute_or("type", "")));
+    check(read_any(*this, array, what, *type, count, values), bytes.data() + array.begin, what, count, inexact);
 }
 
 /// Each text ends with a zero byte; in ascii format bytes are written as numbers.
-std::vector<std::string> XmlArrays::read_texts(const XmlElement& array, const std::string& what,
-                                               std::uint64_t count) const {
-    std::vector<std::uint8_t> bytes;
+std::vector<std::string> XmlTree::read_texts(const XmlElement& array, const std::string& what,
+                                             std::uint64_t count) const {
+    std::vector<std::uint8_t> numbers;
     if (count == 0) return {};
-    tree_.check(read_any(array, what, NumberType::uint8, std::nullopt, bytes), tree_.bytes.data() + array.begin, what,
-                count, nullptr);
-    std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    check(read_any(*this, array, what, NumberType::uint8, std::nullopt, numbers), bytes.data() + array.begin, what,
+          count, nullptr);
+    std::string_view all(reinterpret_cast<const char*>(numbers.data()), numbers.size());
     const auto found = static_cast<std::uint64_t>(std::ranges::count(all, '\0'));
     if (found != count || !all.ends_with('\0'))
-        tree_.refuse_at(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
-                        std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
+        refuse_at(array, "the texts of " + what, std::to_string(count) + ", each ended by a zero byte",
+                  std::to_string(found) + " ends, and " + std::to_string(all.size()) + " bytes");
     std::vector<std::string> texts;
     for (; !all.empty(); all.remove_prefix(texts.back().size() + 1)) texts.emplace_back(all.data());
     return texts;

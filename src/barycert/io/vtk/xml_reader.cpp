@@ -40,7 +40,7 @@ bool is_structured(std::string_view type) {
 /// Reads the pieces of a file one after the other.
 class XmlReader {
 public:
-    XmlReader(const XmlTree& tree, Part part) : tree_(tree), arrays_(tree), part_(part) {}
+    XmlReader(XmlTree tree, Part part) : tree_(std::move(tree)), part_(part) { tree_.take_layout(); }
 
     RawGrid read() {
         const std::string type(tree_.root().attribute_or("type", ""));
@@ -106,8 +106,8 @@ private:
         const std::string_view components = array->attribute_or("NumberOfComponents", "1");
         if (parse_count(components) != 3)
             tree_.refuse_at(*array, "the components of the points", "3", in_quotes(components));
-        grid.narrow_points = XmlArrays::type_of(*array) == NumberType::float32;
-        arrays_.read(*array, "the coordinates", std::uint64_t{3} * count, grid.points);
+        grid.narrow_points = array->number_type() == NumberType::float32;
+        tree_.read(*array, "the coordinates", std::uint64_t{3} * count, grid.points);
     }
 
     /// The points of the only piece of a structured grid, x running fastest. Error: an extent that is none, or not that
@@ -181,8 +181,8 @@ private:
         for (const std::size_t i : coordinates != nullptr ? coordinates->children : std::vector<std::size_t>()) {
             const XmlElement& array = tree_.elements[i];
             if (array.name != "DataArray" || found == 3) continue;
-            arrays_.read(array, "the coordinates along an axis", counts[found], axes[found]);
-            narrow = narrow || XmlArrays::type_of(array) == NumberType::float32;
+            tree_.read(array, "the coordinates along an axis", counts[found], axes[found]);
+            narrow = narrow || array.number_type() == NumberType::float32;
             ++found;
         }
         if (found != 3)
@@ -228,9 +228,9 @@ private:
             tree_.refuse_at(piece, "the cells of a piece",
                             section ? "arrays connectivity and offsets" : "arrays connectivity, offsets and types",
                             section ? "not both" : "not all three");
-        if (!section) arrays_.read(*types, "the types of cells", count, grid.types);
+        if (!section) tree_.read(*types, "the types of cells", count, grid.types);
         RawCells cells;
-        arrays_.read(*offsets, "the offsets of cells", count, cells.ends);
+        tree_.read(*offsets, "the offsets of cells", count, cells.ends);
         std::int64_t end = 0;
         for (const std::int64_t own : cells.ends) {
             if (own < end)
@@ -238,7 +238,7 @@ private:
                                 std::to_string(own) + " after " + std::to_string(end));
             end = own;
         }
-        arrays_.read(*connectivity, "the connectivity", static_cast<std::uint64_t>(end), cells.connectivity);
+        tree_.read(*connectivity, "the connectivity", static_cast<std::uint64_t>(end), cells.connectivity);
         const std::size_t wrong = first_wrong_node(cells.connectivity, grid.point_count());
         if (wrong != cells.connectivity.size())
             tree_.refuse_at(*connectivity, "a node of a cell", "a point below " + std::to_string(grid.point_count()),
@@ -273,32 +273,31 @@ private:
         if (components == 0 || components > max_entities)
             tree_.refuse_at(array, "the components of " + what, "a count of 1 or more", in_quotes(text));
         to.components = static_cast<int>(components);
-        const std::optional<NumberType> type = XmlArrays::type_of(array);
+        const std::optional<NumberType> type = array.number_type();
         const bool may_label = !of_points || part_ == Part::point_arrays;
         if (to.name.empty()) {
             to.fault = "it has no name";
         } else if (type) {
             to.type = *type;
             read_numbers(to, of_points, may_label, [&](NumbersTo values, NumberFault& inexact) {
-                arrays_.read(array, what, components * count, values, &inexact);
+                tree_.read(array, what, components * count, values, &inexact);
             });
         } else if (array.attribute("type") != "String") {
             to.fault = "it holds no numbers";
         } else if (takes_texts(to, may_label)) {
-            to.values = arrays_.read_texts(array, what, count);
+            to.values = tree_.read_texts(array, what, count);
         }
     }
 
-    const XmlTree& tree_;
-    const XmlArrays arrays_;
+    XmlTree tree_;
     Part part_;
     bool is_polygons_ = false;
 };
 
 }  // namespace
 
-RawGrid read_xml(const XmlTree& tree, Part part) {
-    return XmlReader(tree, part).read();
+RawGrid read_xml(XmlTree tree, Part part) {
+    return XmlReader(std::move(tree), part).read();
 }
 
 }  // namespace barycert::io
