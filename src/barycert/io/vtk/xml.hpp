@@ -57,10 +57,10 @@ struct XmlTree : FileText {
     /// Takes the layout from the root. Error: a byte order, type of header or compressor that VTK does not know.
     void take_layout();
     /// Appends the numbers of the array, exactly `count`. `what` names it in errors. `inexact` as in FileText::check.
-    void read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
-              NumberFault* inexact = nullptr) const;
+    void take_numbers(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
+                      NumberFault* inexact = nullptr) const;
     /// The texts of an array of strings, exactly `count`.
-    std::vector<std::string> read_texts(const XmlElement& array, const std::string& what, std::uint64_t count) const;
+    std::vector<std::string> take_texts(const XmlElement& array, const std::string& what, std::uint64_t count) const;
 
     [[noreturn]] void refuse_at(const XmlElement& at, std::string what, std::string expected, std::string found,
                                 std::string remedy = {}) const {

@@ -360,8 +360,8 @@ std::optional<NumberType> XmlElement::number_type() const {
                                                                                                    : std::nullopt;
 }
 
-void XmlTree::read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
-                   NumberFault* inexact) const {
+void XmlTree::take_numbers(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
+                           NumberFault* inexact) const {
     const std::optional<NumberType> type = array.number_type();
     if (!type)
         refuse_at(array, "the type of " + what, "Int8 to UInt64, Float32, Float64 or Bit",
@@ -370,7 +370,7 @@ void XmlTree::read(const XmlElement& array, const std::string& what, std::uint64
 }
 
 /// Each text ends with a zero byte; in ascii format bytes are written as numbers.
-std::vector<std::string> XmlTree::read_texts(const XmlElement& array, const std::string& what,
+std::vector<std::string> XmlTree::take_texts(const XmlElement& array, const std::string& what,
                                              std::uint64_t count) const {
     std::vector<std::uint8_t> numbers;
     if (count == 0) return {};
