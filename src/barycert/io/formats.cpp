@@ -13,7 +13,6 @@
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
-#include "barycert/io/vtk/collection.hpp"
 
 namespace barycert::io {
 namespace {

@@ -9,7 +9,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/vtk/collection.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
 

@@ -8,7 +8,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
-#include "barycert/io/vtk/collection.hpp"
 #include "barycert/io/vtk/xml.hpp"
 
 namespace barycert::io {

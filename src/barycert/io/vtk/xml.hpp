@@ -31,13 +31,6 @@ struct XmlElement {
     std::optional<NumberType> number_type() const;
 };
 
-/// What the attributes of the root say of all arrays.
-struct XmlLayout {
-    bool swap_bytes = false;
-    std::size_t header_bytes = 4;  ///< of the integers before the data: 4 or 8
-    Compressor compressor = Compressor::none;
-};
-
 struct XmlTree : FileText {
     std::vector<XmlElement> elements;  ///< the root first
     /// The appended data, from behind the underscore to the end of the file; empty if there are none.
@@ -45,8 +38,10 @@ struct XmlTree : FileText {
     bool appended_raw = false;  ///< as they are; else in base64
     /// Reads a part of them to that place, if they are not in memory: the part is where it would stand there.
     std::function<void(std::string_view part, char* to)> read_part = {};
-
-    XmlLayout layout = {};  ///< once it is taken
+    // What the attributes of the root say of all arrays, once it is taken.
+    bool swap_bytes = false;
+    std::size_t header_bytes = 4;  ///< of the integers before the data: 4 or 8
+    Compressor compressor = Compressor::none;
 
     const XmlElement& root() const { return elements.front(); }
     /// The first child of that name, or whose attribute `key` is that; nullptr if there is none, or no parent.
@@ -54,7 +49,7 @@ struct XmlTree : FileText {
     /// The text of an element: what stands before its first child or, if that is blank, behind its last one.
     std::string_view text_of(const XmlElement& element) const;
 
-    /// Takes the layout from the root. Error: a byte order, type of header or compressor that VTK does not know.
+    /// Takes what the root says of all arrays. Error: a byte order, type of header or compressor unknown to VTK.
     void take_layout();
     /// Appends the numbers of the array, exactly `count`. `what` names it in errors. `inexact` as in FileText::check.
     void take_numbers(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,

@@ -167,14 +167,14 @@ private:
 /// Others: their bytes.
 class ArrayData {
 public:
-    ArrayData(Encoded from, const XmlLayout& layout) : from_(from), layout_(layout) {}
+    ArrayData(Encoded from, const XmlTree& tree) : from_(from), tree_(tree) {}
 
     /// Reads the header; what is wrong with it, or empty.
     std::string open() {
         constexpr const char* too_short = "the data end before their header does";
-        const bool plain = layout_.compressor == Compressor::none;
+        const bool plain = tree_.compressor == Compressor::none;
         const std::optional<std::vector<std::uint64_t>> head = next_words(plain ? 1 : 3);
-        if (!head || (!plain && head->front() > from_.left() / layout_.header_bytes)) return too_short;
+        if (!head || (!plain && head->front() > from_.left() / tree_.header_bytes)) return too_short;
         size_ = head->front();
         if (plain && from_.is_unread() && size_ <= from_.left()) {  // else it is all in memory, or too short
             block_ = std::uint64_t{1} << 18;
@@ -193,7 +193,7 @@ public:
         for (const std::uint64_t& bytes : packed_) {
             if (__builtin_add_overflow(packed_size_, bytes, &packed_size_))
                 return "compressed blocks of more than 2^64 bytes";
-            if ((&bytes != &packed_.back() ? block_ : last) > max_unpacked(layout_.compressor, bytes))
+            if ((&bytes != &packed_.back() ? block_ : last) > max_unpacked(tree_.compressor, bytes))
                 return "a block that holds more than its compressed bytes can";
         }
         return packed_size_ > from_.left() ? "the data end before the last block does" : "";
@@ -206,11 +206,11 @@ public:
     /// that memory grows with what the file really has.
     template <class To>
     NumberFault read(NumberType type, std::size_t count, std::vector<To>& values) {
-        if (layout_.compressor == Compressor::none && packed_.empty()) {
+        if (tree_.compressor == Compressor::none && packed_.empty()) {
             const std::uint64_t there = std::min(from_.left(), size_) / number_bytes(type);  // at most
             ByteRoom room;
             const std::optional<std::string_view> bytes = from_.take(size_, room);
-            if (bytes) return read_binary(*bytes, type, layout_.swap_bytes, count, values);
+            if (bytes) return read_binary(*bytes, type, tree_.swap_bytes, count, values);
             return {NumberFault::Kind::too_few, std::min(static_cast<std::size_t>(there), count - 1)};
         }
         const std::size_t number = number_bytes(type);
@@ -224,10 +224,10 @@ public:
         // No block holds more than its bytes can. Those of lzma could hold a hundred times what data ever have: memory
         // grows with what there is.
         constexpr std::uint64_t likely = 64;
-        const bool honest = layout_.compressor != Compressor::lzma;
+        const bool honest = tree_.compressor != Compressor::lzma;
         make_room(values,
                   honest ? count : static_cast<std::size_t>(std::min<std::uint64_t>(count, likely * packed_size_)));
-        const bool as_they_stand = type != NumberType::bit && (!layout_.swap_bytes || number == 1) &&
+        const bool as_they_stand = type != NumberType::bit && (!tree_.swap_bytes || number == 1) &&
                                    with_number_type(type, []<class From>() { return std::is_same_v<From, To>; });
         ByteRoom packed_room;
         ByteRoom plain_room;
@@ -242,7 +242,7 @@ public:
             char* const to = direct ? reinterpret_cast<char*>(values.data() + before) : plain_room.of(plain);
             if (!unpack_wave(first, last, packed_room, to)) return {NumberFault::Kind::too_few, done};
             if (!direct) {
-                NumberFault found = read_binary({to, plain}, type, layout_.swap_bytes, numbers, values);
+                NumberFault found = read_binary({to, plain}, type, tree_.swap_bytes, numbers, values);
                 found.index += done;
                 if (!fault) fault = std::move(found);
             }
@@ -254,12 +254,12 @@ public:
 private:
     /// Integers of a header; nothing if the data end before.
     std::optional<std::vector<std::uint64_t>> next_words(std::size_t count) {
-        const std::size_t width = layout_.header_bytes;
+        const std::size_t width = tree_.header_bytes;
         ByteRoom room;
         const std::optional<std::string_view> bytes = from_.take(count * width, room);
         std::vector<std::int64_t> words;
         if (!bytes) return std::nullopt;
-        read_binary(*bytes, width == 8 ? NumberType::int64 : NumberType::uint32, layout_.swap_bytes, count, words);
+        read_binary(*bytes, width == 8 ? NumberType::int64 : NumberType::uint32, tree_.swap_bytes, count, words);
         return std::vector<std::uint64_t>(words.begin(), words.end());
     }
 
@@ -272,7 +272,7 @@ private:
     bool unpack_wave(std::size_t first, std::size_t last, ByteRoom& room, char* to) {
         std::vector<std::size_t> ends{0};
         for (std::size_t i = first; i < last; ++i) ends.push_back(ends.back() + static_cast<std::size_t>(packed_[i]));
-        if (layout_.compressor == Compressor::none) {
+        if (tree_.compressor == Compressor::none) {
             const std::string_view part = from_.take_as_they_stand(ends.back());
             in_parallel(last - first, [&](std::size_t i) {
                 from_.read_part(part.substr(ends[i], ends[i + 1] - ends[i]), to + ends[i]);
@@ -284,7 +284,7 @@ private:
         if (!good) return false;
         in_parallel(last - first, [&](std::size_t i) {
             const std::size_t begin = block_at(first + i), end = block_at(first + i + 1);
-            if (!unpack(layout_.compressor, bytes->substr(ends[i], ends[i + 1] - ends[i]), to + begin - block_at(first),
+            if (!unpack(tree_.compressor, bytes->substr(ends[i], ends[i + 1] - ends[i]), to + begin - block_at(first),
                         end - begin))
                 good = false;
         });
@@ -292,7 +292,7 @@ private:
     }
 
     Encoded from_;
-    const XmlLayout& layout_;
+    const XmlTree& tree_;
     std::vector<std::uint64_t> packed_;  // bytes of each block
     std::uint64_t block_ = 0, size_ = 0, packed_size_ = 0;
 };
@@ -325,7 +325,7 @@ NumberFault read_any(const XmlTree& tree, const XmlElement& array, const std::st
                            in_quotes(offset), cut_off);
         text.remove_prefix(static_cast<std::size_t>(begin));
     }
-    ArrayData data(Encoded(text, format == "binary" || !tree.appended_raw, tree), tree.layout);
+    ArrayData data(Encoded(text, format == "binary" || !tree.appended_raw, tree), tree);
     if (const std::string found = data.open(); !found.empty())
         tree.refuse_at(array, "the data of " + what, {}, found, "write the file again");
     if (count && data.size() != *size)
@@ -348,9 +348,9 @@ void XmlTree::take_layout() {
         for (const std::string_view name : values) names.append(names.empty() ? "" : ", ").append(name);
         refuse_at(root(), std::string("the attribute ") + key + " of the file", names, in_quotes(value));
     };
-    layout.swap_bytes = (choose("byte_order", orders) == 0) != (std::endian::native == std::endian::little);
-    layout.header_bytes = choose("header_type", headers) == 0 ? 4 : 8;
-    layout.compressor = static_cast<Compressor>(choose("compressor", compressor_names));
+    swap_bytes = (choose("byte_order", orders) == 0) != (std::endian::native == std::endian::little);
+    header_bytes = choose("header_type", headers) == 0 ? 4 : 8;
+    compressor = static_cast<Compressor>(choose("compressor", compressor_names));
 }
 
 std::optional<NumberType> XmlElement::number_type() const {
