@@ -42,7 +42,6 @@ struct CommandEntry {
 /// The words that types of values stand for: "KERNEL" -> all kernels.
 using Vocabulary = std::map<std::string, std::vector<std::string>>;
 
-/// Whether values of that type are names of files.
 bool is_type_of_files(std::string_view type);
 
 /// Types of values, by which their words are found: parts between |. Those in small letters are words themselves (up to
@@ -63,7 +62,6 @@ struct ManPage {
     std::string text;  ///< roff, with the macros of man(7)
 };
 
-/// A variable of the environment.
 struct Variable {
     std::string name, text;
 };

@@ -12,10 +12,8 @@ namespace {
 
 /// "a, b or c".
 std::string listed(const std::vector<std::string>& words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-    return text;
+    if (words.size() < 2) return joined(words);
+    return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
 }
 
 /// The first word that was left over and is near an option, and that option.

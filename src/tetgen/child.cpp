@@ -1,6 +1,5 @@
 #include "child.hpp"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -16,23 +15,15 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "barycert/base/output_file.hpp"
 
 namespace barycert {
 namespace {
 
-void send(int descriptor, std::string_view text) {
-    while (!text.empty()) {
-        const ssize_t put = write(descriptor, text.data(), text.size());
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) return;  // the parent is gone
-        text.remove_prefix(static_cast<std::size_t>(put));
-    }
-}
-
 /// noexcept: what `work` throws must end the child, not unwind into the parent's code.
-[[noreturn]] void be_child(const std::function<void(const Answer&)>& work, pid_t parent, int answer,
+[[noreturn]] void be_child(const std::function<void(const Answer&)>& work, pid_t parent, const base::Descriptor& answer,
                            int print) noexcept {
 #ifdef __linux__
     // No orphan goes on meshing. Not SIGKILL: what it has begun to write may have to be removed.
@@ -45,7 +36,7 @@ void send(int descriptor, std::string_view text) {
     setrlimit(RLIMIT_CORE, &no_core);
     dup2(print, STDOUT_FILENO);
     dup2(print, STDERR_FILENO);
-    work([answer](std::string_view text) { send(answer, text); });
+    work([&](std::string_view text) { answer.write(text); });  // it fails where the parent is gone
     std::fflush(nullptr);
     _exit(finished_code);
 }
@@ -83,33 +74,30 @@ std::string contents(std::FILE* file) {
 
 ChildOutcome run_in_child(const std::function<void(const Answer&)>& work, double timeout_seconds) {
     ChildOutcome outcome;
-    std::array<int, 2> ends{};
-    std::FILE* print = std::tmpfile();
-    if (print == nullptr || pipe(ends.data()) != 0) {
+    std::fflush(nullptr);  // or the child would print it again
+    std::array<int, 2> ends{-1, -1};
+    const auto close = [](std::FILE* file) { std::fclose(file); };
+    const std::unique_ptr<std::FILE, decltype(close)> print(std::tmpfile(), close);
+    const bool ready = print != nullptr && pipe(ends.data()) == 0;
+    base::Descriptor from_child(ends[0]), to_parent(ends[1]);
+    const pid_t parent = getpid(), child = ready ? fork() : -1;
+    if (child == 0) {
+        from_child.close();
+        be_child(work, parent, to_parent, fileno(print.get()));
+    }
+    if (child < 0) {
         outcome.failure = std::strerror(errno);
-        if (print != nullptr) std::fclose(print);
         return outcome;
     }
-    std::fflush(nullptr);  // or the child would print it again
-    const pid_t parent = getpid(), child = fork();
-    if (child == 0) {
-        close(ends[0]);
-        be_child(work, parent, ends[1], fileno(print));
+    to_parent.close();
+    outcome.timed_out = !receive(from_child.number, timeout_seconds, outcome.answer);
+    if (outcome.timed_out) kill(child, SIGKILL);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (child < 0) outcome.failure = std::strerror(errno);
-    close(ends[1]);
-    if (child > 0) {
-        outcome.timed_out = !receive(ends[0], timeout_seconds, outcome.answer);
-        if (outcome.timed_out) kill(child, SIGKILL);
-        int status = 0;
-        while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-        }
-        if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
-        if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-        outcome.printed = contents(print);
-    }
-    close(ends[0]);
-    std::fclose(print);
+    if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);
+    if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+    outcome.printed = contents(print.get());
     return outcome;
 }
 

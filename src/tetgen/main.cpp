@@ -19,7 +19,6 @@
 #include "barycert/base/text.hpp"
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io.hpp"
 #include "child.hpp"
 #include "mesher.hpp"
 #include "options.hpp"

@@ -16,10 +16,6 @@ T* owned_copy(const std::vector<T>& from) {
     return copy;
 }
 
-int as_int(std::size_t n) {
-    return static_cast<int>(n);
-}
-
 void fill_facet(const PlcFacet& from, tetgenio::facet& to) {
     tetgenio::init(&to);
     to.polygonlist = new tetgenio::polygon[from.polygons.size()];
@@ -27,15 +23,15 @@ void fill_facet(const PlcFacet& from, tetgenio::facet& to) {
         tetgenio::polygon& polygon = to.polygonlist[to.numberofpolygons++];
         tetgenio::init(&polygon);
         polygon.vertexlist = owned_copy(ring);
-        polygon.numberofvertices = as_int(ring.size());
+        polygon.numberofvertices = static_cast<int>(ring.size());
     }
     to.holelist = owned_copy(from.holes);
-    to.numberofholes = as_int(from.holes.size() / 3);
+    to.numberofholes = static_cast<int>(from.holes.size() / 3);
 }
 
 void fill(const Plc& plc, tetgenio& in) {
     in.firstnumber = 0;
-    in.numberofpoints = as_int(plc.point_count());
+    in.numberofpoints = static_cast<int>(plc.point_count());
     in.pointlist = owned_copy(plc.points);
     in.numberofpointattributes = plc.attribute_count;
     in.pointattributelist = owned_copy(plc.attributes);
@@ -47,9 +43,9 @@ void fill(const Plc& plc, tetgenio& in) {
         fill_facet(facet, in.facetlist[in.numberoffacets++]);
     }
     in.holelist = owned_copy(plc.holes);
-    in.numberofholes = as_int(plc.holes.size() / 3);
+    in.numberofholes = static_cast<int>(plc.holes.size() / 3);
     in.regionlist = owned_copy(plc.regions);
-    in.numberofregions = as_int(plc.regions.size() / 5);
+    in.numberofregions = static_cast<int>(plc.regions.size() / 5);
 }
 
 template <class To, class From>

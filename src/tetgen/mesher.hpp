@@ -4,12 +4,7 @@
 /// process (child.hpp).
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <utility>
-
 #include "barycert/io.hpp"
-#include "barycert/mesh.hpp"
 
 namespace barycert {
 

@@ -6,8 +6,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cstddef>
-#include <functional>
 #include <limits>
 
 namespace barycert::base {

@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <span>
-#include <string>
-#include <utility>
 
 #include "barycert/result.hpp"
 

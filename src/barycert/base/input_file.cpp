@@ -4,11 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
-#include <utility>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/nearest_name.hpp"

@@ -8,16 +8,10 @@
 
 #include <sys/types.h>
 
-#include <cstddef>
-#include <cstdint>
 #include <ctime>
 #include <functional>
 #include <map>
-#include <optional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include "barycert/base/descriptor.hpp"
 #include "barycert/result.hpp"

@@ -1,7 +1,6 @@
 /// The floating-point environment of the calling thread, measured by what arithmetic does.
 #pragma once
 
-#include <cfloat>
 #include <string_view>
 
 #include "barycert/base/strict_math.hpp"

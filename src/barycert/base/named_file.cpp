@@ -5,11 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/output_file.hpp"
@@ -19,11 +17,6 @@ namespace barycert::base {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A standard stream may be redirected from or to a file.
-std::string of_stream(const std::string& path, const char* stream) {
-    return path == "-" ? stream : path;
-}
 
 /// Not streams and devices: /dev/stdin and /dev/stdout may well be one terminal.
 bool can_be_overwritten(const std::string& path) {
@@ -67,9 +60,10 @@ bool same_file(const std::string& a, const std::string& b) {
 Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const NamedFile& out = outputs[i];
-        const std::string path = of_stream(out.path, "/dev/stdout");
+        // A standard stream may be redirected from or to a file.
+        const std::string path = out.path == "-" ? "/dev/stdout" : out.path;
         for (const NamedFile& in : inputs) {
-            if (!can_be_overwritten(path) || !same_file(path, of_stream(in.path, "/dev/stdin"))) continue;
+            if (!can_be_overwritten(path) || !same_file(path, in.path == "-" ? "/dev/stdin" : in.path)) continue;
             return Error{.what = out.what + " would overwrite " + in.what,
                          .file = out.path,
                          .remedy = "choose another name for the output"};

@@ -1,8 +1,6 @@
 // Arithmetic on doubles in an environment of its own: ulps, and random numbers.
 #include "barycert/base/ulp.hpp"
 
-#include <cmath>
-
 #include "barycert/base/random.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/environment.hpp"

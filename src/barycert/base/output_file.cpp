@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -14,11 +15,20 @@
 #include <filesystem>
 #include <initializer_list>
 #include <system_error>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 
 namespace barycert::base {
+
+/// Of an unfinished file, from before it exists until it is renamed or removed. In a list that only grows: a signal
+/// handler may walk it at any moment, in any thread, without a lock. Some tens of bytes for each file that needed a
+/// name.
+struct BegunName {
+    const std::string path;
+    std::atomic<bool> live{true};
+    BegunName* next = nullptr;
+};
+
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
@@ -35,12 +45,6 @@ const char* remedy_for(int error_number) {
     return "check the path and the disk";
 }
 
-/// A name beside the target that no other file of this process has.
-std::string name_beside(const std::string& target) {
-    static std::atomic<unsigned> count{0};
-    return target + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
-}
-
 /// Where an open file can be found even if it has no name.
 std::string path_of(int descriptor) {
     return "/proc/self/fd/" + std::to_string(descriptor);
@@ -50,6 +54,16 @@ std::string path_of(int descriptor) {
 std::atomic<BegunName*> names{nullptr};
 static_assert(std::atomic<BegunName*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free,
               "the signal handler reads them");
+
+/// A name beside the target that no other file of this process has. Safe to call from any thread.
+BegunName* begin_name(const std::string& target) {
+    static std::atomic<unsigned> count{0};
+    std::string path = target + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
+    auto* const name = new BegunName{.path = std::move(path), .next = names.load()};
+    while (!names.compare_exchange_weak(name->next, name)) {
+    }
+    return name;
+}
 
 /// Known before the handler is; on a terminal it begins a line, for progress may stand in this one.
 std::string_view ended_by_signal;
@@ -113,15 +127,11 @@ OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_pa
         fail("cannot give the new file the permissions of the old one", errno);
 }
 
-OutputFile::OutputFile(std::string name, Descriptor file, int error_number)
-    : target_(std::move(name)), file_(std::move(file)) {
-    if (!file_) fail("cannot open the file for writing", error_number);
-}
-
-OutputFile OutputFile::standard_output() {
-    // A copy, so that it can be closed and tell of errors. Not 0 to 2: a process may run with those closed.
-    const int copy = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    return {"standard output", Descriptor(copy), errno};
+OutputFile::OutputFile()
+    : target_("standard output"),
+      // A copy, so that it can be closed and tell of errors. Not 0 to 2: a process may run with those closed.
+      file_(::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)) {
+    if (!file_) fail("cannot open the file for writing", errno);
 }
 
 bool OutputFile::open_nameless() {
@@ -140,7 +150,7 @@ void OutputFile::open_beside() {
     // O_EXCL: a name left over by a killed run, or planted as a link, is passed over.
     do {
         forget_name();
-        begun_ = begin_name(name_beside(real_path_));
+        begun_ = begin_name(real_path_);
         file_ = Descriptor(::open(begun_->path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     } while (!file_ && errno == EEXIST);
     if (file_) return;
@@ -210,7 +220,7 @@ bool OutputFile::give_name() {
     // A link never replaces a file: an existing target takes a second name and a rename.
     while (errno == EEXIST) {
         forget_name();
-        begun_ = begin_name(name_beside(real_path_));
+        begun_ = begin_name(real_path_);
         if (link(begun_->path)) return false;
     }
     fail(put_in_place, errno);
@@ -248,13 +258,6 @@ Status OutputFile::commit() {
 void OutputFile::fail(const char* what, int error_number) {
     if (!error_.what.empty()) return;
     error_ = {.what = what, .file = target_, .found = std::strerror(error_number), .remedy = remedy_for(error_number)};
-}
-
-BegunName* begin_name(std::string path) {
-    auto* const name = new BegunName{.path = std::move(path), .next = names.load()};
-    while (!names.compare_exchange_weak(name->next, name)) {
-    }
-    return name;
 }
 
 void remove_begun_files() noexcept {

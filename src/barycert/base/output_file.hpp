@@ -1,12 +1,6 @@
 /// Files that appear whole or not at all.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "barycert/base/descriptor.hpp"
 #include "barycert/result.hpp"
 
@@ -25,17 +19,7 @@ void remove_begun_files_on_signals(bool tell = false);
 /// Removes the unfinished files of this process that have names, for a program that ends without its destructors.
 void remove_begun_files() noexcept;
 
-/// Of an unfinished file, from before it exists until it is renamed or removed. In a list that only grows: a signal
-/// handler may walk it at any moment, in any thread, without a lock. Some tens of bytes for each file that needed a
-/// name.
-struct BegunName {
-    const std::string path;
-    std::atomic<bool> live{true};
-    BegunName* next = nullptr;
-};
-
-/// Safe to call from any thread.
-BegunName* begin_name(std::string path);
+struct BegunName;
 
 /// The path with its links resolved, also where the last of them leads to a file that does not exist yet.
 std::string resolved_path(std::string path);
@@ -57,7 +41,7 @@ public:
     explicit OutputFile(std::string target);
 
     /// The standard output, whatever it is: the bytes go straight to it, and it stays open.
-    static OutputFile standard_output();
+    static OutputFile standard_output() { return {}; }
 
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
@@ -83,8 +67,7 @@ public:
     Status commit();
 
 private:
-    /// Straight to a descriptor that is its own; `error_number` tells why there is none.
-    OutputFile(std::string name, Descriptor file, int error_number);
+    OutputFile();
     void fail(const char* what, int error_number);
     void refuse_input();
     bool open_nameless();

@@ -1,10 +1,7 @@
 /// Columns that are gathered before they can be written, because how many rows they have is known at the end only.
 #pragma once
 
-#include <cstddef>
 #include <span>
-#include <string>
-#include <string_view>
 
 #include "barycert/base/descriptor.hpp"
 #include "barycert/result.hpp"

@@ -7,11 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdint>
 #include <memory>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 #include "barycert/base/input_file.hpp"
 

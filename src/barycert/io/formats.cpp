@@ -1,16 +1,8 @@
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <limits>
-#include <optional>
-#include <string_view>
-#include <system_error>
-#include <utility>
 
-#include "barycert/base/arena.hpp"
-#include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
 
@@ -202,12 +194,9 @@ Result<MeshFormat> format_of_file(const std::string& path) {
     if (found->format) return *found->format;
     if (found->other != nullptr && found->other->meshio != nullptr) return MeshFormat::by_meshio;
     if (found->other != nullptr) return other_format_error(*found->other, path);
-    return Error{.what = "barycert does not read this format",
-                 .file = path,
-                 .expected = formats_read,
-                 .remedy =
-                     "TetGen's files have to be named STEM.node and STEM.ele; save others as .vtu or Gmsh's .msh "
-                     "in the program that they are of"};
+    return file_error(path, "barycert does not read this format", formats_read, {},
+                      "TetGen's files have to be named STEM.node and STEM.ele; save others as .vtu or Gmsh's .msh in "
+                      "the program that they are of");
 }
 
 template <class Read>
@@ -293,18 +282,13 @@ Result<Mesh> io::read_mesh_in_space(const std::string& path, const ReadOptions& 
     const Result<MeshFormat> format = mesh_format(path);
     if (!format) return format.error();
     if (options.step.made() && *format != MeshFormat::vtk) return no_series(path);
-    switch (*format) {
-        case MeshFormat::gmsh:
-            return read_gmsh_in_space(path, {.step = {}, .threads = options.threads}, space);
-        case MeshFormat::vtk:
-            return on_threads(options.threads, [&] { return read_vtk_in_space(path, options.step, space); });
-        case MeshFormat::medit:
-            return on_threads(options.threads, [&] { return read_medit(path, options, space); });
-        case MeshFormat::by_meshio:
-            return read_converted(path, meshio_format(path));
-        default:
-            return read_tetgen(path, options);
-    }
+    if (*format == MeshFormat::gmsh) return read_gmsh_in_space(path, {.step = {}, .threads = options.threads}, space);
+    if (*format == MeshFormat::vtk)
+        return on_threads(options.threads, [&] { return read_vtk_in_space(path, options.step, space); });
+    if (*format == MeshFormat::medit)
+        return on_threads(options.threads, [&] { return read_medit(path, options, space); });
+    if (*format == MeshFormat::by_meshio) return read_converted(path, meshio_format(path));
+    return read_tetgen(path, options);
 }
 
 Result<Mesh> read_mesh(const std::string& path, const ReadOptions& options) {
@@ -322,14 +306,9 @@ std::vector<std::string> mesh_files(const std::string& path) {
 Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options) {
     const Result<io::MeshFormat> format = io::mesh_output_format(path);
     if (!format) return format.error();
-    switch (*format) {
-        case io::MeshFormat::gmsh:
-            return write_gmsh(mesh, path);
-        case io::MeshFormat::vtk:
-            return write_vtk(mesh, path, options.data);
-        default:
-            return write_tetgen(mesh, tetgen_stem(path), options);
-    }
+    if (*format == io::MeshFormat::gmsh) return write_gmsh(mesh, path);
+    if (*format == io::MeshFormat::vtk) return write_vtk(mesh, path, options.data);
+    return write_tetgen(mesh, tetgen_stem(path), options);
 }
 
 Result<std::vector<std::string>> written_mesh_files(const std::string& path) {

@@ -3,23 +3,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
 #include <new>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 
@@ -81,7 +70,6 @@ inline std::size_t line_of(std::string_view text, const char* at) {
     return static_cast<std::size_t>(std::count(text.data(), at, '\n')) + 1;
 }
 
-/// In lower case.
 std::string lower(std::string_view text);
 
 /// Whether there is something of that name, as far as one may see.

@@ -1,10 +1,5 @@
-
-#include <algorithm>
 #include <array>
 #include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"

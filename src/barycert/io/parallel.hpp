@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
-#include <vector>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"

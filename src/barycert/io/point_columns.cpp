@@ -1,9 +1,7 @@
 #include "barycert/io/streams.hpp"
 
-#include <algorithm>
 #include <array>
 #include <set>
-#include <utility>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

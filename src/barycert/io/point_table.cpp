@@ -1,12 +1,9 @@
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
-#include "barycert/table.hpp"
 
 namespace barycert::io {
 namespace {
@@ -46,7 +43,6 @@ struct Place {
     bool label = false;
 };
 
-/// The nodes of a mesh.
 PointTable nodes_of(Mesh mesh) {
     PointTable table;
     table.dimension = mesh.dimension;

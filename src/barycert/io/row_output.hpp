@@ -3,16 +3,11 @@
 
 #include <array>
 #include <charconv>
-#include <cstddef>
 #include <cstring>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 

@@ -3,13 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/environment.hpp"
@@ -18,7 +11,6 @@
 
 namespace barycert::io {
 
-/// The columns of a file.
 struct TableColumns {
     std::vector<std::string> names;  ///< of files that name none column1, column2, ...
     bool named = true;

@@ -1,10 +1,7 @@
-#include <algorithm>
 #include <array>
 #include <set>
 
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/io/streams.hpp"

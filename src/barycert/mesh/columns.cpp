@@ -47,10 +47,6 @@ void begin_columns(const std::vector<ColumnFormat>& formats, std::vector<Column>
     }
 }
 
-void shrink(Column& column, std::size_t count) {
-    std::visit([&](auto& values) { values.resize(std::min(values.size(), count)); }, column.values);
-}
-
 void move_values(Column& from, std::size_t first, std::size_t count, Column& to) {
     std::visit(
         [&](auto& values) {

@@ -1,10 +1,8 @@
 /// Columns that are carried through, value by value.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "barycert/mesh.hpp"
 
@@ -19,9 +17,6 @@ ColumnFormat format_of(const Column& column);
 
 /// Makes `columns` empty ones of these formats; what memory they have is kept.
 void begin_columns(const std::vector<ColumnFormat>& formats, std::vector<Column>& columns);
-
-/// The values number 0 to count - 1 at most; those behind are removed.
-void shrink(Column& column, std::size_t count);
 
 /// Moves `count` values of `from`, of the same type, from number `first` on to the end of `to`. Those left behind are
 /// not to be read any more.

@@ -1,10 +1,7 @@
 /// Whether a mesh in memory is whole.
 #pragma once
 
-#include <cstddef>
-
 #include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::mesh {
 

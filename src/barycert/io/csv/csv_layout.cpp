@@ -1,14 +1,7 @@
 #include "barycert/io/csv/csv_layout.hpp"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <iterator>
 #include <limits>
-#include <optional>
-#include <string>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
@@ -30,7 +23,6 @@ char separator_of(std::string_view line) {
     return best < ranked.size() ? ranked[best] : ' ';
 }
 
-/// Whether the first line is a header.
 bool is_header(const TableColumns& all, int dimension, const PointOptions& options) {
     const std::vector<std::string> asked = parts_of(options.columns, static_cast<std::size_t>(dimension));
     if (asked.empty())

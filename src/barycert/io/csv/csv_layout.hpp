@@ -2,16 +2,7 @@
 /// Exceptions.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "barycert/io.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 
@@ -134,15 +125,12 @@ CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOpt
 
 std::string separator_name(char separator);
 
-/// What is wrong with a line.
+/// Why a line cannot be cut into the fields of the layout.
 struct CsvFault {
-    // cut: it ends with the file, and within a value: 0.2 may be the beginning of 0.25
-    enum class Kind : std::uint8_t { none, behind_the_last, value, coordinate, off_plane, open_quote, count, cut };
-    Kind kind = Kind::none;
-    std::string_view text = {};  ///< the field, or the line
-    std::size_t number = 0;      ///< of the carried column or the axis; how many fields there are
-
-    explicit operator bool() const { return kind != Kind::none; }
+    enum class Kind : std::uint8_t { open_quote, count };
+    Kind kind = Kind::count;
+    std::string_view line = {};
+    std::size_t number = 0;  ///< how many fields there are
 };
 
 /// The same in words.
@@ -153,7 +141,7 @@ struct CsvPiece {
     std::vector<double> points;   ///< of the lines before the bad one
     std::vector<Column> carried;  ///< likewise
     std::size_t lines = 0;        ///< parsed, the bad one included
-    CsvFault fault;               ///< of that one
+    std::optional<Error> fault;   ///< of that one, without file and number of the line
 };
 
 /// Parses `text` up to its end or the first bad line. The byte after the text must be readable. Keeps the memory of

@@ -1,23 +1,28 @@
 // Rows of CSV: what they say, and why they are refused, in words.
-#include <array>
-#include <cmath>
-#include <utility>
-
 #include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
-#include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {
 
-Complaint about_coordinate(std::string_view field, char separator) {
-    if (field.empty()) return {"a number", std::string("fill it in, or remove the line") + or_nan_for_it};
-    return about_real(field, std::string("remove the point, give it coordinates") + or_nan_for_it,
-                      "separate the fields by " + separator_name(separator) +
-                          " throughout, as in the first line; put # before lines that are no points");
+[[noreturn]] void refuse_coordinate(std::string_view field, std::size_t axis, char separator) {
+    const std::string what = std::string("bad coordinate ") + "xyz"[axis];
+    if (field.empty())
+        refuse_file({}, what, "a number", "nothing", std::string("fill it in, or remove the line") + or_nan_for_it);
+    const Complaint c = about_real(field, std::string("remove the point, give it coordinates") + or_nan_for_it,
+                                   "separate the fields by " + separator_name(separator) +
+                                       " throughout, as in the first line; put # before lines that are no points");
+    refuse_file({}, what, c.expected, base::quoted(field), c.remedy);
+}
+
+[[noreturn]] void refuse_value(std::string_view field, const ColumnFormat& column) {
+    refuse_file(
+        {}, "bad value of column " + base::quoted(column.name),
+        column.type == Column::Type::integer ? "an integer, as in a first pass" : "a number, as in a first pass",
+        base::quoted(field), "do not change the file while it is read");
 }
 
 /// Appends the value of a carried column; false if it is none of its type.
@@ -41,10 +46,9 @@ bool is_off_plane(const CsvLayout& layout, const std::array<double, 3>& point) {
     return layout.flat && point[2] != 0 && std::isfinite(point[0]) && std::isfinite(point[1]);
 }
 
-/// `whole`: the line has an end.
-CsvFault parse_line(std::string_view line, bool whole, const CsvLayout& layout, std::array<double, 3>& point,
-                    std::vector<Column>& carried) {
-    using Kind = CsvFault::Kind;
+/// `whole`: the line has an end. Errors lack file and number of the line.
+void parse_line(std::string_view line, bool whole, const CsvLayout& layout, std::array<double, 3>& point,
+                std::vector<Column>& carried) {
     FieldCutter cutter(line, layout.separator);
     const char* const file_end = whole ? nullptr : line.data() + line.size();
     bool at_cut = false;
@@ -55,24 +59,26 @@ CsvFault parse_line(std::string_view line, bool whole, const CsvLayout& layout, 
         if (i >= fields) continue;
         const int role = layout.role_of[i];
         const char* const end = field.data() + field.size();
-        if (role == CsvLayout::must_be_empty && !field.empty()) return {Kind::behind_the_last, field};
+        if (role == CsvLayout::must_be_empty && !field.empty())
+            refuse_file({}, "a value after the last separator", "none, as in the first line", base::quoted(field),
+                        "say which columns are the coordinates, such as options.columns 1,2,3");
         if (role < 0) continue;
         if (role >= CsvLayout::first_kept) {
             const auto k = static_cast<std::size_t>(role - CsvLayout::first_kept);
-            if (!append_value(carried[k], cutter, field)) return {Kind::value, field, k};
+            if (!append_value(carried[k], cutter, field)) refuse_value(field, layout.kept[k]);
             // A text may go on behind blanks, but not where these separate.
             at_cut = !whole && i + 1 == fields && !cutter.quoted() && (end == file_end || layout.separator != ' ');
             continue;
         }
         const auto axis = static_cast<std::size_t>(role);
-        if (!layout.coordinate(field, point[axis])) return {Kind::coordinate, field, axis};
+        if (!layout.coordinate(field, point[axis])) refuse_coordinate(field, axis, layout.separator);
         if (axis == 2) height = field;
         at_cut = end == file_end;
     }
-    if (cutter.malformed()) return {Kind::open_quote, line};
-    if (i != fields) return {Kind::count, line, i};
-    if (at_cut) return {Kind::cut, line};
-    return is_off_plane(layout, point) ? CsvFault{Kind::off_plane, height} : CsvFault{};
+    const auto fault = cutter.malformed() ? CsvFault::Kind::open_quote : CsvFault::Kind::count;
+    if (cutter.malformed() || i != fields) throw Exception(csv_row_error({fault, line, i}, layout, {}));
+    if (at_cut) throw Exception(base::unended_number({}, 0));  // 0.2 may be the beginning of 0.25
+    if (is_off_plane(layout, point)) throw Exception(off_plane({}, 0, "", base::quoted(height)));
 }
 
 /// The common case: nothing but numbers, each with the separator or the end of the line right behind it. Then
@@ -96,60 +102,30 @@ bool parse_plain(std::string_view line, const CsvLayout& layout, std::array<doub
 }  // namespace
 
 std::string separator_name(char separator) {
-    switch (separator) {
-        case ',':
-            return "commas";
-        case ';':
-            return "semicolons";
-        case '\t':
-            return "tabs";
-        default:
-            return "blanks";
-    }
+    return separator == ',' ? "commas" : separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "blanks";
 }
 
 Error csv_row_error(const CsvFault& fault, const CsvLayout& layout, const LinePlace& place) {
-    const auto refused = [&](std::string what, std::string expected, std::string found, std::string remedy) {
-        return Error{std::move(what), place.file, place.line, std::move(expected), std::move(found), std::move(remedy)};
-    };
-    const std::string found = base::quoted(fault.text);
+    if (fault.kind == CsvFault::Kind::open_quote)
+        return {"a quoted field is not closed",
+                place.file,
+                place.line,
+                "a closing quote, and then a separator or the end of the line",
+                base::quoted(fault.line),
+                "close the quote on the same line; double the quotes inside"};
     const std::size_t fields = layout.role_of.size();
-    switch (fault.kind) {
-        case CsvFault::Kind::behind_the_last:
-            return refused("a value after the last separator", "none, as in the first line", found,
-                           "say which columns are the coordinates, such as options.columns 1,2,3");
-        case CsvFault::Kind::value: {
-            const ColumnFormat& column = layout.kept[fault.number];
-            const std::string type = column.type == Column::Type::integer ? "an integer" : "a number";
-            return refused("bad value of column " + base::quoted(column.name), type + ", as in a first pass", found,
-                           "do not change the file while it is read");
-        }
-        case CsvFault::Kind::coordinate: {
-            const Complaint c = about_coordinate(fault.text, layout.separator);
-            return refused(std::string("bad coordinate ") + "xyz"[fault.number], c.expected,
-                           fault.text.empty() ? "nothing" : found, c.remedy);
-        }
-        case CsvFault::Kind::off_plane:
-            return off_plane(place.file, place.line, "", found);
-        case CsvFault::Kind::open_quote:
-            return refused("a quoted field is not closed",
-                           "a closing quote, and then a separator or the end of the line", found,
-                           "close the quote on the same line; double the quotes inside");
-        case CsvFault::Kind::cut:
-            return base::unended_number(place.file, place.line);
-        default:
-            return refused(std::string("too ") + (fault.number < fields ? "few" : "many") + " fields in a line",
-                           std::to_string(fields) + ", separated by " + separator_name(layout.separator) +
-                               ", as in the first line",
-                           std::to_string(fault.number),
-                           "give every line the same columns; put fields that hold a separator in double quotes");
-    }
+    return {std::string("too ") + (fault.number < fields ? "few" : "many") + " fields in a line",
+            place.file,
+            place.line,
+            std::to_string(fields) + ", separated by " + separator_name(layout.separator) + ", as in the first line",
+            std::to_string(fault.number),
+            "give every line the same columns; put fields that hold a separator in double quotes"};
 }
 
 void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, CsvPiece& piece) {
     piece.points.clear();
     piece.lines = 0;
-    piece.fault = {};
+    piece.fault.reset();
     mesh::begin_columns(layout.kept, piece.carried);
     const auto size = static_cast<std::size_t>(dimension);
     // Blanks come in runs.
@@ -163,13 +139,18 @@ void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, Cs
         ++piece.lines;
         if (!(may_be_plain && whole && parse_plain(line, layout, point))) {
             if (!holds_fields(line, layout.separator)) continue;
-            piece.fault = parse_line(line, whole, layout, point, piece.carried);
-            if (piece.fault) break;
+            try {
+                parse_line(line, whole, layout, point, piece.carried);
+            } catch (const Exception& problem) {
+                piece.fault = problem.error();
+                break;
+            }
         }
         for (std::size_t axis = 0; axis < size; ++axis) piece.points.push_back(point[axis]);
     }
     // Of a bad line some columns may have their value.
-    for (Column& column : piece.carried) mesh::shrink(column, piece.points.size() / size);
+    for (Column& column : piece.carried)
+        std::visit([&](auto& values) { values.resize(piece.points.size() / size); }, column.values);
 }
 
 }  // namespace barycert::io

@@ -1,9 +1,5 @@
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
-#include <string_view>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
@@ -16,10 +12,8 @@ namespace {
 constexpr std::size_t longest_value = 24 + 1;
 
 char* put(char* at, double x) {
-    if (std::isnan(x)) [[unlikely]] {  // its sign bit says nothing
-        for (const char c : {'n', 'a', 'n'}) *at++ = c;
-        return at;
-    }
+    if (std::isnan(x)) [[unlikely]]
+        x = std::fabs(x);  // its sign bit says nothing
     return std::to_chars(at, at + longest_value, x).ptr;
 }
 

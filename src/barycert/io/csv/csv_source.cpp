@@ -1,11 +1,8 @@
 // Points from CSV: lines are read by the megabyte, cut into pieces at line ends and parsed on all threads. Pieces are
 // looked at in their order, so points and errors do not depend on the number of threads.
 
-#include <algorithm>
 #include <filesystem>
-#include <system_error>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
@@ -27,7 +24,7 @@ public:
         : ColumnSource(dimension), lines_(path) {
         for (std::string_view line; lines_.next(line);) {
             if (!holds_fields(line, ' ')) continue;
-            layout_ = settle_csv_layout(line, dimension, options, place());
+            layout_ = settle_csv_layout(line, dimension, options, {lines_.name(), lines_.number()});
             if (kept != nullptr && kept->size() == layout_.kept.size()) layout_.kept = *kept;
             formats_ = layout_.kept;
             notes_ = layout_.notes;
@@ -36,7 +33,7 @@ public:
             const std::string text = std::string(line) + (lines_.line_ended() ? "\n" : "");
             pieces_.resize(1);
             parse_csv(text, layout_, dimension, pieces_.front());
-            if (pieces_.front().fault) throw Exception(row_error(pieces_.front()));
+            if (pieces_.front().fault) throw Exception(row_error(*pieces_.front().fault));
             piece_count_ = 1;
             return;
         }
@@ -91,19 +88,19 @@ private:
         for (std::size_t i = 0; i < piece_count_; ++i) {
             lines_.count(pieces_[i].lines);
             if (!pieces_[i].fault) continue;
-            pending_ = row_error(pieces_[i]);
+            pending_ = row_error(*pieces_[i].fault);
             piece_count_ = i + 1;
         }
         return true;
     }
 
     /// The bad line has been counted.
-    Error row_error(const CsvPiece& piece) const {
+    Error row_error(Error fault) const {
         if (const Status same = lines_.unchanged(); !same) return same.error();
-        return csv_row_error(piece.fault, layout_, place());
+        fault.file = lines_.name();
+        fault.line = lines_.number();
+        return fault;
     }
-
-    LinePlace place() const { return {lines_.name(), lines_.number()}; }
 
     LineReader lines_;
     CsvLayout layout_;

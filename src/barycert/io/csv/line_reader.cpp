@@ -6,11 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
-#include <utility>
 
-#include "barycert/base/input_file.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {

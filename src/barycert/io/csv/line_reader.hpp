@@ -1,11 +1,7 @@
 /// Lines of a text file, pipe or the standard input, in bounded memory.
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "barycert/base/descriptor.hpp"
 #include "barycert/base/input_file.hpp"

@@ -10,13 +10,10 @@
 //           4.1          blocks count lowest highest, blocks: dimension entity type count, rows: tag node...
 //
 // Parameters u, v, w of a node on its curve, surface or volume are passed over.
-#include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <string>
 
 #include "barycert/base/large_pages.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 

@@ -1,11 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <string>
-#include <string_view>
-
-#include "barycert/base/large_pages.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/parallel.hpp"
@@ -300,29 +292,26 @@ MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const 
 }
 
 void note_cells(MshCells& cells, bool partitioned, const std::string& path) {
-    Notes& notes = cells.mesh.notes;
+    const auto left_out = [&](std::string text, bool important) {
+        cells.mesh.notes.push_back({Note::Kind::left_out, std::move(text), path, important});
+    };
     const std::string others = counted_types(cells.left_out, 0, cells.mesh.dimension - 1);
     // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result, and to
     // tell it each time would teach users to look away. What has nodes of its own is another matter: a wire or a shell
     // beside the cells, of which nothing is left.
     if (!others.empty())
-        notes.push_back(
-            {Note::Kind::left_out,
-             "elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
-             path, cells.apart});
+        left_out("elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
+                 cells.apart);
     if (cells.repeated != 0)
-        notes.push_back({Note::Kind::left_out,
-                         std::to_string(cells.repeated) +
-                             " elements that repeat the one before them for a further physical group: gmsh:physical "
-                             "has the first group of each cell",
-                         path, true});
+        left_out(std::to_string(cells.repeated) +
+                     " elements that repeat the one before them for a further physical group: gmsh:physical has the "
+                     "first group of each cell",
+                 true);
     if (cells.unused_nodes != 0)
-        notes.push_back({Note::Kind::left_out,
-                         std::to_string(cells.unused_nodes) +
-                             " nodes of no cell: no value is taken from them; all nodes keep their numbers",
-                         path});
-    if (cells.partitioned || partitioned)
-        notes.push_back({Note::Kind::left_out, "partitions of the mesh: it is read as one", path});
+        left_out(std::to_string(cells.unused_nodes) +
+                     " nodes of no cell: no value is taken from them; all nodes keep their numbers",
+                 false);
+    if (cells.partitioned || partitioned) left_out("partitions of the mesh: it is read as one", false);
 }
 
 }  // namespace barycert::io

@@ -1,8 +1,6 @@
 #include "barycert/io/gmsh/msh_file.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstring>
 #include <set>
 

@@ -3,11 +3,7 @@
 /// Within the readers of .msh files an Error is thrown as an Exception, which read_guarded() makes a Result.
 #pragma once
 
-#include <cstddef>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/result.hpp"

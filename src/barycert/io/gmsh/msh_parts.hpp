@@ -2,21 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "barycert/io.hpp"
-#include "barycert/io/gmsh/msh_file.hpp"
 #include "barycert/io/gmsh/rows.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 

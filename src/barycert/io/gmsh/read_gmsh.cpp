@@ -1,17 +1,8 @@
 // Groups of cells, what a file has beside the mesh, and the mesh as a whole.
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <map>
 #include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"

@@ -1,8 +1,6 @@
 #include "barycert/io/gmsh/rows.hpp"
 
 #include <algorithm>
-#include <string>
-#include <utility>
 
 #include "barycert/base/text.hpp"
 

@@ -4,17 +4,6 @@
 ///     [&](auto& row, std::size_t i) { return row.tag(tags[i], "a node's tag"); }
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "barycert/base/workers.hpp"
 #include "barycert/io/gmsh/msh_file.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
@@ -111,30 +100,23 @@ private:
 /// Calls parse(row, run, i) for each row i of all runs, and tells the first that it refuses.
 template <class Parse>
 void parse_runs(const MshFile& file, std::string_view section, std::span<const Run> runs, const Parse& parse) {
-    struct Stop {
-        const char* at;
-        RowFault fault;
-        std::size_t row;
-    };
     const std::vector<RunPart> parts = file.cut(runs);
     // The only place that calls the parser, so that it becomes part of the loop.
-    const auto read = [&](const RunPart part, Stop* stop) {
+    const auto read = [&](const RunPart part, bool tell) {
         const auto all = [&](auto row) {  // a copy, whose address is not known elsewhere
             for (std::size_t i = part.run->first + part.first; i < part.run->first + part.last; ++i) {
                 if (parse(row, *part.run, i)) continue;
-                if (stop != nullptr) *stop = {row.at(), row.fault(), i};
-                return false;
+                if (!tell) return false;
+                const RowFault fault = row.fault();  // a copy, too
+                refuse_row(file, section, row.at(), fault, i);
             }
             return true;
         };
         return file.binary() ? all(Row<false>(file, part.at)) : all(Row<true>(file, part.at));
     };
-    if (base::share_work(file.threads(), parts.size(), [&](std::size_t p) { return read(parts[p], nullptr); })) return;
+    if (base::share_work(file.threads(), parts.size(), [&](std::size_t p) { return read(parts[p], false); })) return;
     // Again in their order: the first one is told, whatever the threads did.
-    Stop stop{};
-    for (const RunPart& part : parts) {
-        if (!read(part, &stop)) refuse_row(file, section, stop.at, stop.fault, stop.row);
-    }
+    for (const RunPart& part : parts) read(part, true);
     file.refuse(file.end(), "a row is refused once and not again", {}, {});
 }
 
@@ -167,7 +149,6 @@ public:
                              std::string remedy = {}) const;
     /// Refuses what stands here as a word that is no number.
     [[noreturn]] void refuse_word(std::string expected, std::string found) const;
-    /// Goes on at another place.
     void move_to(const char* at) { at_ = at; }
 
 private:

@@ -1,16 +1,10 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <optional>
 #include <set>
-#include <span>
 #include <variant>
 
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"

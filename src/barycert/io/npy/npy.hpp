@@ -4,13 +4,9 @@
 /// Errors are thrown as Exceptions.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/mesh.hpp"

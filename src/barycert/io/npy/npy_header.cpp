@@ -1,9 +1,4 @@
-#include <algorithm>
-#include <charconv>
-#include <utility>
-
 #include "barycert/base/text.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 

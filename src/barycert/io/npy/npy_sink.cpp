@@ -1,17 +1,15 @@
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <cstring>
 #include <set>
-#include <string_view>
 #include <type_traits>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/streams.hpp"
-#include "barycert/mesh/columns.hpp"
 
 namespace barycert::io {
 namespace {
@@ -23,17 +21,11 @@ constexpr std::size_t feature_size = 8;
 
 /// As a string of Python.
 std::string as_literal(std::string_view name) {
-    constexpr std::string_view digits = "0123456789abcdef";
     std::string text = "'";
     for (const char c : name) {
         const auto code = static_cast<unsigned char>(c);
-        if (c == '\'' || c == '\\') {
-            text += {'\\', c};
-        } else if (code < 32 || code == 127) {
-            text += {'\\', 'x', digits[code >> 4], digits[code & 15]};
-        } else {
-            text += c;
-        }
+        if (c == '\'' || c == '\\') text += '\\';
+        text += code < 32 || code == 127 ? fmt::format("\\x{:02x}", code) : std::string(1, c);
     }
     return text + "'";
 }
@@ -60,7 +52,6 @@ char* put(char* at, std::uint64_t bits) {
     return at + sizeof bits;
 }
 
-/// Whether it holds the text.
 bool holds(const CarriedType& type, std::string_view text) {
     if (text.ends_with('\0')) return false;
     if (!type.characters) return text.size() <= type.size;
@@ -146,7 +137,6 @@ private:
         types_ += "]";
     }
 
-    /// What the types of the file cannot hold.
     Status check(const TableView& rows) const override {
         for (std::size_t k = 0; k < carried_.size(); ++k) {
             const auto* const texts = std::get_if<std::vector<std::string>>(&rows.carried[k].values);

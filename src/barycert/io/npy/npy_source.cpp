@@ -1,8 +1,5 @@
 // Points from an NPY file.
 
-#include <algorithm>
-#include <utility>
-
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"

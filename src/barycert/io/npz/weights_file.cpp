@@ -5,15 +5,11 @@
 #include <zlib.h>
 #include <algorithm>
 #include <bit>
-#include <cstddef>
 #include <functional>
-#include <string_view>
-#include <vector>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/io.hpp"
 #include "barycert/io/npy/npy.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 namespace {
@@ -50,8 +46,7 @@ static_assert(std::endian::native == std::endian::little, "NPY files are written
 
 template <class T>
 std::string_view bytes_of(std::span<const T> numbers) {
-    const auto bytes = std::as_bytes(numbers);
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
 }
 
 }  // namespace

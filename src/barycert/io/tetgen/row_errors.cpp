@@ -1,8 +1,5 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
@@ -150,8 +147,8 @@ std::vector<std::string_view> fields_of_line(const TextTable& table, const char*
 
 void refuse_header(const TextTable& table, std::string what, std::string expected, std::string found,
                    std::string remedy) {
-    const char* const at = table.header_at == nullptr ? table.begin() : table.header_at;
-    refuse_at(table, at, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+    refuse_at(table, table.begin() + table.header_at, std::move(what), std::move(expected), std::move(found),
+              std::move(remedy));
 }
 
 void refuse_count(const TextTable& table, std::string_view field, const char* name) {
@@ -179,8 +176,7 @@ void refuse_row(const TextTable& table, const char* at, std::size_t row) {
             check_field(table, columns, fields[i], row);
     }
     if (!fields.empty() && fields.size() != table.column_count()) refuse_column_count(table, fields);
-    refuse_at(table, at, "the last row has no line end, so the file may be cut short", "a line end",
-              "the end of the file", "if nothing is missing, end the last line, as echo >> FILE does");
+    throw Exception(base::unended_number(table.file, line_of(table.bytes, at)));
 }
 
 void refuse_end(const TextTable& table, std::size_t found) {

@@ -135,7 +135,6 @@ struct Scanner {
         }
     }
 
-    /// Moves over the end of a row.
     bool end_row() {
         skip_blanks();
         if (*at == '\n') [[likely]] {

@@ -15,12 +15,8 @@
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
 #include <array>
 #include <initializer_list>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/text_table.hpp"
@@ -43,6 +39,26 @@ std::string header_text(std::initializer_list<std::int64_t> numbers) {
 [[noreturn]] void refuse_meaning(const TextTable& table, const std::string& what, std::string expected,
                                  std::int64_t found, std::string remedy) {
     refuse_header(table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
+}
+
+/// Sets the columns and the base of a .node file of that dimension, by its header and its first row, and makes room for
+/// their values.
+void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
+                         std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
+    const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
+    if (markers > 1)
+        refuse_meaning(table, "bad number of markers", "0 or 1", markers, "declare further columns as attributes");
+    table.columns = {{ColumnKind::id, 1, "id"},
+                     {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate"},
+                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
+                     {ColumnKind::integer, static_cast<std::size_t>(markers), "marker"}};
+    table.columns[1].reals = &points;
+    table.columns[2].fields = &fields;
+    table.columns[3].integers = &markers_of_nodes;
+    const std::vector<std::string_view> first = table.first_row();
+    std::int64_t id = 0;
+    table.base = !first.empty() && scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
+    make_room(table);
 }
 
 /// One read, step by step. Each preparation reads a header, takes the memory and says where the columns go.

@@ -1,12 +1,5 @@
-#include <algorithm>
-#include <array>
 #include <initializer_list>
-#include <memory>
-#include <span>
-#include <string_view>
 
-#include "barycert/environment.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"

@@ -1,9 +1,6 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
-#include <algorithm>
 #include <array>
-#include <memory>
-#include <utility>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
@@ -76,7 +73,7 @@ bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
     std::size_t row = 0;
     SomeBytes room;
     const std::size_t size = table.input.size();
-    for (auto at = static_cast<std::size_t>(table.body - table.begin()); at < size;) {
+    for (std::size_t at = table.body; at < size;) {
         const std::size_t next = behind_line(table, std::min(size, at + block_size), room);
         bool found = false;
         std::int64_t id = 0;
@@ -176,13 +173,13 @@ bool parse_rows(const TextTable& table, Scanner& scanner, const char* stop, std:
 /// The whole table at once: the slow twin that knows the first error.
 void parse_in_order(TextTable& table) {
     table.read_whole();
-    Scanner scanner{table.body, table.end()};
+    Scanner scanner{table.begin() + table.body, table.end()};
     std::size_t row = 0;
     if (parse_rows(table, scanner, table.end(), row, table.rows)) return;
     if (row == table.rows) refuse_surplus(table, scanner.at);
     // A row parser stops inside the row; only the search for the next row reaches the end with no row begun.
     // A body of nothing begins on the header's line, which has no end.
-    const bool ended = table.body == table.end() || fields_of_line(table, scanner.at).empty();
+    const bool ended = table.body == table.bytes.size() || fields_of_line(table, scanner.at).empty();
     if (scanner.at == table.end() && ended) refuse_end(table, row);
     refuse_row(table, scanner.at, row);
 }
@@ -196,11 +193,12 @@ void read_header(TextTable& table, std::span<const char* const> header_names) {
     const std::string expected = std::string("a header that begins with the number of ") + header_names[0];
     if (!scanner.next_row(table.end()))
         refuse_header(table, "the file is empty", expected, "nothing", "write the file again");
-    table.header_at = scanner.at;
+    const char* const header = scanner.at;
+    table.header_at = static_cast<std::size_t>(header - table.begin());
     scanner.skip_line();
-    table.body = scanner.at;
+    table.body = static_cast<std::size_t>(scanner.at - table.begin());
 
-    for (const std::string_view field : fields_of_line(table, table.header_at)) {
+    for (const std::string_view field : fields_of_line(table, header)) {
         const std::size_t i = table.header.size();
         std::int64_t value = 0;
         const bool integer = scan_integer(field.data(), value) == field.data() + field.size();
@@ -215,33 +213,10 @@ void read_header(TextTable& table, std::span<const char* const> header_names) {
 
 }  // namespace
 
-void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
-                         std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
-    const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
-    if (markers > 1)
-        refuse_header(table, "bad number of markers in the header", "0 or 1", std::to_string(markers),
-                      "declare further columns as attributes");
-    table.columns = {{ColumnKind::id, 1, "id"},
-                     {ColumnKind::real, static_cast<std::size_t>(dimension), "coordinate"},
-                     {ColumnKind::real, static_cast<std::size_t>(attributes), "attribute"},
-                     {ColumnKind::integer, static_cast<std::size_t>(markers), "marker"}};
-    table.columns[1].reals = &points;
-    table.columns[2].fields = &fields;
-    table.columns[3].integers = &markers_of_nodes;
-    const std::vector<std::string_view> first = table.first_row();
-    std::int64_t id = 0;
-    table.base = !first.empty() && scan_integer(first.front().data(), id) != nullptr && id == 1 ? 1 : 0;
-    make_room(table);
-}
-
 void TextTable::read_whole() {
     if (std::exchange(is_whole, true)) return;
-    const std::ptrdiff_t header_begins = header_at - begin(), body_begins = body - begin();
     data = base::MappedFile::read(input, file, input.size(), threads).value();
     bytes = data.bytes();
-    if (header_at == nullptr) return;
-    header_at = begin() + header_begins;
-    body = begin() + body_begins;
 }
 
 std::size_t TextTable::column_count() const {
@@ -251,7 +226,7 @@ std::size_t TextTable::column_count() const {
 }
 
 std::vector<std::string_view> TextTable::first_row() const {
-    Scanner scanner{body, end()};
+    Scanner scanner{begin() + body, end()};
     if (!scanner.next_row(end())) return {};
     return fields_of_line(*this, scanner.at);
 }
@@ -264,7 +239,7 @@ TextTable open_table(const std::string& name, std::span<const char* const> heade
         beginning.file = table.file;
         beginning.bytes = block.substr(0, block.rfind('\n') + 1);  // no comment is cut, and no number
         Status read = status_of([&] { read_header(beginning, header_names); });
-        return beginning.header_at == nullptr ? Status(Done{}) : read;  // after many comments
+        return beginning.body == 0 ? Status(Done{}) : read;  // after many comments
     };
     table.input = base::InputFile::open(table.file, base::save_first, base::Text::all).value();
     table.threads = threads;
@@ -288,7 +263,7 @@ TextTable open_table(const std::string& name, std::span<const char* const> heade
 void make_room(TextTable& table) {
     // Each field takes a character and something that ends it. Without that room rows are missing, or one is too short,
     // or the last has no line end: the first of these is told.
-    const std::size_t bytes = table.input.size() - static_cast<std::size_t>(table.body - table.begin());
+    const std::size_t bytes = table.input.size() - table.body;
     if (table.rows * 2 * table.column_count() > bytes) {
         for (Columns& c : table.columns) c = {c.kind, c.count, c.name, c.limit, c.refers_to};  // there is no place yet
         parse_in_order(table);

@@ -8,17 +8,11 @@
 /// read_guarded() makes a Result.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
 #include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::io {
 
@@ -57,8 +51,8 @@ struct TextTable {
     base::MappedFile data;             ///< all of it, or its first block
     bool is_whole = false;             ///< all of it
     std::string_view bytes;            ///< of data: whole lines, the first row among them
-    const char* header_at = nullptr;   ///< the first field of the header
-    const char* body = nullptr;        ///< the line after the header
+    std::size_t header_at = 0;         ///< the byte at which the first field of the header begins
+    std::size_t body = 0;              ///< the byte at which the line after the header begins; 0: no header is read yet
     std::vector<std::int64_t> header;  ///< the numbers of the header, at least the count of rows
 
     std::size_t rows = 0;
@@ -71,7 +65,6 @@ struct TextTable {
 
     const char* begin() const { return bytes.data(); }
     const char* end() const { return begin() + bytes.size(); }
-    /// Reads all of it.
     void read_whole();
     std::size_t column_count() const;
 
@@ -91,18 +84,12 @@ TextTable open_table(const std::string& path, std::span<const char* const> heade
 /// Makes room for the values of all columns. Needs these and the base. Error: so many rows cannot stand in the file.
 void make_room(TextTable& table);
 
-/// Sets the columns and the base of a .node file of that dimension, by its header and its first row, and makes room for
-/// their values. Error: another number of markers; as make_room().
-void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
-                         std::vector<Field>& fields, std::vector<std::int64_t>& markers);
-
 /// Parses the rows of all tables; the error of the first table that has one.
 void parse_tables(std::span<TextTable* const> tables, int threads);
 
 /// The fields of the line that holds `at`, without its comment; an empty field where a comma has no neighbour.
 std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at);
 
-/// Refuses a header field or the whole header.
 [[noreturn]] void refuse_header(const TextTable& table, std::string what, std::string expected, std::string found,
                                 std::string remedy);
 
