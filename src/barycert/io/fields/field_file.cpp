@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

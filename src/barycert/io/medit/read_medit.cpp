@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"

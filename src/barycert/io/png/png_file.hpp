@@ -1,12 +1,8 @@
 /// PNG files into memory, and out of pixels, by libpng.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "barycert/io/png/colour_map.hpp"
 #include "barycert/result.hpp"

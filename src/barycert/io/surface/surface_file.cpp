@@ -1,13 +1,9 @@
-#include <algorithm>
-#include <bit>
-#include <functional>
 #include <set>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/io/vtk/out_file.hpp"
-#include "barycert/surface.hpp"
 
 namespace barycert {
 namespace io {

@@ -1,9 +1,4 @@
 // VTK's legacy files: words and numbers of them, sections made of these.
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <charconv>
-#include <cmath>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"

@@ -1,13 +1,7 @@
 // Meshes as VTK's files, in XML and in the legacy format, and rows as points of an unstructured grid.
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <functional>
-#include <new>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/spool.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"

@@ -2,9 +2,6 @@
 
 #include <fast_float/fast_float.h>
 
-#include <algorithm>
-#include <charconv>
-
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"

@@ -1,9 +1,6 @@
 #include "barycert/io/vtk/out_file.hpp"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <cstring>
 #include <set>
 
 #include "barycert/base/output_file.hpp"

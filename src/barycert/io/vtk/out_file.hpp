@@ -1,19 +1,6 @@
 /// VTK's files on their way out: arrays whose numbers stand in memory, or are made some at a time; files of them.
 #pragma once
 
-#include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <utility>
-#include <vector>
-
 #include "barycert/io.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 

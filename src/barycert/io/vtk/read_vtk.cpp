@@ -1,6 +1,4 @@
 // VTK's files of every kind, those that name files among them: partitioned data sets, blocks and series.
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>

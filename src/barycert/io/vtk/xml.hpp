@@ -1,14 +1,6 @@
 /// VTK's XML files: elements (through expat), numbers in them, the data sets that they are. Errors are Exceptions.
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "barycert/io/vtk/packed.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 

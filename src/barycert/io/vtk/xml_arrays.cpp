@@ -1,14 +1,5 @@
 #include "barycert/io/vtk/xml.hpp"
 
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <bit>
-#include <limits>
-#include <memory>
-#include <span>
-#include <type_traits>
-
 namespace barycert::io {
 namespace {
 

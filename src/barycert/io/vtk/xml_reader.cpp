@@ -1,10 +1,5 @@
 #include "barycert/io/vtk/xml.hpp"
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <set>
 
 #include "barycert/base/text.hpp"
