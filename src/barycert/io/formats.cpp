@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
