@@ -2,10 +2,10 @@
 #include <filesystem>
 #include <limits>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
-#include "barycert/io/vtk/collection.hpp"
 
 namespace barycert::io {
 namespace {

@@ -120,6 +120,13 @@ Result<Mesh> read_mesh_in_space(const std::string& path, const ReadOptions& opti
 Result<Mesh> read_vtk_in_space(const std::string& path, const StepChoice& step, InSpace* space);
 Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& options, InSpace* space);
 
+/// The number of the step that is chosen. Error: there is none such.
+Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const StepChoice& choice,
+                                const std::string& path);
+
+/// That a step is chosen of what is no series.
+Error no_series(const std::string& path);
+
 enum class MeshFormat : std::uint8_t {
     tetgen,  ///< and Triangle: several files of one stem
     vtk,

@@ -4,12 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/mman.h>
 #include <sys/wait.h>
-#include <unistd.h>
-#include <algorithm>
-#include <array>
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -17,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "barycert/base/descriptor.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/converted/meshio_script.hpp"
 

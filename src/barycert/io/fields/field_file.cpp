@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
@@ -22,51 +21,46 @@ std::vector<std::size_t> columns_of_field(const std::vector<std::string>& names,
     return all;
 }
 
-/// Which fields of a line are the components.
-struct FieldLayout {
-    CsvLayout lines;                   ///< all passed over
-    std::vector<std::size_t> columns;  ///< of each component
-};
-
-FieldLayout settle(std::string_view line, const std::string& column, const LinePlace& place) {
+/// The roles of the fields of a line: components, by their numbers, or passed over.
+CsvLayout settle(std::string_view line, const std::string& column, const LinePlace& place, Field& field) {
     const CsvLine cut = cut_first_line(line, place);
-    FieldLayout out;
-    out.lines.separator = cut.separator;
-    out.lines.role_of.assign(cut.fields.size(), CsvLayout::passed_over);
-    out.lines.header = true;
+    CsvLayout layout{.separator = cut.separator, .header = true};
+    layout.role_of.assign(cut.fields.size(), CsvLayout::passed_over);
+    std::vector<std::size_t> columns;
     const std::optional<std::size_t> number = place_of(column);
-    if (!number) out.columns = columns_of_field(cut.fields, column);
+    if (!number) columns = columns_of_field(cut.fields, column);
     if (number && *number <= cut.fields.size()) {
-        out.columns = {*number - 1};
-        out.lines.header = !looks_numeric(cut.fields[*number - 1]);
+        columns = {*number - 1};
+        layout.header = !looks_numeric(cut.fields[*number - 1]);
     }
-    if (!out.columns.empty()) return out;
+    field.components = static_cast<int>(columns.size());
+    for (int c = 0; c < field.components; ++c) layout.role_of[columns[static_cast<std::size_t>(c)]] = c;
+    if (!columns.empty()) return layout;
     refuse_line(place.file, place.line, "no such column", base::quoted(column), listed(cut.fields),
                 base::did_you_mean(column, cut.fields, "name a column of the first line, or say its place, from 1"));
 }
 
 /// Appends the values of the line.
-void take_line(std::string_view line, bool whole, const FieldLayout& layout, const LinePlace& place, Field& field) {
-    FieldCutter cutter(line, layout.lines.separator);
+void take_line(std::string_view line, bool whole, const CsvLayout& layout, const LinePlace& place, Field& field) {
+    FieldCutter cutter(line, layout.separator);
     std::size_t count = 0;
     bool cut = false;
     const std::size_t before = field.data.size();
-    field.data.resize(before + layout.columns.size());
+    field.data.resize(before + static_cast<std::size_t>(field.components));
     for (std::string_view text; cutter.next(text); ++count) {
-        for (std::size_t c = 0; c < layout.columns.size(); ++c) {
-            if (layout.columns[c] != count) continue;
-            const auto x = base::parse_double(text);
-            if (!x || is_inexact(text, *x))
-                refuse_line(place.file, place.line, "a value of field \"" + field.name + '"',
-                            x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
-                            x ? "write it with a decimal point to round it" : "mend or remove the line");
-            field.data[before + c] = *x;
-            cut = !whole && text.data() + text.size() == line.data() + line.size();
-        }
+        const int component = count < layout.role_of.size() ? layout.role_of[count] : CsvLayout::passed_over;
+        if (component < 0) continue;
+        const auto x = base::parse_double(text);
+        if (!x || is_inexact(text, *x))
+            refuse_line(place.file, place.line, "a value of field \"" + field.name + '"',
+                        x ? "an integer that a double holds exactly" : "a number", base::quoted(text),
+                        x ? "write it with a decimal point to round it" : "mend or remove the line");
+        field.data[before + static_cast<std::size_t>(component)] = *x;
+        cut = !whole && text.data() + text.size() == line.data() + line.size();
     }
     const auto fault = cutter.malformed() ? CsvFault::Kind::open_quote : CsvFault::Kind::count;
-    if (cutter.malformed() || count != layout.lines.role_of.size())
-        throw Exception(csv_row_error({fault, line, count}, layout.lines, place));
+    if (cutter.malformed() || count != layout.role_of.size())
+        throw Exception(csv_row_error({fault, line, count}, layout, place));
     if (cut) throw Exception(base::unended_number(place.file, place.line));
 }
 
@@ -75,13 +69,13 @@ void take_line(std::string_view line, bool whole, const FieldLayout& layout, con
 /// double represents, a line with more or fewer fields than the first.
 Field read_csv_column(Field field, const std::string& path, const std::string& column) {
     LineReader lines(path);
-    std::optional<FieldLayout> layout;
+    std::optional<CsvLayout> layout;
     for (std::string_view line; lines.next(line);) {
-        if (!holds_fields(line, layout ? layout->lines.separator : ' ')) continue;
+        if (!holds_fields(line, layout ? layout->separator : ' ')) continue;
         const LinePlace place{lines.name(), lines.number()};
         if (!layout) {
-            layout = settle(line, column, place);
-            if (layout->lines.header) continue;
+            layout = settle(line, column, place, field);
+            if (layout->header) continue;
         }
         try {
             take_line(line, lines.line_ended(), *layout, place, field);
@@ -90,7 +84,6 @@ Field read_csv_column(Field field, const std::string& path, const std::string& c
             throw;
         }
     }
-    if (layout) field.components = static_cast<int>(layout->columns.size());
     return field;
 }
 

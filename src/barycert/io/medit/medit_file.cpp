@@ -2,10 +2,6 @@
 
 #include <strings.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "barycert/base/text.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/numbers.hpp"

@@ -8,12 +8,6 @@
 ///         numbers are float32 in version 1, else float64.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {

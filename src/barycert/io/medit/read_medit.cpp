@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
@@ -38,8 +36,12 @@ void add_medit_fields(const MeditFile& file, Mesh& mesh) {
     for (const MeditSection& section : file.sections()) {
         if (section.keyword.kind != MeditKind::solution) continue;
         const int of = section.keyword.dimension;
+        const std::size_t rows = of == 0 ? mesh.point_count() : mesh.cell_count();
         if (of != 0 && of != mesh.dimension) {
             mesh.notes.push_back({Note::Kind::left_out, section.name + ": they are no cells of the mesh", file.path()});
+        } else if (rows != 0 && section.count != rows) {  // of a file that holds both
+            refuse_file(file.path(), "the rows of solution0", std::to_string(rows), std::to_string(section.count),
+                        "one for each node or cell");
         } else {
             add_fields_of(file, section, of == 0 ? mesh.point_fields : mesh.cell_fields);
         }
@@ -80,7 +82,6 @@ public:
         settle_order();
         read_the_lower();
         add_medit_fields(file_, mesh_);
-        check_fields();
         note_medit_sections(file_, mesh_.notes);
         note_solution_beside();
         mesh_.index_base = 1;
@@ -241,19 +242,6 @@ private:
             const std::string path = std::filesystem::path(file_.path()).replace_extension(suffix).string();
             if (exists(path))
                 note(Note::Kind::left_out, "the fields of " + path + ", unless it is named: --field NAME=" + path);
-        }
-    }
-
-    /// Of a file that holds both.
-    void check_fields() const {
-        for (const auto& [fields, rows] :
-             {std::pair(&mesh_.point_fields, mesh_.point_count()), std::pair(&mesh_.cell_fields, mesh_.cell_count())}) {
-            for (const Field& field : *fields) {
-                const std::size_t found = field.data.size() / static_cast<std::size_t>(field.components);
-                if (found != rows)
-                    refuse("the rows of " + field.name, std::to_string(rows), std::to_string(found),
-                           "one for each node or cell");
-            }
         }
     }
 

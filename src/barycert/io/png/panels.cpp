@@ -1,7 +1,6 @@
 #include "barycert/io/png/panels.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "barycert/base/strict_math.hpp"

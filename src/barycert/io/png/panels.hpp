@@ -2,8 +2,6 @@
 /// them, row by row from the top, 4 bytes a pixel.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>

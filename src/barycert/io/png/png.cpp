@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
-#include <utility>
 
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io/png/colour_map.hpp"
 #include "barycert/io/png/panels.hpp"
 #include "barycert/io/png/png_file.hpp"
 

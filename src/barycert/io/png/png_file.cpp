@@ -2,7 +2,7 @@
 
 #include <png.h>
 
-#include <array>
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <new>
@@ -19,7 +19,6 @@ struct Session {
     png_structp png = nullptr;
     png_infop info = nullptr;
     std::array<char, 200> message{};
-    bool no_memory = false;
 
     Session() = default;
     Session(const Session&) = delete;
@@ -27,14 +26,10 @@ struct Session {
 };
 
 struct Decoder : Session {
-    const base::InputFile& file;
-    const std::string& path;
-    std::uint64_t at = 0;  ///< of the next byte
+    std::string_view bytes;  ///< of the file
+    std::size_t at = 0;      ///< of the next one
     PngPixels pixels = {};
-    std::uint64_t bits = 0;              ///< of a pixel in the file
-    std::vector<png_bytep> places = {};  ///< of the rows
-    Error unreadable = {};               ///< what the system said, if it was the system
-    bool cut_short = false;
+    bool too_large = false, cut_short = false;
 
     ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
 };
@@ -45,6 +40,7 @@ struct Encoder : Session {
     std::vector<std::uint8_t> pixels;
     png_uint_32 width, height;
     PngContent content;
+    bool no_memory = false;
 
     ~Encoder() { png_destroy_write_struct(&png, &info); }
 };
@@ -61,16 +57,9 @@ void on_png_warning(png_structp, png_const_charp) {}  // libpng's own would prin
 
 void read_png_bytes(png_structp png, png_bytep bytes, std::size_t count) {
     auto* const decoder = static_cast<Decoder*>(png_get_io_ptr(png));
-    bool failed = true;
-    try {
-        const auto read = decoder->file.read_at(decoder->at, {reinterpret_cast<char*>(bytes), count}, decoder->path);
-        decoder->cut_short = read && *read != count;
-        if (!read) decoder->unreadable = read.error();
-        failed = !read || decoder->cut_short;
-    } catch (const std::bad_alloc&) {  // may not pass through C
-        decoder->no_memory = true;
-    }
-    if (failed) png_error(png, "cannot read");
+    decoder->cut_short = count > decoder->bytes.size() - decoder->at;
+    if (decoder->cut_short) png_error(png, "cannot read");
+    std::copy_n(decoder->bytes.data() + decoder->at, count, reinterpret_cast<char*>(bytes));
     decoder->at += count;
 }
 
@@ -88,44 +77,38 @@ void flush_png(png_structp) {}
 
 }  // extern "C"
 
-/// The size, and how pixels will come. False if libpng gave up.
-bool decode_header(Decoder& d) {
+/// False if libpng gave up, or no memory is to be taken for the pixels.
+bool decode(Decoder& d, std::uint64_t max_pixels) {
     if (setjmp(png_jmpbuf(d.png)) != 0) return false;
     png_set_read_fn(d.png, &d, read_png_bytes);
     png_set_user_limits(d.png, static_cast<png_uint_32>(longest_png_side), static_cast<png_uint_32>(longest_png_side));
     // Skips all but IHDR, PLTE, tRNS, IDAT and IEND: for others libpng takes as much memory as they say they are long.
     png_set_keep_unknown_chunks(d.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(d.png, d.info);
-    d.bits = std::uint64_t{png_get_bit_depth(d.png, d.info)} * png_get_channels(d.png, d.info);
+    const std::uint64_t bits = std::uint64_t{png_get_bit_depth(d.png, d.info)} * png_get_channels(d.png, d.info);
     png_set_expand(d.png);    // palettes, less than 8 bits, a transparent colour
     png_set_scale_16(d.png);  // rounded, not cut
     png_set_gray_to_rgb(d.png);
     png_set_add_alpha(d.png, 0xff, PNG_FILLER_AFTER);
-    png_set_interlace_handling(d.png);
+    const int passes = png_set_interlace_handling(d.png);
     png_read_update_info(d.png, d.info);
     d.pixels.width = png_get_image_width(d.png, d.info);
     d.pixels.height = png_get_image_height(d.png, d.info);
-    return true;
-}
-
-/// Precondition: there are places for the rows. False if libpng gave up.
-bool decode_rows(Decoder& d) {
-    if (setjmp(png_jmpbuf(d.png)) != 0) return false;
-    if (png_get_rowbytes(d.png, d.info) != 4 * std::size_t{d.pixels.width}) png_error(d.png, "pixels of another size");
-    png_read_image(d.png, d.places.data());
+    const std::uint64_t pixels = std::uint64_t{d.pixels.width} * d.pixels.height;
+    // Deflate makes a byte of 1032 at most: where the file cannot hold so many pixels, no memory is taken for them.
+    constexpr std::uint64_t most_of_a_byte = 1032;
+    d.too_large = pixels > max_pixels;
+    d.cut_short = pixels * bits / 8 > most_of_a_byte * d.bytes.size();
+    if (d.too_large || d.cut_short) return false;
+    const std::size_t row = 4 * std::size_t{d.pixels.width};
+    if (png_get_rowbytes(d.png, d.info) != row) png_error(d.png, "pixels of another size");
+    d.pixels.rows.resize(4 * pixels);
+    for (int pass = 0; pass < passes; ++pass) {
+        for (std::size_t at = 0; at < d.pixels.rows.size(); at += row)
+            png_read_row(d.png, d.pixels.rows.data() + at, nullptr);
+    }
     png_read_end(d.png, nullptr);
     return true;
-}
-
-Error failure(const Decoder& d) {
-    if (d.no_memory) throw std::bad_alloc();
-    if (!d.unreadable.what.empty()) return d.unreadable;
-    const bool no_struct = d.png == nullptr || d.info == nullptr;
-    return file_error(d.path, "cannot read the PNG file", d.at == 0 && !no_struct ? "a PNG file" : "",
-                      no_struct     ? "libpng does not start"
-                      : d.cut_short ? "the end of the file"
-                                    : std::string(d.message.data()),
-                      d.cut_short ? "get or make the file again: it is cut short" : "get or make the file again");
 }
 
 /// False if libpng gave up.
@@ -149,28 +132,21 @@ bool encode(Encoder& e) {
 }  // namespace
 
 Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels) {
-    const Result<base::InputFile> file = base::InputFile::open(path);
+    const Result<base::MappedFile> file = base::MappedFile::open(path);
     if (!file) return file.error();
-    Decoder decoder{{}, *file, path};
-    decoder.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &decoder, on_png_error, on_png_warning);
-    if (decoder.png != nullptr) decoder.info = png_create_info_struct(decoder.png);
-    if (decoder.info == nullptr || !decode_header(decoder)) return failure(decoder);
-    PngPixels& pixels = decoder.pixels;
-    if (std::uint64_t{pixels.width} * pixels.height > max_pixels)
+    Decoder d{{}, file->bytes()};
+    d.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &d, on_png_error, on_png_warning);
+    if (d.png != nullptr) d.info = png_create_info_struct(d.png);
+    const bool made = d.info != nullptr;
+    if (made && decode(d, max_pixels)) return std::move(d.pixels);
+    if (d.too_large)
         return file_error(path, "the PNG file is too large", "at most " + std::to_string(max_pixels) + " pixels",
-                          std::to_string(pixels.width) + " by " + std::to_string(pixels.height), "scale it down");
-    // Deflate makes a byte of 1032 at most: where the file cannot hold so many pixels, no memory is taken for them.
-    constexpr std::uint64_t most_of_a_byte = 1032;
-    if (std::uint64_t{pixels.width} * pixels.height * decoder.bits / 8 > most_of_a_byte * file->size()) {
-        decoder.cut_short = true;
-        return failure(decoder);
-    }
-    const std::size_t row = 4 * std::size_t{pixels.width};
-    pixels.rows.resize(row * pixels.height);
-    decoder.places.resize(pixels.height);
-    for (std::size_t r = 0; r < pixels.height; ++r) decoder.places[r] = pixels.rows.data() + r * row;
-    if (!decode_rows(decoder)) return failure(decoder);
-    return std::move(decoder.pixels);
+                          std::to_string(d.pixels.width) + " by " + std::to_string(d.pixels.height), "scale it down");
+    return file_error(path, "cannot read the PNG file", d.at == 0 && made ? "a PNG file" : "",
+                      !made         ? "libpng does not start"
+                      : d.cut_short ? "the end of the file"
+                                    : std::string(d.message.data()),
+                      d.cut_short ? "get or make the file again: it is cut short" : "get or make the file again");
 }
 
 Status write_png_rows(const std::string& path, std::size_t width, std::size_t height,

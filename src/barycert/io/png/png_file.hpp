@@ -1,12 +1,8 @@
 /// PNG files into memory, and out of pixels, by libpng.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "barycert/io/png/colour_map.hpp"
 #include "barycert/result.hpp"
@@ -39,9 +35,9 @@ struct PngPixels {
     std::vector<std::uint8_t> rows;  ///< 8-bit RGBA, 4 * width bytes a row, from the top
 };
 
-/// Reads a PNG file of any kind, see read_png in raster.hpp. Memory is 4 bytes a pixel, of which there are at most
-/// max_pixels, and libpng's own, which limits keep below a few MiB. Errors: missing, unreadable, no PNG, damaged, cut
-/// short, too many pixels.
+/// Reads a PNG file of any kind, see read_png in raster.hpp. Memory is that of the file, 4 bytes a pixel, of which
+/// there are at most max_pixels, and libpng's own, which limits keep below a few MiB. Errors: missing, unreadable, no
+/// PNG, damaged, cut short, too many pixels.
 Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels);
 
 }  // namespace barycert::io

@@ -1,13 +1,9 @@
-#include <algorithm>
-#include <bit>
-#include <functional>
 #include <set>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/io/vtk/out_file.hpp"
-#include "barycert/surface.hpp"
 
 namespace barycert {
 namespace io {
@@ -74,15 +70,12 @@ static_assert(std::endian::native == std::endian::little, "PLY files are written
 /// are none that is `taken`.
 std::string properties_of(const std::vector<Field>& fields, std::set<std::string> taken,
                           std::vector<std::string>& renamed) {
-    const auto is_plain = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-    };
     std::string text;
     for (const Field& f : fields) {
         for (int c = 0; c < f.components; ++c) {
             const std::string wanted = f.components == 1 ? f.name : f.name + '_' + std::to_string(c);
             std::string name = wanted.empty() ? "_" : wanted;
-            std::ranges::replace_if(name, std::not_fn(is_plain), '_');
+            std::ranges::replace_if(name, std::not_fn(is_letter_or_digit), '_');
             while (!taken.insert(name).second) name += '_';
             text.append("property double ").append(name).append("\n");
             if (name != wanted) renamed.emplace_back(wanted).append(" as ").append(name);

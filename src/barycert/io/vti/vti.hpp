@@ -1,15 +1,6 @@
 /// VTK's VTI files (XML, image data): arrays at the points of a regular grid, written block by block, without VTK.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/spool.hpp"
 #include "barycert/io/vtk/out_file.hpp"

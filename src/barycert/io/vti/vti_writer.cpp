@@ -1,8 +1,6 @@
-#include <cmath>
 
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/io.hpp"
 #include "barycert/io/vti/vti.hpp"
 
 namespace barycert::io {

@@ -1,8 +1,5 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
-#include <algorithm>
-#include <cstring>
-
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"

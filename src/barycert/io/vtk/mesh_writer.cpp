@@ -1,11 +1,8 @@
-// Meshes as VTK's files, in XML and in the legacy format.
-#include <algorithm>
-#include <bit>
-#include <functional>
-#include <new>
+// Meshes as VTK's files, in XML and in the legacy format, and rows as points of an unstructured grid.
 
 #include "barycert/base/output_file.hpp"
-#include "barycert/environment.hpp"
+#include "barycert/base/spool.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -14,16 +11,51 @@
 namespace barycert::io {
 namespace {
 
+/// An unstructured grid of cells of one type, of so many nodes each.
+struct OutGrid {
+    std::vector<OutArray> point_arrays, cell_arrays;
+    OutArray points, connectivity;
+    std::size_t cells = 0, nodes = 1;
+    std::uint8_t type = 0;  ///< VTK's number
+};
+
+Status write_grid(OutGrid grid, const std::string& path, VtkData data) {
+    const auto end = [nodes = grid.nodes](std::size_t i) { return nodes * (i + 1); };
+    const auto type = [own = grid.type](std::size_t) { return own; };
+    const bool wide = grid.nodes * grid.cells > std::numeric_limits<std::int32_t>::max();
+    return write_xml({.data_set = "UnstructuredGrid",
+                      .piece = " NumberOfPoints=\"" + std::to_string(grid.points.count / 3) + "\" NumberOfCells=\"" +
+                               std::to_string(grid.cells) + "\"",
+                      .sections = {{"PointData", std::move(grid.point_arrays)},
+                                   {"CellData", std::move(grid.cell_arrays)},
+                                   {"Points", {std::move(grid.points)}},
+                                   {"Cells",
+                                    {std::move(grid.connectivity),
+                                     wide ? array_made<std::int64_t>("offsets", grid.cells, end)
+                                          : array_made<std::int32_t>("offsets", grid.cells, end),
+                                     array_made<std::uint8_t>("types", grid.cells, type)}}}},
+                     path, data);
+}
+
+bool has_zero_byte(const std::string& text) {
+    return text.find('\0') != std::string::npos;
+}
+
+/// Each text with a zero byte behind it.
+std::string with_ends(const std::vector<std::string>& texts) {
+    std::string all;
+    for (const std::string& text : texts) all.append(text).push_back('\0');
+    return all;
+}
+
 /// What is wrong with the mesh but for the names of its fields, in one clause; empty if nothing is.
 std::string fault_of_mesh(const Mesh& mesh) {
     if (const char* const found = mesh::inconsistency(mesh, mesh::FieldValues::any); found != nullptr) return found;
     for (const Column& labels : mesh.cell_labels) {
         if (labels.size() != mesh.cell_count()) return "the labels of cells do not match the cells";
         if (labels.type() != Column::Type::text) continue;
-        for (const std::string& text : std::get<std::vector<std::string>>(labels.values)) {
-            if (text.find('\0') != std::string::npos)
-                return "the labels \"" + labels.name + "\" hold a zero byte, which ends a text there";
-        }
+        if (std::ranges::any_of(std::get<std::vector<std::string>>(labels.values), has_zero_byte))
+            return "the labels \"" + labels.name + "\" hold a zero byte, which ends a text there";
     }
     return {};
 }
@@ -57,17 +89,15 @@ std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>&
     room.resize(mesh.cell_labels.size());
     for (const Field& field : mesh.cell_fields) arrays.push_back(array_of_field(field));
     for (std::size_t i = 0; i < room.size(); ++i) {
-        const auto& [name, values] = mesh.cell_labels[i];
-        std::visit(
-            [&, &name = name, &text = room[i]]<class T>(const std::vector<T>& all) {
-                if constexpr (std::is_same_v<T, std::string>) {
-                    for (const std::string& one : all) text.append(one).push_back('\0');
-                    arrays.push_back(array_in_memory<char>(name, text));
-                } else {
-                    arrays.push_back(array_in_memory<T>(name, all));
-                }
-            },
-            values);
+        const Column& labels = mesh.cell_labels[i];
+        const auto add = [&]<class T>(const std::vector<T>& all) {
+            if constexpr (std::is_same_v<T, std::string>) {
+                arrays.push_back(array_in_memory<char>(labels.name, room[i] = with_ends(all)));
+            } else {
+                arrays.push_back(array_in_memory<T>(labels.name, all));
+            }
+        };
+        std::visit(add, labels.values);
     }
     return arrays;
 }
@@ -87,12 +117,29 @@ std::string legacy_name(std::string_view name, char but = '!') {
     return text;
 }
 
-class LegacyFile {
+/// A legacy file: numbers in big-endian order, or as text.
+class LegacyWriter {
 public:
-    LegacyFile(const std::string& path, bool text) : file_(path), text_(text) {}
+    LegacyWriter(const std::string& path, bool text) : file_(path), text_(text) {}
 
-    void write(std::string_view bytes) { file_.write(bytes); }
-    void write(const OutArray& array, std::size_t per_line) {
+    Status write(OutGrid grid, const CellNodes& node) {
+        const std::size_t points = grid.points.count / 3, cells = grid.cells;
+        // Version 4.2 counts all numbers of the cells, the lengths among them, with 32 bits.
+        const bool wide = cells * (node.nodes + 1) > max_entities;
+        file_.write(std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") + "\nmesh\n" +
+                    (text_ ? "ASCII" : "BINARY") + "\nDATASET UNSTRUCTURED_GRID\nPOINTS " + std::to_string(points) +
+                    " double\n");
+        write_array(grid.points, 3);
+        wide ? write_wide_cells(node, cells) : write_cells(node, cells);
+        file_.write("CELL_TYPES " + std::to_string(cells) + "\n");
+        write_array(array_made<std::int32_t>("types", cells, [type = grid.type](std::size_t) { return type; }), 12);
+        write_arrays("CELL_DATA", cells, grid.cell_arrays);
+        write_arrays("POINT_DATA", points, grid.point_arrays);
+        return file_.commit();
+    }
+
+private:
+    void write_array(const OutArray& array, std::size_t per_line) {
         const auto out = [&](std::string_view bytes) { file_.write(bytes); };
         if (text_) return write_as_text(array, per_line, out);
         const auto size = static_cast<std::ptrdiff_t>(number_bytes(array.format.type));
@@ -103,6 +150,27 @@ public:
         write_parts(array, std::size_t{1} << 15, reverse_numbers, out);
         file_.write("\n");
     }
+
+    /// Version 4.2: the number of its nodes before the nodes of each cell.
+    void write_cells(const CellNodes& node, std::size_t cells) {
+        const std::size_t row = node.nodes + 1;
+        file_.write("CELLS " + std::to_string(cells) + " " + std::to_string(cells * row) + "\n");
+        const auto number = [node, row](std::size_t i) {
+            return i % row == 0 ? static_cast<std::int32_t>(node.nodes) : node(i / row * node.nodes + i % row - 1);
+        };
+        write_array(array_made<std::int32_t>("cells", cells * row, number), row);
+    }
+
+    /// Version 5.1: where the nodes of each cell begin and the last ones end, then all nodes.
+    void write_wide_cells(const CellNodes& node, std::size_t cells) {
+        const std::size_t nodes = node.nodes, numbers = cells * nodes;
+        file_.write("CELLS " + std::to_string(cells + 1) + " " + std::to_string(numbers) + "\nOFFSETS vtktypeint64\n");
+        const auto begin = [nodes](std::size_t i) { return nodes * i; };
+        write_array(array_made<std::int64_t>("offsets", cells + 1, begin), 12);
+        file_.write("CONNECTIVITY vtktypeint64\n");
+        write_array(array_made<std::int64_t>("connectivity", numbers, node), nodes);
+    }
+
     /// FIELD FieldData: any number of arrays of any type; texts last.
     void write_arrays(const char* section, std::size_t rows, std::vector<OutArray>& arrays) {
         if (arrays.empty()) return;
@@ -117,12 +185,10 @@ public:
                          : type == NumberType::int64 ? " vtktypeint64\n"
                                                      : " double\n"));
             is_text(a) ? write_texts({a.bytes, a.count})
-                       : write(a, components > 1 ? static_cast<std::size_t>(components) : 12);
+                       : write_array(a, components > 1 ? static_cast<std::size_t>(components) : 12);
         }
     }
-    Status commit() { return file_.commit(); }
 
-private:
     /// In a binary file each text follows its length, of 1, 2, 4 or 8 bytes, whose two highest bits are 3, 2, 1 or 0.
     void write_texts(std::string_view all) {
         for (std::size_t end = all.find('\0'); end != std::string_view::npos; end = all.find('\0')) {
@@ -149,44 +215,6 @@ private:
     bool text_;
 };
 
-/// Version 4.2: the number of its nodes before the nodes of each cell.
-void write_cells(const CellNodes& node, std::size_t cells, LegacyFile& file) {
-    const std::size_t row = node.nodes + 1;
-    file.write("CELLS " + std::to_string(cells) + " " + std::to_string(cells * row) + "\n");
-    const auto number = [node, row](std::size_t i) {
-        return i % row == 0 ? static_cast<std::int32_t>(node.nodes) : node(i / row * node.nodes + i % row - 1);
-    };
-    file.write(array_made<std::int32_t>("cells", cells * row, number), row);
-}
-
-/// Version 5.1: where the nodes of each cell begin and the last ones end, then all nodes.
-void write_wide_cells(const CellNodes& node, std::size_t cells, LegacyFile& file) {
-    const std::size_t nodes = node.nodes;
-    file.write("CELLS " + std::to_string(cells + 1) + " " + std::to_string(cells * nodes) + "\nOFFSETS vtktypeint64\n");
-    const auto begin = [nodes](std::size_t i) { return nodes * i; };
-    file.write(array_made<std::int64_t>("offsets", cells + 1, begin), 12);
-    file.write("CONNECTIVITY vtktypeint64\n");
-    file.write(array_made<std::int64_t>("connectivity", cells * nodes, node), nodes);
-}
-
-/// A legacy file: numbers in big-endian order, or as text.
-Status write_legacy(OutGrid grid, const CellNodes& node, const std::string& path, VtkData data) {
-    const std::size_t points = grid.points.count / 3, cells = grid.cells;
-    // Version 4.2 counts all numbers of the cells, the lengths among them, with 32 bits.
-    const bool wide = cells * (node.nodes + 1) > max_entities;
-    LegacyFile file(path, data == VtkData::ascii);
-    file.write(std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") + "\nmesh\n" +
-               (data == VtkData::ascii ? "ASCII" : "BINARY") + "\nDATASET UNSTRUCTURED_GRID\nPOINTS " +
-               std::to_string(points) + " double\n");
-    file.write(grid.points, 3);
-    wide ? write_wide_cells(node, cells, file) : write_cells(node, cells, file);
-    file.write("CELL_TYPES " + std::to_string(cells) + "\n");
-    file.write(array_made<std::int32_t>("types", cells, [type = grid.type](std::size_t) { return type; }), 12);
-    file.write_arrays("CELL_DATA", cells, grid.cell_arrays);
-    file.write_arrays("POINT_DATA", points, grid.point_arrays);
-    return file.commit();
-}
-
 Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names names) {
     const ExactEnvironment environment;
     try {
@@ -208,13 +236,112 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
         if (fault.empty()) fault = fault_of_names(grid.cell_arrays, names);
         if (!fault.empty()) return cannot_write("the mesh", fault, path);
         return names == Names::xml ? write_grid(std::move(grid), path, data)
-                                   : write_legacy(std::move(grid), node, path, data);
+                                   : LegacyWriter(path, data == VtkData::ascii).write(std::move(grid), node);
     } catch (const std::bad_alloc&) {
         return file_error(path, "too little memory to write the mesh", {}, {}, "free some memory");
     }
 }
 
+/// Rows in a .vtu file: each point a cell of type VTK_VERTEX (z = 0 in dimension 2), the rest as point arrays: `cell`
+/// (Int64), `feature` (UInt8: 0 interior, 1 face, 2 edge, 3 vertex, 4 outside, 5 degenerate), `vtkValidPointMask`
+/// (Int8: 1 inside, 0 outside, as VTK's own probes name it), `distance` (Float64), the fields (Float64, any value) and
+/// what is carried through (Int64, Float64 or String).
+class VtuSink final : public TableSink {
+public:
+    VtuSink(const std::string& path, const TableFormat& format) : path_(path), format_(format) {
+        const auto add = [&](const std::string& name, int components, NumberType type) {
+            arrays_.emplace_back(ArrayFormat{name, components, type}, base::Spool(path));
+        };
+        add("cell", 1, NumberType::int64);
+        add("feature", 1, NumberType::uint8);
+        add("vtkValidPointMask", 1, NumberType::int8);
+        if (format.distances) add("distance", 1, NumberType::float64);
+        for (const TableField& field : format.fields) {
+            add(field.name, field.components, NumberType::float64);
+            numbers_.push_back({field.name, field.components, {}});
+        }
+        constexpr std::array types{NumberType::int64, NumberType::float64, NumberType::text};  // by Column::Type
+        for (const ColumnFormat& column : format.carried)
+            add(column.name, 1, types[static_cast<std::size_t>(column.type)]);
+    }
+
+    Status write(const TableView& rows) override {
+        if (Status fits = check_rows(rows, format_, path_); !fits) return fits;
+        const std::size_t count = rows.cells.size(), dimension = static_cast<std::size_t>(format_.dimension);
+        for (std::size_t i = 0; i < rows.points.size(); ++i) {
+            // A point of a row outside may be anywhere.
+            if (!std::isfinite(rows.points[i]) && rows.cells[i / dimension] >= 0)
+                return cannot_write("the points", "a coordinate is not finite", path_);
+        }
+        Status good = points_.append(rows.points);
+        auto array = arrays_.begin();
+        const auto append = [&](const auto& values) {
+            base::Spool& spool = (array++)->second;
+            if (good) good = spool.append(std::span(values));
+        };
+        append(std::vector<std::int64_t>(rows.cells.begin(), rows.cells.end()));
+        append(rows.features);
+        std::vector<std::int8_t> inside(count);
+        for (std::size_t i = 0; i < count; ++i) inside[i] = rows.cells[i] >= 0 ? 1 : 0;
+        append(inside);
+        if (format_.distances) append(rows.distances);
+        for (Field& field : numbers_) field.data.clear();
+        append_rows(rows, numbers_);
+        for (const Field& field : numbers_) append(field.data);
+        const auto append_column = [&]<class T>(const std::vector<T>& values) {
+            if constexpr (std::is_same_v<T, std::string>) {
+                const auto bad = std::ranges::find_if(values, has_zero_byte);
+                if (bad != values.end() && good)
+                    good = file_error(path_, "a text with a zero byte, which ends a text in VTK's files", {},
+                                      bad->substr(0, 40), "carry another column through, or write a .csv file");
+                append(with_ends(values));
+            } else {
+                append(values);
+            }
+        };
+        for (const Column& column : rows.carried) std::visit(append_column, column.values);
+        count_ += count;
+        return good;
+    }
+
+    Status commit() override {
+        std::vector<OutArray> found;
+        std::string fault = count_ > max_entities ? "there are more than 2147483647 points" : "";
+        for (auto& [format, spool] : arrays_) {
+            if (Status done = spool.finish(); !done) return done;
+            const std::span<const char> bytes = spool.values<char>();
+            found.push_back({format, bytes.size() / number_bytes(format.type), bytes.data()});
+            if (fault.empty() && format.components < 1) fault = "a field has no components";
+        }
+        if (fault.empty()) fault = fault_of_names(found, Names::xml);
+        if (!fault.empty()) return cannot_write("the points", fault, path_);
+        if (Status done = points_.finish(); !done) return done;
+        if (count_ == 0) found.clear();
+        // Each point a cell. Node numbers go up to 2^31 - 1.
+        return write_grid({.point_arrays = std::move(found),
+                           .cell_arrays = {},
+                           .points = array_of_points(points_.values<double>(), format_.dimension),
+                           .connectivity = array_made<std::int32_t>("connectivity", count_, std::identity()),
+                           .cells = count_,
+                           .type = vtk_vertex},
+                          path_, format_.vtk_data);
+    }
+
+private:
+    std::string path_;
+    TableFormat format_;
+    base::Spool points_{path_};
+    std::vector<std::pair<ArrayFormat, base::Spool>> arrays_;  ///< in the order of the file
+    std::vector<Field> numbers_;                               ///< of the last rows, each field for itself
+    std::size_t count_ = 0;
+};
+
 }  // namespace
+
+Result<std::unique_ptr<TableSink>> open_vtu_sink(const std::string& path, const TableFormat& format) {
+    return std::unique_ptr<TableSink>(std::make_unique<VtuSink>(path, format));
+}
+
 }  // namespace barycert::io
 
 namespace barycert {

@@ -2,9 +2,6 @@
 
 #include <fast_float/fast_float.h>
 
-#include <algorithm>
-#include <charconv>
-
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"
@@ -179,14 +176,14 @@ std::vector<std::string_view> parts_of(std::string_view text, std::size_t most) 
 
 template <class To>
 NumberFault read_words(std::string_view& text, NumberType type, std::size_t count, std::vector<To>& values) {
-    const std::function<void(TextPart<To>&, std::string_view, std::size_t)> read_part =
+    const auto read_part = [type](TextPart<To>& part, std::string_view from, std::size_t most) {
         with_number_type(type, [&]<class From>() {
             using Wide = std::conditional_t<std::is_floating_point_v<From>, From,
                                             std::conditional_t<std::is_signed_v<From>, std::int64_t, std::uint64_t>>;
-            const WordReader<Wide> words{std::numeric_limits<From>::lowest(), std::numeric_limits<From>::max()};
-            return std::function(
-                [words](TextPart<To>& part, std::string_view from, std::size_t most) { part.read(from, most, words); });
+            using Limits = std::numeric_limits<From>;
+            part.read(from, most, WordReader<Wide>{Limits::lowest(), Limits::max()});
         });
+    };
     NumberFault fault;
     constexpr std::size_t most = 64;
     std::vector<TextPart<To>> read(1);

@@ -92,6 +92,10 @@ inline bool is_white(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
+inline bool is_letter_or_digit(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
 /// f.operator()<T>() for the C++ type of a number type; for bit and text that of uint8.
 template <class F>
 decltype(auto) with_number_type(NumberType type, F&& f) {

@@ -1,10 +1,6 @@
 #include "barycert/io/vtk/out_file.hpp"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <cstring>
-#include <limits>
 #include <set>
 
 #include "barycert/base/output_file.hpp"
@@ -56,49 +52,26 @@ std::string_view bytes_of_words(const std::vector<std::uint64_t>& words) {
     return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(std::uint64_t)};
 }
 
-/// A file whose bytes can be replaced; on a pipe it is kept in memory up to the end.
-class PatchedFile {
-public:
-    explicit PatchedFile(base::OutputFile& file) : file_(file), direct_(file.can_replace()) {}
-
-    std::uint64_t size() const { return size_; }
-    void write(std::string_view bytes) {
-        size_ += bytes.size();
-        direct_ ? file_.write(bytes) : static_cast<void>(memory_.append(bytes));
-    }
-    void replace(std::uint64_t at, std::string_view bytes) {
-        direct_ ? file_.replace(at, bytes)
-                : static_cast<void>(memory_.replace(static_cast<std::size_t>(at), bytes.size(), bytes));
-    }
-    void finish() { file_.write(memory_); }
-
-private:
-    base::OutputFile& file_;
-    bool direct_;
-    std::uint64_t size_ = 0;
-    std::string memory_;
-};
-
-/// All elements but those of appended data; rest(array) writes what follows the name of each array.
-template <class Rest>
-void write_elements(const OutFile& f, std::string_view compressor, const std::function<void(std::string_view)>& write,
-                    const Rest& rest) {
+/// All elements but those of appended data, in parts: each but the last ends behind the name of an array.
+std::vector<std::string> elements_of(const OutFile& f, std::string_view compressor) {
     const bool big = std::endian::native == std::endian::big;
-    write("<VTKFile type=\"" + f.data_set + "\" version=\"1.0\" byte_order=\"" + (big ? "BigEndian" : "LittleEndian") +
-          "\" header_type=\"UInt64\"" + (compressor.empty() ? "" : " compressor=\"" + std::string(compressor) + '"') +
-          ">\n  <" + f.data_set + f.attributes + ">\n    <Piece" + f.piece + ">\n");
+    std::vector<std::string> parts{"<VTKFile type=\"" + f.data_set + "\" version=\"1.0\" byte_order=\"" +
+                                   (big ? "BigEndian" : "LittleEndian") + "\" header_type=\"UInt64\"" +
+                                   (compressor.empty() ? "" : " compressor=\"" + std::string(compressor) + '"') +
+                                   ">\n  <" + f.data_set + f.attributes + ">\n    <Piece" + f.piece + ">\n"};
     for (const OutSection& section : f.sections) {
-        write("      <" + section.element + ">\n");
+        parts.back() += "      <" + section.element + ">\n";
         for (const OutArray& a : section.arrays) {
             const auto& [name, components, type] = a.format;
-            write(std::string("        <") + element_of(type) + " type=\"" + std::string(xml_name(type)) +
-                  "\" Name=\"" + *xml_attribute(name) + '"' +
-                  (components != 1 ? " NumberOfComponents=\"" + std::to_string(components) + '"' : ""));
-            rest(a);
+            parts.back() += std::string("        <") + element_of(type) + " type=\"" + std::string(xml_name(type)) +
+                            "\" Name=\"" + *xml_attribute(name) + '"' +
+                            (components != 1 ? " NumberOfComponents=\"" + std::to_string(components) + '"' : "");
+            parts.emplace_back();
         }
-        write("      </" + section.element + ">\n");
+        parts.back() += "      </" + section.element + ">\n";
     }
-    write("    </Piece>\n  </" + f.data_set + ">\n");
+    parts.back() += "    </Piece>\n  </" + f.data_set + ">\n";
+    return parts;
 }
 
 template <class Write>
@@ -111,16 +84,14 @@ void for_each_array(const OutFile& f, const Write& write) {
 /// All before the arrays, which begin at these offsets from behind the underscore. `width`: of each, with its quote.
 std::string head_of(const OutFile& f, std::string_view compressor, const std::vector<std::uint64_t>& offsets,
                     std::size_t width) {
+    const std::vector<std::string> parts = elements_of(f, compressor);
     std::string head;
-    auto offset = offsets.begin();
-    write_elements(
-        f, compressor, [&](std::string_view text) { head += text; },
-        [&](const OutArray&) {
-            std::string place = std::to_string(*offset++) + '"';
-            place.resize(std::max(place.size(), width), ' ');
-            head += " format=\"appended\" offset=\"" + place + "/>\n";
-        });
-    return head + "  <AppendedData encoding=\"raw\">\n    _";
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+        std::string place = std::to_string(offsets[i]) + '"';
+        place.resize(std::max(place.size(), width), ' ');
+        head += parts[i] + " format=\"appended\" offset=\"" + place + "/>\n";
+    }
+    return head + parts.back() + "  <AppendedData encoding=\"raw\">\n    _";
 }
 
 void write_raw(const OutFile& f, base::OutputFile& file) {
@@ -135,61 +106,65 @@ void write_raw(const OutFile& f, base::OutputFile& file) {
     write(appended_tail);
 }
 
-/// Header (number of blocks, their size, that of the last if it is shorter, their compressed sizes), then the blocks.
-bool write_blocks(const OutArray& a, Compressor compressor, PatchedFile& file) {
-    const std::size_t part = block_size / number_bytes(a.format.type);
-    const std::uint64_t blocks = (a.size() + block_size - 1) / block_size;
-    std::vector<std::uint64_t> header{blocks, blocks == 0 ? 0 : block_size, a.size() % block_size};
-    const std::uint64_t begin = file.size();
-    header.resize(3 + blocks);
-    file.write(bytes_of_words(header));
-    std::size_t next = 3;
-    bool good = true;
-    write_parts(
-        a, part, [&](std::size_t, std::size_t, std::string& bytes) { bytes = pack(compressor, bytes); },
-        [&](std::string_view packed) {
-            good = good && !packed.empty();
-            header[next++] = packed.size();
-            file.write(packed);
-        });
-    file.replace(begin, bytes_of_words(header));
-    return good;
-}
-
-/// Offsets are known last: there is room for them, and for the quote behind. (Blanks before the quote, as VTK has them,
-/// keep meshio 5 from reading the file.)
-bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile& target) {
+/// Each array has a header (number of blocks, their size, that of the last if it is shorter, their compressed sizes)
+/// before its blocks. Headers and offsets are known last, and replace what stands for them; where nothing can be
+/// replaced, all is compressed twice. There is room for offsets, and for the quote behind. (Blanks before the quote, as
+/// VTK has them, keep meshio 5 from reading the file.)
+bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile& file) {
     constexpr std::size_t offset_width = 21;
-    PatchedFile file(target);
-    std::vector<std::uint64_t> offsets;
-    for_each_array(f, [&](const OutArray&) { offsets.push_back(0); });
+    std::vector<std::vector<std::uint64_t>> headers;
+    for_each_array(f, [&](const OutArray& a) {
+        const std::uint64_t blocks = (a.size() + block_size - 1) / block_size;
+        headers.push_back({blocks, blocks == 0 ? 0 : block_size, a.size() % block_size});
+        headers.back().resize(3 + blocks);
+    });
+    std::vector<std::uint64_t> offsets(headers.size());
     const auto head = [&] {
         return head_of(f, compressor_names[static_cast<std::size_t>(compressor)], offsets, offset_width);
     };
-    file.write(head());
-    const std::uint64_t data = file.size();
-    auto offset = offsets.begin();
     bool good = true;
-    for_each_array(f, [&](const OutArray& a) {
-        *offset++ = file.size() - data;
-        good = write_blocks(a, compressor, file) && good;
-    });
-    file.write(appended_tail);
+    const auto write_all = [&](const std::function<void(std::string_view)>& write) {
+        std::size_t array = 0, end = 0;
+        write(head());
+        for_each_array(f, [&](const OutArray& a) {
+            std::vector<std::uint64_t>& header = headers[array];
+            offsets[array++] = end;
+            write(bytes_of_words(header));
+            end += bytes_of_words(header).size();
+            std::size_t next = 3;
+            write_parts(
+                a, block_size / number_bytes(a.format.type),
+                [&](std::size_t, std::size_t, std::string& bytes) { bytes = pack(compressor, bytes); },
+                [&](std::string_view packed) {
+                    good = good && !packed.empty();
+                    header[next++] = packed.size();
+                    end += packed.size();
+                    write(packed);
+                });
+        });
+        write(appended_tail);
+    };
+    if (!file.can_replace()) write_all([](std::string_view) {});
+    write_all([&](std::string_view bytes) { file.write(bytes); });
+    if (!file.can_replace()) return good;
     file.replace(0, head());
-    file.finish();
+    for (std::size_t i = 0; i < headers.size(); ++i)
+        file.replace(head().size() + offsets[i], bytes_of_words(headers[i]));
     return good;
 }
 
 void write_text(const OutFile& f, base::OutputFile& file) {
     constexpr std::size_t numbers_a_line = 12;
-    const auto write = [&](std::string_view text) { file.write(text); };
-    write_elements(f, {}, write, [&](const OutArray& a) {
-        file.write(" format=\"ascii\">\n");
+    const std::vector<std::string> parts = elements_of(f, {});
+    auto part = parts.begin();
+    for_each_array(f, [&](const OutArray& a) {
+        file.write(*part++ + " format=\"ascii\">\n");
         const auto components = static_cast<std::size_t>(a.format.components);
-        write_as_text(a, components > 1 ? components : numbers_a_line, write);
+        write_as_text(a, components > 1 ? components : numbers_a_line,
+                      [&](std::string_view text) { file.write(text); });
         file.write(std::string("        </") + element_of(a.format.type) + ">\n");
     });
-    file.write("</VTKFile>\n");
+    file.write(*part + "</VTKFile>\n");
 }
 
 }  // namespace
@@ -256,16 +231,13 @@ std::optional<std::string> xml_attribute(std::string_view name) {
 }
 
 std::string fault_of_names(const std::vector<OutArray>& arrays, Names names) {
-    const auto is_plain = [](char c) {
-        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-    };
     for (const OutArray& array : arrays) {
         const std::string &name = array.format.name, named = "the name of field \"" + name + '"';
         if (name.empty()) return "a field has no name";
         if (names == Names::xml && !xml_attribute(name)) return named + " has bytes that XML cannot hold";
         if (names == Names::xml) continue;
         // VTK's readers take words of up to 255 bytes, and others than these may be written as three.
-        const auto plain = static_cast<std::size_t>(std::ranges::count_if(name, is_plain));
+        const auto plain = static_cast<std::size_t>(std::ranges::count_if(name, is_letter_or_digit));
         if (3 * name.size() - 2 * plain > 200) return named + " is too long for the format";
         if (name == "METADATA" || name == "NULL_ARRAY") return named + " means something else in the format";
     }
@@ -315,24 +287,6 @@ Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
         return file_error(path, "too little memory to compress the data", {}, {}, "free some memory");
     }
     return file.commit();
-}
-
-Status write_grid(OutGrid grid, const std::string& path, VtkData data) {
-    const auto end = [nodes = grid.nodes](std::size_t i) { return nodes * (i + 1); };
-    const auto type = [own = grid.type](std::size_t) { return own; };
-    const bool wide = grid.nodes * grid.cells > std::numeric_limits<std::int32_t>::max();
-    return write_xml({.data_set = "UnstructuredGrid",
-                      .piece = " NumberOfPoints=\"" + std::to_string(grid.points.count / 3) + "\" NumberOfCells=\"" +
-                               std::to_string(grid.cells) + "\"",
-                      .sections = {{"PointData", std::move(grid.point_arrays)},
-                                   {"CellData", std::move(grid.cell_arrays)},
-                                   {"Points", {std::move(grid.points)}},
-                                   {"Cells",
-                                    {std::move(grid.connectivity),
-                                     wide ? array_made<std::int64_t>("offsets", grid.cells, end)
-                                          : array_made<std::int32_t>("offsets", grid.cells, end),
-                                     array_made<std::uint8_t>("types", grid.cells, type)}}}},
-                     path, data);
 }
 
 }  // namespace barycert::io

@@ -1,19 +1,6 @@
 /// VTK's files on their way out: arrays whose numbers stand in memory, or are made some at a time; files of them.
 #pragma once
 
-#include <bit>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <utility>
-#include <vector>
-
 #include "barycert/io.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 
@@ -117,18 +104,8 @@ struct OutFile {
 };
 
 /// Names must be such that check_arrays passes them. Compressed blocks are made on all threads, and the same for any
-/// number of them; memory for some of them is taken, on a pipe or device for all.
+/// number of them; memory for some of them is taken. On a pipe or device they are made twice.
 Status write_xml(const OutFile& file, const std::string& path, VtkData data);
-
-/// Cells of one type, of so many nodes each.
-struct OutGrid {
-    std::vector<OutArray> point_arrays, cell_arrays;
-    OutArray points, connectivity;
-    std::size_t cells = 0, nodes = 1;
-    std::uint8_t type = 0;  ///< VTK's number
-};
-/// An unstructured grid, likewise.
-Status write_grid(OutGrid grid, const std::string& path, VtkData data);
 
 // What stands around raw arrays, for those that write them themselves.
 

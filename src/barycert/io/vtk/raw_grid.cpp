@@ -1,8 +1,5 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cstring>
 #include <unordered_map>
 
 #include "barycert/base/random.hpp"

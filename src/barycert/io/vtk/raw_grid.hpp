@@ -2,15 +2,7 @@
 /// Errors are thrown as Exceptions.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <functional>
 #include <iterator>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "barycert/io.hpp"
 #include "barycert/io/parallel.hpp"

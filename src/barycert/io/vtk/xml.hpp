@@ -1,13 +1,6 @@
 /// VTK's XML files: elements (through expat), numbers in them, the data sets that they are. Errors are Exceptions.
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "barycert/io/vtk/packed.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
@@ -26,6 +19,8 @@ struct XmlElement {
     std::string_view attribute_or(std::string_view key, std::string_view other) const {
         return attribute(key).value_or(other);
     }
+    /// The type of a DataArray's numbers; nothing if they are none (strings).
+    std::optional<NumberType> number_type() const;
 };
 
 struct XmlTree : FileText {
@@ -33,14 +28,26 @@ struct XmlTree : FileText {
     /// The appended data, from behind the underscore to the end of the file; empty if there are none.
     std::string_view appended;
     bool appended_raw = false;  ///< as they are; else in base64
-    /// Reads a part of them, if they are not in memory: see Encoded.
-    Encoded::ReadPart read_part = {};
+    /// Reads a part of them to that place, if they are not in memory: the part is where it would stand there.
+    std::function<void(std::string_view part, char* to)> read_part = {};
+    // What the attributes of the root say of all arrays, once it is taken.
+    bool swap_bytes = false;
+    std::size_t header_bytes = 4;  ///< of the integers before the data: 4 or 8
+    Compressor compressor = Compressor::none;
 
     const XmlElement& root() const { return elements.front(); }
     /// The first child of that name, or whose attribute `key` is that; nullptr if there is none, or no parent.
     const XmlElement* child(const XmlElement* of, std::string_view name, std::string_view key = {}) const;
     /// The text of an element: what stands before its first child or, if that is blank, behind its last one.
     std::string_view text_of(const XmlElement& element) const;
+
+    /// Takes what the root says of all arrays. Error: a byte order, type of header or compressor unknown to VTK.
+    void take_layout();
+    /// Appends the numbers of the array, exactly `count`. `what` names it in errors. `inexact` as in FileText::check.
+    void take_numbers(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
+                      NumberFault* inexact = nullptr) const;
+    /// The texts of an array of strings, exactly `count`.
+    std::vector<std::string> take_texts(const XmlElement& array, const std::string& what, std::uint64_t count) const;
 
     [[noreturn]] void refuse_at(const XmlElement& at, std::string what, std::string expected, std::string found,
                                 std::string remedy = {}) const {
@@ -52,39 +59,8 @@ struct XmlTree : FileText {
 /// a document type (whose entities might expand without bound), another encoding of appended data.
 XmlTree parse_xml(std::string_view bytes, const std::string& path);
 
-/// What the attributes of the root say of all arrays.
-struct XmlLayout {
-    bool swap_bytes = false;
-    std::size_t header_bytes = 4;  ///< of the integers before the data: 4 or 8
-    Compressor compressor = Compressor::none;
-};
-
-/// The numbers of DataArray elements.
-class XmlArrays {
-public:
-    /// The tree is kept as a reference. Error: a byte order, type of header or compressor that VTK does not know.
-    explicit XmlArrays(const XmlTree& tree);
-
-    /// The type of the numbers; nothing if they are none (strings).
-    static std::optional<NumberType> type_of(const XmlElement& array);
-
-    /// Appends the numbers of the array, exactly `count`. `what` names it in errors. `inexact` as in FileText::check.
-    void read(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
-              NumberFault* inexact = nullptr) const;
-
-    /// The texts of an array of strings, exactly `count`.
-    std::vector<std::string> read_texts(const XmlElement& array, const std::string& what, std::uint64_t count) const;
-
-private:
-    NumberFault read_any(const XmlElement& array, const std::string& what, NumberType type,
-                         std::optional<std::uint64_t> count, NumbersTo values) const;
-
-    const XmlTree& tree_;
-    XmlLayout layout_;
-};
-
 /// The data set of one file: UnstructuredGrid or PolyData; where only points are wanted, ImageData, RectilinearGrid or
 /// StructuredGrid as well.
-RawGrid read_xml(const XmlTree& tree, Part part);
+RawGrid read_xml(XmlTree tree, Part part);
 
 }  // namespace barycert::io

@@ -1,10 +1,5 @@
 #include "barycert/io/vtk/xml.hpp"
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <set>
 
 #include "barycert/base/text.hpp"
@@ -38,31 +33,31 @@ bool is_structured(std::string_view type) {
 }
 
 /// Reads the pieces of a file one after the other.
-class XmlReader {
+class XmlReader : XmlTree {
 public:
-    XmlReader(const XmlTree& tree, Part part) : tree_(tree), arrays_(tree), part_(part) {}
+    XmlReader(XmlTree tree, Part part) : XmlTree(std::move(tree)), part_(part) { take_layout(); }
 
     RawGrid read() {
-        const std::string type(tree_.root().attribute_or("type", ""));
-        const XmlElement* const data = tree_.root().name == "VTKFile" ? tree_.child(&tree_.root(), type) : nullptr;
+        const std::string type(root().attribute_or("type", ""));
+        const XmlElement* const data = root().name == "VTKFile" ? child(&root(), type) : nullptr;
         is_polygons_ = type == "PolyData";
         const bool structured = part_ != Part::all && is_structured(type);
         if (data == nullptr || !(is_polygons_ || structured || type == "UnstructuredGrid")) refuse_kind(data, type);
         RawGrid grid;
         std::size_t pieces = 0;
         for (const std::size_t i : data->children) {
-            const XmlElement& element = tree_.elements[i];
+            const XmlElement& element = elements[i];
             if (element.name == "FieldData")
                 std::ranges::copy_if(names_of(element), std::back_inserter(grid.loose_arrays), std::not_fn(is_time));
             if (element.name != "Piece") continue;
             // Grids have one piece, or the points on the borders of pieces would be there twice.
             if (structured && ++pieces > 1)
-                tree_.refuse_at(element, "a grid in several pieces", "one piece", "more",
-                                "write it again in one piece, as ParaView's Merge Blocks or VTK's writer do");
+                refuse_at(element, "a grid in several pieces", "one piece", "more",
+                          "write it again in one piece, as ParaView's Merge Blocks or VTK's writer do");
             RawGrid piece;
             structured ? read_grid_points(*data, element, type, piece)
                        : read_points(element, count_of(element, "NumberOfPoints", grid.point_count()), piece);
-            if (const XmlElement* const of_points = tree_.child(&element, "PointData"); of_points != nullptr) {
+            if (const XmlElement* const of_points = child(&element, "PointData"); of_points != nullptr) {
                 piece.global_ids = of_points->attribute_or("GlobalIds", "");
                 if (part_ == Part::points) {
                     piece.unread_arrays = names_of(*of_points);
@@ -71,43 +66,42 @@ public:
                 }
             }
             if (part_ == Part::all) read_cells(element, grid.types.size(), piece);
-            append_piece(grid, std::move(piece), tree_.path);
+            append_piece(grid, std::move(piece), path);
         }
         return grid;
     }
 
 private:
     [[noreturn]] void refuse_kind(const XmlElement* data, const std::string& type) const {
-        const std::string found = tree_.root().name != "VTKFile" ? "an element " + in_quotes(tree_.root().name)
-                                  : data == nullptr              ? "no element of its type " + in_quotes(type)
-                                                                 : "type " + in_quotes(type);
-        tree_.refuse_at(tree_.root(), "the kind of the file",
-                        part_ == Part::all ? "a VTKFile of type UnstructuredGrid or PolyData"
-                                           : "a VTKFile of type UnstructuredGrid, PolyData, ImageData, "
-                                             "RectilinearGrid or StructuredGrid",
-                        found, is_structured(type) ? to_simplices(tree_.path) : "");
+        const std::string found = root().name != "VTKFile" ? "an element " + in_quotes(root().name)
+                                  : data == nullptr        ? "no element of its type " + in_quotes(type)
+                                                           : "type " + in_quotes(type);
+        refuse_at(root(), "the kind of the file",
+                  part_ == Part::all ? "a VTKFile of type UnstructuredGrid or PolyData"
+                                     : "a VTKFile of type UnstructuredGrid, PolyData, ImageData, "
+                                       "RectilinearGrid or StructuredGrid",
+                  found, is_structured(type) ? to_simplices(path) : "");
     }
 
     std::size_t count_of(const XmlElement& piece, std::string_view key, std::size_t before) const {
         const std::optional<std::string_view> text = piece.attribute(key);
         const std::optional<std::uint64_t> count = parse_count(text.value_or(""));
         if (!count || *count > max_entities - before)
-            tree_.refuse_at(piece, "the attribute " + std::string(key),
-                            "a count, at most " + std::to_string(max_entities) + " in all pieces",
-                            text ? in_quotes(*text) : "none");
+            refuse_at(piece, "the attribute " + std::string(key),
+                      "a count, at most " + std::to_string(max_entities) + " in all pieces",
+                      text ? in_quotes(*text) : "none");
         return static_cast<std::size_t>(*count);
     }
 
     /// Those of the array in the section Points.
     void read_points(const XmlElement& piece, std::size_t count, RawGrid& grid) const {
         if (count == 0) return;
-        const XmlElement* const array = tree_.child(tree_.child(&piece, "Points"), "DataArray");
-        if (array == nullptr) tree_.refuse_at(piece, "the points of a piece", "an array in Points", "none");
+        const XmlElement* const array = child(child(&piece, "Points"), "DataArray");
+        if (array == nullptr) refuse_at(piece, "the points of a piece", "an array in Points", "none");
         const std::string_view components = array->attribute_or("NumberOfComponents", "1");
-        if (parse_count(components) != 3)
-            tree_.refuse_at(*array, "the components of the points", "3", in_quotes(components));
-        grid.narrow_points = XmlArrays::type_of(*array) == NumberType::float32;
-        arrays_.read(*array, "the coordinates", std::uint64_t{3} * count, grid.points);
+        if (parse_count(components) != 3) refuse_at(*array, "the components of the points", "3", in_quotes(components));
+        grid.narrow_points = array->number_type() == NumberType::float32;
+        take_numbers(*array, "the coordinates", std::uint64_t{3} * count, grid.points);
     }
 
     /// The points of the only piece of a structured grid, x running fastest. Error: an extent that is none, or not that
@@ -118,8 +112,8 @@ private:
                                text = piece.attribute_or("Extent", "");
         const auto whole = parse_all<std::int64_t, 6>(whole_text), extent = parse_all<std::int64_t, 6>(text);
         if (!extent || whole != extent)
-            tree_.refuse_at(piece, "the extent of the piece", "that of the whole, six integers",
-                            in_quotes(text) + " of " + in_quotes(whole_text));
+            refuse_at(piece, "the extent of the piece", "that of the whole, six integers",
+                      in_quotes(text) + " of " + in_quotes(whole_text));
         std::array<std::size_t, 3> counts{};
         std::uint64_t points = 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -128,16 +122,16 @@ private:
             points = std::min(points * counts[axis], max_entities + 1);  // at most 2^31 times 2^32
         }
         if (points > max_entities)
-            tree_.refuse_at(piece, "the points of the grid", "at most " + std::to_string(max_entities),
-                            "the extent " + in_quotes(text));
+            refuse_at(piece, "the points of the grid", "at most " + std::to_string(max_entities),
+                      "the extent " + in_quotes(text));
         if (points == 0) return;
         if (type == "StructuredGrid") return read_points(piece, points, grid);
         // Few bytes describe any number of points: no more than memory holds.
         const std::uint64_t memory =
             static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
         if (points > memory / 2 / (3 * sizeof(double)))
-            tree_.refuse_at(piece, "the points of the grid", "as many as fit in half of the memory of this machine",
-                            std::to_string(points), "use a smaller grid");
+            refuse_at(piece, "the points of the grid", "as many as fit in half of the memory of this machine",
+                      std::to_string(points), "use a smaller grid");
         const Axes axes =
             type == "ImageData" ? image_axes(data, *extent) : rectilinear_axes(piece, counts, grid.narrow_points);
         grid.points.resize(3 * points);
@@ -161,11 +155,11 @@ private:
                                direction = data.attribute_or("Direction", plain);
         const auto origin = parse_all<double, 3>(origin_text), spacing = parse_all<double, 3>(spacing_text);
         if (!origin || !spacing)
-            tree_.refuse_at(data, "the origin and spacing of the grid", "three finite numbers each",
-                            in_quotes(origin_text) + " and " + in_quotes(spacing_text));
+            refuse_at(data, "the origin and spacing of the grid", "three finite numbers each",
+                      in_quotes(origin_text) + " and " + in_quotes(spacing_text));
         if (parse_all<double, 9>(direction) != parse_all<double, 9>(plain))
-            tree_.refuse_at(data, "the direction of the grid", std::string(plain), in_quotes(direction),
-                            "write its points as a structured or unstructured grid");
+            refuse_at(data, "the direction of the grid", std::string(plain), in_quotes(direction),
+                      "write its points as a structured or unstructured grid");
         Axes axes;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (std::int64_t i = extent[2 * axis]; i <= extent[2 * axis + 1]; ++i)
@@ -177,23 +171,22 @@ private:
     Axes rectilinear_axes(const XmlElement& piece, const std::array<std::size_t, 3>& counts, bool& narrow) const {
         Axes axes;
         std::size_t found = 0;
-        const XmlElement* const coordinates = tree_.child(&piece, "Coordinates");
+        const XmlElement* const coordinates = child(&piece, "Coordinates");
         for (const std::size_t i : coordinates != nullptr ? coordinates->children : std::vector<std::size_t>()) {
-            const XmlElement& array = tree_.elements[i];
+            const XmlElement& array = elements[i];
             if (array.name != "DataArray" || found == 3) continue;
-            arrays_.read(array, "the coordinates along an axis", counts[found], axes[found]);
-            narrow = narrow || XmlArrays::type_of(array) == NumberType::float32;
+            take_numbers(array, "the coordinates along an axis", counts[found], axes[found]);
+            narrow = narrow || array.number_type() == NumberType::float32;
             ++found;
         }
-        if (found != 3)
-            tree_.refuse_at(piece, "the points of a piece", "three arrays in Coordinates", std::to_string(found));
+        if (found != 3) refuse_at(piece, "the points of a piece", "three arrays in Coordinates", std::to_string(found));
         return axes;
     }
 
     std::vector<std::string> names_of(const XmlElement& data) const {
         std::vector<std::string> names;
         for (const std::size_t i : data.children) {
-            const std::string_view name = tree_.elements[i].attribute_or("Name", "");
+            const std::string_view name = elements[i].attribute_or("Name", "");
             if (!name.empty()) names.emplace_back(name);
         }
         return names;
@@ -212,7 +205,7 @@ private:
         } else {
             read_section(piece, "Cells", count_of(piece, "NumberOfCells", before), std::nullopt, grid);
         }
-        if (const XmlElement* const data = tree_.child(&piece, "CellData"); data != nullptr)
+        if (const XmlElement* const data = child(&piece, "CellData"); data != nullptr)
             read_arrays(*data, grid.types.size(), grid.has_steps, grid.cell_arrays);
     }
 
@@ -220,29 +213,29 @@ private:
     void read_section(const XmlElement& piece, const char* name, std::size_t count, std::optional<Section> section,
                       RawGrid& grid) const {
         if (count == 0) return;
-        const XmlElement* const element = tree_.child(&piece, name);
-        const XmlElement* const connectivity = tree_.child(element, "connectivity", "Name");
-        const XmlElement* const offsets = tree_.child(element, "offsets", "Name");
-        const XmlElement* const types = tree_.child(element, "types", "Name");
+        const XmlElement* const element = child(&piece, name);
+        const XmlElement* const connectivity = child(element, "connectivity", "Name");
+        const XmlElement* const offsets = child(element, "offsets", "Name");
+        const XmlElement* const types = child(element, "types", "Name");
         if (connectivity == nullptr || offsets == nullptr || (types == nullptr && !section))
-            tree_.refuse_at(piece, "the cells of a piece",
-                            section ? "arrays connectivity and offsets" : "arrays connectivity, offsets and types",
-                            section ? "not both" : "not all three");
-        if (!section) arrays_.read(*types, "the types of cells", count, grid.types);
+            refuse_at(piece, "the cells of a piece",
+                      section ? "arrays connectivity and offsets" : "arrays connectivity, offsets and types",
+                      section ? "not both" : "not all three");
+        if (!section) take_numbers(*types, "the types of cells", count, grid.types);
         RawCells cells;
-        arrays_.read(*offsets, "the offsets of cells", count, cells.ends);
+        take_numbers(*offsets, "the offsets of cells", count, cells.ends);
         std::int64_t end = 0;
         for (const std::int64_t own : cells.ends) {
             if (own < end)
-                tree_.refuse_at(*offsets, "the offsets of cells", "none below the one before it",
-                                std::to_string(own) + " after " + std::to_string(end));
+                refuse_at(*offsets, "the offsets of cells", "none below the one before it",
+                          std::to_string(own) + " after " + std::to_string(end));
             end = own;
         }
-        arrays_.read(*connectivity, "the connectivity", static_cast<std::uint64_t>(end), cells.connectivity);
+        take_numbers(*connectivity, "the connectivity", static_cast<std::uint64_t>(end), cells.connectivity);
         const std::size_t wrong = first_wrong_node(cells.connectivity, grid.point_count());
         if (wrong != cells.connectivity.size())
-            tree_.refuse_at(*connectivity, "a node of a cell", "a point below " + std::to_string(grid.point_count()),
-                            std::to_string(cells.connectivity[wrong]));
+            refuse_at(*connectivity, "a node of a cell", "a point below " + std::to_string(grid.point_count()),
+                      std::to_string(cells.connectivity[wrong]));
         grid.append(std::move(cells), section);
     }
 
@@ -250,7 +243,7 @@ private:
         if (count == 0) return;
         std::set<std::string> seen;
         for (const std::size_t i : data.children) {
-            const XmlElement& array = tree_.elements[i];
+            const XmlElement& array = elements[i];
             if (array.name != "DataArray" && array.name != "Array") continue;
             // Arrays of several time steps stand side by side; the first step is read.
             if (!has_word(array.attribute_or("TimeStep", "0"), "0")) {
@@ -260,8 +253,8 @@ private:
             RawArray& to = arrays.emplace_back();
             to.name = array.attribute_or("Name", "");
             if (!seen.insert(to.name).second)
-                tree_.refuse_at(array, "two arrays in one " + data.name, "different names",
-                                in_quotes(to.name) + " twice", "give them different names");
+                refuse_at(array, "two arrays in one " + data.name, "different names", in_quotes(to.name) + " twice",
+                          "give them different names");
             read_array(array, data.name == "PointData", count, to);
         }
     }
@@ -271,34 +264,32 @@ private:
         const std::string_view text = array.attribute_or("NumberOfComponents", "1");
         const std::uint64_t components = parse_count(text).value_or(0);
         if (components == 0 || components > max_entities)
-            tree_.refuse_at(array, "the components of " + what, "a count of 1 or more", in_quotes(text));
+            refuse_at(array, "the components of " + what, "a count of 1 or more", in_quotes(text));
         to.components = static_cast<int>(components);
-        const std::optional<NumberType> type = XmlArrays::type_of(array);
+        const std::optional<NumberType> type = array.number_type();
         const bool may_label = !of_points || part_ == Part::point_arrays;
         if (to.name.empty()) {
             to.fault = "it has no name";
         } else if (type) {
             to.type = *type;
             read_numbers(to, of_points, may_label, [&](NumbersTo values, NumberFault& inexact) {
-                arrays_.read(array, what, components * count, values, &inexact);
+                take_numbers(array, what, components * count, values, &inexact);
             });
         } else if (array.attribute("type") != "String") {
             to.fault = "it holds no numbers";
         } else if (takes_texts(to, may_label)) {
-            to.values = arrays_.read_texts(array, what, count);
+            to.values = take_texts(array, what, count);
         }
     }
 
-    const XmlTree& tree_;
-    const XmlArrays arrays_;
     Part part_;
     bool is_polygons_ = false;
 };
 
 }  // namespace
 
-RawGrid read_xml(const XmlTree& tree, Part part) {
-    return XmlReader(tree, part).read();
+RawGrid read_xml(XmlTree tree, Part part) {
+    return XmlReader(std::move(tree), part).read();
 }
 
 }  // namespace barycert::io
