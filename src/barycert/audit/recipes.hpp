@@ -97,6 +97,13 @@ inline void move_by_ulp(const Case& c, double& x, int axis, base::Random& random
     x = up ? ulp : -ulp;
 }
 
+/// Up to two doubles up or down.
+inline double ulps_away(double x, base::Random& random) {
+    for (int steps = random.integer(-2, 2); steps != 0; steps -= steps > 0 ? 1 : -1)
+        x = steps > 0 ? base::next_up(x) : base::next_down(x);
+    return x;
+}
+
 inline void random_values(Case& c, base::Random& random) {
     for (int i = 0; i < vertex_count(c.simplex); ++i) c.values[static_cast<std::size_t>(i)] = random.uniform(-1, 1);
 }
