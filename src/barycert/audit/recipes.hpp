@@ -130,8 +130,7 @@ inline std::array<double, 3> facet_normal(const Case& c, base::Random& random) {
 
 /// The parts of all_families(): from meshes, and made.
 std::vector<Family> mesh_families();
-std::vector<Family> near_families();
-std::vector<Family> shape_families();
+std::vector<Family> plain_families();
 std::vector<Family> window_families();
 
 /// Every coordinate of every vertex, and of the point, from `make(axis)`.
@@ -159,10 +158,6 @@ inline std::array<double, 3> lifted(const Case& c, base::Random& random, std::ar
 /// centre in it (a few have none), or, `on_edge`, exactly on one of its edges. Does not set values.
 /// (families_window.cpp)
 void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int window = 4096);
-
-/// 10 to the power of -12 to -15: Clang 14 takes no double as an argument of a template.
-template <int decimals>
-inline constexpr double decimal_height = std::array{1e-12, 1e-13, 1e-14, 1e-15}[decimals - 12];
 
 inline const std::vector<Simplex> every{all_simplices.begin(), all_simplices.end()};
 inline const std::vector<Simplex> triangle_only{Simplex::triangle};
