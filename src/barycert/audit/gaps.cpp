@@ -10,7 +10,6 @@
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/gap_points.hpp"
 #include "barycert/audit/judge.hpp"
-#include "barycert/kernels/channel.hpp"
 
 namespace barycert {
 

@@ -218,9 +218,9 @@ Host::End Host::command(Worker& worker, Command command, int milliseconds) {
     }
 }
 
-Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Asking asking) {
-    Batch batch;
-    std::fill(replies.begin(), replies.end(), Reply{});
+Asked Host::run(std::span<const Case> cases, std::span<Statement> statements, Asking asking) {
+    Asked batch;
+    std::fill(statements.begin(), statements.end(), Statement{{}, false, false});
     const auto count = static_cast<std::uint32_t>(std::min(cases.size(), batch_size));
     if (count == 0) return batch;
     Worker worker = take();
@@ -249,7 +249,7 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Ask
         const std::uint32_t complete = std::clamp(c.complete.load(std::memory_order_acquire), first, count);
         const std::uint32_t answered = how == End::done ? count : complete;
         for (std::uint32_t i = first; i < answered; ++i) {
-            replies[i] = {c.answers[i], true, true};
+            statements[i] = {c.answers[i], true, true};
             if ((c.answers[i].incidents & incident_forked) != 0) --patience_left_;
         }
         if (how == End::done) {
@@ -272,11 +272,8 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Ask
             again = true;
             continue;
         }
-        Reply& reply = replies[culprit];
-        reply = {};
-        reply.ran = true;
-        reply.answer.weights.fill(std::numeric_limits<double>::quiet_NaN());
-        reply.answer.incidents = how == End::hung ? incident_hung : beside ? incident_beside : incident_crashed;
+        statements[culprit] = {{}, true, false};
+        statements[culprit].incidents = how == End::hung ? incident_hung : beside ? incident_beside : incident_crashed;
         end_of_last = begun == End::hung ? not_loaded_within(loading_milliseconds_)
                       : how == End::hung ? fmt::format("no answer within {} s", milliseconds_ / 1000.0)
                       : beside           ? std::string("touched memory beside its arrays, or wrote to its input")
