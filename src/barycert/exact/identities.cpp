@@ -23,10 +23,18 @@ struct Weighted {
     Weights weights;
 };
 
+constexpr int the_point = -1;
+
+/// A vertex, or the point; in the plane with that z.
+Point place(const Case& c, int i, int z = 0) {
+    const auto x = [&](int axis) {
+        return Rational(i == the_point ? c.point[static_cast<std::size_t>(axis)] : c.vertex(i, axis));
+    };
+    return {x(0), x(1), space_dimension(c.simplex) == 3 ? x(2) : Rational(z)};
+}
+
 Weighted vertex(const Case& c, int i) {
-    Weighted v{};
-    for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
-        v.at[static_cast<std::size_t>(axis)] = Rational(c.vertex(i, axis));
+    Weighted v{place(c, i), {}};
     v.weights[static_cast<std::size_t>(i)] = Rational(1);
     return v;
 }
@@ -63,21 +71,12 @@ std::optional<Weights> ratios(const Case& c) {
     const bool planar = c.simplex == Simplex::triangle;
     const int count = vertex_count(c.simplex);
     const auto volume = [&](int replaced) {
-        std::array<Point, 4> v{};
-        for (int i = 0; i < count; ++i) {
-            for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
-                const auto k = static_cast<std::size_t>(axis);
-                v[static_cast<std::size_t>(i)][k] = Rational(i == replaced ? c.point[k] : c.vertex(i, axis));
-            }
-            if (planar) v[static_cast<std::size_t>(i)][2] = Rational(1);
-        }
-        if (planar) return determinant(v[0], v[1], v[2]);
-        for (std::size_t i = 1; i < 4; ++i) {
-            for (std::size_t k = 0; k < 3; ++k) v[i][k] -= v[0][k];
-        }
-        return determinant(v[1], v[2], v[3]);
+        const auto v = [&](int i) { return place(c, i == replaced ? the_point : i, 1); };
+        if (planar) return determinant(v(0), v(1), v(2));
+        return determinant(minus(v(1), v(0)), minus(v(2), v(0)), minus(v(3), v(0)));
     };
-    const Rational whole = volume(-1);
+    constexpr int none = 4;
+    const Rational whole = volume(none);
     if (whole == Rational(0)) return std::nullopt;
     Weights w{};
     for (int i = 0; i < count; ++i) w[static_cast<std::size_t>(i)] = volume(i) / whole;
@@ -98,11 +97,10 @@ Point areas(const std::array<Point, 3>& v, const Point& normal, const Point& at)
 /// As the projection has it: alpha_i in the window, 1/Z = sum alpha_i / w_i, beta_i = Z alpha_i / w_i.
 std::optional<Point> by_depths(const Case& c) {
     std::array<Point, 3> v;
-    for (int i = 0; i < 3; ++i)
-        v[static_cast<std::size_t>(i)] = {Rational(c.vertex(i, 0)), Rational(c.vertex(i, 1)), Rational(1)};
+    for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(i)] = place(c, i, 1);
     const Point normal = cross_product(minus(v[1], v[0]), minus(v[2], v[0]));
     if (normal[2] == Rational(0)) return std::nullopt;
-    Point w = areas(v, normal, {Rational(c.point[0]), Rational(c.point[1]), Rational(1)});
+    Point w = areas(v, normal, place(c, the_point, 1));
     Rational inverse(0);
     for (int i = 0; i < 3; ++i) {
         Rational& share = w[static_cast<std::size_t>(i)];
@@ -116,7 +114,7 @@ std::optional<Point> by_depths(const Case& c) {
 
 /// As the eye sees it: t ray with normal . (t ray - v_0) = 0.
 std::optional<Point> by_ray(const Case& c) {
-    const Point ray{Rational(c.point[0]), Rational(c.point[1]), Rational(1)};
+    const Point ray = place(c, the_point, 1);
     std::array<Point, 3> v;
     for (int i = 0; i < 3; ++i) {
         const Rational w(c.depth(i));
@@ -139,7 +137,7 @@ IdentityVerdict compare(const std::optional<Weighted>& found, const std::optiona
 
 IdentityVerdict bilinear_is_barycentric(const Case& c) {
     const ExactEnvironment environment;
-    const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(0)};
+    const Point p = place(c, the_point);
     const auto expected = ratios(c);
     // The two sides meet in vertex i: three choices, of which at least one serves unless the point is level with a
     // vertex.
@@ -154,7 +152,7 @@ IdentityVerdict bilinear_is_barycentric(const Case& c) {
 
 IdentityVerdict trilinear_is_barycentric(const Case& c) {
     const ExactEnvironment environment;
-    const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(c.point[2])};
+    const Point p = place(c, the_point);
     const auto expected = ratios(c);
     // Edges from apex o to a, b, d; segments in the faces oab and oad; any order of vertices that has no parallels.
     std::array<int, 4> order{0, 1, 2, 3};
