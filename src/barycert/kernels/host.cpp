@@ -57,10 +57,6 @@ bool readable(int socket, int milliseconds) {
     }
 }
 
-bool socket_pair(int (&ends)[2], int type) {
-    return socketpair(AF_UNIX, type | SOCK_CLOEXEC, 0, ends) == 0;
-}
-
 [[noreturn]] void become_server(Channel* channels, int socket, const char* path) {
     for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_DFL);
     // What the terminal sends is meant for the program, whose end is this process's end.
@@ -100,7 +96,7 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
     host->channels_ = static_cast<Channel*>(memory);
     for (std::uint32_t i = 0; i < max_workers; ++i) host->free_.push_back({max_workers - 1 - i, -1});
     int ends[2];
-    if (!socket_pair(ends, SOCK_SEQPACKET)) return no_process(path, std::strerror(errno));
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return no_process(path, std::strerror(errno));
     host->server_socket_ = ends[0];
     host->server_ = fork();
     if (host->server_ == 0) become_server(host->channels_, ends[1], host->path_.c_str());
@@ -178,7 +174,7 @@ int Host::ask_server(const ServerRequest& request, int with_socket) {
 Host::End Host::begin(Worker& worker) {
     if (worker.socket >= 0) return End::done;
     int ends[2];
-    if (!socket_pair(ends, SOCK_STREAM)) return End::no_process;
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return End::no_process;
     new (&channel(worker)) Channel;
     const int pid = ask_server({ServerRequest::fork_worker, worker.channel, 0}, ends[1]);
     close(ends[1]);
