@@ -1,6 +1,7 @@
 #include "barycert/oracle.hpp"
 
 #include <CGAL/Gmpq.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <optional>
@@ -15,7 +16,8 @@ namespace {
 
 using Rational = CGAL::Gmpq;
 using Weights = std::array<Rational, 4>;
-using Point = std::array<Rational, 3>;
+using Shares = std::array<Rational, 3>;
+using Point = CGAL::Simple_cartesian<Rational>::Vector_3;  // from the origin
 
 /// A point together with its weights at the vertices of the simplex.
 struct Weighted {
@@ -40,30 +42,13 @@ Weighted vertex(const Case& c, int i) {
 }
 
 /// The point of the line ab whose coordinate `axis` is `level`; nothing if the line is parallel to that level.
-std::optional<Weighted> along(const Weighted& a, const Weighted& b, std::size_t axis, const Rational& level) {
+std::optional<Weighted> along(const Weighted& a, const Weighted& b, int axis, const Rational& level) {
     const Rational length = b.at[axis] - a.at[axis];
     if (length == Rational(0)) return std::nullopt;
     const Rational t = (level - a.at[axis]) / length;
-    Weighted r{};
-    for (std::size_t k = 0; k < 3; ++k) r.at[k] = a.at[k] + t * (b.at[k] - a.at[k]);
+    Weighted r{a.at + t * (b.at - a.at), {}};
     for (std::size_t k = 0; k < 4; ++k) r.weights[k] = a.weights[k] + t * (b.weights[k] - a.weights[k]);
     return r;
-}
-
-Point minus(const Point& a, const Point& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Point cross_product(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Rational dot_product(const Point& a, const Point& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Rational determinant(const Point& a, const Point& b, const Point& c) {
-    return dot_product(a, cross_product(b, c));
 }
 
 /// Ratios of signed areas or volumes: replace each vertex by the point. A triangle is lifted to the plane z = 1.
@@ -72,8 +57,7 @@ std::optional<Weights> ratios(const Case& c) {
     const int count = vertex_count(c.simplex);
     const auto volume = [&](int replaced) {
         const auto v = [&](int i) { return place(c, i == replaced ? the_point : i, 1); };
-        if (planar) return determinant(v(0), v(1), v(2));
-        return determinant(minus(v(1), v(0)), minus(v(2), v(0)), minus(v(3), v(0)));
+        return planar ? CGAL::determinant(v(0), v(1), v(2)) : CGAL::determinant(v(1) - v(0), v(2) - v(0), v(3) - v(0));
     };
     constexpr int none = 4;
     const Rational whole = volume(none);
@@ -85,22 +69,22 @@ std::optional<Weights> ratios(const Case& c) {
 
 /// Weights of a point in the plane of a triangle, by signed areas; `normal` is the cross product of its edges, not
 /// zero.
-Point areas(const std::array<Point, 3>& v, const Point& normal, const Point& at) {
-    Point w;
+Shares areas(const std::array<Point, 3>& v, const Point& normal, const Point& at) {
+    Shares w;
     for (std::size_t i = 0; i < 3; ++i) {
         const Point &a = v[(i + 1) % 3], &b = v[(i + 2) % 3];
-        w[i] = dot_product(normal, cross_product(minus(b, a), minus(at, a))) / dot_product(normal, normal);
+        w[i] = normal * CGAL::cross_product(b - a, at - a) / normal.squared_length();
     }
     return w;
 }
 
 /// As the projection has it: alpha_i in the window, 1/Z = sum alpha_i / w_i, beta_i = Z alpha_i / w_i.
-std::optional<Point> by_depths(const Case& c) {
+std::optional<Shares> by_depths(const Case& c) {
     std::array<Point, 3> v;
     for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(i)] = place(c, i, 1);
-    const Point normal = cross_product(minus(v[1], v[0]), minus(v[2], v[0]));
-    if (normal[2] == Rational(0)) return std::nullopt;
-    Point w = areas(v, normal, place(c, the_point, 1));
+    const Point normal = CGAL::cross_product(v[1] - v[0], v[2] - v[0]);
+    if (normal.z() == Rational(0)) return std::nullopt;
+    Shares w = areas(v, normal, place(c, the_point, 1));
     Rational inverse(0);
     for (int i = 0; i < 3; ++i) {
         Rational& share = w[static_cast<std::size_t>(i)];
@@ -113,19 +97,15 @@ std::optional<Point> by_depths(const Case& c) {
 }
 
 /// As the eye sees it: t ray with normal . (t ray - v_0) = 0.
-std::optional<Point> by_ray(const Case& c) {
+std::optional<Shares> by_ray(const Case& c) {
     const Point ray = place(c, the_point, 1);
     std::array<Point, 3> v;
-    for (int i = 0; i < 3; ++i) {
-        const Rational w(c.depth(i));
-        v[static_cast<std::size_t>(i)] = {Rational(c.vertex(i, 0)) * w, Rational(c.vertex(i, 1)) * w, w};
-    }
-    const Point normal = cross_product(minus(v[1], v[0]), minus(v[2], v[0]));
+    for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(i)] = Rational(c.depth(i)) * place(c, i, 1);
+    const Point normal = CGAL::cross_product(v[1] - v[0], v[2] - v[0]);
     // The distance is zero where the plane holds the eye: the triangle is seen edge-on, and has no area in the window.
-    const Rational facing = dot_product(normal, ray), distance = dot_product(normal, v[0]);
+    const Rational facing = normal * ray, distance = normal * v[0];
     if (facing == Rational(0) || distance == Rational(0)) return std::nullopt;
-    const Rational t = distance / facing;
-    return areas(v, normal, {t * ray[0], t * ray[1], t * ray[2]});
+    return areas(v, normal, distance / facing * ray);
 }
 
 IdentityVerdict compare(const std::optional<Weighted>& found, const std::optional<Weights>& expected) {
