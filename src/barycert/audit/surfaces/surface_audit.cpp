@@ -45,11 +45,9 @@ void SurfaceTally::add(SurfaceQuestion question, double answer, double exact, st
 }
 
 void SurfaceTally::merge(const SurfaceTally& other) {
-    cases += other.cases;
-    yes += other.yes;
-    false_yes += other.false_yes;
-    false_no += other.false_no;
-    not_finite += other.not_finite;
+    using S = SurfaceTally;
+    for (const auto count : {&S::cases, &S::yes, &S::false_yes, &S::false_no, &S::not_finite})
+        this->*count += other.*count;
     ulps.merge(other.ulps);
     worst.include(other.worst.value, other.worst.index);
     wrong.include(other.wrong.value, other.wrong.index);
