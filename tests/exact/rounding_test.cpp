@@ -125,7 +125,7 @@ void check_quotient(const Q& n, const Q& d, int exponent) {
     EXPECT_EQ(round_quotient(wide_n, BigInteger(-wide_d), exponent), -expected);
     EXPECT_EQ(round_quotient(BigInteger(-wide_n), BigInteger(-wide_d), exponent), expected);
     const auto length = [](const Q& x) { return mpz_sizeinbase(x.get_num_mpz_t(), 2); };
-    if (length(n) <= 315 && length(d) <= 252) {  // what solve.hpp can make
+    if (length(n) <= 315 && length(d) <= 252) {  // what oracle.cpp can make
         EXPECT_EQ(round_quotient(integer<FixedInteger>(n), integer<FixedInteger>(d), exponent), expected);
     }
 }

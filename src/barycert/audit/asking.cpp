@@ -4,7 +4,6 @@
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/ulp.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/kernels/host.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -28,7 +27,8 @@ Asked ask_in_process(const Kernel& kernel, std::span<const Case> cases, std::spa
         if (s.status == 0 || kernel.raised == nullptr) continue;
         const std::string raised = kernel.raised();
         if (raised.empty()) continue;
-        s = {.answered = false, .incidents = kernels::incident_raised};
+        s = {{}, true, false};
+        s.incidents = kernels::incident_raised;
         if (detail.empty()) detail = raised;
     }
     const auto stop = Clock::now();
@@ -44,25 +44,19 @@ Asked ask_in_process(const Kernel& kernel, std::span<const Case> cases, std::spa
 
 Asked ask_host(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {
     using kernels::Host;
-    std::array<Host::Reply, kernels::batch_size> replies;
-    const Host::Batch batch = kernel.host->run(cases, std::span(replies).first(cases.size()),
-                                               timed ? Host::Asking::timed : Host::Asking::usual);
+    const Asked asked = kernel.host->run(cases, statements, timed ? Host::Asking::timed : Host::Asking::usual);
     const auto n = static_cast<std::size_t>(vertex_count(kernel.simplex));
     const bool interpolates = kernel.host->description().interpolates;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        const Host::Reply& reply = replies[i];
         Statement& s = statements[i];
-        s = {.ran = reply.ran,
-             .answered = reply.answered,
-             .status = reply.answer.status,
-             .weights = reply.answer.weights,
-             .incidents = reply.answer.incidents};
         if (!s.answered) continue;
-        s.claimed = claim(kernel, s, n, reply.answer.region);
-        if (s.status == 0)
-            s.value = interpolates ? reply.answer.value : kernel.value(s.weights.data(), cases[i].values.data());
+        s.claimed = claim(kernel, s, n, s.region);
+        if (s.status != 0)
+            s.value = kernels::unset;
+        else if (!interpolates)
+            s.value = kernel.value(s.weights.data(), cases[i].values.data());
     }
-    return {.ns = batch.ns, .detail = batch.detail};
+    return asked;
 }
 
 }  // namespace
@@ -80,12 +74,10 @@ void complete(Statement& s, const Kernel& kernel, const Case& c) {
 
 std::string incident_of(const Kernel& kernel, const Case& c) {
     const ExactEnvironment environment;
-    if (kernel.host == nullptr) {
-        Statement said;
-        return kernel.raised == nullptr ? "" : ask_in_process(kernel, std::span(&c, 1), std::span(&said, 1)).detail;
-    }
-    kernels::Host::Reply reply;
-    return kernel.host->run(std::span(&c, 1), std::span(&reply, 1), kernels::Host::Asking::given_up_too).detail;
+    Statement said;
+    if (kernel.host != nullptr)
+        return kernel.host->run(std::span(&c, 1), std::span(&said, 1), kernels::Host::Asking::given_up_too).detail;
+    return kernel.raised == nullptr ? "" : ask_in_process(kernel, std::span(&c, 1), std::span(&said, 1)).detail;
 }
 
 Asked ask_kernel(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {

@@ -3,20 +3,17 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 
 #include "barycert/audit.hpp"
 #include "barycert/base/workers.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/kernels/host.hpp"
 
 namespace barycert::audit {
 
-/// What to hand to a kernel: weights that are not an answer.
-inline constexpr std::array<double, 4> unset_weights = [] {
-    std::array<double, 4> w{};
-    w.fill(std::numeric_limits<double>::quiet_NaN());
-    return w;
-}();
+using kernels::Asked;
+using kernels::Statement;
+using kernels::unset_weights;
 
 /// Interior or boundary.
 constexpr bool is_inside(Region r) {
@@ -35,21 +32,6 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
     for (const Item& item : items) names.push_back(item.name);
     return names;
 }
-
-struct Statement {
-    bool ran = true;       ///< false: the kernel has been given up, and was not asked
-    bool answered = true;  ///< false: it ran and gave no answer
-    int status = 0;        ///< 1: declared degenerate
-    std::array<double, 4> weights = unset_weights;
-    Region claimed = Region::degenerate;  ///< by the kernel's rule
-    double value = std::numeric_limits<double>::quiet_NaN();
-    std::uint8_t incidents = 0;  ///< kernels::Incident
-};
-
-struct Asked {
-    double ns = -1;      ///< per evaluation; -1 unless asked for
-    std::string detail;  ///< what it did besides answering, in words; empty if nothing
-};
 
 /// Asks for cases of the kernel's simplex, at most 256 of them, and sets as many statements. Runs in the exact
 /// environment, whatever the kernel leaves behind. `timed`: a kernel in a process of its own runs once more against the

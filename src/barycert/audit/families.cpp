@@ -113,7 +113,7 @@ const std::vector<Family>& all_families() {
     static const std::vector<Family> families = [] {
         std::vector<Family> all = mesh_families();
         for (Family& f : all) f.needs_mesh = true;
-        for (auto* part : {near_families, shape_families, window_families}) {
+        for (auto* part : {plain_families, window_families}) {
             for (Family& f : part()) all.push_back(std::move(f));
         }
         for (Family& f : all) f.perspective = f.name.starts_with("perspective.");

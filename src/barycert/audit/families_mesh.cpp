@@ -84,8 +84,7 @@ void point_in_neighbour(Draw& draw, base::Random& random) {
 void vertex_of_neighbour(Draw& draw, base::Random& random) {
     const Case other = neighbour_cell(draw, random);
     const auto i = static_cast<int>(random.below(static_cast<std::uint64_t>(vertex_count(other.simplex))));
-    for (int axis = 0; axis < space_dimension(draw.simplex.simplex); ++axis)
-        draw.simplex.point[static_cast<std::size_t>(axis)] = other.vertex(i, axis);
+    draw.simplex.point = vertex_at(other, i);
 }
 
 }  // namespace

@@ -47,8 +47,7 @@ GapPoint GapPoints::make(Feature feature, std::uint64_t seed, std::uint64_t inde
     const Case whole = c;
     for (std::size_t i = 0; i < used; ++i) {
         p.nodes.push_back(mesh_.cells[cell * corners + order[i]]);
-        for (int axis = 0; axis < mesh_.dimension; ++axis)
-            c.vertex(static_cast<int>(i), axis) = whole.vertex(static_cast<int>(order[i]), axis);
+        set_vertex(c, static_cast<int>(i), vertex_at(whole, static_cast<int>(order[i])));
     }
     p.point = random_point(c, random, static_cast<int>(used));
     if (random.coin()) {

@@ -10,7 +10,6 @@
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/gap_points.hpp"
 #include "barycert/audit/judge.hpp"
-#include "barycert/kernels/channel.hpp"
 
 namespace barycert {
 
@@ -23,13 +22,6 @@ struct Claimant {
     const Kernel* kernel = nullptr;
     ClaimRule rule = ClaimRule::exact;
 };
-
-bool claims(ClaimRule rule, double tolerance, std::span<const double> weights) {
-    return std::all_of(weights.begin(), weights.end(), [&](double w) {
-        if (!std::isfinite(w)) return false;
-        return rule == ClaimRule::strict ? w > 0 : rule == ClaimRule::exact ? w >= 0 : w >= -tolerance;
-    });
-}
 
 /// What one thread has learnt.
 struct Found {
@@ -47,24 +39,24 @@ void keep_first(ClaimResult& result, ClaimFault fault, const ClaimWitness& witne
 class Finder {
 public:
     Finder(const GapsOptions& options, const Mesh& mesh, const std::vector<Claimant>& claimants)
-        : options_(options), mesh_(mesh), points_(mesh), claimants_(claimants) {
-        bool core = true;
-        for (const Claimant& c : claimants)
-            core = core && (c.kernel == nullptr || !(c.kernel->core || c.kernel->certifies));
-        judge_ = Judge(OracleChoice::automatic, core);
-    }
+        : options_(options),
+          mesh_(mesh),
+          points_(mesh),
+          claimants_(claimants),
+          judge_(OracleChoice::automatic, std::none_of(claimants.begin(), claimants.end(), [](const Claimant& c) {
+                     return c.kernel != nullptr && (c.kernel->core || c.kernel->certifies);
+                 })) {}
 
     void run(std::size_t feature, std::uint64_t index, Found& found) const {
         const GapPoint p = points_.make(claim_features[feature], options_.seed, index);
+        ClaimWitness witness{claim_features[feature], index, p.nodes, p.point, {}, {}};
         std::vector<Case> cases;
         std::vector<OracleAnswer> answers;
-        std::vector<bool> holds;
         for (const Mesh::Index cell : p.cells) {
             cases.push_back(points_.case_of(cell, p.point));
             answers.push_back(judge_.decide(cases.back(), index, found.oracles, found.disagreement));
-            holds.push_back(is_inside(answers.back().region));
+            if (is_inside(answers.back().region)) witness.holders.push_back(mesh_.cell_number(cell));
         }
-        ClaimWitness witness{claim_features[feature], index, p.nodes, p.point, numbers(p.cells, holds), {}};
         std::vector<Statement> said(cases.size());
         const Kernel* asked = nullptr;
         for (std::size_t k = 0; k < claimants_.size(); ++k) {
@@ -73,24 +65,12 @@ public:
                 ask(*who.kernel, cases, said);
                 asked = who.kernel;
             }
-            std::vector<bool> claimed;
+            witness.claimants.clear();
             for (std::size_t i = 0; i < cases.size(); ++i) {
-                const Region exact = answers[i].region;
-                const Statement& s = said[i];
-                if (who.kernel != nullptr && !s.answered) ++found.results[k].unanswered;
-                const auto by_weights = [&](const std::array<double, 4>& weights) {
-                    return claims(who.rule, options_.tolerance, std::span(weights).first(mesh_.corners()));
-                };
-                // Of exact arithmetic signs are exact where rounded weights may be zero.
-                claimed.push_back(who.kernel != nullptr
-                                      ? s.answered && s.status == 0 &&
-                                            (who.rule == ClaimRule::own ? is_inside(s.claimed) : by_weights(s.weights))
-                                  : who.rule == ClaimRule::strict ? exact == Region::interior
-                                  : who.rule == ClaimRule::exact  ? is_inside(exact)
-                                                                  : by_weights(answers[i].weights));
+                if (who.kernel != nullptr && !said[i].answered) ++found.results[k].unanswered;
+                if (claims(who, answers[i], said[i])) witness.claimants.push_back(mesh_.cell_number(p.cells[i]));
             }
-            witness.claimants = numbers(p.cells, claimed);
-            judge(found.results[k], feature, holds, claimed, witness);
+            judge(found.results[k], feature, witness);
         }
     }
 
@@ -102,45 +82,50 @@ private:
         }
     }
 
-    std::vector<Mesh::Index> numbers(const std::vector<Mesh::Index>& cells, const std::vector<bool>& chosen) const {
-        std::vector<Mesh::Index> list;
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            if (chosen[i]) list.push_back(mesh_.cell_number(cells[i]));
-        }
-        return list;
+    bool claims(const Claimant& who, const OracleAnswer& exact, const Statement& s) const {
+        const auto by_weights = [&](const std::array<double, 4>& weights) {
+            return std::all_of(weights.begin(), weights.begin() + mesh_.dimension + 1, [&](double w) {
+                if (!std::isfinite(w)) return false;
+                return who.rule == ClaimRule::strict  ? w > 0
+                       : who.rule == ClaimRule::exact ? w >= 0
+                                                      : w >= -options_.tolerance;
+            });
+        };
+        if (who.kernel != nullptr)
+            return s.answered && s.status == 0 &&
+                   (who.rule == ClaimRule::own ? is_inside(s.claimed) : by_weights(s.weights));
+        // Of exact arithmetic signs are exact where rounded weights may be zero.
+        return who.rule == ClaimRule::strict  ? exact.region == Region::interior
+               : who.rule == ClaimRule::exact ? is_inside(exact.region)
+                                              : by_weights(exact.weights);
     }
 
-    static void judge(ClaimResult& result, std::size_t feature, const std::vector<bool>& holds,
-                      const std::vector<bool>& claimed, const ClaimWitness& witness) {
+    static void judge(ClaimResult& result, std::size_t feature, const ClaimWitness& witness) {
         ClaimCounts& counts = result.by_feature[feature];
         const auto fault = [&](ClaimFault f) {
             ++counts.faults[static_cast<std::size_t>(f)];
             keep_first(result, f, witness);
         };
-        if (witness.holders.empty()) {
+        const auto& holders = witness.holders;
+        const auto& claimants = witness.claimants;
+        if (holders.empty()) {
             ++counts.outside;
-            if (!witness.claimants.empty()) fault(ClaimFault::outside_claimed);
+            if (!claimants.empty()) fault(ClaimFault::outside_claimed);
             return;
         }
         ++counts.inside;
-        if (witness.claimants.empty()) fault(ClaimFault::gap);
-        if (witness.claimants.size() > 1) fault(ClaimFault::several);
-        bool first = true, wrong = false, wrong_first = false;
-        for (std::size_t i = 0; i < claimed.size(); ++i) {
-            if (!claimed[i]) continue;
-            wrong = wrong || !holds[i];
-            wrong_first = wrong_first || (first && !holds[i]);
-            first = false;
-        }
-        if (wrong) fault(ClaimFault::wrong);
-        if (wrong_first) fault(ClaimFault::wrong_first);
+        const auto holds = [&](Mesh::Index cell) { return std::ranges::find(holders, cell) != holders.end(); };
+        if (claimants.empty()) return fault(ClaimFault::gap);
+        if (claimants.size() > 1) fault(ClaimFault::several);
+        if (!std::ranges::all_of(claimants, holds)) fault(ClaimFault::wrong);
+        if (!holds(claimants.front())) fault(ClaimFault::wrong_first);
     }
 
     const GapsOptions& options_;
     const Mesh& mesh_;
     GapPoints points_;
     const std::vector<Claimant>& claimants_;
-    Judge judge_{OracleChoice::automatic, false};
+    Judge judge_;
 };
 
 void merge(ClaimResult& to, const ClaimResult& from) {

@@ -70,6 +70,13 @@ inline std::array<double, 3> random_point(const Case& c, base::Random& random, i
     return combination(c, random_weights(random, n), n);
 }
 
+/// In the plane the third coordinate is 0.
+inline std::array<double, 3> vertex_at(const Case& c, int i) {
+    std::array<double, 3> p{};
+    for (int axis = 0; axis < space_dimension(c.simplex); ++axis) p[static_cast<std::size_t>(axis)] = c.vertex(i, axis);
+    return p;
+}
+
 inline void set_vertex(Case& c, int i, const std::array<double, 3>& p) {
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) c.vertex(i, axis) = p[static_cast<std::size_t>(axis)];
 }
@@ -97,34 +104,20 @@ inline void move_by_ulp(const Case& c, double& x, int axis, base::Random& random
     x = up ? ulp : -ulp;
 }
 
+/// Up to two doubles up or down.
+inline double ulps_away(double x, base::Random& random) {
+    for (int steps = random.integer(-2, 2); steps != 0; steps -= steps > 0 ? 1 : -1)
+        x = steps > 0 ? base::next_up(x) : base::next_down(x);
+    return x;
+}
+
 inline void random_values(Case& c, base::Random& random) {
     for (int i = 0; i < vertex_count(c.simplex); ++i) c.values[static_cast<std::size_t>(i)] = random.uniform(-1, 1);
 }
 
-/// A unit vector, up to rounding, along which the last vertex leaves the facet of the others: normal to that edge of a
-/// triangle or face of a tetrahedron; where there are many (an edge in 3-space, a point), a random one.
-inline std::array<double, 3> facet_normal(const Case& c, base::Random& random) {
-    const auto difference = [&](int i) {
-        std::array<double, 3> e{};
-        for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
-            e[static_cast<std::size_t>(axis)] = c.vertex(i, axis) - c.vertex(0, axis);
-        return e;
-    };
-    std::array<double, 3> a{0, 0, 1}, b{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-    if (c.simplex != Simplex::segment) a = difference(1);
-    if (c.simplex == Simplex::triangle) b = {0, 0, 1};
-    if (c.simplex == Simplex::tetrahedron) b = difference(2);
-    std::array<double, 3> n = base::cross(a, b);
-    const double length = std::sqrt(base::dot(n, n));
-    if (!(length > 0)) return {1, 0, 0};
-    for (double& x : n) x /= length;
-    return n;
-}
-
 /// The parts of all_families(): from meshes, and made.
 std::vector<Family> mesh_families();
-std::vector<Family> near_families();
-std::vector<Family> shape_families();
+std::vector<Family> plain_families();
 std::vector<Family> window_families();
 
 /// Every coordinate of every vertex, and of the point, from `make(axis)`.
@@ -141,10 +134,18 @@ inline void ordinary(Case& c, base::Random& random, std::uint64_t = 0) {
     fill(c, random, [&](int) { return random.uniform(-1, 1); });
 }
 
-/// `from` moved by `h` along the normal of the first n - 1 vertices.
+/// `from` moved by `h` along a unit vector, up to rounding, along which the last vertex leaves the facet of the others:
+/// normal to that edge of a triangle or face of a tetrahedron; where there are many (an edge in 3-space, a point), a
+/// random one.
 inline std::array<double, 3> lifted(const Case& c, base::Random& random, std::array<double, 3> from, double h) {
-    const auto normal = facet_normal(c, random);
-    for (std::size_t k = 0; k < 3; ++k) from[k] += h * normal[k];
+    const auto edge = [&](int i) { return base::minus(vertex_at(c, i), vertex_at(c, 0)); };
+    std::array<double, 3> a{0, 0, 1}, b{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    if (c.simplex != Simplex::segment) a = edge(1);
+    if (c.simplex == Simplex::triangle) b = {0, 0, 1};
+    if (c.simplex == Simplex::tetrahedron) b = edge(2);
+    const std::array<double, 3> n = base::cross(a, b);
+    const double length = std::sqrt(base::dot(n, n));
+    for (std::size_t k = 0; k < 3; ++k) from[k] += h * (length > 0 ? n[k] / length : k == 0 ? 1.0 : 0.0);
     return from;
 }
 
@@ -152,10 +153,6 @@ inline std::array<double, 3> lifted(const Case& c, base::Random& random, std::ar
 /// centre in it (a few have none), or, `on_edge`, exactly on one of its edges. Does not set values.
 /// (families_window.cpp)
 void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int window = 4096);
-
-/// 10 to the power of -12 to -15: Clang 14 takes no double as an argument of a template.
-template <int decimals>
-inline constexpr double decimal_height = std::array{1e-12, 1e-13, 1e-14, 1e-15}[decimals - 12];
 
 inline const std::vector<Simplex> every{all_simplices.begin(), all_simplices.end()};
 inline const std::vector<Simplex> triangle_only{Simplex::triangle};

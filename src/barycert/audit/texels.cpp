@@ -4,11 +4,8 @@
 #include <tuple>
 #include <utility>
 
-#include "barycert/base/random.hpp"
+#include "barycert/audit/recipes.hpp"
 #include "barycert/base/strict_math.hpp"
-#include "barycert/base/ulp.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/oracle.hpp"
 
 namespace barycert {
 namespace {
@@ -44,23 +41,16 @@ std::int64_t texel_count(base::Random& random) {
     return 1 + static_cast<std::int64_t>(random.below(std::uint64_t{1} << random.integer(0, 31)));
 }
 
-double some_steps_away(double u, base::Random& random) {
-    const int steps = random.integer(-2, 2);
-    for (int k = 0; k < steps; ++k) u = base::next_up(u);
-    for (int k = 0; k > steps; --k) u = base::next_down(u);
-    return u;
-}
-
 double coordinate(base::Random& random, std::int64_t size) {
     switch (random.below(6)) {
         case 0:  // a border of texels of the row or of one beside it, and its neighbours
         case 1: {
             const auto k = static_cast<double>(random.below(static_cast<std::uint64_t>(size) + 1));
             const int row = random.integer(-1, 1);
-            return some_steps_away(row + k / static_cast<double>(size), random);
+            return audit::ulps_away(row + k / static_cast<double>(size), random);
         }
         case 2:  // an end of a row
-            return some_steps_away(random.integer(-2, 2), random);
+            return audit::ulps_away(random.integer(-2, 2), random);
         case 3:
             return random.uniform(-2, 3);
         case 4:

@@ -1,6 +1,4 @@
-
 #include <limits>
-#include <utility>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/nearest_name.hpp"
@@ -13,22 +11,11 @@ using namespace audit;
 
 namespace {
 
-/// Names of rules, each with its figure.
-const std::vector<std::pair<std::string, std::size_t>>& rule_figures() {
-    static const auto all = [] {
-        std::vector<std::pair<std::string, std::size_t>> rules;
-        for (std::size_t f = first_finding; f < figures().size(); ++f) {
-            if (f == first_error) rules.insert(rules.end(), {{"any", 0}, {"wrong_cases", 0}});
-            rules.emplace_back(figures()[f].name, f);
-        }
-        return rules;
-    }();
-    return all;
-}
-
+/// That a rule of this name is on: any but not_run.
 std::optional<std::size_t> figure_named(std::string_view name) {
-    for (const auto& [rule, figure] : rule_figures()) {
-        if (rule == name) return figure;
+    if (name == "any") name = figures().front().name;
+    for (std::size_t f = 0; f < figures().size(); ++f) {
+        if (figures()[f].name == name && (f == 0 || f >= first_finding)) return f;
     }
     return std::nullopt;
 }
@@ -101,7 +88,10 @@ std::vector<Violation> violations(const AuditReport& report, const std::vector<T
 
 std::vector<std::string> threshold_names() {
     std::vector<std::string> names;
-    for (const auto& [name, figure] : rule_figures()) names.push_back(name);
+    for (std::size_t f = first_finding; f < figures().size(); ++f) {
+        if (f == first_error) names.insert(names.end(), {"any", "wrong_cases"});
+        names.push_back(figures()[f].name);
+    }
     return names;
 }
 

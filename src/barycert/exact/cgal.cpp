@@ -6,14 +6,16 @@
 // from the eye through (x, y, 1) is met with the plane of the vertices (x w, y w, w).
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <gmp.h>
+#include <mpfr.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <tuple>
 
 #include "barycert/environment.hpp"
 #include "barycert/exact/cgal_variant.hpp"
-#include "barycert/exact/rational.hpp"
 #include "barycert/oracle.hpp"
 
 namespace barycert {
@@ -24,30 +26,73 @@ using Number = Epeck::FT;
 using Point2 = Epeck::Point_2;
 using Point3 = Epeck::Point_3;
 
-/// Quotients, rounded once.
-class Quotient {
-public:
-    Quotient() { mpq_init(quotient_); }
-    ~Quotient() { mpq_clear(quotient_); }
-    Quotient(const Quotient&) = delete;
-    Quotient& operator=(const Quotient&) = delete;
-
-    /// Requires a divisor other than 0. Not reduced: that takes longer than all else, and MPFR does not ask for it.
-    double operator()(const Number& x, const Number& divisor) {
-        mpq_srcptr a = exact::rational(x.exact()), b = exact::rational(divisor.exact());
-        mpz_mul(mpq_numref(quotient_), mpq_numref(a), mpq_denref(b));
-        mpz_mul(mpq_denref(quotient_), mpq_denref(a), mpq_numref(b));
-        if (mpz_sgn(mpq_denref(quotient_)) < 0) {
-            mpz_neg(mpq_numref(quotient_), mpq_numref(quotient_));
-            mpz_neg(mpq_denref(quotient_), mpq_denref(quotient_));
-        }
-        return rounded_([this](mpfr_t to) { return mpfr_set_q(to, quotient_, MPFR_RNDN); });
+/// GMP's rational in CGAL's exact number, whichever of its types that is.
+template <class Exact>
+mpq_srcptr rational(const Exact& x) {
+    if constexpr (requires { x.mpq(); }) {
+        return x.mpq();
+    } else if constexpr (requires { x.get_mpq_t(); }) {
+        return x.get_mpq_t();
+    } else {
+        return x.backend().data();
     }
+}
 
-private:
-    exact::Rounder rounded_;
-    mpq_t quotient_;
-};
+/// What `set` sets one of MPFR's numbers to by one function of MPFR, whose answer it returns: to nearest, ties to even,
+/// subnormals and overflow included.
+template <class Set>
+double rounded(const Set& set) {
+    const mpfr_exp_t low = mpfr_get_emin(), high = mpfr_get_emax();
+    mpfr_t number;
+    mpfr_init2(number, 53);
+    mpfr_set_emin(-1073);  // the range that mpfr_subnormalize() wants
+    mpfr_set_emax(1024);
+    const int inexact = set(number);
+    mpfr_subnormalize(number, inexact, MPFR_RNDN);
+    const double result = mpfr_get_d(number, MPFR_RNDN);
+    mpfr_set_emin(low);
+    mpfr_set_emax(high);
+    mpfr_clear(number);
+    return result;
+}
+
+/// x / divisor, rounded once. Requires a divisor other than 0. Not reduced: that takes longer than all else, and MPFR
+/// does not ask for it.
+double quotient(const Number& x, const Number& divisor) {
+    mpq_srcptr a = rational(x.exact()), b = rational(divisor.exact());
+    mpq_t q;
+    mpq_init(q);
+    mpz_mul(mpq_numref(q), mpq_numref(a), mpq_denref(b));
+    mpz_mul(mpq_denref(q), mpq_denref(a), mpq_numref(b));
+    if (mpz_sgn(mpq_denref(q)) < 0) {
+        mpz_neg(mpq_numref(q), mpq_numref(q));
+        mpz_neg(mpq_denref(q), mpq_denref(q));
+    }
+    const double result = rounded([&](mpfr_t to) { return mpfr_set_q(to, q, MPFR_RNDN); });
+    mpq_clear(q);
+    return result;
+}
+
+/// sqrt(x), rounded once. With k such that x 4^k has more than 2 * 56 bits, its root has more than 56, which stand in
+/// front of a last bit that says whether there is more.
+double rounded_root(mpq_srcptr x) {
+    if (mpq_sgn(x) == 0) return 0;
+    mpz_t n, rest;
+    mpz_inits(n, rest, nullptr);
+    const long bits =
+        static_cast<long>(mpz_sizeinbase(mpq_numref(x), 2)) - static_cast<long>(mpz_sizeinbase(mpq_denref(x), 2));
+    const long k = std::max(0L, (116 - bits) / 2);
+    mpz_mul_2exp(n, mpq_numref(x), static_cast<mp_bitcnt_t>(2 * k));
+    mpz_fdiv_qr(n, rest, n, mpq_denref(x));
+    const bool divides = mpz_sgn(rest) == 0;
+    mpz_sqrtrem(n, rest, n);
+    const bool more = !divides || mpz_sgn(rest) != 0;
+    mpz_mul_2exp(n, n, 1);
+    if (more) mpz_add_ui(n, n, 1);
+    const double root = rounded([&](mpfr_t to) { return mpfr_set_z_2exp(to, n, -k - 1, MPFR_RNDN); });
+    mpz_clears(n, rest, nullptr);
+    return root;
+}
 
 /// Weights as parts of a whole, and their signs as CGAL's predicates tell them; nothing if there are none.
 struct Found {
@@ -62,6 +107,10 @@ Point2 point2(const double* x) {
 
 Point3 point3(const double* x) {
     return {x[0], x[1], x[2]};
+}
+
+Epeck::Triangle_3 triangle_at(std::span<const double> t) {
+    return {point3(&t[0]), point3(&t[3]), point3(&t[6])};
 }
 
 template <std::size_t n>
@@ -162,7 +211,6 @@ OracleAnswer ask_cgal(const Case& c) {
         a.value = std::numeric_limits<double>::quiet_NaN();
         return a;
     }
-    Quotient rounded;
     Number value = 0;
     int nonzero = 0;
     bool negative = false;
@@ -174,10 +222,10 @@ OracleAnswer ask_cgal(const Case& c) {
             a.support = static_cast<std::uint8_t>(a.support | (1U << i));
             ++nonzero;
         }
-        a.weights[i] = rounded(f->parts[i], f->whole);
+        a.weights[i] = quotient(f->parts[i], f->whole);
         value += f->parts[i] * Number(c.values[i]);
     }
-    a.value = rounded(value, f->whole);
+    a.value = quotient(value, f->whole);
     const bool whole = nonzero == static_cast<int>(count);
     a.region = negative ? Region::outside : whole ? Region::interior : Region::boundary;
     a.feature = negative       ? Feature::outside
@@ -186,6 +234,46 @@ OracleAnswer ask_cgal(const Case& c) {
                 : nonzero == 2 ? Feature::edge
                                : Feature::face;
     return a;
+}
+
+// Triangles in space.
+
+double oracle_distance(std::span<const double> t, const double* p) {
+    const ExactEnvironment environment;
+    return rounded_root(rational(CGAL::squared_distance(point3(p), triangle_at(t)).exact()));
+}
+
+bool oracle_meet(std::span<const double> a, std::span<const double> b) {
+    const ExactEnvironment environment;
+    return CGAL::do_intersect(triangle_at(a), triangle_at(b));
+}
+
+int oracle_side(std::span<const std::array<double, 9>> triangles, const double* p) {
+    const ExactEnvironment environment;
+    const Point3 from = point3(p);
+    double far = 1;
+    for (const auto& t : triangles) {
+        if (triangle_at(t).has_on(from)) return 0;
+        for (const double x : t) far = std::max(far, std::fabs(x));
+    }
+    // A power of two well outside, and the next such segment until one meets no edge: each edge rules out a plane.
+    far = std::ldexp(4, std::ilogb(far));
+    for (int turn = 1;; ++turn) {
+        const Point3 to(far, far * (turn / 1024.0), far * (turn * turn % 1021 / 1024.0));
+        bool odd = false, doubtful = false;
+        for (const auto& t : triangles) {
+            const Point3 a = point3(&t[0]), b = point3(&t[3]), c = point3(&t[6]);
+            const int ends = CGAL::orientation(a, b, c, from) * CGAL::orientation(a, b, c, to);
+            if (ends > 0) continue;
+            const int u = CGAL::orientation(from, to, a, b), v = CGAL::orientation(from, to, b, c),
+                      w = CGAL::orientation(from, to, c, a);
+            const int low = std::min({u, v, w}), high = std::max({u, v, w});
+            if (low < 0 && high > 0) continue;
+            doubtful = doubtful || ends == 0 || low == 0 || high == 0;
+            odd = !odd;
+        }
+        if (!doubtful) return odd ? 1 : -1;
+    }
 }
 
 }  // namespace barycert

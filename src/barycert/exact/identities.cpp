@@ -1,6 +1,7 @@
 #include "barycert/oracle.hpp"
 
 #include <CGAL/Gmpq.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <optional>
@@ -15,7 +16,8 @@ namespace {
 
 using Rational = CGAL::Gmpq;
 using Weights = std::array<Rational, 4>;
-using Point = std::array<Rational, 3>;
+using Shares = std::array<Rational, 3>;
+using Point = CGAL::Simple_cartesian<Rational>::Vector_3;  // from the origin
 
 /// A point together with its weights at the vertices of the simplex.
 struct Weighted {
@@ -23,39 +25,30 @@ struct Weighted {
     Weights weights;
 };
 
+constexpr int the_point = -1;
+
+/// A vertex, or the point; in the plane with that z.
+Point place(const Case& c, int i, int z = 0) {
+    const auto x = [&](int axis) {
+        return Rational(i == the_point ? c.point[static_cast<std::size_t>(axis)] : c.vertex(i, axis));
+    };
+    return {x(0), x(1), space_dimension(c.simplex) == 3 ? x(2) : Rational(z)};
+}
+
 Weighted vertex(const Case& c, int i) {
-    Weighted v{};
-    for (int axis = 0; axis < space_dimension(c.simplex); ++axis)
-        v.at[static_cast<std::size_t>(axis)] = Rational(c.vertex(i, axis));
+    Weighted v{place(c, i), {}};
     v.weights[static_cast<std::size_t>(i)] = Rational(1);
     return v;
 }
 
 /// The point of the line ab whose coordinate `axis` is `level`; nothing if the line is parallel to that level.
-std::optional<Weighted> along(const Weighted& a, const Weighted& b, std::size_t axis, const Rational& level) {
+std::optional<Weighted> along(const Weighted& a, const Weighted& b, int axis, const Rational& level) {
     const Rational length = b.at[axis] - a.at[axis];
     if (length == Rational(0)) return std::nullopt;
     const Rational t = (level - a.at[axis]) / length;
-    Weighted r{};
-    for (std::size_t k = 0; k < 3; ++k) r.at[k] = a.at[k] + t * (b.at[k] - a.at[k]);
+    Weighted r{a.at + t * (b.at - a.at), {}};
     for (std::size_t k = 0; k < 4; ++k) r.weights[k] = a.weights[k] + t * (b.weights[k] - a.weights[k]);
     return r;
-}
-
-Point minus(const Point& a, const Point& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Point cross_product(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Rational dot_product(const Point& a, const Point& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Rational determinant(const Point& a, const Point& b, const Point& c) {
-    return dot_product(a, cross_product(b, c));
 }
 
 /// Ratios of signed areas or volumes: replace each vertex by the point. A triangle is lifted to the plane z = 1.
@@ -63,21 +56,11 @@ std::optional<Weights> ratios(const Case& c) {
     const bool planar = c.simplex == Simplex::triangle;
     const int count = vertex_count(c.simplex);
     const auto volume = [&](int replaced) {
-        std::array<Point, 4> v{};
-        for (int i = 0; i < count; ++i) {
-            for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
-                const auto k = static_cast<std::size_t>(axis);
-                v[static_cast<std::size_t>(i)][k] = Rational(i == replaced ? c.point[k] : c.vertex(i, axis));
-            }
-            if (planar) v[static_cast<std::size_t>(i)][2] = Rational(1);
-        }
-        if (planar) return determinant(v[0], v[1], v[2]);
-        for (std::size_t i = 1; i < 4; ++i) {
-            for (std::size_t k = 0; k < 3; ++k) v[i][k] -= v[0][k];
-        }
-        return determinant(v[1], v[2], v[3]);
+        const auto v = [&](int i) { return place(c, i == replaced ? the_point : i, 1); };
+        return planar ? CGAL::determinant(v(0), v(1), v(2)) : CGAL::determinant(v(1) - v(0), v(2) - v(0), v(3) - v(0));
     };
-    const Rational whole = volume(-1);
+    constexpr int none = 4;
+    const Rational whole = volume(none);
     if (whole == Rational(0)) return std::nullopt;
     Weights w{};
     for (int i = 0; i < count; ++i) w[static_cast<std::size_t>(i)] = volume(i) / whole;
@@ -86,23 +69,22 @@ std::optional<Weights> ratios(const Case& c) {
 
 /// Weights of a point in the plane of a triangle, by signed areas; `normal` is the cross product of its edges, not
 /// zero.
-Point areas(const std::array<Point, 3>& v, const Point& normal, const Point& at) {
-    Point w;
+Shares areas(const std::array<Point, 3>& v, const Point& normal, const Point& at) {
+    Shares w;
     for (std::size_t i = 0; i < 3; ++i) {
         const Point &a = v[(i + 1) % 3], &b = v[(i + 2) % 3];
-        w[i] = dot_product(normal, cross_product(minus(b, a), minus(at, a))) / dot_product(normal, normal);
+        w[i] = normal * CGAL::cross_product(b - a, at - a) / normal.squared_length();
     }
     return w;
 }
 
 /// As the projection has it: alpha_i in the window, 1/Z = sum alpha_i / w_i, beta_i = Z alpha_i / w_i.
-std::optional<Point> by_depths(const Case& c) {
+std::optional<Shares> by_depths(const Case& c) {
     std::array<Point, 3> v;
-    for (int i = 0; i < 3; ++i)
-        v[static_cast<std::size_t>(i)] = {Rational(c.vertex(i, 0)), Rational(c.vertex(i, 1)), Rational(1)};
-    const Point normal = cross_product(minus(v[1], v[0]), minus(v[2], v[0]));
-    if (normal[2] == Rational(0)) return std::nullopt;
-    Point w = areas(v, normal, {Rational(c.point[0]), Rational(c.point[1]), Rational(1)});
+    for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(i)] = place(c, i, 1);
+    const Point normal = CGAL::cross_product(v[1] - v[0], v[2] - v[0]);
+    if (normal.z() == Rational(0)) return std::nullopt;
+    Shares w = areas(v, normal, place(c, the_point, 1));
     Rational inverse(0);
     for (int i = 0; i < 3; ++i) {
         Rational& share = w[static_cast<std::size_t>(i)];
@@ -115,19 +97,15 @@ std::optional<Point> by_depths(const Case& c) {
 }
 
 /// As the eye sees it: t ray with normal . (t ray - v_0) = 0.
-std::optional<Point> by_ray(const Case& c) {
-    const Point ray{Rational(c.point[0]), Rational(c.point[1]), Rational(1)};
+std::optional<Shares> by_ray(const Case& c) {
+    const Point ray = place(c, the_point, 1);
     std::array<Point, 3> v;
-    for (int i = 0; i < 3; ++i) {
-        const Rational w(c.depth(i));
-        v[static_cast<std::size_t>(i)] = {Rational(c.vertex(i, 0)) * w, Rational(c.vertex(i, 1)) * w, w};
-    }
-    const Point normal = cross_product(minus(v[1], v[0]), minus(v[2], v[0]));
+    for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(i)] = Rational(c.depth(i)) * place(c, i, 1);
+    const Point normal = CGAL::cross_product(v[1] - v[0], v[2] - v[0]);
     // The distance is zero where the plane holds the eye: the triangle is seen edge-on, and has no area in the window.
-    const Rational facing = dot_product(normal, ray), distance = dot_product(normal, v[0]);
+    const Rational facing = normal * ray, distance = normal * v[0];
     if (facing == Rational(0) || distance == Rational(0)) return std::nullopt;
-    const Rational t = distance / facing;
-    return areas(v, normal, {t * ray[0], t * ray[1], t * ray[2]});
+    return areas(v, normal, distance / facing * ray);
 }
 
 IdentityVerdict compare(const std::optional<Weighted>& found, const std::optional<Weights>& expected) {
@@ -139,7 +117,7 @@ IdentityVerdict compare(const std::optional<Weighted>& found, const std::optiona
 
 IdentityVerdict bilinear_is_barycentric(const Case& c) {
     const ExactEnvironment environment;
-    const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(0)};
+    const Point p = place(c, the_point);
     const auto expected = ratios(c);
     // The two sides meet in vertex i: three choices, of which at least one serves unless the point is level with a
     // vertex.
@@ -154,7 +132,7 @@ IdentityVerdict bilinear_is_barycentric(const Case& c) {
 
 IdentityVerdict trilinear_is_barycentric(const Case& c) {
     const ExactEnvironment environment;
-    const Point p{Rational(c.point[0]), Rational(c.point[1]), Rational(c.point[2])};
+    const Point p = place(c, the_point);
     const auto expected = ratios(c);
     // Edges from apex o to a, b, d; segments in the faces oab and oad; any order of vertices that has no parallels.
     std::array<int, 4> order{0, 1, 2, 3};

@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <cstdio>
+#include <limits>
 
 #include "barycert/kernel.h"
 #include "barycert/kernels.hpp"
@@ -40,13 +41,17 @@ enum Incident : std::uint8_t {
     incident_printed = 64,      ///< wrote to stdout or stderr
 };
 
+/// What to hand to a kernel: weights that are not an answer.
+inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
+inline constexpr std::array<double, 4> unset_weights{unset, unset, unset, unset};
+
 /// What a worker writes of one case. The program believes none of it: a kernel may have written there.
 struct Answer {
-    int status = 0;
+    int status = 0;  ///< 1: declared degenerate
     int region = 0;  ///< of the kernel's own classification
-    std::array<double, 4> weights{};
-    double value = 0;  ///< of the kernel's own function of values
-    std::uint8_t incidents = 0;
+    std::array<double, 4> weights = unset_weights;
+    double value = unset;        ///< of the kernel's own function of values
+    std::uint8_t incidents = 0;  ///< Incident
 };
 
 /// Texts of barycert_kernel_info, cut to their room.

@@ -29,43 +29,42 @@ constexpr std::uint16_t own_machine = EM_AARCH64;
 constexpr std::uint16_t own_machine = EM_NONE;  // left to dlopen, which tells it less clearly
 #endif
 
+constexpr const char* cannot_load = "cannot load the kernel library";
+
 class ElfFile {
 public:
     ElfFile(const std::string& path, base::InputFile file) : path_(path), file_(std::move(file)) {}
 
-    Status check() {
-        if (Status good = read_header(); !good) return good;
-        if (Status good = check_parts<ProgramHeader>(header_.e_phoff, header_.e_phnum, header_.e_phentsize); !good)
-            return good;
-        return check_parts<SectionHeader>(header_.e_shoff, header_.e_shnum, header_.e_shentsize);
+    /// Throws an Exception, as all below do.
+    void check() {
+        read_header();
+        check_parts<ProgramHeader>(header_.e_phoff, header_.e_phnum, header_.e_phentsize);
+        check_parts<SectionHeader>(header_.e_shoff, header_.e_shnum, header_.e_shentsize);
     }
 
 private:
-    Status read_header() {
+    void read_header() {
         char bytes[sizeof header_] = {};
         const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(file_.size(), sizeof bytes));
-        if (size == 0) return foreign("an empty file");
-        if (Status good = read(0, bytes, size); !good) return good;
-        if (std::memcmp(bytes, ELFMAG, std::min<std::size_t>(size, SELFMAG)) != 0) return foreign("another format");
-        if (size < sizeof bytes) return cut();
+        if (size == 0) foreign("an empty file");
+        read(0, bytes, size);
+        if (std::memcmp(bytes, ELFMAG, std::min<std::size_t>(size, SELFMAG)) != 0) foreign("another format");
+        if (size < sizeof bytes) cut();
         std::memcpy(&header_, bytes, sizeof header_);
         if (header_.e_ident[EI_CLASS] != own_class || header_.e_ident[EI_DATA] != own_order ||
             (own_machine != EM_NONE && header_.e_machine != own_machine))
-            return foreign("ELF for another machine");
-        if (header_.e_type != ET_DYN) return foreign("ELF of another kind, as object files are");
-        return Done{};
+            foreign("ELF for another machine");
+        if (header_.e_type != ET_DYN) foreign("ELF of another kind, as object files are");
     }
 
     /// The table of `count` headers at `offset`, and the part of the file that each of them names.
     template <class Header>
-    Status check_parts(std::uint64_t offset, std::size_t count, std::size_t entry) {
-        if (count == 0) return within(offset, 0) ? Status(Done{}) : cut();
-        if (entry != sizeof(Header)) return foreign("ELF with headers of another size");
-        if (!within(offset, count * sizeof(Header))) return cut();
+    void check_parts(std::uint64_t offset, std::size_t count, std::size_t entry) const {
+        if (count != 0 && entry != sizeof(Header)) foreign("ELF with headers of another size");
+        if (!within(offset, count * sizeof(Header))) cut();
         std::vector<Header> headers(count);
-        if (Status good = read(offset, headers.data(), count * sizeof(Header)); !good) return good;
-        return std::all_of(headers.begin(), headers.end(), [&](const Header& h) { return holds(h); }) ? Status(Done{})
-                                                                                                      : cut();
+        if (count != 0) read(offset, headers.data(), count * sizeof(Header));
+        if (!std::all_of(headers.begin(), headers.end(), [&](const Header& h) { return holds(h); })) cut();
     }
     bool holds(const ProgramHeader& h) const { return h.p_type == PT_NULL || within(h.p_offset, h.p_filesz); }
     bool holds(const SectionHeader& h) const {
@@ -75,25 +74,23 @@ private:
         return offset <= file_.size() && size <= file_.size() - offset;
     }
 
-    Status read(std::uint64_t offset, void* to, std::size_t size) const {
-        const Result<std::size_t> got = file_.read_at(offset, {static_cast<char*>(to), size}, path_);
-        if (!got) return got.error();
-        return *got == size ? Status(Done{}) : cut();
+    void read(std::uint64_t offset, void* to, std::size_t size) const {
+        if (file_.read_at(offset, {static_cast<char*>(to), size}, path_).value() != size) cut();
     }
 
-    Error foreign(const char* found) const {
-        return {.what = "cannot load the kernel library",
-                .file = path_,
-                .expected = "a shared library (ELF) for this machine",
-                .found = found,
-                .remedy = "build it on this machine with -shared -fPIC"};
+    [[noreturn]] void foreign(const char* found) const {
+        throw Exception({.what = cannot_load,
+                         .file = path_,
+                         .expected = "a shared library (ELF) for this machine",
+                         .found = found,
+                         .remedy = "build it on this machine with -shared -fPIC"});
     }
-    Error cut() const {
-        return {.what = "cannot load the kernel library",
-                .file = path_,
-                .expected = "a complete file, as its headers declare",
-                .found = "the end of the file, after " + std::to_string(file_.size()) + " bytes",
-                .remedy = "the file is truncated: build or copy it again"};
+    [[noreturn]] void cut() const {
+        throw Exception({.what = cannot_load,
+                         .file = path_,
+                         .expected = "a complete file, as its headers declare",
+                         .found = "the end of the file, after " + std::to_string(file_.size()) + " bytes",
+                         .remedy = "the file is truncated: build or copy it again"});
     }
 
     const std::string& path_;
@@ -103,14 +100,17 @@ private:
 
 }  // namespace
 
-Status check_shared_library(const std::string& path) {
+Status check_shared_library(const std::string& path) try {
     Result<base::InputFile> file = base::InputFile::open(path, "copy the library to a regular file first");
     if (!file) {
         Error error = file.error();
-        error.what = "cannot load the kernel library";
+        error.what = cannot_load;
         return error;
     }
-    return ElfFile(path, std::move(*file)).check();
+    ElfFile(path, std::move(*file)).check();
+    return Done{};
+} catch (const Exception& e) {
+    return e.error();
 }
 
 }  // namespace barycert::kernels

@@ -57,10 +57,6 @@ bool readable(int socket, int milliseconds) {
     }
 }
 
-bool socket_pair(int (&ends)[2], int type) {
-    return socketpair(AF_UNIX, type | SOCK_CLOEXEC, 0, ends) == 0;
-}
-
 [[noreturn]] void become_server(Channel* channels, int socket, const char* path) {
     for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_DFL);
     // What the terminal sends is meant for the program, whose end is this process's end.
@@ -100,7 +96,7 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
     host->channels_ = static_cast<Channel*>(memory);
     for (std::uint32_t i = 0; i < max_workers; ++i) host->free_.push_back({max_workers - 1 - i, -1});
     int ends[2];
-    if (!socket_pair(ends, SOCK_SEQPACKET)) return no_process(path, std::strerror(errno));
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return no_process(path, std::strerror(errno));
     host->server_socket_ = ends[0];
     host->server_ = fork();
     if (host->server_ == 0) become_server(host->channels_, ends[1], host->path_.c_str());
@@ -178,7 +174,7 @@ int Host::ask_server(const ServerRequest& request, int with_socket) {
 Host::End Host::begin(Worker& worker) {
     if (worker.socket >= 0) return End::done;
     int ends[2];
-    if (!socket_pair(ends, SOCK_STREAM)) return End::no_process;
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return End::no_process;
     new (&channel(worker)) Channel;
     const int pid = ask_server({ServerRequest::fork_worker, worker.channel, 0}, ends[1]);
     close(ends[1]);
@@ -218,9 +214,9 @@ Host::End Host::command(Worker& worker, Command command, int milliseconds) {
     }
 }
 
-Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Asking asking) {
-    Batch batch;
-    std::fill(replies.begin(), replies.end(), Reply{});
+Asked Host::run(std::span<const Case> cases, std::span<Statement> statements, Asking asking) {
+    Asked batch;
+    std::fill(statements.begin(), statements.end(), Statement{{}, false, false});
     const auto count = static_cast<std::uint32_t>(std::min(cases.size(), batch_size));
     if (count == 0) return batch;
     Worker worker = take();
@@ -249,7 +245,7 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Ask
         const std::uint32_t complete = std::clamp(c.complete.load(std::memory_order_acquire), first, count);
         const std::uint32_t answered = how == End::done ? count : complete;
         for (std::uint32_t i = first; i < answered; ++i) {
-            replies[i] = {c.answers[i], true, true};
+            statements[i] = {c.answers[i], true, true};
             if ((c.answers[i].incidents & incident_forked) != 0) --patience_left_;
         }
         if (how == End::done) {
@@ -272,11 +268,8 @@ Host::Batch Host::run(std::span<const Case> cases, std::span<Reply> replies, Ask
             again = true;
             continue;
         }
-        Reply& reply = replies[culprit];
-        reply = {};
-        reply.ran = true;
-        reply.answer.weights.fill(std::numeric_limits<double>::quiet_NaN());
-        reply.answer.incidents = how == End::hung ? incident_hung : beside ? incident_beside : incident_crashed;
+        statements[culprit] = {{}, true, false};
+        statements[culprit].incidents = how == End::hung ? incident_hung : beside ? incident_beside : incident_crashed;
         end_of_last = begun == End::hung ? not_loaded_within(loading_milliseconds_)
                       : how == End::hung ? fmt::format("no answer within {} s", milliseconds_ / 1000.0)
                       : beside           ? std::string("touched memory beside its arrays, or wrote to its input")

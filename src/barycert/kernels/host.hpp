@@ -11,6 +11,18 @@
 
 namespace barycert::kernels {
 
+/// What a kernel says of a case, whether it runs in this process or in one of its own.
+struct Statement : Answer {
+    bool ran = true;                      ///< false: the kernel has been given up, and was not asked
+    bool answered = true;                 ///< false: it ran and gave no answer
+    Region claimed = Region::degenerate;  ///< by the kernel's rule
+};
+
+struct Asked {
+    double ns = -1;      ///< per evaluation; -1 unless asked for
+    std::string detail;  ///< what it did besides answering, in words; empty if nothing
+};
+
 class Host {
 public:
     /// Cases that it may fail to answer, or leave a process behind in, before it is given up: a hang costs as much as
@@ -26,24 +38,15 @@ public:
     /// What it says of itself; error, missing and note aside.
     const Description& description() const { return description_; }
 
-    /// Cases that were put to it are `ran`; others were left out because it has been given up.
-    struct Reply {
-        Answer answer;
-        bool ran = false, answered = false;
-    };
-    struct Batch {
-        double ns = -1;      ///< per evaluation; -1 unless asked for
-        std::string detail;  ///< of the last case that it did not survive, else of the first with an incident
-    };
-
     enum class Asking {
         usual,
         timed,         ///< also against the clock
         given_up_too,  ///< even if it has been given up
     };
 
-    /// Asks for at most batch_size cases of one simplex. From any thread.
-    Batch run(std::span<const Case> cases, std::span<Reply> replies, Asking asking);
+    /// Asks for at most batch_size cases of one simplex, and sets as many statements, `claimed` aside. The detail is of
+    /// the last case that it did not survive, else of the first with an incident. From any thread.
+    Asked run(std::span<const Case> cases, std::span<Statement> statements, Asking asking);
 
 private:
     struct Worker {

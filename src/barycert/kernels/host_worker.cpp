@@ -233,7 +233,6 @@ private:
         Answer a;
         a.status = f_.weights(vertices, point, weights);
         look(a, n);
-        a.weights.fill(std::numeric_limits<double>::quiet_NaN());
         std::copy_n(arrays_.inner(GuardedArrays::weights, n), n, a.weights.begin());
         if (a.status == 0 && f_.classify != nullptr) {
             a.region = f_.classify(vertices, point, weights);

@@ -1,10 +1,9 @@
-#include "barycert/audit/mutants/mutants.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "barycert/audit/asking.hpp"
+#include "barycert/audit_search.hpp"
 #include "barycert/environment.hpp"
 
 namespace barycert {
@@ -66,16 +65,6 @@ MutantResult judged(const Mutant& m, const AuditReport& report) {
 }
 
 }  // namespace
-
-const std::vector<Mutant>& all_mutants() {
-    static const std::vector<Mutant> all = [] {
-        std::vector<Mutant> list;
-        add_plain_mutants(list);
-        add_certified_mutants(list);
-        return list;
-    }();
-    return all;
-}
 
 std::uint64_t MutantReport::caught() const {
     return static_cast<std::uint64_t>(

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <span>
 
 #include "barycert/audit/asking.hpp"
@@ -97,10 +98,7 @@ inline double badness(std::size_t reason, const Evaluation& e) {
 struct Height {
     double shown = -1;    ///< badness
     double nearness = 0;  ///< if it does not show
-    friend bool operator==(const Height&, const Height&) = default;
-    friend bool operator>(const Height& a, const Height& b) {
-        return a.shown != b.shown ? a.shown > b.shown : a.nearness > b.nearness;
-    }
+    friend auto operator<=>(const Height&, const Height&) = default;
 };
 
 inline Height height(std::size_t reason, const Evaluation& e) {

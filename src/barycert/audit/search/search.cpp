@@ -187,45 +187,42 @@ struct Shown {
     bool given_up = false;
 };
 
-void set_plain(Shown& s, const Witness& plain, const Evaluation& e) {
-    s.find.plain = plain;
-    s.find.plain_weight_ulp = e.comparison.worst_weight_ulp();
-    s.find.plain_relative_error = e.relative_error;
-    for (int k = 0; k < coordinate_count(plain.c); ++k) s.find.plain_bits += significant_bits(coordinate(plain.c, k));
-}
-
-/// The plainest case that can be made of those met; false if the kernel was given up on the way.
-bool make_plain(const SearchOptions& o, std::size_t reason, const Harvest& all, Shown& s) {
+/// The plainest case that can be made of those met.
+Witness made_plain(const SearchOptions& o, std::size_t reason, Shown& s) {
     const auto plainest = [&](const Witness& w) {
         return plainest_witness(o.kernel, w, &s.plain_steps, o.min_exponent, o.max_exponent);
     };
     Witness plain = plainest(s.find.found);
-    if (reason < finding_count) {
-        Witness other = plainest(witness_of(o, reason, all.plain[reason]));
-        if (plain_cost(other.c) < plain_cost(plain.c)) plain = std::move(other);
-    }
-    const Evaluation p = evaluate(o.kernel, plain.c);
-    if (!p.said.ran) return false;
-    if (is_incident(reason)) plain.detail = p.detail;
-    set_plain(s, plain, p);
-    return true;
+    if (reason >= finding_count) return plain;
+    Witness other = plainest(s.find.plain);
+    return plain_cost(other.c) < plain_cost(plain.c) ? other : plain;
 }
 
 Shown shown(const SearchOptions& o, std::size_t reason, const Harvest& all) {
-    const Met& worst = all.worst[reason].front();
+    const Met &worst = all.worst[reason].front(), &met = reason < finding_count ? all.plain[reason] : worst;
     Shown s;
-    s.find.reason = search_reason_name(reason);
-    s.find.cases = all.cases[reason];
-    s.find.found = witness_of(o, reason, worst);
-    s.find.weight_ulp = worst.evaluation.comparison.worst_weight_ulp();
-    s.find.relative_error = worst.evaluation.relative_error;
+    SearchFind& f = s.find;
+    f.reason = search_reason_name(reason);
+    f.cases = all.cases[reason];
+    f.found = witness_of(o, reason, worst);
+    f.weight_ulp = worst.evaluation.comparison.worst_weight_ulp();
+    f.relative_error = worst.evaluation.relative_error;
+    f.plain = witness_of(o, reason, met);
+    Evaluation e = met.evaluation;
     // Each trial of an accident may cost a process, or the time limit: the plainest that was met is plain enough.
     if (!is_accident(reason) && !all.given_up) {
-        if (make_plain(o, reason, all, s)) return s;
-        s.given_up = true;
+        Witness plain = made_plain(o, reason, s);
+        const Evaluation p = evaluate(o.kernel, plain.c);
+        s.given_up = !p.said.ran;
+        if (p.said.ran) {
+            f.plain = std::move(plain);
+            if (is_incident(reason)) f.plain.detail = p.detail;
+            e = p;
+        }
     }
-    const Met& plain = reason < finding_count ? all.plain[reason] : worst;
-    set_plain(s, witness_of(o, reason, plain), plain.evaluation);
+    f.plain_weight_ulp = e.comparison.worst_weight_ulp();
+    f.plain_relative_error = e.relative_error;
+    for (int k = 0; k < coordinate_count(f.plain.c); ++k) f.plain_bits += significant_bits(coordinate(f.plain.c, k));
     return s;
 }
 

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <mutex>
 
-#include "barycert/audit/surfaces/rules.hpp"
+#include "barycert/audit.hpp"
 #include "barycert/base/ulp.hpp"
 #include "barycert/base/workers.hpp"
 
 namespace barycert {
-
-using namespace audit;
 
 namespace {
 
@@ -25,15 +23,6 @@ std::optional<double> exact_answer(SurfaceQuestion question, const SurfaceCase& 
 }
 
 }  // namespace
-
-const std::vector<SurfaceRule>& surface_rules() {
-    static const std::vector<SurfaceRule> rules = [] {
-        std::vector<SurfaceRule> all = distance_rules();
-        for (const auto& more : {inside_rules(), meet_rules()}) all.insert(all.end(), more.begin(), more.end());
-        return all;
-    }();
-    return rules;
-}
 
 void SurfaceTally::add(SurfaceQuestion question, double answer, double exact, std::uint64_t index) {
     const std::uint64_t before = wrong_cases();
@@ -56,11 +45,9 @@ void SurfaceTally::add(SurfaceQuestion question, double answer, double exact, st
 }
 
 void SurfaceTally::merge(const SurfaceTally& other) {
-    cases += other.cases;
-    yes += other.yes;
-    false_yes += other.false_yes;
-    false_no += other.false_no;
-    not_finite += other.not_finite;
+    using S = SurfaceTally;
+    for (const auto count : {&S::cases, &S::yes, &S::false_yes, &S::false_no, &S::not_finite})
+        this->*count += other.*count;
     ulps.merge(other.ulps);
     worst.include(other.worst.value, other.worst.index);
     wrong.include(other.wrong.value, other.wrong.index);

@@ -2,10 +2,7 @@
 
 #include <cmath>
 
-#include "barycert/audit/surfaces/rules.hpp"
-#include "barycert/base/random.hpp"
-#include "barycert/base/ulp.hpp"
-#include "barycert/oracle.hpp"
+#include "barycert/audit/recipes.hpp"
 
 namespace barycert::audit {
 namespace {
@@ -14,13 +11,11 @@ using base::Random;
 using Point = std::array<double, 3>;
 
 Point any(Random& random) {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
-    return {x, y, z};
+    return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
 }
 
 Point on_lattice(Random& random, int high) {
-    const int x = random.integer(0, high), y = random.integer(0, high), z = random.integer(0, high);
-    return {double(x), double(y), double(z)};
+    return {double(random.integer(0, high)), double(random.integer(0, high)), double(random.integer(0, high))};
 }
 
 Point sum(const Point& a, double t, const Point& b) {
@@ -41,34 +36,34 @@ bool has_area(const TriangleInSpace& t) {
     return affine_dimension(c) == 2;
 }
 
-/// Until it has an area.
-template <class Make>
-TriangleInSpace proper(const Make& make) {
-    TriangleInSpace t = make();
-    while (!has_area(t)) t = make();
-    return t;
+/// The first corner, then the two others: until they span an area.
+template <class First, class Others>
+TriangleInSpace proper(const First& first, const Others& others) {
+    while (true) {
+        const Point a = first(), b = others();
+        const TriangleInSpace t = triangle_of(a, b, others());
+        if (has_area(t)) return t;
+    }
 }
 
 TriangleInSpace any_triangle(Random& random) {
-    return proper([&] {
-        const Point a = any(random), b = any(random);
-        return triangle_of(a, b, any(random));
-    });
+    const auto corner = [&] { return any(random); };
+    return proper(corner, corner);
 }
 
-TriangleInSpace lattice_triangle(Random& random, int high) {
-    return proper([&] {
-        const Point a = on_lattice(random, high), b = on_lattice(random, high);
-        return triangle_of(a, b, on_lattice(random, high));
-    });
+TriangleInSpace lattice_triangle(Random& random) {
+    const auto corner = [&] { return on_lattice(random, 3); };
+    return proper(corner, corner);
 }
 
 TriangleInSpace needle(Random& random) {
-    return proper([&] {
+    TriangleInSpace t{};
+    do {
         const Point a = any(random), b = any(random);
-        const Point middle = sum(a, random.unit(), {b[0] - a[0], b[1] - a[1], b[2] - a[2]});
-        return triangle_of(a, b, sum(middle, random.scaled(0.5, 1, -40, -10), any(random)));
-    });
+        const Point middle = sum(a, random.unit(), base::minus(b, a));
+        t = triangle_of(a, b, sum(middle, random.scaled(0.5, 1, -40, -10), any(random)));
+    } while (!has_area(t));
+    return t;
 }
 
 /// Weights of the corners; on an edge one time of four, at a corner one of sixteen.
@@ -83,10 +78,7 @@ Point point_on(const TriangleInSpace& t, Random& random) {
 }
 
 Point few_ulps_off(Point p, Random& random) {
-    for (double& x : p) {
-        for (int steps = random.integer(-2, 2); steps != 0; steps -= steps > 0 ? 1 : -1)
-            x = steps > 0 ? base::next_up(x) : base::next_down(x);
-    }
+    for (double& x : p) x = ulps_away(x, random);
     return p;
 }
 
@@ -111,15 +103,14 @@ SurfaceCase still_proper(const SurfaceCase& c, int k, double by) {
 
 SurfaceCase near_border(Random& random) {
     const TriangleInSpace t = any_triangle(random);
-    const Point a = corner(t, 0), b = corner(t, 1), d{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, r = any(random);
+    const Point a = corner(t, 0);
     // At a right angle to the edge at its end, as far as rounding goes.
-    const Point side{d[1] * r[2] - d[2] * r[1], d[2] * r[0] - d[0] * r[2], d[0] * r[1] - d[1] * r[0]};
+    const Point side = base::cross(base::minus(corner(t, 1), a), any(random));
     return {{t}, few_ulps_off(sum(a, random.scaled(0.5, 1, -20, 3), side), random)};
 }
 
 SurfaceCase distance_random(Random& random) {
-    const TriangleInSpace t = any_triangle(random);
-    return {{t}, any(random)};
+    return {{any_triangle(random)}, any(random)};
 }
 
 // Closed surfaces.
@@ -141,9 +132,8 @@ std::vector<TriangleInSpace> star(Random& random) {
         for (const TriangleInSpace& t : all) {
             const Point a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
             const Point ab = amid(a, b), bc = amid(b, c), ca = amid(c, a);
-            for (const auto& part :
-                 {triangle_of(a, ab, ca), triangle_of(ab, b, bc), triangle_of(ca, bc, c), triangle_of(ab, bc, ca)})
-                parts.push_back(part);
+            parts.insert(parts.end(), {triangle_of(a, ab, ca), triangle_of(ab, b, bc), triangle_of(ca, bc, c),
+                                       triangle_of(ab, bc, ca)});
         }
         all = std::move(parts);
     }
@@ -192,17 +182,21 @@ SurfaceCase tetrahedron(Random& random) {
         std::copy(t.begin(), t.end(), solid.vertices.begin());
         std::copy(d.begin(), d.end(), solid.vertices.begin() + 9);
         if (affine_dimension(solid) != 3) continue;
-        const Point p = few_ulps_off(
-            sum(point_on(t, random), random.unit() * random.unit() * 0.01, {d[0] - a[0], d[1] - a[1], d[2] - a[2]}),
-            random);
+        const Point p =
+            few_ulps_off(sum(point_on(t, random), random.unit() * random.unit() * 0.01, base::minus(d, a)), random);
         return {{t, triangle_of(a, d, b), triangle_of(b, d, c), triangle_of(c, d, a)}, p};
     }
 }
 
-SurfaceCase star_and(Random& random, Point (*make)(const std::vector<TriangleInSpace>&, Random&)) {
+template <Point (*make)(const std::vector<TriangleInSpace>& all, Random& random)>
+SurfaceCase star_and(Random& random) {
     SurfaceCase c{star(random), {}};
     c.point = make(c.triangles, random);
     return c;
+}
+
+Point anywhere(const std::vector<TriangleInSpace>& /*all*/, Random& random) {
+    return any(random);
 }
 
 const TriangleInSpace& one_of(const std::vector<TriangleInSpace>& all, Random& random) {
@@ -230,11 +224,7 @@ Point around_corner(const std::vector<TriangleInSpace>& all, Random& random) {
 
 SurfaceCase touching(Random& random) {
     const TriangleInSpace s = any_triangle(random);
-    const TriangleInSpace t = proper([&] {
-        const Point a = point_on(s, random), b = any(random);
-        return triangle_of(a, b, any(random));
-    });
-    return {{s, t}, {}};
+    return {{s, proper([&] { return point_on(s, random); }, [&] { return any(random); })}, {}};
 }
 
 /// Two in one plane through lattice points; many touch.
@@ -245,34 +235,22 @@ SurfaceCase in_one_plane(Random& random) {
         const double a = random.integer(0, 4), b = random.integer(0, 4);
         return sum(sum({}, a, u), b, v);
     };
-    const auto one = [&] {
-        return proper([&] {
-            const Point a = at(), b = at();
-            return triangle_of(a, b, at());
-        });
-    };
-    const TriangleInSpace s = one();
-    return {{s, one()}, {}};
+    return {{proper(at, at), proper(at, at)}, {}};
 }
 
 /// Over each other, so far apart as rounding, or less.
 SurfaceCase nearly_parallel(Random& random) {
     const TriangleInSpace s = any_triangle(random);
-    const TriangleInSpace t = proper([&] {
-        const Point a = few_ulps_off(point_on(s, random), random), b = few_ulps_off(point_on(s, random), random);
-        return triangle_of(a, b, few_ulps_off(point_on(s, random), random));
-    });
-    return {{s, t}, {}};
+    const auto corner = [&] { return few_ulps_off(point_on(s, random), random); };
+    return {{s, proper(corner, corner)}, {}};
 }
 
 SurfaceCase any_two(Random& random) {
-    const TriangleInSpace s = any_triangle(random);
-    return {{s, any_triangle(random)}, {}};
+    return {{any_triangle(random), any_triangle(random)}, {}};
 }
 
 SurfaceCase lattice_two(Random& random) {
-    const TriangleInSpace s = lattice_triangle(random, 3);
-    return {{s, lattice_triangle(random, 3)}, {}};
+    return {{lattice_triangle(random), lattice_triangle(random)}, {}};
 }
 
 SurfaceCase scaled_two(Random& random) {
@@ -293,8 +271,7 @@ const std::vector<SurfaceFamily>& surface_families() {
         {"distance.random", distance, "ordinary triangles and points, for comparison", distance_random},
         {"distance.lattice", distance, "coordinates 0 to 3: points on triangles, and between regions",
          [](Random& random) {
-             const TriangleInSpace t = lattice_triangle(random, 3);
-             return SurfaceCase{{t}, on_lattice(random, 3)};
+             return SurfaceCase{{lattice_triangle(random)}, on_lattice(random, 3)};
          }},
         {"distance.beside", distance, "points within a few ulps of the triangle",
          [](Random& random) {
@@ -304,8 +281,7 @@ const std::vector<SurfaceFamily>& surface_families() {
         {"distance.border", distance, "points where the regions of a corner and an edge meet", near_border},
         {"distance.needle", distance, "triangles 1e-3 to 1e-12 wide",
          [](Random& random) {
-             const TriangleInSpace t = needle(random);
-             return SurfaceCase{{t}, any(random)};
+             return SurfaceCase{{needle(random)}, any(random)};
          }},
         {"distance.moved", distance, "ordinary ones, moved by 2^20",
          [](Random& random) { return still_proper(distance_random(random), 0, 0x1p20); }},
@@ -314,14 +290,12 @@ const std::vector<SurfaceFamily>& surface_families() {
              const int k = random.integer(-400, 400);
              return still_proper(distance_random(random), k, 0);
          }},
-        {"inside.random", inside, "stars of 128 triangles, points around them",
-         [](Random& random) { return star_and(random, [](const auto&, Random& r) { return any(r); }); }},
+        {"inside.random", inside, "stars of 128 triangles, points around them", star_and<anywhere>},
         {"inside.level", inside, "points that share coordinates with a node: rays along axes meet it",
-         [](Random& random) { return star_and(random, level_with_node); }},
-        {"inside.beside", inside, "points within a few ulps of a triangle",
-         [](Random& random) { return star_and(random, beside); }},
+         star_and<level_with_node>},
+        {"inside.beside", inside, "points within a few ulps of a triangle", star_and<beside>},
         {"inside.corner", inside, "points before edges and corners, where several triangles are nearest",
-         [](Random& random) { return star_and(random, around_corner); }},
+         star_and<around_corner>},
         {"inside.lattice", inside, "a box of squares, points at multiples of 1/2: rays meet edges and corners",
          [](Random& random) {
              const Point p = on_lattice(random, 8);
@@ -330,14 +304,14 @@ const std::vector<SurfaceFamily>& surface_families() {
         {"inside.needle", inside, "thin tetrahedra, points beside a face", tetrahedron},
         {"inside.moved", inside, "stars moved by 2^20, points within a few ulps of a triangle",
          [](Random& random) {
-             SurfaceCase c = changed(star_and(random, beside), 0, 0x1p20);
+             SurfaceCase c = changed(star_and<beside>(random), 0, 0x1p20);
              c.point = beside(c.triangles, random);
              return c;
          }},
         {"inside.small", inside, "stars times 2^-10 to 2^-30, points around them",
          [](Random& random) {
              const int k = random.integer(-30, -10);
-             return changed(star_and(random, [](const auto&, Random& r) { return any(r); }), k, 0);
+             return changed(star_and<anywhere>(random), k, 0);
          }},
         {"meet.random", meet, "ordinary triangles, for comparison", any_two},
         {"meet.lattice", meet, "coordinates 0 to 3: they touch, or lie in one plane", lattice_two},
@@ -347,11 +321,8 @@ const std::vector<SurfaceFamily>& surface_families() {
         {"meet.needle", meet, "triangles 1e-3 to 1e-12 wide that nearly touch",
          [](Random& random) {
              const TriangleInSpace s = needle(random);
-             const TriangleInSpace t = proper([&] {
-                 const Point a = few_ulps_off(point_on(s, random), random), b = any(random);
-                 return triangle_of(a, b, any(random));
-             });
-             return SurfaceCase{{s, t}, {}};
+             const auto first = [&] { return few_ulps_off(point_on(s, random), random); };
+             return SurfaceCase{{s, proper(first, [&] { return any(random); })}, {}};
          }},
         {"meet.moved", meet, "touching ones, moved by 2^20",
          [](Random& random) { return still_proper(touching(random), 0, 0x1p20); }},

@@ -8,16 +8,13 @@ using namespace report;
 
 namespace {
 
-bool right_to_the_bit(const SurfaceTally& t) {
-    return t.wrong_cases() == 0 && t.worst.value <= 0;
-}
-
 double share_of_wrong(const SurfaceTally* t) {
     return t->cases == 0 ? 0 : static_cast<double>(t->wrong_cases()) / static_cast<double>(t->cases);
 }
 
-std::string p999(const SurfaceTally& t) {
-    return t.worst.value < 0 ? "-" : brief(std::min(t.ulps.quantile(0.999), t.worst.value));
+/// 99.9th percentile: the edge of a bin, at most the worst; -1 if there are no errors to measure.
+double p999(const SurfaceTally& t) {
+    return std::min(t.ulps.quantile(0.999), t.worst.value);
 }
 
 void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion question) {
@@ -41,8 +38,8 @@ void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion quest
             row.cells.push_back(share_cell({t.not_finite, t.cases}));
             row.cells.push_back(share_cell({t.false_yes, t.yes}));
             row.cells.push_back(share_cell({t.false_no, t.cases - t.yes}));
-            row.cells.emplace_back(p999(t), t.ulps.quantile(0.999));
-            row.cells.push_back(t.worst.value < 0 ? Cell("-", -1) : number_cell(t.worst.value));
+            row.cells.emplace_back(brief(p999(t)), t.ulps.quantile(0.999));
+            row.cells.push_back(number_cell(t.worst.value));
         } else {
             const auto worst =
                 std::ranges::max_element(r.families, {}, [](const SurfaceTally& f) { return share_of_wrong(&f); });
@@ -53,7 +50,7 @@ void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion quest
                                        : fmt::format("  {}, {} %", surface_families()[worst->family].name,
                                                      percent({worst->wrong_cases(), worst->cases})));
         }
-        if (right_to_the_bit(t)) row.tone = Tone::good;
+        if (t.wrong_cases() == 0 && t.worst.value <= 0) row.tone = Tone::good;
         table.rows.push_back(std::move(row));
     }
     d.section(distance                              ? "How far a point is from a triangle"
@@ -107,8 +104,7 @@ Document surfaces_document(const SurfaceAudit& audit) {
           Tone::soft);
     const auto tally = [](const SurfaceTally& t) {
         Json j = record(MEMBERS(t, cases, yes, false_yes, false_no, not_finite), "wrong_cases", t.wrong_cases());
-        if (t.worst.value >= 0)
-            put(j, "worst_ulps", t.worst.value, "p999_ulps", std::min(t.ulps.quantile(0.999), t.worst.value));
+        if (t.worst.value >= 0) put(j, "worst_ulps", t.worst.value, "p999_ulps", p999(t));
         return j;
     };
     d.data =
