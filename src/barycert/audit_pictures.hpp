@@ -3,7 +3,6 @@
 #pragma once
 
 #include "barycert/audit.hpp"
-#include "barycert/mesh.hpp"
 
 namespace barycert {
 

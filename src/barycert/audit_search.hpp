@@ -15,8 +15,6 @@
 #pragma once
 
 #include "barycert/audit.hpp"
-#include "barycert/environment.hpp"
-#include "barycert/mesh.hpp"
 
 namespace barycert {
 

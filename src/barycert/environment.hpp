@@ -25,10 +25,6 @@
 #pragma once
 
 #include <cfenv>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "barycert/result.hpp"
 

@@ -14,10 +14,6 @@
 /// cell.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"
 

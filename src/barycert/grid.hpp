@@ -1,14 +1,7 @@
 /// Regular grids of points.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <functional>
-
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
-#include "barycert/table.hpp"
 
 namespace barycert {
 

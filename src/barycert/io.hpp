@@ -1,22 +1,9 @@
 /// Files in and out: meshes of TetGen and Triangle, streams of points, rows of results.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
 
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/table.hpp"
 
 namespace barycert {
 

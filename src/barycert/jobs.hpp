@@ -5,24 +5,11 @@
 /// points. Output files appear whole or not at all; rows on stdout cannot be taken back.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <functional>
 #include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "barycert/check.hpp"
 #include "barycert/grid.hpp"
-#include "barycert/io.hpp"
-#include "barycert/result.hpp"
-#include "barycert/sampler.hpp"
 #include "barycert/scene.hpp"
-#include "barycert/surface.hpp"
-#include "barycert/table.hpp"
 #include "barycert/verify.hpp"
 
 namespace barycert {

@@ -23,15 +23,9 @@
 /// every cell whose box has the point is tested. Points where no cell is near are outside at once.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
 
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert {

@@ -4,16 +4,9 @@
 /// within 8 bytes of a file is always detected, any other is missed once in 2^64.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <string>
 
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 #include "barycert/surface.hpp"
-#include "barycert/table.hpp"
 
 namespace barycert {
 

@@ -4,12 +4,6 @@
 /// the file used. Coordinates are finite doubles in the file's own unit.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <variant>
-#include <vector>
-
 #include "barycert/result.hpp"
 
 namespace barycert {

@@ -23,11 +23,6 @@
 /// a w that is not a finite number above zero, is an Error: clip before the division.
 #pragma once
 
-#include <array>
-#include <span>
-
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

@@ -48,8 +48,6 @@
 #pragma once
 
 #include <bit>
-#include <cstdint>
-#include <span>
 
 #include "barycert/result.hpp"
 #include "barycert/simplex.hpp"

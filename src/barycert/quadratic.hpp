@@ -19,12 +19,7 @@
 /// infinite makes its component NaN, and TierCounts::not_finite counts the case, unless its factor is exactly zero.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "barycert/gradient.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

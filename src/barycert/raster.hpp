@@ -16,14 +16,6 @@
 /// that partition its surroundings exactly one holds it, in its interior.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "barycert/result.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

@@ -1,14 +1,8 @@
 /// What jobs found, as text, JSON and HTML, and for continuous integration. Strings come back; nothing is written.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/jobs.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/sampler.hpp"
 
 namespace barycert {
 

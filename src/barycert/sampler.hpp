@@ -35,18 +35,9 @@
 /// Gradients and means are rounded correctly with Rounding::plain too, but for gradients on cells of second order.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "barycert/locator.hpp"
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
-#include "barycert/table.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

@@ -13,17 +13,7 @@
 /// pixel takes over the opacity of its texel.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "barycert/raster.hpp"
-#include "barycert/result.hpp"
-#include "barycert/weights.hpp"
 
 namespace barycert {
 

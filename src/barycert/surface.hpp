@@ -35,14 +35,6 @@
 /// Cells of second order are cut as linear ones, by their corners: CutCounts::second_order tells how many.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include "barycert/mesh.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert {

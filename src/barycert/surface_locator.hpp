@@ -21,12 +21,6 @@
 ///   D1  Results depend on the points and the surface alone, not on threads, SIMD target or the order of points.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
-
 #include "barycert/locator.hpp"
 #include "barycert/surface.hpp"
 

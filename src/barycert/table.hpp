@@ -4,15 +4,6 @@
 /// rows of somebody else. Parts that nobody asked for are empty; all others have one entry a row.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 

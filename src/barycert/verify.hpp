@@ -14,17 +14,7 @@
 ///   D1  Counts depend on mesh, fields and rows alone: not on threads or blocks.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string_view>
-#include <vector>
-
-#include "barycert/result.hpp"
 #include "barycert/sampler.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert {
 

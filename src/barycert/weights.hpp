@@ -23,13 +23,7 @@
 /// those projected to it.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-
 #include "barycert/predicates.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert {
 

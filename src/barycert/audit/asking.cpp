@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <chrono>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/ulp.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -2,11 +2,8 @@
 /// answer; and the figures of many answers.
 #pragma once
 
-#include <algorithm>
-
 #include "barycert/audit.hpp"
 #include "barycert/base/workers.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/kernels/host.hpp"
 
 namespace barycert::audit {

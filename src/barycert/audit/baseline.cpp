@@ -3,7 +3,6 @@
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/json_members.hpp"
 #include "barycert/audit/recipes.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert {
 

@@ -1,13 +1,11 @@
 #include "barycert/audit/block.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 namespace {

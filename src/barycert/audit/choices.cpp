@@ -2,8 +2,6 @@
 
 #include <tbb/task_arena.h>
 
-#include <limits>
-
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/nearest_name.hpp"

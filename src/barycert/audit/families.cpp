@@ -1,7 +1,6 @@
 // Families, and the meshes that some of them draw simplices from.
 #include "barycert/audit/recipes.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/mesh/adjacency.hpp"
 
 namespace barycert::audit {

@@ -1,8 +1,5 @@
 // Families whose simplices come from a mesh: what a kernel meets in use.
 
-#include <cmath>
-#include <utility>
-
 #include "barycert/audit/recipes.hpp"
 
 namespace barycert::audit {

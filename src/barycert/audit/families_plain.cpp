@@ -1,8 +1,6 @@
 // Families of points near or on a facet of an ordinary simplex, where sums of products cancel; of simplices of bad
 // shape: flat, thin, on lattices, degenerate; and of coordinates at the ends of the range.
 
-#include <cstddef>
-
 #include "barycert/audit/recipes.hpp"
 
 namespace barycert::audit {

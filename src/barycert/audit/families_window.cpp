@@ -1,8 +1,6 @@
 // Families of triangles in window coordinates: those whose points are pixel centres and whose vertices lie on the grid
 // of 1/256 of a pixel that rasterisers round to, and those in perspective.
 
-#include <cstddef>
-
 #include "barycert/audit/recipes.hpp"
 
 namespace barycert::audit {

@@ -1,7 +1,5 @@
 #include "barycert/audit/gap_points.hpp"
 
-#include <algorithm>
-
 #include "barycert/audit/recipes.hpp"
 #include "barycert/mesh/adjacency.hpp"
 

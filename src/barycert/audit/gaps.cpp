@@ -1,9 +1,7 @@
 #include "barycert/audit_search.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 
 #include <tbb/enumerable_thread_specific.h>
 

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
 
 #include "barycert/audit.hpp"
 #include "barycert/base/input_file.hpp"

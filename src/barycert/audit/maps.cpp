@@ -1,10 +1,8 @@
-#include <atomic>
 #include <iterator>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/recipes.hpp"
 #include "barycert/audit_pictures.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/locator.hpp"
 
 namespace barycert {

@@ -1,12 +1,8 @@
 // What pictures of kernels show: errors by the size of triangles, signs beside a side.
 #include "barycert/audit_pictures.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/recipes.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert {
 

@@ -1,6 +1,4 @@
-#include <atomic>
 #include <chrono>
-#include <mutex>
 #include <tuple>
 
 #include <tbb/enumerable_thread_specific.h>

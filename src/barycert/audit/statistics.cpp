@@ -1,14 +1,8 @@
-#include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
-#include "barycert/audit.hpp"
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/decades.hpp"
 #include "barycert/base/strict_math.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

@@ -1,8 +1,6 @@
 #include "barycert/audit_pictures.hpp"
 
-#include <algorithm>
 #include <tuple>
-#include <utility>
 
 #include "barycert/audit/recipes.hpp"
 #include "barycert/base/strict_math.hpp"

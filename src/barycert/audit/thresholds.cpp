@@ -1,9 +1,7 @@
-#include <limits>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert {
 

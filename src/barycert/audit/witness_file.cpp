@@ -1,13 +1,9 @@
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "barycert/audit/json_members.hpp"
 #include "barycert/audit/search/evaluation.hpp"
 #include "barycert/audit_search.hpp"
 #include "barycert/base/json_text.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert {
 

@@ -4,7 +4,6 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "barycert/environment.hpp"
 

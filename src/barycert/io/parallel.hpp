@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstddef>
-#include <utility>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"

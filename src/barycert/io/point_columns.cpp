@@ -1,6 +1,5 @@
 #include "barycert/io/streams.hpp"
 
-#include <array>
 #include <set>
 
 #include "barycert/base/nearest_name.hpp"

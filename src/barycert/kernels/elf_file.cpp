@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
 #include <cstring>
-#include <utility>
-#include <vector>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/kernels/registry.hpp"

@@ -2,12 +2,9 @@
 #pragma once
 
 #include <condition_variable>
-#include <memory>
 #include <mutex>
 
 #include "barycert/kernels/channel.hpp"
-#include "barycert/result.hpp"
-#include "barycert/simplex.hpp"
 
 namespace barycert::kernels {
 

@@ -13,7 +13,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 
 #include "barycert/environment.hpp"
 #include "barycert/kernels/channel.hpp"

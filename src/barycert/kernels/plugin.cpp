@@ -2,7 +2,6 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "barycert/environment.hpp"
 #include "barycert/kernels/host.hpp"

@@ -1,6 +1,5 @@
 // Kernels on a triangle of the plane, and perspective-correct ones on a triangle in window coordinates with a depth w
 // at each vertex.
-#include "barycert/kernels/triangle_formulas.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,5 @@
-#include <algorithm>
 
 #include "barycert/base/json_text.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/json.hpp"
 #include "barycert/report/common/picture.hpp"

@@ -1,7 +1,5 @@
 // What a picture shows, and what a run of cutting did.
 
-#include <cmath>
-
 #include "barycert/report.hpp"
 #include "barycert/report/common/document.hpp"
 

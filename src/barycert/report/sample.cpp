@@ -1,8 +1,5 @@
 // What a run of sampling did.
 
-#include <array>
-#include <cmath>
-
 #include "barycert/report.hpp"
 #include "barycert/report/common/document.hpp"
 

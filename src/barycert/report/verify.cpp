@@ -1,9 +1,5 @@
 // What a verification of results found.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "barycert/base/decades.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/document.hpp"

@@ -1,10 +1,7 @@
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit_search.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert {
 

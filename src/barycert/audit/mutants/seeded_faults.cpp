@@ -1,8 +1,5 @@
 // Faults seeded into the catalogue's formulas and into kernels that certify what they say.
 
-#include <algorithm>
-#include <utility>
-
 #include "barycert/audit_search.hpp"
 #include "barycert/base/ulp.hpp"
 #include "barycert/kernels/perspective_formulas.hpp"

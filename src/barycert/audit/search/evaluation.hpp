@@ -1,13 +1,10 @@
 /// One step of a search: a case, the exact answer, the kernel's; and how bad it is.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <compare>
-#include <span>
 
 #include "barycert/audit/asking.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert::audit {
 

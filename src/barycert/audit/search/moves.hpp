@@ -1,9 +1,6 @@
 /// The numbers of a case that a search changes, as one row; the steps of a walk, and where walks start.
 #pragma once
 
-#include <functional>
-#include <limits>
-
 #include "barycert/audit/search/evaluation.hpp"
 #include "barycert/base/random.hpp"
 

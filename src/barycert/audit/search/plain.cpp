@@ -1,9 +1,7 @@
 // Plain witnesses: the same fault on fewer bits.
-#include <algorithm>
 
 #include "barycert/audit/search/moves.hpp"
 #include "barycert/audit_search.hpp"
-#include "barycert/environment.hpp"
 
 namespace barycert {
 

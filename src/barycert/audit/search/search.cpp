@@ -1,8 +1,6 @@
 #include "barycert/audit_search.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <optional>
 
 #include "barycert/audit/search/moves.hpp"
 

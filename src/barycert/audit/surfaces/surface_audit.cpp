@@ -1,6 +1,5 @@
 // The rules on triangles in space, held against the oracle.
 
-#include <algorithm>
 #include <cmath>
 #include <mutex>
 

@@ -1,7 +1,5 @@
 // Cases for the rules on triangles in space. Only + - * / and sqrt, so that each is the same on every machine.
 
-#include <cmath>
-
 #include "barycert/audit/recipes.hpp"
 
 namespace barycert::audit {
@@ -21,6 +19,14 @@ Point on_lattice(Random& random, int high) {
 Point sum(const Point& a, double t, const Point& b) {
     return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
 }
+
+/// a + t b of random ones: in braces they are drawn from left to right, as arguments in any order.
+struct Sum {
+    Point a;
+    double t;
+    Point b;
+    operator Point() const { return sum(a, t, b); }
+};
 
 TriangleInSpace triangle_of(const Point& a, const Point& b, const Point& c) {
     return {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
@@ -61,7 +67,7 @@ TriangleInSpace needle(Random& random) {
     do {
         const Point a = any(random), b = any(random);
         const Point middle = sum(a, random.unit(), base::minus(b, a));
-        t = triangle_of(a, b, sum(middle, random.scaled(0.5, 1, -40, -10), any(random)));
+        t = triangle_of(a, b, Sum{middle, random.scaled(0.5, 1, -40, -10), any(random)});
     } while (!has_area(t));
     return t;
 }
@@ -177,13 +183,13 @@ SurfaceCase tetrahedron(Random& random) {
     while (true) {
         const TriangleInSpace t = random.coin() ? needle(random) : any_triangle(random);
         const Point a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
-        const Point d = sum(point_on(t, random), random.scaled(0.5, 1, -40, 1), any(random));
+        const Point d = Sum{point_on(t, random), random.scaled(0.5, 1, -40, 1), any(random)};
         Case solid{.simplex = Simplex::tetrahedron};
         std::copy(t.begin(), t.end(), solid.vertices.begin());
         std::copy(d.begin(), d.end(), solid.vertices.begin() + 9);
         if (affine_dimension(solid) != 3) continue;
         const Point p =
-            few_ulps_off(sum(point_on(t, random), random.unit() * random.unit() * 0.01, base::minus(d, a)), random);
+            few_ulps_off(Sum{point_on(t, random), random.unit() * random.unit() * 0.01, base::minus(d, a)}, random);
         return {{t, triangle_of(a, d, b), triangle_of(b, d, c), triangle_of(c, d, a)}, p};
     }
 }
@@ -203,10 +209,15 @@ const TriangleInSpace& one_of(const std::vector<TriangleInSpace>& all, Random& r
     return all[random.below(all.size())];
 }
 
+Point any_corner(const std::vector<TriangleInSpace>& all, Random& random) {
+    const TriangleInSpace& t = one_of(all, random);
+    return corner(t, random.below(3));
+}
+
 /// Some coordinates of a node, the others any: rays along axes meet it.
 Point level_with_node(const std::vector<TriangleInSpace>& all, Random& random) {
     Point p = any(random);
-    const Point node = corner(one_of(all, random), random.below(3));
+    const Point node = any_corner(all, random);
     for (std::size_t k = 1; k < 3; ++k) p[k] = random.below(4) == 0 ? p[k] : node[k];
     return p;
 }
@@ -217,7 +228,7 @@ Point beside(const std::vector<TriangleInSpace>& all, Random& random) {
 
 /// In front of an edge or corner, where several triangles are nearest.
 Point around_corner(const std::vector<TriangleInSpace>& all, Random& random) {
-    return sum(corner(one_of(all, random), random.below(3)), random.scaled(0.5, 1, -12, -4), any(random));
+    return Sum{any_corner(all, random), random.scaled(0.5, 1, -12, -4), any(random)};
 }
 
 // Pairs of triangles.
@@ -332,6 +343,7 @@ const std::vector<SurfaceFamily>& surface_families() {
 }
 
 SurfaceCase make_surface_case(const SurfaceFamily& family, std::uint64_t seed, std::uint64_t index) {
+    const ExactEnvironment environment;
     Random random = Random::stream(seed, base::hash64(family.name), index);
     return family.make(random);
 }

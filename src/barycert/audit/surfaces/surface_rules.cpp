@@ -1,13 +1,11 @@
 // The rules on triangles in space that are in use, faults included: how far a point is from a triangle, whether it is
 // inside a closed surface, whether two triangles have a point in common.
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "barycert/audit.hpp"
-#include "barycert/check.hpp"
 #include "barycert/kernels/space_formulas.hpp"
 #include "barycert/surface_locator.hpp"
 

@@ -10,8 +10,6 @@
 //           4.1          blocks count lowest highest, blocks: dimension entity type count, rows: tag node...
 //
 // Parameters u, v, w of a node on its curve, surface or volume are passed over.
-#include <atomic>
-#include <cstring>
 
 #include "barycert/base/large_pages.hpp"
 #include "barycert/io/formats.hpp"

@@ -1,6 +1,5 @@
 #include "barycert/io/gmsh/msh_file.hpp"
 
-#include <array>
 #include <cstring>
 #include <set>
 

@@ -1,8 +1,6 @@
 /// What a .msh file of any version holds, in one form: nodes, elements in blocks, cells, groups, views.
 #pragma once
 
-#include <algorithm>
-
 #include "barycert/io.hpp"
 #include "barycert/io/gmsh/rows.hpp"
 

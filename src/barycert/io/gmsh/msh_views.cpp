@@ -1,6 +1,5 @@
 // Of a section: strings count, a line each: the name, perhaps an interpolation scheme. Reals count, reals: the time.
 // Integers count, integers: step, components, rows, perhaps a partition. All this is text. Rows: tag value...
-#include <limits>
 #include <set>
 
 #include "barycert/base/text.hpp"

@@ -1,5 +1,4 @@
 // Groups of cells, what a file has beside the mesh, and the mesh as a whole.
-#include <cmath>
 #include <set>
 
 #include "barycert/base/text.hpp"

@@ -1,7 +1,5 @@
 #include "barycert/io/gmsh/rows.hpp"
 
-#include <algorithm>
-
 #include "barycert/base/text.hpp"
 
 namespace barycert::io {

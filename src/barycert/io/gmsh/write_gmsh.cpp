@@ -1,8 +1,6 @@
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <set>
-#include <variant>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"

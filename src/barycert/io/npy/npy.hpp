@@ -6,7 +6,6 @@
 
 #include <optional>
 #include <span>
-#include <string_view>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/mesh.hpp"

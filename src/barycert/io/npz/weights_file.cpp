@@ -5,7 +5,6 @@
 #include <zlib.h>
 #include <algorithm>
 #include <bit>
-#include <functional>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/io.hpp"

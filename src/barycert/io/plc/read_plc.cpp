@@ -1,5 +1,4 @@
 // PLCs from their files; TetGen's .poly and .smesh, with their nodes inside or in STEM.node.
-#include <algorithm>
 #include <filesystem>
 
 #include "barycert/io/formats.hpp"

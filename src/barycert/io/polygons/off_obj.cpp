@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"

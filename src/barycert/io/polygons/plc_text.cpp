@@ -1,9 +1,7 @@
 #include "barycert/io/polygons/polygons.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <system_error>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"

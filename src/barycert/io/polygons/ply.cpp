@@ -1,8 +1,4 @@
 // G. Turk, "The PLY Polygon File Format", 1994.
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"

@@ -2,12 +2,7 @@
 /// .smesh. Errors are thrown as Exceptions.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "barycert/io.hpp"
 

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"

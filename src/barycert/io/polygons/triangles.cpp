@@ -1,8 +1,5 @@
 #include "barycert/io/polygons/triangles.hpp"
 
-#include <algorithm>
-#include <utility>
-
 namespace barycert::io {
 namespace {
 

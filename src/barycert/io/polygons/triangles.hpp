@@ -1,9 +1,6 @@
 /// Triangles of polygons and PLCs.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/polygons.hpp"
 #include "barycert/surface/facet_triangles.hpp"

@@ -13,7 +13,6 @@
 // without gaps. A row has as many columns as the header tells, and the file as many rows.
 //
 // Where TetGen would accept and misread, this reader refuses: see row_errors.cpp.
-#include <array>
 #include <initializer_list>
 
 #include "barycert/base/arena.hpp"

@@ -1,7 +1,5 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
-#include <array>
-
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"

@@ -1,8 +1,5 @@
 // What an audit found, for people.
 
-#include <algorithm>
-#include <map>
-
 #include "barycert/report/audit/audit_words.hpp"
 
 namespace barycert {

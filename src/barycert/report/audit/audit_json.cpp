@@ -1,10 +1,7 @@
 // What programs read of audits, of the catalogue and of the families; what systems that run audits are told.
 
-#include <algorithm>
-
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/json_members.hpp"
-#include "barycert/audit_report.hpp"
 #include "barycert/base/json_text.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 

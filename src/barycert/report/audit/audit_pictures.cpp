@@ -1,16 +1,9 @@
 // Accuracy against speed, sizes of errors, signs and maps of meshes, as markup of the audit's page.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 #include "barycert/base/decades.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/png/png_file.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 #include "barycert/report/common/picture.hpp"
-#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
 namespace {

@@ -1,9 +1,5 @@
 #include "barycert/report/audit/audit_words.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 namespace barycert::report {
 namespace {
 

@@ -1,8 +1,5 @@
 // What `./run flags` and `./run systems` measured: read, and as tables that sort.
 
-#include <algorithm>
-#include <cmath>
-
 #include "barycert/audit/json_members.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 

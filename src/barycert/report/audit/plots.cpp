@@ -1,12 +1,7 @@
 // Pictures that are files of their own: errors over condition numbers, and over sizes of triangles.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/report/common/picture.hpp"
 
 namespace barycert {

@@ -1,11 +1,6 @@
 // A worst-case search, and the mutation score of the families.
 
-#include <algorithm>
-#include <map>
-
 #include "barycert/audit/json_members.hpp"
-#include "barycert/audit_report.hpp"
-#include "barycert/audit_search.hpp"
 #include "barycert/report/audit/audit_words.hpp"
 
 namespace barycert {

@@ -1,7 +1,5 @@
 // One witness, with the exact answer and those of kernels; the catalogue and the families.
 
-#include <algorithm>
-
 #include "barycert/audit_report.hpp"
 #include "barycert/report/common/document.hpp"
 

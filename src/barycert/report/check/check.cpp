@@ -1,10 +1,6 @@
 // What a check of a mesh found, for people.
 
-#include <algorithm>
-#include <map>
-
 #include "barycert/io/png/png_file.hpp"
-#include "barycert/jobs.hpp"
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "barycert/report/common/document.hpp"

@@ -2,9 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <optional>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/report/check/check_pictures.hpp"

@@ -1,9 +1,6 @@
 // Measures of cells and their histograms.
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 
 #include "barycert/report/check/check_pictures.hpp"
 #include "barycert/report/check/check_words.hpp"

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/mesh/adjacency.hpp"

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <span>
 
 #include "barycert/check.hpp"
 

@@ -1,8 +1,5 @@
 #include "barycert/report/check/check_words.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include "barycert/report/common/document.hpp"
 
 namespace barycert::report {

@@ -2,9 +2,6 @@
 
 #include "barycert/report/common/document.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <sstream>
 
 #include "barycert/base/json_text.hpp"

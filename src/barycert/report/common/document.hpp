@@ -4,11 +4,8 @@
 /// it. Pages ask for nothing from anywhere, and their head forbids it.
 #pragma once
 
-#include <functional>
 #include <initializer_list>
-#include <variant>
 
-#include "barycert/check.hpp"
 #include "barycert/report/common/json.hpp"
 #include "barycert/report/common/terminal_text.hpp"
 

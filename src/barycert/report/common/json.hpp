@@ -6,14 +6,10 @@
 #include <concepts>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <type_traits>
 
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/result.hpp"
 
 namespace barycert::report {
 

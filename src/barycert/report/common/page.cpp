@@ -1,11 +1,5 @@
 // Documents as pages of HTML.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string_view>
-
-#include "barycert/base/text.hpp"
 #include "barycert/report/common/document.hpp"
 #include "barycert/report/common/picture.hpp"
 

@@ -1,8 +1,6 @@
 #include "barycert/report/common/picture.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 
 namespace barycert::report {
