@@ -546,7 +546,7 @@ TEST(EveryEnvironment, Contours) {
     });
 }
 
-TEST(EveryEnvironment, Surfaces) {
+TEST(EveryEnvironment, SurfacesInSpace) {
     for (const double scale : {1.0, 0x1p-1040}) {
         // The faces of two tetrahedra that meet, one of them open.
         Surface s;

@@ -137,21 +137,32 @@ Result<Image> draw_checked(const CheckReport& report, const Surface& surface) {
         if (defects[i] != 0) marks[i] = 1;
     }
     constexpr std::int32_t side = 480;
-    Image both{2 * side, side, std::vector<std::uint8_t>(std::size_t{4} * 2 * side * side)};
-    for (int back = 0; back < 2; ++back) {
-        const ViewOptions view{.size = {side, side}, .azimuth = 30 + 180.0 * back, .range = {{0, 1}}, .bar = false};
-        const Result<Image> one =
-            draw_surface({.points = surface.points, .triangles = surface.cells, .triangle_values = marks}, view);
-        if (!one) return one.error();
-        for (std::int32_t j = 0; j < side; ++j) {
-            for (std::int32_t i = 0; i < side; ++i) {
-                // In 128 shades each, of grey and, where there is a colour, of red.
-                auto [r, g, b, opacity] = one->pixel(i, j);
-                const bool grey = r == g && g == b;
-                r = static_cast<std::uint8_t>(std::max({r, g, b}) | 1);
-                g = b = grey ? r : static_cast<std::uint8_t>(r / 4);
-                both.set_pixel(i + back * side, j, {r, g, b, opacity});
-            }
+    std::array<Image, 2> views;
+    std::int32_t low = side, high = 0;  // rows that have something, and a margin
+    for (const bool back : {false, true}) {
+        const ViewOptions options{
+            .size = {side, side}, .azimuth = back ? 210.0 : 30.0, .range = {{0, 1}}, .bar = false};
+        Result<Image> view =
+            draw_surface({.points = surface.points, .triangles = surface.cells, .triangle_values = marks}, options);
+        if (!view) return view.error();
+        for (std::int32_t k = 0; k < side * side; ++k) {
+            if (view->pixel(k % side, k / side) == options.background) continue;
+            low = std::min(low, std::max(k / side - 12, 0));
+            high = std::max(high, std::min(k / side + 13, side));
+        }
+        views[back ? 1 : 0] = std::move(*view);
+    }
+    if (high <= low) return Error{.what = "there is nothing to draw"};
+    Image both{2 * side, high - low,
+               std::vector<std::uint8_t>(std::size_t{8} * side * static_cast<std::size_t>(high - low))};
+    for (std::int32_t j = low; j < high; ++j) {
+        for (std::int32_t i = 0; i < 2 * side; ++i) {
+            // In 128 shades each, of grey and, where there is a colour, of red.
+            auto [r, g, b, opacity] = views[static_cast<std::size_t>(i / side)].pixel(i % side, j);
+            const bool grey = r == g && g == b;
+            r = static_cast<std::uint8_t>(std::max({r, g, b}) | 1);
+            g = b = grey ? r : static_cast<std::uint8_t>(r / 4);
+            both.set_pixel(i, j - low, {r, g, b, opacity});
         }
     }
     return both;

@@ -292,7 +292,7 @@ std::string surface_figure(const CheckReport& r, const Surface& surface) {
     std::map<Rgba, std::uint8_t> indices;
     std::vector<io::Colour> colours;
     std::vector<std::uint8_t> pixels;
-    for (std::int32_t j = 0; j < image->height; ++j) {
+    for (std::int32_t j = image->height; j-- > 0;) {  // from the top
         for (std::int32_t i = 0; i < image->width; ++i) {
             const Rgba c = image->pixel(i, j);
             const auto [at, is_new] = indices.try_emplace(c, static_cast<std::uint8_t>(colours.size()));
@@ -303,7 +303,7 @@ std::string surface_figure(const CheckReport& r, const Surface& surface) {
     const bool marked = std::ranges::any_of(r.measures.defects, [](DefectSet d) { return d != 0; });
     return fmt::format(
         "<figure><img src=\"{}\" alt=\"the surface from two sides\" width=\"{}\" height=\"{}\"/>\n"
-        "<figcaption>In front, and from behind.{}</figcaption></figure>\n",
+        "<figcaption>From in front and from behind.{}</figcaption></figure>\n",
         data_uri("image/png", io::indexed_png(static_cast<std::size_t>(image->width), pixels, colours).value()),
         image->width, image->height, marked ? " Red: triangles with defects." : "");
 }

@@ -123,6 +123,7 @@ std::string histograms(const CheckReport& report);
 
 /// What these add to the style of pages. Two pictures stand side by side where there is room.
 inline constexpr std::string_view check_style = R"(
+figure>img{max-width:100%;height:auto}
 .views{display:flex;flex-wrap:wrap;justify-content:space-around}
 .map{display:flex;flex-wrap:wrap;gap:12px 24px;align-items:center}.map svg{flex:2 1 420px;min-width:0}.map div{flex:1 1 240px}
 .map table{font-size:14px;margin:0}
