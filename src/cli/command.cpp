@@ -21,7 +21,8 @@ constexpr std::string_view same_names =
     " bounds cell_base cell_column colours columns count delaunay family field fields fix fix_orientation image "
     "in_process "
     "keep kernel kernel_library map mask_column merge_within mesh nonfinite_points onto output outside plane points "
-    "range reason results rounding save_map seed simplex spacing step time tolerance value vtk_data weights width ";
+    "picture range reason results rounding save_map seed simplex spacing step time tolerance value vtk_data weights "
+    "width ";
 
 /// Those whose options have another.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> other_names{{

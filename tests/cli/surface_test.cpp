@@ -55,7 +55,7 @@ TEST(SurfaceCommands, Pictures) {
                       picture = scratch.path("p.png");
     const auto red_pixels = [&] {
         const Result<Image> image = read_png(picture);
-        EXPECT_TRUE(image) << message(image.error());
+        EXPECT_TRUE(image) << image.error().message();
         std::size_t red = 0, grey = 0;
         for (std::int32_t j = 0; image && j < image->height; ++j) {
             for (std::int32_t i = 0; i < image->width; ++i) {
@@ -143,7 +143,7 @@ TEST(SurfaceCommands, MapsAndFieldsFromFiles) {
     const Scratch scratch;
     const std::string off = scratch.put("a.off", tetrahedron);
     const std::string points = scratch.put("p.csv", "x,y,z\n.25,.25,-2\n.125,.125,.125\n0,0,5\n0.5,0,0\n7,7,7\n");
-    const std::string nodes = scratch.put("u.csv", "u\n1\n2\n3\n.1\n"), cells = scratch.put("v.csv", "v\n5\n6\n7\n8\n");
+    const std::string nodes = scratch.put("u.txt", "1\n2\n3\n.1\n"), cells = scratch.put("v.txt", "5\n6\n7\n8\n");
     const std::vector<std::string> with{"--field", "u=" + nodes, "--field", "cell:v=" + cells, "--quiet"};
     const auto sample = [&](std::vector<std::string> words) {
         words.insert(words.end(), with.begin(), with.end());
@@ -198,13 +198,13 @@ TEST(SurfaceCommands, FieldsOfPolygons) {
     const Scratch scratch;
     const std::string off = scratch.put("a.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n4 0 1 2 3\n3 0 1 4\n");
     const std::string points = scratch.put("p.csv", "x,y,z\n.75,.25,-1\n.25,.75,-1\n.25,-1,.25\n");
-    const std::string cells = scratch.put("v.csv", "v\n5\n6\n");
+    const std::string cells = scratch.put("v.txt", "5\n6\n");
     const Ended r = run({"sample", off, "--points", points, "--field", "v=" + cells, "--output", "-", "--quiet"});
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(r.out,
               "x,y,z,cell,feature,v,distance\n0.75,0.25,-1,0,face,5,1\n0.25,0.75,-1,0,face,5,1\n"
               "0.25,-1,0.25,1,face,6,1\n");
-    const std::string few = scratch.put("w.csv", "w\n5\n6\n7\n");
+    const std::string few = scratch.put("w.txt", "5\n6\n7\n");
     EXPECT_EQ(run({"sample", off, "--points", points, "--field", "w=" + few, "--output", "-"}).code, 2);
 }
 

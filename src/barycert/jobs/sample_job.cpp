@@ -318,11 +318,13 @@ std::optional<Result<SampleReport>> at_surface(const SampleJob& job) {
         const base::RunFiles run_files;
         const jobs::ThreadLimit limit(job.options.threads);
         jobs::Stopwatch watch;
-        check_job(job, {});
+        const bool sure = io::is_surface_file(job.mesh);  // else what was found of it as a mesh goes before
+        if (sure) check_job(job, {});
         Result<std::variant<Mesh, Surface>> read = read_mesh_or_surface(job.mesh, {.threads = job.options.threads});
-        if (!read && io::is_surface_file(job.mesh)) return read.error();
+        if (!read && sure) return read.error();
         auto* const surface = read ? std::get_if<Surface>(&*read) : nullptr;
         if (surface == nullptr) return std::nullopt;
+        if (!sure) check_job(job, {});
         refuse_what_is_of_meshes(job);
         jobs::add_fields(job.field_files, *surface);
         return SurfaceSampling(job, *surface, watch.lap()).run();

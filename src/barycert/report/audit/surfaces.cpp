@@ -28,7 +28,7 @@ void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion quest
         const bool inside = question == SurfaceQuestion::inside;
         table.columns.push_back(right(inside ? "out as\nin %" : "apart as\nmeeting %", 9));
         table.columns.push_back(right(inside ? "in as\nout %" : "meeting\nas apart %", 10));
-        table.columns.push_back(left("  worst family", 22));
+        table.columns.push_back(left("worst family", 20, 2));
     }
     for (const SurfaceResult& r : audit.results) {
         if (r.rule.question != question) continue;
@@ -47,7 +47,7 @@ void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion quest
             row.cells.push_back(share_cell({t.false_no, t.yes}));
             row.cells.emplace_back(t.wrong_cases() == 0
                                        ? ""
-                                       : fmt::format("  {}, {} %", surface_families()[worst->family].name,
+                                       : fmt::format("{}, {} %", surface_families()[worst->family].name,
                                                      percent({worst->wrong_cases(), worst->cases})));
         }
         if (t.wrong_cases() == 0 && t.worst.value <= 0) row.tone = Tone::good;

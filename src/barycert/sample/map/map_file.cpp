@@ -190,7 +190,10 @@ struct MapReaderData {
         return Error{
             .what = "the map was made for another mesh",
             .file = name,
-            .expected = size_of(head.nodes, head.cells, head.dimension == 2 ? "triangles" : "cells"),
+            .expected = size_of(head.nodes, head.cells,
+                                head.dimension == is.dimension ? cells
+                                : head.dimension == 2          ? "triangles"
+                                                               : "tetrahedra"),
             .found = alike ? "one of that size with other coordinates or cells" : size_of(is.nodes, is.cells, cells),
             .remedy = "name the mesh of the map, or create the map again for this mesh"};
     }
