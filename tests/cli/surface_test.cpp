@@ -144,7 +144,7 @@ TEST(SurfaceCommands, MapsAndFieldsFromFiles) {
     const std::string off = scratch.put("a.off", tetrahedron);
     const std::string points = scratch.put("p.csv", "x,y,z\n.25,.25,-2\n.125,.125,.125\n0,0,5\n0.5,0,0\n7,7,7\n");
     const std::string nodes = scratch.put("u.txt", "1\n2\n3\n.1\n"), cells = scratch.put("v.txt", "5\n6\n7\n8\n");
-    const std::vector<std::string> with{"--field", "u=" + nodes, "--field", "cell:v=" + cells, "--quiet"};
+    const std::vector<std::string> with{"--point-field", "u=" + nodes, "--cell-field", "v=" + cells, "--quiet"};
     const auto sample = [&](std::vector<std::string> words) {
         words.insert(words.end(), with.begin(), with.end());
         return run(words);
