@@ -35,7 +35,7 @@ inline constexpr std::size_t crowd = 256;
 
 class Candidates {
 public:
-    Candidates(int d, std::span<const Item> items, std::size_t crowd = index::crowd);
+    Candidates(int d, std::span<const Item> items, std::size_t most_at_a_node = crowd);
 
     /// found(j), in no special order, for each item j that has a point in common with `item` beside the face of their
     /// common nodes, for each one of the same nodes (their boxes are the same), and for others, until it returns false.
