@@ -3,6 +3,7 @@
 #include "barycert/map.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "barycert/sample/map/map_format.hpp"
 #include "fuzz/files.hpp"
@@ -78,7 +79,11 @@ BARYCERT_FUZZ_TARGET(maps) {
     Result<MapReader> again = MapReader::open(out, mesh);
     expect(bool(again), "a map that was written is not read");
     const Result<Table> same = all_rows(*again, 1000);
-    expect(bool(same) && same->points == rows->points && same->cells == rows->cells &&
+    // Of points that are in no cell coordinates may be NaN.
+    const auto same_bits = [](double x, double y) {
+        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+    };
+    expect(bool(same) && std::ranges::equal(same->points, rows->points, same_bits) && same->cells == rows->cells &&
                same->features == rows->features && again->all() == reader->all(),
            "another map came back");
 }

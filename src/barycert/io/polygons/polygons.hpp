@@ -28,7 +28,8 @@ public:
     void need_line(std::string_view what, std::size_t i, std::size_t count);
 
     std::size_t words_left() const { return words_.size() - at_; }
-    std::string_view word(std::size_t i) const { return words_[i]; }
+    /// Empty where the line has no more.
+    std::string_view word(std::size_t i) const { return i < words_.size() ? words_[i] : std::string_view(); }
     std::string_view line() const { return line_; }
 
     /// The next word of the line as a string, a decimal integer, or a finite number; `expected` names it in errors.
