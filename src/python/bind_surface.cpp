@@ -48,10 +48,11 @@ std::shared_ptr<BoundReport> check_of(const SurfaceObject& object, std::size_t e
 /// A member of each item, that many numbers as it has: (items), or (items, numbers).
 template <class Number, class Item, class Owner, class T>
 py::array member_of(const std::vector<Item>& items, T Owner::*member) {
+    constexpr std::size_t whole = sizeof(T), one = sizeof(Number);
     Shape shape{items.size()}, strides{sizeof(Item)};
-    if (sizeof(T) > sizeof(Number)) {
-        shape.push_back(sizeof(T) / sizeof(Number));
-        strides.push_back(sizeof(Number));
+    if (whole > one) {
+        shape.push_back(whole / one);
+        strides.push_back(one);
     }
     return {py::dtype::of<Number>(), shape, strides, items.empty() ? nullptr : &(items.front().*member)};
 }

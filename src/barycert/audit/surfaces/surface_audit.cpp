@@ -89,7 +89,7 @@ void audit_surfaces(SurfaceAudit& audit) {
             if (families[f].question != rules[r].question) continue;
             tallies[f][r].family = f;
             result.total.merge(tallies[f][r]);
-            result.families.push_back(std::move(tallies[f][r]));
+            result.families.push_back(tallies[f][r]);
         }
     }
 }

@@ -165,8 +165,9 @@ std::vector<TriangleInSpace> box(int n) {
                 const auto at = [&](int u, int v) {
                     Point p{};
                     p[axis] = level;
-                    p[(axis + 1) % 3] = i % n + u;
-                    p[(axis + 2) % 3] = i / n + v;
+                    const int row = i / n;
+                    p[(axis + 1) % 3] = i - n * row + u;
+                    p[(axis + 2) % 3] = row + v;
                     return p;
                 };
                 const Point a = at(0, 0), b = at(1, 0), c = at(1, 1), d = at(0, 1);
