@@ -575,14 +575,13 @@ SurfaceCase make_surface_case(const SurfaceFamily& family, std::uint64_t seed, s
 
 /// What a rule answers to the cases of a family.
 struct SurfaceTally {
-    std::size_t family = 0;  ///< index into surface_families()
-    std::uint64_t cases = 0, yes = 0;
-    std::uint64_t false_yes = 0;   ///< of a distance: 0, and the point is not on the triangle
-    std::uint64_t false_no = 0;    ///< of a distance: not 0, and the point is on the triangle
-    std::uint64_t not_finite = 0;  ///< of a distance
-    LogHistogram ulps;             ///< errors of finite distances that are exactly not 0
-    WorstCase worst;               ///< of them
-    WorstCase wrong;               ///< the first case with one of the three; value 1
+    std::size_t family = 0;                     ///< index into surface_families()
+    std::uint64_t cases = 0, yes = 0;           ///< the exact answer is yes; of a distance: it is 0
+    std::uint64_t false_yes = 0, false_no = 0;  ///< the rule says yes, and it is no; and the reverse
+    std::uint64_t not_finite = 0;               ///< of a distance
+    LogHistogram ulps;                          ///< errors of finite distances that are exactly not 0
+    WorstCase worst;                            ///< of them
+    WorstCase wrong;                            ///< the first case with one of the three; value 1
 
     std::uint64_t wrong_cases() const { return false_yes + false_no + not_finite; }
     void add(SurfaceQuestion question, double answer, double exact, std::uint64_t index);

@@ -460,8 +460,8 @@ struct SurfaceReport {
     std::uint64_t places = 0;  ///< nodes that triangles have, those at one place counted once
     bool closed = false, manifold = false, oriented = false, outward = false;
     std::uint64_t shell_count = 0;
-    std::vector<SurfaceShell> shells;    ///< the first 1000; `inside` is not known if triangles intersect
-    std::vector<SurfaceRegion> regions;  ///< in their order in space; none if triangles intersect
+    std::vector<SurfaceShell> shells;    ///< the first 1000; `inside` is known if S1 and S2 hold
+    std::vector<SurfaceRegion> regions;  ///< in their order in space; if S1 and S2 hold
     std::vector<PlcSeed> seeds;
     std::uint64_t off_plane = 0;    ///< facets whose nodes are not exactly in one plane
     double max_off_plane = 0;       ///< distance of a node from the plane of its facet, rounded

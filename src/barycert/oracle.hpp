@@ -120,8 +120,8 @@ double oracle_distance(std::span<const double> triangle, const double* point);
 /// Whether they have a point in common.
 bool oracle_meet(std::span<const double> a, std::span<const double> b);
 
-/// 1 inside, 0 on, -1 outside the closed surface that the triangles are. By the parity of a segment to a point outside
-/// that meets no edge.
+/// 1 inside, 0 on, -1 outside the closed surface that the triangles are; coordinates are below 2^1022. By the parity of
+/// a segment to a point outside that meets no edge.
 int oracle_side(std::span<const std::array<double, 9>> triangles, const double* point);
 
 }  // namespace barycert

@@ -49,8 +49,9 @@ struct Surface {
 
     /// Of each cell: the polygon of the file, or facet of the PLC, that it is part of; ascending. Empty: it is one.
     std::vector<Mesh::Index> facets;
-    int index_base = 0;  ///< 0 or 1: the base of the file it came from
-    Notes notes;         ///< what its reader left out, converted or guessed
+    std::size_t facet_count = 0;  ///< of the file, those that have no cells among them; 0: not known
+    int index_base = 0;           ///< 0 or 1: the base of the file it came from
+    Notes notes;                  ///< what its reader left out, converted or guessed
 
     // Where it comes from; empty if it comes from no mesh.
     std::vector<Mesh::Index> mesh_cells;  ///< of each cell: the cell of the mesh that it is in
@@ -60,6 +61,13 @@ struct Surface {
     std::size_t corners() const { return static_cast<std::size_t>(dimension); }
     std::size_t point_count() const { return points.size() / corners(); }
     std::size_t cell_count() const { return cells.size() / corners(); }
+    /// As many as there are facets, or numbers in their place.
+    std::size_t facet_total() const {
+        if (facet_count != 0 || facets.empty()) return facets.empty() ? cell_count() : facet_count;
+        std::size_t count = 1;
+        for (std::size_t i = 1; i < facets.size(); ++i) count += facets[i] != facets[i - 1] ? 1 : 0;
+        return count;
+    }
     /// What users know the cell as.
     Mesh::Index facet(Mesh::Index cell) const {
         return facets.empty() || cell < 0 ? cell : facets[static_cast<std::size_t>(cell)];

@@ -49,6 +49,7 @@ struct SurfaceLocation {
 struct SurfaceNearest : Nearest {
     std::array<double, 3> point{};    ///< the nearest point
     std::array<double, 3> weights{};  ///< of `nodes`
+    bool on = false;                  ///< the point is on the triangle; a distance that is not zero may round to it
 };
 
 /// A triangle that a segment meets.

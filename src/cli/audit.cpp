@@ -28,7 +28,7 @@ void check_files(const AuditArguments& a) {
         throw Exception({.what = "--with needs --html", .remedy = "it adds to the page"});
 }
 
-/// Other options than these say something of kernels under audit, or of reports on them.
+/// What other options say is of kernels, their cases and reports on them.
 void check_alone(const AuditArguments& a) {
     const auto check = [&](const char* mode, const char* audited, std::initializer_list<std::string_view> fits) {
         const std::string other = given_option(*a.app, fits, true);
@@ -59,9 +59,11 @@ int run_surfaces(AuditArguments& a) {
     const AuditOptions& o = a.job.options;
     SurfaceAudit audit{.seed = o.seed, .count = o.count, .threads = o.threads, .progress = progress_of(a)};
     audit_surfaces(audit);
-    return a.reports.write(
-        {.files = {{"--json", [&] { return surfaces_json(audit); }}, {"--html", [&] { return surfaces_html(audit); }}},
-         .text = [&](bool colour) { return surfaces_text(audit, {.colour = colour}); }});
+    return a.reports.end(Result<SurfaceAudit>(std::move(audit)), [](const SurfaceAudit& done) {
+        return Told{
+            .files = {{"--json", [&] { return surfaces_json(done); }}, {"--html", [&] { return surfaces_html(done); }}},
+            .text = [&](bool colour) { return surfaces_text(done, {.colour = colour}); }};
+    });
 }
 
 /// The mutation score of the families.
@@ -184,7 +186,7 @@ void add_audit(const Options& program) {
            "caught");
     o.flag("--surfaces", a.surfaces,
            "Audit rules on triangles in space instead: the distance of a point, inside or outside of a closed surface, "
-           "whether two triangles meet");
+           "whether two triangles meet; with --count, --seed, --threads, --json, --html and --quiet alone");
     o.flag("--wide", a.wide, "Print all counts, the families and a witness of each kernel: 160 columns");
     o.flag("--no-check", job.check, "Do not check whether the meshes are partitions (see `barycert check`)", false);
     a.reports.quiet(o, "Print no table and no progress");

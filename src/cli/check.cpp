@@ -51,7 +51,7 @@ while --junit, --sarif and --annotations tell of the mesh as it was.
 Certified: any two cells meet in a common face or not at all, and the files .neigh and .face, if present, agree with
 the cells. Second-order cells are checked with straight sides.
 A surface is certified if any two triangles meet in a common node or edge or not at all, and each edge has two or more;
-a PLC, if it is valid and encloses a region: then TetGen can mesh it.)",
+a PLC, if it is valid and encloses a region: then TetGen can mesh it. --delaunay, --conforms-to and --fix are for meshes.)",
         run_check);
     CheckJob& job = a.job;
     o.text("MESH", job.mesh,

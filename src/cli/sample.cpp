@@ -77,8 +77,9 @@ in --fields (texts, large integers), then columns of the points (--keep). cell: 
 0, of the first cell that contains the point; -1 outside. feature: interior, face, edge, vertex or outside,
 exact. TetGen's node attributes are named attribute0, attribute1, ... --points takes the output of another
 run, whose rows are points.
-Of a surface (.stl .ply .off .obj .vtp .poly .smesh, triangles in space in any file): values at the nearest point of
-it, the triangle, the face, edge or vertex in which that lies, and the distance, negative inside.
+MESH may be a surface: .stl .ply .off .obj .poly .smesh, or triangles in space in the files of Gmsh, Medit and VTK.
+Then rows have the values at the nearest point of it, the triangle, the face, edge or vertex in which that lies, and the
+distance, negative inside. Of --fields only names apply then, of --outside only nearest, which is the default there.
 Files appear whole or not at all; rows already printed to stdout stay. Exit codes: 0 done, 2 usage or input
 error.)",
         run_sampling<SampleJob, sample_files>);

@@ -104,7 +104,7 @@ MeshObject read(const std::string& path, std::optional<std::size_t> number, bool
 
 void write(const MeshObject& object, const std::string& path, const std::string& comment, VtkData data) {
     const py::gil_scoped_release unlocked;
-    check(write_mesh(object.whole(), path, {.comment = comment, .data = data}));
+    write_mesh(object.whole(), path, {.comment = comment, .data = data}).value();
 }
 
 }  // namespace

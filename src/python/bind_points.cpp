@@ -125,9 +125,9 @@ py::array sample(const BoundSampler& bound, const Given<double>& points, const S
             rows.cells.assign(owners.begin(), owners.end());
             rows.features.clear();
             for (const std::uint8_t f : features->part(first, n)) rows.features.push_back(static_cast<Feature>(f));
-            check(bound.sampler.evaluate(points.part(first, n), options, rows, first));
+            bound.sampler.evaluate(points.part(first, n), options, rows, first).value();
         } else {
-            check(bound.sampler.sample(points.part(first, n), options, rows, first));
+            bound.sampler.sample(points.part(first, n), options, rows, first).value();
         }
         if (!one_block) std::copy_n(rows.values.data(), n * columns, values + first * columns);
     };

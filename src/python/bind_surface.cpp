@@ -10,7 +10,7 @@ namespace {
 using SurfaceObject = Located<Surface, SurfaceLocator>;
 using Shared = std::shared_ptr<SurfaceObject>;
 
-/// points (n, 3), finite; triangles (m, 3); facets (m), or none.
+/// points (n, 3); triangles (m, 3); facets (m), or none.
 Shared made(const Given<double>& points, const Given<Mesh::Index>& triangles, const Given<Mesh::Index>& facets) {
     Surface surface;
     surface.points = points.copy();

@@ -25,11 +25,6 @@ void bind_simplex(py::module_& module);
 void bind_surface(py::module_& module);
 void bind_audit(py::module_& module);
 
-/// Errors are thrown as Exception, as by Result::value(), and become barycert.Error.
-inline void check(const Status& status) {
-    if (!status) throw Exception(status.error());
-}
-
 /// Arguments that are words in Python; any other word is an Error. Entries without a word do not count.
 template <class T>
 struct Words {
@@ -182,7 +177,7 @@ void in_blocks(const Progress& progress, std::string_view stage, std::size_t tot
         if constexpr (std::is_void_v<decltype(body(first, count))>) {
             body(first, count);
         } else if (!body(first, count)) {
-            check(body(0, first + count));
+            body(0, first + count).value();
         }
         const Clock::duration taken = Clock::now() - begin;
         first += count;

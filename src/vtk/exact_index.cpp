@@ -222,8 +222,8 @@ void ExactIndex::place(const double* point, double* x) const {
 
 Mesh::Index ExactIndex::owner(const double* x) const {
     if (!in_space()) return IndexedPiece::owner(x);
-    const pieces::Closest found = closest(x, 0);
-    return found.inside ? found.cell : -1;
+    const Result<SurfaceNearest> near = on_surface->nearest(x, 0);  // without a winding number
+    return near && near->on ? near->cell : -1;
 }
 
 pieces::Closest ExactIndex::closest(const double* x, double limit) const {
@@ -234,8 +234,7 @@ pieces::Closest ExactIndex::closest(const double* x, double limit) const {
     found.cell = near->cell;
     found.distance = near->distance;
     found.point = near->point;
-    // A distance that is not zero may round to it.
-    found.inside = near->distance == 0 && on_surface->locate(x).value().triangle >= 0;
+    found.inside = near->on;
     const Mesh::Index* const corners = mesh.cells.data() + std::size_t{3} * static_cast<std::size_t>(near->cell);
     for (std::size_t k = 0; k < 9; ++k)
         if (near->nodes[k / 3] == corners[k % 3]) found.weights[k % 3] = near->weights[k / 3];

@@ -375,7 +375,7 @@ Status sample_surface(const ExactIndex& index, vtkDataSet& input, double toleran
         std::vector<SurfaceNearest> near(points.size() / 3);
         if (Status done = index.on_surface->nearest(points, tolerance, near); !done) return done;
         rows.cells.resize(near.size());
-        for (std::size_t i = 0; i < near.size(); ++i) rows.cells[i] = near[i].distance == 0 ? near[i].cell : -1;
+        for (std::size_t i = 0; i < near.size(); ++i) rows.cells[i] = near[i].on ? near[i].cell : -1;
         rows.values.resize(width * near.size());
         double* column = rows.values.data();
         for (const FieldChoice& choice : choices) {

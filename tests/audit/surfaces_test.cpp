@@ -96,6 +96,8 @@ TEST(Surfaces, WrongCasesAreMadeAgain) {
                 EXPECT_NE(answer != 0, oracle_meet(c.triangles[0], c.triangles[1])) << r.rule.name;
             } else if (family.question == SurfaceQuestion::inside) {
                 EXPECT_EQ(oracle_side(c.triangles, c.point.data()), answer != 0 ? -1 : 1) << r.rule.name;
+            } else if (std::isfinite(answer)) {
+                EXPECT_NE(answer == 0, oracle_distance(c.triangles[0], c.point.data()) == 0) << r.rule.name;
             }
             ++shown;
         }

@@ -469,18 +469,43 @@ TEST(PlcCheck, LooseSegmentsThatMeet) {
     EXPECT_EQ(count(check_plc(plc), DefectKind::segments_meet), 1);
 }
 
+// Loose nodes at one place are one, and many segments that do not meet are no work.
+TEST(PlcCheck, LooseSegmentsAtOnePlaceAndMany) {
+    Plc plc = cube_plc();
+    plc.points.insert(plc.points.end(), {5, 5, 5, 6, 5, 5, 6, 5, 5, 7, 6, 5, 1, 1, 1, 4, 4, 4});
+    for (const auto& [a, b] : {std::pair<Mesh::Index, Mesh::Index>{8, 9}, {10, 11}, {12, 13}})
+        plc.facets.push_back({.polygons = {{a, b}}, .holes = {}});
+    CheckReport r = check_plc(plc);
+    EXPECT_EQ(count(r, DefectKind::segments_meet), 0);
+    EXPECT_EQ(count(r, DefectKind::segment_in_facet), 0);
+    EXPECT_EQ(count(r, DefectKind::coincident_nodes), 2) << "9 and 10; 12 and a corner of the cube";
+    plc = cube_plc();
+    const auto add = [&](double x, double y, double z) {
+        plc.points.insert(plc.points.end(), {x, y, z});
+        return static_cast<Mesh::Index>(plc.point_count() - 1);
+    };
+    for (int i = 0; i < 20000; ++i) {
+        const Mesh::Index a = add(5, i, 0), b = add(5, i, 1);
+        plc.facets.push_back({.polygons = {{a, b}}, .holes = {}});
+    }
+    EXPECT_TRUE(check_plc(plc).certified());  // each against each other would take a minute
+    const Mesh::Index a = add(5, -1, .5), b = add(5, 20000, .5);
+    plc.facets.push_back({.polygons = {{a, b}}, .holes = {}});
+    r = check_plc(plc);
+    EXPECT_EQ(count(r, DefectKind::segments_meet), 1000);
+    EXPECT_TRUE(r.find(DefectKind::segments_meet)->at_least);
+    EXPECT_EQ(count(check_plc(plc, {.verdict_only = true}), DefectKind::segments_meet), 1);
+}
+
 // A point where facets meet is told of the lowest.
 TEST(PlcCheck, SeedsOnSeveralFacets) {
     Plc plc = cube_plc();
-    for (std::size_t f = 0; f < plc.facets.size(); ++f) {
-        for (std::size_t g = 0; g < plc.facets.size(); ++g) {
-            for (const Mesh::Index node : plc.facets[f].polygons[0]) {
-                if (std::ranges::count(plc.facets[g].polygons[0], node) == 0) continue;
-                plc.holes.assign(&plc.points[3 * static_cast<std::size_t>(node)],
-                                 &plc.points[3 * static_cast<std::size_t>(node)] + 3);
-                EXPECT_LE(check_plc(plc).surface->seeds[0].facet, static_cast<Mesh::Index>(std::min(f, g)));
-            }
-        }
+    for (Mesh::Index node = 0; node < 8; ++node) {
+        const double* const p = &plc.points[3 * static_cast<std::size_t>(node)];
+        plc.holes.assign(p, p + 3);
+        const auto lowest = std::ranges::find_if(
+            plc.facets, [&](const PlcFacet& f) { return std::ranges::count(f.polygons[0], node) != 0; });
+        EXPECT_EQ(check_plc(plc).surface->seeds[0].facet, lowest - plc.facets.begin());
     }
 }
 

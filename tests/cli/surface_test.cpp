@@ -73,7 +73,9 @@ TEST(SurfaceCommands, Pictures) {
     const std::string page = read_file(scratch.path("p.html"));
     EXPECT_TRUE(contains(page, "data:image/png;base64,"));
     EXPECT_TRUE(contains(page, "Red: triangles with defects"));
-    EXPECT_EQ(run({"check", torn, "--picture", scratch.path("p.jpg")}).code, 2);
+    const Ended jpg = run({"check", torn, "--picture", scratch.path("p.jpg")});
+    EXPECT_EQ(jpg.code, 2);
+    EXPECT_TRUE(contains(jpg.err, "unknown suffix of --picture")) << jpg.err;
     const Ended mesh = run({"check", plc + "../meshes/cube-hole", "--picture", picture});
     EXPECT_EQ(mesh.code, 2);
     EXPECT_TRUE(contains(mesh.err, "--picture is of surfaces")) << mesh.err;
@@ -168,6 +170,70 @@ TEST(SurfaceCommands, MapsAndFieldsFromFiles) {
     EXPECT_TRUE(contains(both.err, "could belong to nodes or to cells")) << both.err;
 }
 
+// A field of nodes and one of faces of one name, a name that rows have, and points without a place.
+TEST(SurfaceCommands, NamesAndPointsThatAreNotFinite) {
+    const Scratch scratch;
+    const std::string ply = scratch.put(
+        "a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float q\nproperty float distance\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "property int q\nend_header\n0 0 0 1 4\n1 0 0 1 4\n0 1 0 1 4\n3 0 1 2 5\n");
+    const std::string points = scratch.put("p.csv", "x,y,z\n.25,.25,2\nnan,0,0\n");
+    EXPECT_EQ(run({"sample", ply, "--points", points, "--output", "-"}).code, 2);
+    const std::vector<std::string> nan{"--nonfinite-points", "nan", "--output", "-"};
+    std::vector<std::string> words{"sample", ply, "--points", points, "--save-map", scratch.path("a.map")};
+    words.insert(words.end(), nan.begin(), nan.end());
+    const Ended r = run(words);
+    const std::string rows =
+        "x,y,z,cell,feature,q,point:distance,cell:q,distance\n0.25,0.25,2,0,face,1,4,5,2\n"
+        "nan,0,0,-1,outside,nan,nan,nan,nan\n";
+    EXPECT_EQ(r.out, rows) << r.err;
+    EXPECT_TRUE(contains(r.err, "1 not finite")) << r.err;
+    EXPECT_EQ(run({"sample", ply, "--map", scratch.path("a.map"), "--output", "-"}).out, rows);
+    const Ended one = run({"sample", ply, "--map", scratch.path("a.map"), "--fields", "cell:q", "--output", "-"});
+    const std::string taken = scratch.put("t.csv", "x,y,z,distance\n.25,.25,2,7\n");
+    const Ended kept = run({"sample", ply, "--points", taken, "--keep", "distance", "--output", "-"});
+    EXPECT_TRUE(contains(kept.err, "with another name for this one: --keep OTHER=distance")) << kept.out;
+    EXPECT_TRUE(contains(one.out, "cell,feature,cell:q,distance\n0.25,0.25,2,0,face,5,2")) << one.out << one.err;
+}
+
+// Rows of files of meshes are of the triangles that are read. A flat .vtp is a mesh: what is said of its series is said
+// of a mesh. In another plane it is a surface, and told to be.
+TEST(SurfaceCommands, FilesOfMeshes) {
+    const Scratch scratch;
+    const std::string mixed =
+        scratch.put("a.vtk",
+                    "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n1 0 0\n"
+                    "1 1 1\n0 1 1\nCELLS 4 14\n2 0 1\n3 0 1 2\n3 0 2 3\n2 1 2\nCELL_TYPES 4\n3\n5\n5\n3\n");
+    const std::string rows = scratch.put("v.txt", "5\n6\n"), points = scratch.put("p.csv", "x,y,z\n.75,.25,9\n");
+    const Ended r = run({"sample", mixed, "--points", points, "--cell-field", "v=" + rows, "--output", "-", "--quiet"});
+    EXPECT_TRUE(contains(r.out, ",face,") || contains(r.out, ",edge,")) << r.err;
+    const auto vtp = [&](const char* name, const std::string& z) {
+        return scratch.put(
+            name,
+            R"(<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"><PolyData><Piece NumberOfPoints="3" )"
+            R"(NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="1"><Points><DataArray )"
+            R"(type="Float64" NumberOfComponents="3" format="ascii">0 0 )" +
+                z + " 1 0 " + z + " 0 1 " + z +
+                R"(</DataArray></Points><Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2)"
+                R"(</DataArray><DataArray type="Int64" Name="offsets" format="ascii">3</DataArray></Polys></Piece>)"
+                R"(</PolyData></VTKFile>)");
+    };
+    const std::string flat = vtp("flat.vtp", "0"), raised = vtp("raised.vtp", "1"),
+                      plane = scratch.put("q.csv", "x,y\n.25,.25\n");
+    scratch.put("f-1.txt", "1\n2\n3\n");
+    scratch.put("f-2.txt", "4\n5\n6\n");
+    const Ended steps = run({"sample", flat, "--points", plane, "--point-field", "p@" + scratch.path("f-*.txt"),
+                             "--output", scratch.path("rows-{step}.csv"), "--quiet"});
+    EXPECT_EQ(steps.code, 0) << steps.err;
+    EXPECT_TRUE(contains(read_file(scratch.path("rows-2.csv")), "4.75"));
+    EXPECT_TRUE(contains(run({"check", raised}).out, "lie in the plane z = 1")) << run({"check", raised}).err;
+    EXPECT_EQ(run({"check", plc + "torus.off", "--step", "1"}).code, 2);
+    const Ended list = run({"sample", mixed, "--points", points, "--cell-field", "v=" + rows, "--cell-field",
+                            "w=" + rows, "--fields", "w,v", "--output", "-", "--quiet"});
+    EXPECT_TRUE(contains(list.out, "feature,w,v,distance")) << list.err;
+}
+
 // Nearest projection: with any field of the nodes the weights give the values, up to rounding.
 TEST(SurfaceCommands, WeightsOfNearestPoints) {
     const Scratch scratch;
@@ -204,6 +270,12 @@ TEST(SurfaceCommands, FieldsOfPolygons) {
     EXPECT_EQ(r.out,
               "x,y,z,cell,feature,v,distance\n0.75,0.25,-1,0,face,5,1\n0.25,0.75,-1,0,face,5,1\n"
               "0.25,-1,0.25,1,face,6,1\n");
+    // A row for each polygon of the file, those that no triangles fill among them.
+    const std::string uncut = scratch.put("b.off",
+                                          "OFF\n8 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n5 0 0\n6 1 0\n6 0 0\n5 1 0\n"
+                                          "4 0 1 2 3\n4 4 5 6 7\n");
+    const Ended of_uncut = run({"sample", uncut, "--points", points, "--cell-field", "v=" + cells, "--output", "-"});
+    EXPECT_TRUE(contains(of_uncut.out, "0.75,0.25,-1,0,face,5,1\n0.25,0.75,-1,0,face,5,1\n")) << of_uncut.out;
     const std::string few = scratch.put("w.txt", "5\n6\n7\n");
     EXPECT_EQ(run({"sample", off, "--points", points, "--field", "w=" + few, "--output", "-"}).code, 2);
 }

@@ -208,6 +208,82 @@ TEST(SurfaceLocator, V1_ValuesAreExactMeans) {
     }
 }
 
+void expect_same(const SurfaceNearest& a, const SurfaceNearest& b, std::size_t i) {
+    EXPECT_EQ(a.cell, b.cell) << i;
+    EXPECT_EQ(a.nodes, b.nodes) << i;
+    EXPECT_EQ(a.distance, b.distance) << i;
+    EXPECT_EQ(a.point, b.point) << i;
+    EXPECT_EQ(a.weights, b.weights) << i;
+    EXPECT_EQ(a.on, b.on) << i;
+}
+
+// With the triangles known beforehand the answers are the same; on others they are those of these alone.
+TEST(SurfaceLocator, N1_OnGivenTriangles) {
+    for (const Surface& s : {torus(20, 12), random_soup(40, 20, 30, 5), surface_of(random_voxels(3, 0.5, 3))}) {
+        const SurfaceLocator locator = SurfaceLocator::build(s).value();
+        const std::vector<double> points = random_points(s, 90, 4);
+        std::vector<SurfaceNearest> found(points.size() / 3), again = found;
+        ASSERT_TRUE(locator.nearest(points, infinity, found, 1));
+        std::vector<Mesh::Index> triangles;
+        for (const SurfaceNearest& n : found) triangles.push_back(n.cell);
+        triangles[0] = -1;
+        ASSERT_TRUE(locator.nearest_on(triangles, points, again, 2));
+        EXPECT_EQ(again[0].cell, -1);
+        EXPECT_EQ(again[0].distance, infinity);
+        for (std::size_t i = 1; i < found.size(); ++i) expect_same(found[i], again[i], i);
+        for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = found[7 * i % found.size()].cell;
+        ASSERT_TRUE(locator.nearest_on(triangles, points, again, 2));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            Surface one;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto node = static_cast<std::size_t>(s.cells[3 * static_cast<std::size_t>(triangles[i]) + k]);
+                one.points.insert(one.points.end(), &s.points[3 * node], &s.points[3 * node] + 3);
+            }
+            one.cells = {0, 1, 2};
+            const SurfaceLocator alone = SurfaceLocator::build(one).value();
+            const SurfaceNearest n = alone.nearest(&points[3 * i], infinity).value();
+            EXPECT_EQ(n.distance, again[i].distance) << i;
+            EXPECT_EQ(n.point, again[i].point) << i;
+        }
+        triangles[3] = static_cast<Mesh::Index>(s.cell_count());
+        EXPECT_FALSE(locator.nearest_on(triangles, points, again));
+    }
+    Surface flat = torus(8, 6);
+    flat.cells.insert(flat.cells.end(), {0, 1, 1});
+    const SurfaceLocator locator = SurfaceLocator::build(flat).value();
+    std::array<SurfaceNearest, 1> one;
+    EXPECT_FALSE(locator.nearest_on(std::array{static_cast<Mesh::Index>(flat.cell_count() - 1)},
+                                    std::array{1.0, 2.0, 3.0}, one));
+}
+
+// A distance that rounds to 0 is no proof that the point is on the triangle.
+TEST(SurfaceLocator, W1_OnIsExact) {
+    Surface s;
+    s.points = {-1, -1, -3, 1, -1, 3, 0, 1, 0};  // in the plane z = 3 x
+    s.cells = {0, 1, 2};
+    const SurfaceLocator locator = SurfaceLocator::build(s).value();
+    constexpr double least = 0x1p-1074;
+    for (const auto& [p, on] : {std::pair(std::array{0.0, 0.0, 0.0}, true),
+                                {std::array{0.0, 0.0, least}, false},
+                                {std::array{least, 0.0, 3 * least}, true},
+                                {std::array{0.0, 1.0, 0.0}, true},
+                                {std::array{0.0, -1.0, least}, false},
+                                {std::array{0.0, -1.0, 0.0}, true}}) {
+        const SurfaceNearest n = locator.nearest(p.data(), infinity).value();
+        EXPECT_EQ(n.distance, 0);
+        EXPECT_EQ(n.on, on) << p[0] << ' ' << p[1] << ' ' << p[2];
+        EXPECT_EQ(locator.locate(p.data()).value().triangle >= 0, on);
+    }
+    for (const Surface& any : {random_soup(40, 20, 6, 5), surface_of(random_voxels(3, 0.5, 3))}) {
+        const SurfaceLocator of_any = SurfaceLocator::build(any).value();
+        const std::vector<double> points = random_points(any, 300, 4);
+        std::vector<SurfaceNearest> found(points.size() / 3);
+        ASSERT_TRUE(of_any.nearest(points, infinity, found));
+        for (std::size_t i = 0; i < found.size(); ++i)
+            EXPECT_EQ(found[i].on, of_any.locate(&points[3 * i]).value().triangle >= 0) << i;
+    }
+}
+
 TEST(SurfaceLocator, D1_OrderAndThreads) {
     const Surface s = surface_of(random_voxels(4, 0.5, 3));
     const SurfaceLocator locator = SurfaceLocator::build(s).value();
@@ -224,9 +300,7 @@ TEST(SurfaceLocator, D1_OrderAndThreads) {
     for (std::size_t i = 0; i < count; ++i) {
         const SurfaceNearest& other = near_reversed[count - 1 - i];
         EXPECT_EQ(at[i], at_reversed[count - 1 - i]) << i;
-        EXPECT_EQ(near[i].cell, other.cell) << i;
-        EXPECT_EQ(near[i].point, other.point) << i;
-        EXPECT_EQ(near[i].weights, other.weights) << i;
+        expect_same(near[i], other, i);
     }
 }
 

@@ -306,6 +306,17 @@ TEST(Surface, TolerantLinesAndPointsAreThoseOfVtkAndNearest) {
     EXPECT_EQ(locator->IntersectWithLine(from, to, 1e-3, t, x, pcoords, sub_id), 0);
     EXPECT_EQ(locator->IntersectWithLine(from, below, 0, t, x, pcoords, sub_id), 1);
     EXPECT_EQ(t, 1);
+    // One that passes the face by less than the tolerance.
+    const double above[3] = {-1e-4, 0.5, 0.5}, under[3] = {-1e-4, 0.5, -0.5};
+    EXPECT_EQ(locator->IntersectWithLine(above, under, 1e-3, t, x, pcoords, sub_id), 0);
+    locator->TolerantOn();
+    vtkNew<vtkStaticCellLocator> other;
+    other->SetDataSet(poly_data_of(s));
+    other->BuildLocator();
+    for (const double tolerance : {0.0, 1e-3, 0.5}) {
+        EXPECT_EQ(locator->IntersectWithLine(above, under, tolerance, t, x, pcoords, sub_id),
+                  other->IntersectWithLine(above, under, tolerance, t, x, pcoords, sub_id));
+    }
 }
 
 TEST(Surface, ThreadsMayAskTogether) {

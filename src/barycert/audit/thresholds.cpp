@@ -1,4 +1,3 @@
-
 #include "barycert/audit/asking.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"

@@ -1,4 +1,3 @@
-
 #include "barycert/audit/json_members.hpp"
 #include "barycert/audit/search/evaluation.hpp"
 #include "barycert/audit_search.hpp"

@@ -1,4 +1,3 @@
-
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"
 

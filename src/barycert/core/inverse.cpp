@@ -1,5 +1,3 @@
-
-
 #include "barycert/base/finite.hpp"
 #include "barycert/core/exact_tier.hpp"
 

@@ -92,7 +92,7 @@ const double* Item::place_of(Mesh::Index node) const {
     return nullptr;
 }
 
-Candidates::Candidates(int d, std::span<const Item> items, std::size_t crowd) : d_(d), crowd_(crowd) {
+Candidates::Candidates(int d, std::span<const Item> items, std::size_t most_at_a_node) : d_(d), crowd_(most_at_a_node) {
     std::vector<std::uint32_t> all(items.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
     split(-1, all, items);

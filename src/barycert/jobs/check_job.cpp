@@ -28,7 +28,8 @@ void check_job(const CheckJob& job) {
     if (copy == "-")
         refuse("", member + " cannot write to stdout", "", "",
                "name a file, .vtu .vtk .msh, or a stem of TetGen's files");
-    if (!job.picture.empty() && !io::has_suffix(job.picture, ".png")) jobs::refuse_output(job.picture, ".png");
+    if (!job.picture.empty() && !io::has_suffix(job.picture, ".png"))
+        refuse(job.picture, "unknown suffix of job.picture", ".png", "", "choose another name");
     std::vector<base::NamedFile> plc, outputs{{"job.measures", job.measures}, {"job.picture", job.picture}};
     if (!copy.empty()) {
         const std::vector<std::string> written = written_mesh_files(copy).value();
@@ -93,6 +94,7 @@ void refuse_options_of_meshes(const CheckJob& job, const char* what) {
         if (given) refuse(job.mesh, member + " is for meshes", "", what, "leave it out");
     };
     refuse_one(job.options.delaunay, "job.delaunay");
+    refuse_one(io::is_surface_file(job.mesh) && job.step.made(), "job.step");
     refuse_one(!job.plc.empty(), "job.plc");
     refuse_one(!copy_of(job).path.empty(), copy_of(job).what);
     if (!job.measures.empty() && !io::has_suffix(job.measures, ".vtp"))

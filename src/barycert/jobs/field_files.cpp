@@ -97,17 +97,23 @@ Field array_named(const std::vector<Field>& nodal, const std::vector<Field>& of_
     return of_nodes != nullptr ? *of_nodes : *of_cells;
 }
 
+/// Fields of Medit; the only one is meant if none is named.
+Mesh read_solution(FieldFile& file, int dimension, Notes& notes) {
+    Mesh fields = io::read_medit_fields(file.path, dimension).value();
+    notes.insert(notes.end(), fields.notes.begin(), fields.notes.end());
+    const std::vector<std::string> names = sample::all_field_names(fields);
+    if (file.column.empty() && names.size() == 1) file.column = names.front();
+    return fields;
+}
+
 /// The array file.column of the mesh in the file; file.of becomes what it is of.
 Field read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
     const bool solution = is_solution(file.path);
-    Result<Mesh> read = solution ? io::read_medit_fields(file.path, mesh.dimension)
-                                 : read_mesh(file.path, {.faces = false, .neighbours = false});
-    const Mesh other = (read ? std::move(read) : points_as_mesh(file.path, mesh.dimension, read.error())).value();
-    if (solution) {
-        notes.insert(notes.end(), other.notes.begin(), other.notes.end());
-        const std::vector<std::string> names = sample::all_field_names(other);
-        if (file.column.empty() && names.size() == 1) file.column = names.front();
-    }
+    const auto read = [&] {
+        Result<Mesh> whole = read_mesh(file.path, {.faces = false, .neighbours = false});
+        return (whole ? std::move(whole) : points_as_mesh(file.path, mesh.dimension, whole.error())).value();
+    };
+    const Mesh other = solution ? read_solution(file, mesh.dimension, notes) : read();
     Field field = array_named(other.point_fields, other.cell_fields, file);
     const bool nodes = file.of == FieldFile::Of::points;
     const bool same = solution || (other.points == mesh.points && (nodes || other.cells == mesh.cells));
@@ -188,14 +194,21 @@ FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace) {
     return {cells, fields.size() - 1};
 }
 
+void give_each_a_name(std::vector<Field>& of_nodes, std::vector<Field>& of_cells) {
+    for (Field& field : of_nodes) {
+        if (is_name_of_rows(field.name)) field.name.insert(0, point_prefix);
+    }
+    for (Field& field : of_cells) {
+        if (is_name_of_rows(field.name) || sample::field_named(of_nodes, field.name) != nullptr)
+            field.name.insert(0, cell_prefix);
+    }
+}
+
 void give_each_a_name(Mesh& mesh) {
-    const auto rename = [](std::string& name, std::string_view of, bool taken) {
-        if (taken || is_name_of_rows(name)) name = std::string(of) + name;
-    };
-    for (Field& field : mesh.point_fields) rename(field.name, point_prefix, false);
-    for (Field& field : mesh.cell_fields)
-        rename(field.name, cell_prefix, sample::field_named(mesh.point_fields, field.name) != nullptr);
-    for (Column& label : mesh.cell_labels) rename(label.name, cell_prefix, has_field(mesh, label.name));
+    give_each_a_name(mesh.point_fields, mesh.cell_fields);
+    for (Column& label : mesh.cell_labels) {
+        if (is_name_of_rows(label.name) || has_field(mesh, label.name)) label.name.insert(0, cell_prefix);
+    }
 }
 
 void add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
@@ -204,13 +217,16 @@ void add_fields(const std::vector<FieldFile>& files, Mesh& mesh) {
 }
 
 void add_fields(const std::vector<FieldFile>& files, Surface& s) {
-    const std::size_t facets = s.facets.empty() ? s.cell_count() : static_cast<std::size_t>(s.facets.back()) + 1;
     for (FieldFile file : files) {
         Field field;
-        if (is_file_of_a_mesh(file.path) || io::is_surface_file(file.path)) {
+        // An array is of the triangles, as they are read; rows are of the facets.
+        const bool array = is_solution(file.path) || is_file_of_a_mesh(file.path) || io::is_surface_file(file.path);
+        if (is_solution(file.path)) {
+            const Mesh other = read_solution(file, 3, s.notes);
+            field = array_named(other.point_fields, other.cell_fields, file);
+        } else if (array) {
             const Surface other = read_surface(file.path).value();
             field = array_named(other.point_fields, other.cell_fields, file);
-            field.name = file.name;
             if (other.points != s.points)
                 s.notes.push_back(
                     {Note::Kind::guessed,
@@ -219,23 +235,26 @@ void add_fields(const std::vector<FieldFile>& files, Surface& s) {
         } else {
             field = io::read_field_file(file.name, file.path, file.column, s.notes).value();
         }
+        field.name = file.name;
         const auto width = static_cast<std::size_t>(field.components);
-        const std::size_t rows = field.data.size() / width;
-        const bool whole = file.of == FieldFile::Of::cells && rows == s.cell_count();  // an array of triangles
-        const bool of_cells = whole || is_of_cells(file, rows, s.point_count(), facets);
+        const bool of_cells =
+            is_of_cells(file, field.data.size() / width, s.point_count(), array ? s.cell_count() : s.facet_total());
         std::vector<Field>& fields = of_cells ? s.cell_fields : s.point_fields;
         if (sample::field_named(fields, file.name) != nullptr) refuse_second(file);
-        if (of_cells && !whole) {
+        if (of_cells && !array && !s.facets.empty()) {
             const std::vector<double> of_facets = std::exchange(field.data, {});
+            std::size_t row = 0;
             for (std::size_t t = 0; t < s.cell_count(); ++t) {
-                const auto first =
-                    of_facets.begin() +
-                    static_cast<std::ptrdiff_t>(width * static_cast<std::size_t>(s.facet(static_cast<Mesh::Index>(t))));
-                field.data.insert(field.data.end(), first, first + static_cast<std::ptrdiff_t>(width));
+                row = s.facet_count != 0                         ? static_cast<std::size_t>(s.facets[t])
+                      : t != 0 && s.facets[t] != s.facets[t - 1] ? row + 1
+                                                                 : row;
+                const double* const first = &of_facets[width * row];
+                field.data.insert(field.data.end(), first, first + width);
             }
         }
         fields.push_back(std::move(field));
     }
+    give_each_a_name(s.point_fields, s.cell_fields);
 }
 
 FieldChoice field_of_numbers(const Mesh& mesh, const std::string& name, std::deque<Field>& made, Notes& notes) {

@@ -36,6 +36,7 @@ void add_fields(const std::vector<FieldFile>& files, Surface& surface);
 /// So that columns have one name each, a field of cells that has the name of one of nodes is called cell:NAME from then
 /// on, and a field with a name that rows have themselves point:NAME or cell:NAME.
 void give_each_a_name(Mesh& mesh);
+void give_each_a_name(std::vector<Field>& of_nodes, std::vector<Field>& of_cells);
 
 /// Adds the fields of all files, and gives each a name.
 void add_fields(const std::vector<FieldFile>& files, Mesh& mesh);

@@ -1,13 +1,16 @@
 // Fields at points.
 
 #include <algorithm>
+#include <set>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npz/weights_file.hpp"
+#include "barycert/io/polygons/triangles.hpp"
 #include "barycert/jobs/stream.hpp"
 #include "barycert/map.hpp"
+#include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/surface_locator.hpp"
 
 namespace barycert {
@@ -125,7 +128,7 @@ void refuse_what_is_of_meshes(const SampleJob& job) {
         if (given) refuse(job.mesh, std::string(member) + " is for meshes", "", "a surface", "leave it out");
     };
     only_meshes(job.all.has_value(), "job.all");
-    only_meshes(job.all_steps || job.step.made(), "job.step");
+    only_meshes(job.all_steps || (io::is_surface_file(job.mesh) && job.step.made()), "job.step");
     only_meshes(!job.series.empty(), "a series of fields");
     only_meshes(job.options.rounding == Rounding::plain, "job.rounding");
     const Outside outside = job.options.outside.kind;
@@ -140,12 +143,17 @@ std::vector<std::pair<const Field*, bool>> chosen_fields(const SampleJob& job, c
     for (const Field& f : s.point_fields) all.emplace_back(&f, false);
     for (const Field& f : s.cell_fields) all.emplace_back(&f, true);
     if (job.fields.empty()) return all;
-    for (const std::string& name : job.fields) {
+    const auto choose = [&](const std::string& name, bool needed) {
         const auto found = std::ranges::find(all, name, [](const auto& f) { return f.first->name; });
-        if (found == all.end())
+        if (found == all.end() && needed)
             refuse(job.mesh, "no field of that name", jobs::listed(all, [](const auto& f) { return f.first->name; }),
-                   name);
-        chosen.push_back(*found);
+                   name, "name fields as they are: expressions are for meshes");
+        if (found != all.end()) chosen.push_back(*found);
+        return found != all.end();
+    };
+    for (const std::string& text : job.fields) {
+        // A name may have commas, too.
+        if (!choose(text, false)) sample::for_names(text, [&](const std::string& name) { return choose(name, true); });
     }
     return chosen;
 }
@@ -205,7 +213,7 @@ private:
     void open() {
         TableFormat format{.dimension = 3, .distances = true};
         if (job_.map.empty()) {
-            points_ = points_of(job_, 3, NonfinitePoints::error);
+            points_ = points_of(job_, 3, job_.options.nonfinite_points);
             const Notes notes = points_->notes();
             report_.notes.insert(report_.notes.end(), notes.begin(), notes.end());
             format.carried = points_->carried();
@@ -216,6 +224,10 @@ private:
         for (const auto& [field, of_cells] : fields_) format.fields.push_back({field->name, field->components});
         format.vtk_data = job_.vtk_data.value_or(VtkData::raw);
         report_.columns = format.columns();
+        std::set<std::string> names(report_.columns.begin(), report_.columns.end());
+        for (const ColumnFormat& column : format.carried) {
+            if (jobs::is_name_of_rows(column.name) || !names.insert(column.name).second) jobs::refuse_kept(column.name);
+        }
         if (!job_.output.empty()) sink_ = open_table(job_.output, format).value();
         if (!job_.save_map.empty()) save_.emplace(MapWriter::open(job_.save_map, surface_).value());
         if (!job_.weights.empty()) weights_ = io::WeightsFile::open(job_.weights, surface_.point_count()).value();
@@ -228,14 +240,17 @@ private:
         const std::size_t count = map_ ? map_->read(block, rows_).value() : points_->read(block, rows_.points).value();
         if (points_) points_->take_carried(rows_.carried);
         report_.seconds.read += watch_.lap();
+        at_ = rows_.points;
+        const auto finite = [&](std::size_t i) { return base::all_finite({&rows_.points[3 * i], 3}); };
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!finite(i)) std::fill_n(&at_[3 * i], 3, 0.0);
+        }
         near_.assign(count, {});
-        if (map_) {
-            locator.nearest_on(rows_.cells, rows_.points, near_, threads).value();
-            for (SurfaceNearest& n : near_) {
-                if (n.distance > report_.outside.limit) n = {};
-            }
-        } else {
-            locator.nearest(rows_.points, report_.outside.limit, near_, threads).value();
+        map_ ? locator.nearest_on(rows_.cells, at_, near_, threads).value()
+             : locator.nearest(at_, report_.outside.limit, near_, threads).value();
+        for (std::size_t i = 0; i < count; ++i) {
+            report_.counts.locations.not_finite += finite(i) ? 0 : 1;
+            if (!finite(i) || near_[i].distance > report_.outside.limit) near_[i] = {};
         }
         return count != 0;
     }
@@ -244,7 +259,7 @@ private:
         const int threads = job_.options.threads;
         const std::size_t count = near_.size(), width = report_.columns.size();
         std::vector<SurfaceLocation> places(count);
-        if (locator.turned() != Turned::open) locator.locate(rows_.points, places, threads).value();
+        if (locator.turned() != Turned::open) locator.locate(at_, places, threads).value();
         cells_.resize(count);
         rows_.features.resize(count);
         rows_.distances.resize(count);
@@ -253,7 +268,7 @@ private:
         for (const auto& [field, of_cells] : fields_) {
             const auto components = static_cast<std::size_t>(field->components);
             part_.resize(components * count);
-            locator.values(*field, of_cells, rows_.points, near_, part_, threads).value();
+            locator.values(*field, of_cells, at_, near_, part_, threads).value();
             for (std::size_t i = 0; i < count; ++i)
                 std::copy_n(&part_[components * i], components, &rows_.values[width * i + column]);
             column += components;
@@ -264,10 +279,9 @@ private:
             rows_.features[i] = feature_of(n);
             // Negative inside.
             rows_.distances[i] = n.cell < 0 ? nan : places[i].winding != 0 ? -n.distance : n.distance;
-            const bool on = n.cell >= 0 && n.distance == 0;
-            report_.counts.locations.add(on ? rows_.features[i] : Feature::outside);
+            report_.counts.locations.add(n.on ? rows_.features[i] : Feature::outside);
             report_.counts.without_value += n.cell < 0 ? 1 : 0;
-            report_.counts.snapped += n.cell >= 0 && !on ? 1 : 0;
+            report_.counts.snapped += n.cell >= 0 && !n.on ? 1 : 0;
             if (n.cell >= 0) report_.counts.farthest = std::max(report_.counts.farthest, n.distance);
         }
     }
@@ -277,9 +291,8 @@ private:
             3, report_.rows, rows_.points, cells_, rows_.features, rows_.values, rows_.distances, rows_.carried};
         if (sink_) sink_->write(view).value();
         if (!weights_ && !save_) return;
-        std::vector<Mesh::Index> triangles;
+        std::vector<Mesh::Index> triangles, nodes;
         std::vector<std::uint8_t> counts;
-        std::vector<Mesh::Index> nodes;
         std::vector<double> weights;
         for (const SurfaceNearest& n : near_) {
             triangles.push_back(n.cell);
@@ -306,7 +319,8 @@ private:
     std::unique_ptr<TableSink> sink_;
     std::optional<MapWriter> save_;
     std::unique_ptr<io::WeightsFile> weights_;
-    Table rows_;  ///< of the block
+    Table rows_;              ///< of the block
+    std::vector<double> at_;  ///< the points, those that are not finite as 0
     std::vector<SurfaceNearest> near_;
     std::vector<Mesh::Index> cells_;  ///< as users count them
     std::vector<double> part_;
@@ -318,14 +332,18 @@ std::optional<Result<SampleReport>> at_surface(const SampleJob& job) {
         const base::RunFiles run_files;
         const jobs::ThreadLimit limit(job.options.threads);
         jobs::Stopwatch watch;
-        const bool sure = io::is_surface_file(job.mesh);  // else what was found of it as a mesh goes before
-        if (sure) check_job(job, {});
-        Result<std::variant<Mesh, Surface>> read = read_mesh_or_surface(job.mesh, {.threads = job.options.threads});
-        if (!read && sure) return read.error();
+        const bool sure = io::is_polygons_file(job.mesh);
+        const auto check = [&] {
+            refuse_what_is_of_meshes(job);
+            check_job(job, {});
+        };
+        if (sure) check();
+        Result<std::variant<Mesh, Surface>> read =
+            read_mesh_or_surface(job.mesh, {.threads = job.options.threads, .step = job.step});
+        if (!read && io::is_surface_file(job.mesh)) return read.error();
         auto* const surface = read ? std::get_if<Surface>(&*read) : nullptr;
         if (surface == nullptr) return std::nullopt;
-        if (!sure) check_job(job, {});
-        refuse_what_is_of_meshes(job);
+        if (!sure) check();
         jobs::add_fields(job.field_files, *surface);
         return SurfaceSampling(job, *surface, watch.lap()).run();
     } catch (const Exception& problem) {

@@ -219,6 +219,11 @@ std::uint64_t count_nan(const TableView& rows) {
     return count;
 }
 
+void refuse_kept(const std::string& name) {
+    refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(name),
+           "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
+}
+
 Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
                     const OpenFormat& open) {
     const std::vector<std::string> columns = format.columns();
@@ -243,8 +248,7 @@ Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<Col
         if (!kept.back()) {
             left_out.push_back(name);
         } else if (!add(column)) {
-            refuse("", "a column to keep has the name of another column of the rows", "", base::quoted(column.name),
-                   "name the columns to keep, with another name for this one: job.keep OTHER=" + name);
+            refuse_kept(column.name);
         }
     }
     if (left_out.empty()) {

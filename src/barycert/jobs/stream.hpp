@@ -85,6 +85,9 @@ void sample_rows(SampledMesh& mesh, const RowSource& source, const OpenRows& ope
 
 using OpenFormat = std::function<Sink(const TableFormat& format)>;
 
+/// A column of the points that the rows cannot have, too.
+[[noreturn]] void refuse_kept(const std::string& name);
+
 /// Opens an output by open(format of its rows) and returns what takes rows whose cells are those of the mesh, and gives
 /// it what users are to see: cells by their numbers in the file, labels that the job asked for, and `carried` columns
 /// of the points. The report gets the names of these. The mesh must stay. A carried column that has the name of another

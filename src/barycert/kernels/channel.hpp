@@ -45,12 +45,12 @@ enum Incident : std::uint8_t {
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 inline constexpr std::array<double, 4> unset_weights{unset, unset, unset, unset};
 
-/// What a worker writes of one case. The program believes none of it: a kernel may have written there.
+/// What a kernel answers to one case.
 struct Answer {
     int status = 0;  ///< 1: declared degenerate
     int region = 0;  ///< of the kernel's own classification
     std::array<double, 4> weights = unset_weights;
-    double value = unset;        ///< of the kernel's own function of values
+    double value = unset;        ///< of the interpolated field
     std::uint8_t incidents = 0;  ///< Incident
 };
 
@@ -100,10 +100,10 @@ struct Channel {
     std::atomic<std::uint32_t> complete{0};  ///< answers below this one are complete
     std::atomic<bool> beside{false};         ///< it died of a touch beside its arrays
     std::atomic<bool> closed{false};         ///< it ended since descriptors were closed that the kernel had not opened
-    std::array<Answer, batch_size> answers;
-    double ns = -1;           ///< per evaluation, if timed
-    char detail[160] = {};    ///< of the first incident of the batch that it survived
-    Description description;  ///< after Command::describe
+    std::array<Answer, batch_size> answers;  ///< nothing of them is believed: a kernel may have written there
+    double ns = -1;                          ///< per evaluation, if timed
+    char detail[160] = {};                   ///< of the first incident of the batch that it survived
+    Description description;                 ///< after Command::describe
 };
 
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<std::uint32_t>::is_always_lock_free,

@@ -1,5 +1,3 @@
-
-
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/mesh/consistency.hpp"

@@ -1,4 +1,3 @@
-
 #include "barycert/base/finite.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/raster.hpp"

@@ -1,4 +1,3 @@
-
 #include <limits>
 
 #include "barycert/base/finite.hpp"

@@ -1,4 +1,3 @@
-
 #include "barycert/base/finite.hpp"
 #include "barycert/base/strict_math.hpp"
 #include "barycert/core/exact_tier.hpp"

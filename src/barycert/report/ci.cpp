@@ -1,4 +1,3 @@
-
 #include "barycert/base/json_text.hpp"
 #include "barycert/report.hpp"
 #include "barycert/report/common/json.hpp"

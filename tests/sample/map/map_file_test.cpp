@@ -135,7 +135,7 @@ TEST(MapFile, AnotherMeshIsRefused) {
         const Result<MapReader> reader = MapReader::open(folder / "map", other);
         if (reader) return std::string("accepted");
         EXPECT_EQ(reader.error().what, "the map was made for another mesh");
-        EXPECT_EQ(reader.error().expected, "one of 5 nodes and 2 tetrahedra");
+        EXPECT_EQ(reader.error().expected, "one of 5 nodes and 2 cells");
         EXPECT_EQ(reader.error().remedy, "name the mesh of the map, or create the map again for this mesh");
         return reader.error().found;
     };
@@ -155,12 +155,12 @@ TEST(MapFile, AnotherMeshIsRefused) {
     }
     Mesh more = mesh;
     more.points.insert(more.points.end(), {2, 2, 2});
-    EXPECT_EQ(refused(more), "one of 6 nodes and 2 tetrahedra");
+    EXPECT_EQ(refused(more), "one of 6 nodes and 2 cells");
     Mesh fewer = mesh;
     fewer.cells.resize(4);
-    EXPECT_EQ(refused(fewer), "one of 5 nodes and 1 tetrahedra");
+    EXPECT_EQ(refused(fewer), "one of 5 nodes and 1 cells");
     EXPECT_EQ(refused(two_triangles()), "one of 4 nodes and 2 triangles");
-    EXPECT_EQ(refused({}), "one of 0 nodes and 0 tetrahedra");
+    EXPECT_EQ(refused({}), "one of 0 nodes and 0 cells");
 }
 
 TEST(MapFile, RowsThatNoMapCanHold) {

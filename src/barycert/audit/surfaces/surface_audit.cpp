@@ -24,21 +24,22 @@ std::optional<double> exact_answer(SurfaceQuestion question, const SurfaceCase& 
 }  // namespace
 
 void SurfaceTally::add(SurfaceQuestion question, double answer, double exact, std::uint64_t index) {
+    const ExactEnvironment environment;
+    const bool is_distance = question == SurfaceQuestion::distance;
+    const bool is_yes = is_distance ? exact == 0 : exact != 0, says_yes = is_distance ? answer == 0 : answer != 0;
     const std::uint64_t before = wrong_cases();
     ++cases;
-    yes += exact != 0;
-    if (!std::isfinite(answer)) {
+    yes += is_yes;
+    if (std::isfinite(answer)) {
+        false_yes += says_yes && !is_yes;
+        false_no += !says_yes && is_yes;
+    } else {
         ++not_finite;
-    } else if (const bool is_distance = question == SurfaceQuestion::distance; is_distance && exact == 0) {
-        false_no += answer != 0;
-    } else if (is_distance) {
-        false_yes += answer == 0;
+    }
+    if (is_distance && !is_yes && std::isfinite(answer)) {
         const double error = base::ulp_error_here(answer, exact);
         ulps.add(error);
         worst.include(error, index);
-    } else {
-        false_yes += answer != 0 && exact == 0;
-        false_no += answer == 0 && exact != 0;
     }
     if (wrong_cases() != before) wrong.include(1, index);
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/check/plc_facet.hpp"
 #include "barycert/check/surface/parts.hpp"
 
@@ -45,14 +46,18 @@ public:
     Segments(SurfaceParts& s, const Plc& plc) : s_(s), plc_(plc) {
         std::vector<Mesh::Index> same(plc.point_count());
         std::iota(same.begin(), same.end(), 0);
-        for (std::size_t i = 0; i < s.triangles.same.size(); ++i)
-            same[static_cast<std::size_t>(s.triangles.node(static_cast<Place>(i)))] =
-                s.triangles.node(s.triangles.same[i]);
+        std::vector<bool> loose(same.size(), true);
+        for (std::size_t i = 0; i < s.triangles.same.size(); ++i) {
+            const auto node = static_cast<std::size_t>(s.triangles.node(static_cast<Place>(i)));
+            same[node] = s.triangles.node(s.triangles.same[i]);
+            loose[node] = false;
+        }
+        unite(loose, same);
         for (std::size_t i = 0; i < plc.facets.size(); ++i) {
             for (Segment segment : segments_of(plc.facets[i])) {
                 for (Mesh::Index& node : segment) node = same[static_cast<std::size_t>(node)];
                 std::ranges::sort(segment);
-                if (segment[0] != segment[1]) facets_of_[segment].insert(i);
+                if (segment[0] != segment[1] && finite(segment[0]) && finite(segment[1])) facets_of_[segment].insert(i);
             }
         }
     }
@@ -76,23 +81,26 @@ public:
         });
     }
 
-    /// Segments of no triangle that meet one another. Along the first axis each is held against those that begin before
-    /// it ends.
+    /// Segments of no triangle that meet one another.
     void find_meeting() {
         std::vector<PlacedFacet> all;
+        std::vector<Box> of_all;
         for (const auto& entry : facets_of_) {
-            PlacedFacet f{{entry.first[0], entry.first[1], -1}, {point(entry.first[0]), point(entry.first[1])}};
-            if (!std::equal(f.at[0], f.at[0] + 3, f.at[1])) all.push_back(f);
+            all.push_back({{entry.first[0], entry.first[1], -1}, {point(entry.first[0]), point(entry.first[1])}});
+            of_all.push_back(index::box_of(3, all.back().at.data(), 2));
         }
-        const auto low = [](const PlacedFacet& f) { return std::min(*f.at[0], *f.at[1]); };
-        std::ranges::stable_sort(all, {}, low);
-        for (auto f = all.begin(); f != all.end(); ++f) {
-            const double end = std::max(*f->at[0], *f->at[1]);
-            for (auto g = f + 1; g != all.end() && low(*g) <= end; ++g) {
-                if (segments_conflict(*f, *g))
-                    s_.defects.add(DefectKind::segments_meet, {.nodes = {f->nodes[0], f->nodes[1], -1},
-                                                               .other_nodes = {g->nodes[0], g->nodes[1], -1}});
-            }
+        const BoxTree tree(of_all);
+        const std::size_t limit = s_.options.verdict_only ? 1 : pair_limit;
+        Defect& found = s_.defects[DefectKind::segments_meet];
+        for (std::size_t i = 0; i < all.size() && !found.at_least; ++i) {
+            tree.for_each(of_all[i], [&](std::size_t j) {
+                if (j <= i || !segments_conflict(all[i], all[j])) return true;
+                found.at_least = found.count == limit;
+                if (!found.at_least)
+                    s_.defects.add(DefectKind::segments_meet, {.nodes = {all[i].nodes[0], all[i].nodes[1], -1},
+                                                               .other_nodes = {all[j].nodes[0], all[j].nodes[1], -1}});
+                return !found.at_least;
+            });
         }
     }
 
@@ -111,7 +119,6 @@ public:
                 f.nodes[k] = found < 0 ? -2 - static_cast<Mesh::Index>(k) : found;
                 f.at[k] = point(segment[k]);
             }
-            if (std::equal(f.at[0], f.at[0] + 3, f.at[1])) continue;
             boxes.for_each_meeting(box_of(s_.triangles.index, f.at.data(), 2), [&](std::size_t t) {
                 if (!segment_conflicts(f, s_.triangles.facets[t])) return true;
                 s_.defects.add_marked(DefectKind::segment_in_facet,
@@ -168,6 +175,28 @@ public:
     }
 
 private:
+    /// Loose nodes at one place with others are one: those of triangles if there are some, else the lowest.
+    void unite(const std::vector<bool>& loose, std::vector<Mesh::Index>& same) {
+        if (std::ranges::find(loose, true) == loose.end()) return;
+        std::vector<Mesh::Index> order;
+        for (std::size_t n = 0; n < loose.size(); ++n) {
+            if (finite(static_cast<Mesh::Index>(n))) order.push_back(static_cast<Mesh::Index>(n));
+        }
+        const auto before = [&](Mesh::Index a, Mesh::Index b) {
+            return std::lexicographical_compare(point(a), point(a) + 3, point(b), point(b) + 3);
+        };
+        std::stable_partition(order.begin(), order.end(), [&](auto n) { return !loose[static_cast<std::size_t>(n)]; });
+        std::stable_sort(order.begin(), order.end(), before);
+        for (std::size_t i = 1; i < order.size(); ++i) {
+            const auto node = static_cast<std::size_t>(order[i]);
+            if (!loose[node] || before(order[i - 1], order[i])) continue;
+            const Mesh::Index first = same[node] = same[static_cast<std::size_t>(order[i - 1])];
+            s_.defects.add(DefectKind::coincident_nodes,
+                           {.nodes = {std::min(first, order[i]), std::max(first, order[i]), -1}});
+        }
+    }
+
+    bool finite(Mesh::Index n) const { return base::all_finite({point(n), 3}); }
     const double* point(Mesh::Index n) const { return &s_.surface.points[3 * static_cast<std::size_t>(n)]; }
 
     SurfaceParts& s_;

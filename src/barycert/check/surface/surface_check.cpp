@@ -53,6 +53,9 @@ public:
         } else {
             check_all();
         }
+        // --fix is for meshes.
+        defects_[DefectKind::coincident_nodes].better_remedy = "none needed: nodes at one place count as one";
+        defects_[DefectKind::near_nodes].better_remedy = "merge them in the program that made the surface";
         report_.defects = std::move(defects_).list();
         const bool whole = std::ranges::none_of(report_.defects, &Defect::breaks);
         return whole && parts_.found.closed ? Verdict::certified : Verdict::not_certified;
@@ -114,9 +117,7 @@ Verdict run_check(const Surface& surface, const std::vector<Fault>& faults, cons
     report.cells = surface.cells.size() / 3;
     report.surface.emplace();
     report.surface->plc = plc != nullptr;
-    report.surface->facets = plc != nullptr           ? plc->facets.size()
-                             : surface.facets.empty() ? report.cells
-                                                      : static_cast<std::uint64_t>(surface.facets.back()) + 1;
+    report.surface->facets = plc != nullptr ? plc->facets.size() : surface.facet_total();
     report.cell_numbers = surface.facets;
     report.notes = surface.notes;
     report.measures.defects.assign(report.cells, 0);

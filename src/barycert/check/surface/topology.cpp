@@ -1,4 +1,3 @@
-
 #include "barycert/check/surface/parts.hpp"
 
 namespace barycert::check {

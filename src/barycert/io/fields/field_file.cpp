@@ -1,4 +1,3 @@
-
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_layout.hpp"

@@ -132,7 +132,19 @@ bool encode(Encoder& e) {
 }  // namespace
 
 Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels) {
-    const Result<base::MappedFile> file = base::MappedFile::open(path);
+    const Result<base::InputFile> input = base::InputFile::open(path);
+    if (!input) return input.error();
+    // What is no PNG file is not read whole, nor what no picture of so many pixels takes.
+    std::array<char, 8> start{};
+    const Result<std::size_t> got = input->read_at(0, start, path);
+    if (!got) return got.error();
+    const bool is_png = *got == start.size() && png_sig_cmp(reinterpret_cast<png_const_bytep>(start.data()), 0, 8) == 0;
+    const std::uint64_t most = 16 * max_pixels + (std::uint64_t{1} << 26);
+    if (is_png && input->size() > most)
+        return file_error(path, "the PNG file is too large", "at most " + std::to_string(most) + " bytes",
+                          std::to_string(input->size()), "save it without what is no picture");
+    const auto file =
+        base::MappedFile::read(*input, path, is_png ? static_cast<std::size_t>(input->size()) : start.size());
     if (!file) return file.error();
     Decoder d{{}, file->bytes()};
     d.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &d, on_png_error, on_png_warning);

@@ -1,5 +1,7 @@
 #include "barycert/io/polygons/triangles.hpp"
 
+#include "barycert/base/text.hpp"
+
 namespace barycert::io {
 namespace {
 
@@ -12,6 +14,7 @@ void add(Surface& surface, std::size_t facet, const surface::FacetTriangles& cut
 
 /// Forgets the facets if each is one triangle.
 void settle(Surface& surface, std::size_t facets) {
+    surface.facet_count = facets;
     if (surface.facets.size() == facets && std::ranges::adjacent_find(surface.facets) == surface.facets.end())
         surface.facets.clear();
 }
@@ -134,7 +137,14 @@ Result<std::variant<Mesh, Surface>> read_mesh_or_surface(const std::string& path
         Result<Mesh> mesh = io::read_mesh_in_space(path, options, &space);
         if (!mesh) return mesh.error();
         if (space.points.empty() && space.facets.empty()) return Either(std::move(*mesh));
-        return Either(io::surface_of(std::move(*mesh), std::move(space)));
+        Surface surface = io::surface_of(std::move(*mesh), std::move(space));
+        if (const double z = surface.points.size() < 3 ? 0 : surface.points[2];
+            z != 0 && io::in_plane(surface.points, z))
+            surface.notes.push_back({Note::Kind::guessed,
+                                     "the triangles lie in the plane z = " + base::shortest(z) +
+                                         " and are taken for a surface in space; with z = 0 they are a mesh",
+                                     path, true});
+        return Either(std::move(surface));
     }
     if (io::is_plc_file(path)) {
         const Result<Plc> plc = read_plc(path);

@@ -1,4 +1,3 @@
-
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/vti/vti.hpp"

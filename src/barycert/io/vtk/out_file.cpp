@@ -147,9 +147,10 @@ bool write_compressed(const OutFile& f, Compressor compressor, base::OutputFile&
     if (!file.can_replace()) write_all([](std::string_view) {});
     write_all([&](std::string_view bytes) { file.write(bytes); });
     if (!file.can_replace()) return good;
-    file.replace(0, head());
+    const std::string final_head = head();
+    file.replace(0, final_head);
     for (std::size_t i = 0; i < headers.size(); ++i)
-        file.replace(head().size() + offsets[i], bytes_of_words(headers[i]));
+        file.replace(final_head.size() + offsets[i], bytes_of_words(headers[i]));
     return good;
 }
 
@@ -275,6 +276,10 @@ std::string raw_head(const OutFile& f) {
     for_each_array(f, [&](const OutArray& a) { offsets.push_back(offsets.back() + appended_header + a.size()); });
     return head_of(f, {}, offsets, 0);
 }
+
+static_assert(static_cast<Compressor>(VtkData::zlib) == Compressor::zlib &&
+              static_cast<Compressor>(VtkData::lz4) == Compressor::lz4 &&
+              static_cast<Compressor>(VtkData::lzma) == Compressor::lzma);
 
 Status write_xml(const OutFile& f, const std::string& path, VtkData data) {
     base::OutputFile file(path);

@@ -43,10 +43,11 @@ struct XmlTree : FileText {
 
     /// Takes what the root says of all arrays. Error: a byte order, type of header or compressor unknown to VTK.
     void take_layout();
-    /// Appends the numbers of the array, exactly `count`. `what` names it in errors. `inexact` as in FileText::check.
+    /// Appends the numbers of the array, exactly `count`; once the layout is taken. `what` names it in errors.
+    /// `inexact` as in FileText::check.
     void take_numbers(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
                       NumberFault* inexact = nullptr) const;
-    /// The texts of an array of strings, exactly `count`.
+    /// The texts of an array of strings, exactly `count`; likewise.
     std::vector<std::string> take_texts(const XmlElement& array, const std::string& what, std::uint64_t count) const;
 
     [[noreturn]] void refuse_at(const XmlElement& at, std::string what, std::string expected, std::string found,

@@ -1,5 +1,3 @@
-
-
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/locate/surface/surface_data.hpp"
@@ -58,6 +56,16 @@ double value_at(const Surface& s, const Field& field, bool of_cells, const Surfa
         .value;
 }
 
+void set_on(const Surface& s, const double* p, SurfaceNearest& n) {
+    if (n.cell < 0 || n.distance != 0) return;
+    index::PlacedFacet f;
+    for (std::size_t k = 0; k < 3; ++k) {
+        f.nodes[k] = s.cells[3 * static_cast<std::size_t>(n.cell) + k];
+        f.at[k] = &s.points[3 * static_cast<std::size_t>(f.nodes[k])];
+    }
+    n.on = index::face_around(3, f, p)[0] >= 0;
+}
+
 /// Of points [first, last), those near each other one after the other.
 void nearest_of_block(const SurfaceData& data, std::span<const double> points, double limit, std::size_t first,
                       std::size_t last, std::span<SurfaceNearest> found) {
@@ -72,6 +80,7 @@ void nearest_of_block(const SurfaceData& data, std::span<const double> points, d
         to.push_back(&found[first + i]);
     }
     data.nearest(from, limit, to);
+    for (std::size_t i = first; i < last; ++i) set_on(*data.surface, &points[3 * i], found[i]);
 }
 
 }  // namespace
@@ -139,6 +148,7 @@ Result<SurfaceNearest> SurfaceLocator::nearest(const double* point, double limit
     SurfaceNearest found;
     SurfaceNearest* const to = &found;
     data_->nearest({&point, 1}, base::held(limit), {&to, 1});
+    set_on(*data_->surface, point, found);
     return found;
 }
 
@@ -170,7 +180,9 @@ Status SurfaceLocator::nearest_on(std::span<const Mesh::Index> triangles, std::s
     base::in_arena(threads, found.size(), [&] {
         base::parallel_for_each(found.size(), 256, [&](std::size_t i) {
             found[i] = {};
+            found[i].distance = std::numeric_limits<double>::infinity();
             if (triangles[i] >= 0 && !data_->nearest_on(triangles[i], &points[3 * i], found[i])) flat = true;
+            set_on(*data_->surface, &points[3 * i], found[i]);
         });
     });
     if (flat) return Error{.what = "a triangle of zero area, on which no point is nearest"};

@@ -34,17 +34,15 @@ void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion quest
         if (r.rule.question != question) continue;
         const SurfaceTally& t = r.total;
         Row row{{r.rule.name, brief_count(t.cases), share_cell({t.wrong_cases(), t.cases}, true)}};
+        if (distance) row.cells.push_back(share_cell({t.not_finite, t.cases}));
+        row.cells.push_back(share_cell({t.false_yes, t.cases - t.yes}));
+        row.cells.push_back(share_cell({t.false_no, t.yes}));
         if (distance) {
-            row.cells.push_back(share_cell({t.not_finite, t.cases}));
-            row.cells.push_back(share_cell({t.false_yes, t.yes}));
-            row.cells.push_back(share_cell({t.false_no, t.cases - t.yes}));
-            row.cells.emplace_back(brief(p999(t)), t.ulps.quantile(0.999));
+            row.cells.push_back(number_cell(p999(t)));
             row.cells.push_back(number_cell(t.worst.value));
         } else {
             const auto worst =
                 std::ranges::max_element(r.families, {}, [](const SurfaceTally& f) { return share_of_wrong(&f); });
-            row.cells.push_back(share_cell({t.false_yes, t.cases - t.yes}));
-            row.cells.push_back(share_cell({t.false_no, t.yes}));
             row.cells.emplace_back(t.wrong_cases() == 0
                                        ? ""
                                        : fmt::format("{}, {} %", surface_families()[worst->family].name,

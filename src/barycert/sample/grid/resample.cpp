@@ -1,4 +1,3 @@
-
 #include <tbb/parallel_pipeline.h>
 
 #include "barycert/environment.hpp"

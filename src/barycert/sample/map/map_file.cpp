@@ -190,10 +190,8 @@ struct MapReaderData {
         return Error{
             .what = "the map was made for another mesh",
             .file = name,
-            .expected = size_of(head.nodes, head.cells,
-                                head.dimension == is.dimension ? cells
-                                : head.dimension == 2          ? "triangles"
-                                                               : "tetrahedra"),
+            // In space they may be tetrahedra or triangles: the file does not tell.
+            .expected = size_of(head.nodes, head.cells, head.dimension == 2 ? "triangles" : "cells"),
             .found = alike ? "one of that size with other coordinates or cells" : size_of(is.nodes, is.cells, cells),
             .remedy = "name the mesh of the map, or create the map again for this mesh"};
     }
@@ -322,7 +320,7 @@ Result<MapReader> MapReader::begin(const std::string& path, const sample::MapHea
 }
 Result<MapReader> MapReader::open(const std::string& path, const Mesh& mesh) {
     const ExactEnvironment environment;
-    return begin(path, header_of(mesh, false), mesh.dimension == 2 ? "triangles" : "tetrahedra");
+    return begin(path, header_of(mesh, false), mesh.dimension == 2 ? "triangles" : "cells");
 }
 Result<MapReader> MapReader::open(const std::string& path, const Surface& surface) {
     const ExactEnvironment environment;
