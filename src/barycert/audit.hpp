@@ -503,7 +503,7 @@ struct AuditJob {
     std::vector<NamedMesh> meshes;  ///< not read where no family draws from meshes, unless they are asked for
     bool meshes_asked = false;
     bool check = true;  ///< whether the meshes are partitions
-    Curved curved = Curved::straight;
+    Curved curved = Curved::isoparametric;
     KernelChoice kernels = {};
     std::vector<std::string> families = {};  ///< see choose_families
     std::string baseline;                    ///< what an earlier audit wrote as JSON; empty: none

@@ -174,7 +174,7 @@ Result<GapsReport> find_gaps(const GapsOptions& options, const Mesh& mesh, const
 /// The same of a file.
 struct GapsJob {
     std::string mesh;  ///< as for read_mesh
-    Curved curved = Curved::straight;
+    Curved curved = Curved::isoparametric;
     bool check = true;  ///< whether the mesh is a partition
     GapsOptions options = {};
 };

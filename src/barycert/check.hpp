@@ -71,37 +71,6 @@ private:
     std::uint64_t fingerprint_ = 0;
 };
 
-/// Second-order cells whose sides are not straight. They are taken with straight sides everywhere: what is said of them
-/// is exact for these, and for the file's own shapes only up to about `max_deviation`.
-///
-/// The deviation of a mid-edge node is its distance from the middle of the two ends, over their distance. It is
-///   nothing   up to 2^-49 of the largest coordinate of the ends, on each axis: a middle computed in double, or written
-///             with 16 digits (derived in check/curved.cpp);
-///   rounding  up to 1e-10 of the edge: what meshers and motions compute. Or up to one unit of the last place of the
-///             mesh's coordinates, and 1/1000 of the edge, if all coordinates are single precision, or have at most 15
-///             decimal digits: the unit is that of the last decimal place in the mesh or, in single precision and with
-///             at least 5 digits, that of the largest coordinate of the ends;
-///   a curve   else.
-struct CurvedCells {
-    std::uint64_t cells = 0;          ///< with a node off the middle by a curve
-    double max_deviation = 0;         ///< of such nodes
-    std::uint64_t rounded_cells = 0;  ///< of the others: with a node off the middle by rounding
-    double max_rounded = 0;           ///< of such nodes
-};
-
-/// Leaves out cells with an index that is no node, and coordinates that are not finite. `each`, if given: 1 for each
-/// curved cell, 0 for others; empty if none is curved.
-CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each = nullptr);
-
-/// In one sentence, empty if all sides are straight.
-std::string message(const CurvedCells& curved);
-
-/// What becomes of curved cells.
-enum class Curved : std::uint8_t { straight, refuse };
-
-/// Error, with Curved::refuse: there are curved cells. `file` is what the user calls the mesh.
-Result<CurvedCells> take_as_straight(const Mesh& mesh, const std::string& file, Curved curved);
-
 // The defects that a check may find in a mesh, and which of them break the certificate.
 
 /// What they are, and which break the certificate, stands in defect_texts. Their numbers are the bits of DefectSet.
@@ -147,6 +116,7 @@ enum class DefectKind : std::uint8_t {
     inside_out,
     facet_off_plane,
     misplaced_point,
+    folded_cell,  ///< of Mesh::shapes
 };
 
 struct DefectText {
@@ -159,7 +129,7 @@ struct DefectText {
     std::string_view one = {}, more = {};  ///< of those that do: what it means for the verdict, after its count
 };
 
-inline constexpr std::array<DefectText, 40> defect_texts{{
+inline constexpr std::array<DefectText, 41> defect_texts{{
     {DefectKind::bad_structure, "bad_structure", "P1", "arrays whose sizes are no whole number of nodes or cells",
      "give d coordinates per node and d + 1 vertices per cell", true, "array has a wrong size",
      "arrays have a wrong size"},
@@ -248,6 +218,9 @@ inline constexpr std::array<DefectText, 40> defect_texts{{
      false},
     {DefectKind::misplaced_point, "misplaced_point", "", "hole and region points on a facet, or in no closed part",
      "move the point into the part that is meant", false},
+    {DefectKind::folded_cell, "folded_cell", "P2",
+     "cells with parts that are turned both ways: warped too far, or folded",
+     "move a node of the cell, or correct the order of its nodes", true, "cell is folded", "cells are folded"},
 }};
 
 inline constexpr std::size_t defect_kind_count = defect_texts.size();
@@ -295,6 +268,10 @@ struct CellMeasures {
     std::vector<DefectSet> defects;        ///< that the cell is part of
     std::vector<double> volume;            ///< signed (2D: area), correctly rounded, in the unit of coordinates cubed
     std::vector<double> condition;         ///< of the weights, see weights.hpp; infinity if degenerate
+
+    /// Sign of the Jacobian of each cell's isoparametric map (MapReport): -1, 1; 0 not known, 2 changes. Of a cell that
+    /// has none its orientation. Empty if no cell has one.
+    std::vector<std::int8_t> jacobian;
 
     // Shape, in plain double from correctly rounded volumes. Of a degenerate cell: infinite ratios.
     std::vector<double> radius_edge;  ///< circumradius / shortest edge; regular: 0.612 (2D: 0.577)
@@ -404,6 +381,15 @@ struct VolumeReport {
     bool equal = false;   ///< the two exact numbers are equal
 };
 
+/// Isoparametric maps: of hexahedra, voxels, wedges, pyramids, quadrilaterals and pixels (CellInterpolation), and of
+/// curved simplices of order 2 to 4. One is injective near each point if its Jacobian has one sign. That is told by its
+/// Bernstein coefficients, exactly: all have the sign (proved); it has both signs at corners of the cell, or is zero at
+/// one (changing); neither (unknown).
+struct MapReport {
+    std::uint64_t cells = 0, positive = 0, negative = 0, changing = 0, unknown = 0;
+    std::vector<Mesh::Index> examples;  ///< the first that are changing or unknown
+};
+
 /// A field with values that are NaN or infinite.
 struct NotFinite {
     std::string field;
@@ -472,6 +458,7 @@ struct CheckReport {
     int dimension = 3;
     std::optional<SurfaceReport> surface;  ///< of a surface or PLC: `cells` are triangles
     std::uint64_t nodes = 0, cells = 0;
+    std::uint64_t shapes = 0;  ///< of the mesh: `cells` are the simplices that they are cut into; 0: there are none
     int threads = 0;
     double seconds = 0;
 
@@ -483,6 +470,7 @@ struct CheckReport {
     std::uint64_t parts = 0;                                   ///< connected over facets
     BoundaryReport boundary;
     VolumeReport volume;
+    std::optional<MapReport> maps;
 
     CellMeasures measures;              ///< of each cell
     std::vector<CellContact> contacts;  ///< of cells that overlap or touch where they must not

@@ -17,8 +17,9 @@ struct GmshReadOptions {
 
 /// Reads a .msh file of version 4.1, 4.0 or 2.x, text or binary of either byte order.
 ///
-/// - Tetrahedra make a mesh of dimension 3; where nothing has dimension 3, triangles one of dimension 2, with z = 0.
-///   All cells are of order 1 or all of order 2.
+/// - Elements of dimension 3 make a mesh of dimension 3; where there are none, polygons one of dimension 2, with z = 0.
+///   What is no simplex of order 1 or 2, or of several types, makes Mesh::shapes: of higher orders by its corners, but
+///   simplices up to order 4 with all nodes.
 /// - Elements of a lower dimension are left out, with a Note; `cell_numbers` are positions among all elements.
 /// - Nodes stand in the order of the file whatever their tags, those of no cell included.
 /// - Cell fields "gmsh:physical" (the tag of the cell's group, 0 for none; absent if no cell has one) and
@@ -86,12 +87,15 @@ struct StepChoice {
 /// .vtp.series). The first bytes tell which of them a file is. ASCII, base64, raw, compressed by zlib, LZ4 or LZMA, of
 /// either byte order.
 ///
-/// - Tetrahedra make a mesh of dimension 3; where there are none, triangles one of dimension 2, with z = 0. All cells
-///   are linear or all are quadratic (VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE).
-/// - Vertices, lines and, beside tetrahedra, triangles are left out, as are ghost cells (vtkGhostType: duplicate,
+/// - Cells of dimension 3 make a mesh of dimension 3; where there are none, polygons one of dimension 2, with z = 0.
+///   What is no simplex of order 1 or 2, or of several types, makes Mesh::shapes: of higher orders by its corners, but
+///   simplices up to order 4 with all nodes. Image data, rectilinear and structured grids (.vti .vtr .vts) have voxels,
+///   pixels, hexahedra and quadrilaterals.
+/// - Vertices, lines and, beside solids, polygons are left out, as are ghost cells (vtkGhostType: duplicate,
 ///   refined, hidden), with their rows of the cell arrays. cell_numbers then says which cells of the file stay; those
 ///   of several files count on.
-/// - Of a collection with unstructured grids all else is left out; where there are none, polygon data are the mesh.
+/// - Of a collection with unstructured grids all else is left out; where there are none, structured grids are the mesh,
+///   and without those polygon data.
 /// - Nodes of pieces are kept as they are; of one global number (GlobalIds, GlobalNodeId) and place they are one.
 /// - Arrays of numbers of any type become fields of the same name, exactly. Strings of cells, and 64-bit integers of
 ///   one component that no doubles represent, become cell_labels. Other arrays are left out: strings of points, without

@@ -35,7 +35,8 @@ struct MeshJob {
     std::string mesh;      ///< as for read_mesh
     StepChoice step = {};  ///< of a mesh that is a series (.pvd, .vtu.series); none: the first
     std::vector<FieldFile> field_files = {};
-    Curved curved = Curved::straight;  ///< what becomes of curved cells
+    Curved curved = Curved::isoparametric;                                  ///< what becomes of curved cells
+    CellInterpolation cell_interpolation = CellInterpolation::linear;  ///< of sampling and verification
 
     /// Where the caller will write reports, after what it calls them: checked with the files of the job.
     std::vector<std::pair<std::string, std::string>> reports = {};
@@ -50,6 +51,7 @@ struct MeshReport {
     CurvedCells curved;  ///< of the mesh: taken with straight sides
     Notes notes;         ///< what was left out, converted or guessed: of the mesh, of fields, of points
     std::uint64_t nodes = 0, cells = 0;
+    std::uint64_t simplices = 0;  ///< that the cells are cut into; 0: they are simplices
     int dimension = 3, threads = 1;
 };
 

@@ -1,8 +1,14 @@
 /// Exact point location on any mesh.
 ///
-/// Input: a Mesh of tetrahedra or triangles (second-order cells are taken with straight sides) and points in its unit.
-/// Output: for each point its owner, which is the cell of lowest index among all closed cells that contain it, and the
-/// feature of that cell on which it lies.
+/// Input: a Mesh of tetrahedra or triangles, or of cells that are cut into these, and points in its unit. Output: for
+/// each point its owner, which is the cell of lowest index among all closed cells that contain it, and the feature of
+/// that cell on which it lies.
+///
+/// Curved cells (BuildOptions::straight_sides) are the images of their reference cells under the isoparametric map, if
+/// it is proved to be injective: then a point is in the cell whose map takes a point of the reference cell there. No
+/// node of such a mesh is outside, also where it is off the middle of a straight edge by rounding. Points on curved
+/// faces are told by enclosures of 250 bits and rational numbers. That curved cells do not overlap is not proved: a
+/// point inside the cell whose straight simplex has it is not looked for elsewhere.
 ///
 /// What holds (each law is a test of that name in tests/locate):
 ///   L1  A point in the union of the closed cells of non-zero volume is always found, and its owner is the lowest cell
@@ -69,9 +75,26 @@ enum class Prove : std::uint8_t {
     never,  ///< find no neighbours, and test candidates everywhere
 };
 
+/// What function cells that are no simplices (Mesh::shapes) have, and with it, where their sides are.
+enum class CellInterpolation : std::uint8_t {
+    linear,  ///< linear on each part: continuous, with flat triangles for sides
+    /// Voxels, pixels, hexahedra, wedges, pyramids and quadrilaterals: that of the isoparametric map, products of
+    /// linear functions of its coordinates. Sides of four nodes that are not in one plane are curved. Other cells, and
+    /// those whose map is not proved to be injective, stay linear: see Locator::unmapped_cells.
+    multilinear,
+};
+
+constexpr std::string_view name(CellInterpolation i) {
+    return i == CellInterpolation::linear ? "linear" : "multilinear";
+}
+
 /// How an index is built.
 struct BuildOptions {
     Prove prove = Prove::at_once;
+    CellInterpolation interpolation = CellInterpolation::linear;
+    /// Second-order cells whose mid-edge nodes are off the middle (CurvedCells), and simplices of order 3 and 4, are
+    /// taken with straight sides; those of order 3 and 4, and of order 2 beside cells of other shapes, are linear then.
+    bool straight_sides = false;
     int threads = 0;  ///< 0: as many as the machine has; the index is the same for any number
     std::function<void(const char* stage)> progress = {};  ///< called as each stage begins
 };
@@ -101,6 +124,11 @@ public:
 
     /// Cells of volume exactly zero; 0 if the index was built with Prove::never.
     std::uint64_t degenerate_cells() const;
+
+    CellInterpolation interpolation() const;
+    bool has_curved_cells() const;  ///< some are taken as the isoparametric images that they are
+    /// Cells of a type that has a map, which are taken as their parts: it is not proved that the map is injective.
+    std::uint64_t unmapped_cells() const;
 
     /// Bytes of memory besides the mesh, without buffers of points (up to 20 MiB a thread). Grows as parts of the index
     /// are built on first use.

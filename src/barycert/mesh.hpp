@@ -1,7 +1,7 @@
-/// A simplicial mesh with its fields, in memory.
+/// A mesh with its fields, in memory.
 ///
-/// Tetrahedra in 3-space or triangles in the plane. All indices are 0-based positions in file order, whatever base
-/// the file used. Coordinates are finite doubles in the file's own unit.
+/// Tetrahedra in 3-space or triangles in the plane; cells of other shapes are cut into these. All indices are 0-based
+/// positions in file order, whatever base the file used. Coordinates are finite doubles in the file's own unit.
 #pragma once
 
 #include "barycert/result.hpp"
@@ -60,9 +60,27 @@ enum class MidEdgeOrder : std::uint8_t {
 struct Mesh {
     using Index = std::int32_t;
 
+    /// Cells that are no simplices, as their file has them. Each is cut into simplices at its node of lowest number,
+    /// and each of its faces likewise, so that neighbours agree (pulling); these simplices are the mesh's `cells`, and
+    /// the index of the first is in `parts`.
+    struct Shapes {
+        std::vector<std::uint8_t> types;      ///< VTK's numbers, 5 to 16 and 42; empty in a mesh of simplices
+        std::vector<std::int64_t> ends;       ///< where the nodes of each end
+        std::vector<Index> nodes;             ///< of all, in VTK's order
+        std::vector<std::int64_t> face_ends;  ///< where the faces of each end, if some are polyhedra; else empty
+        std::vector<std::int64_t> ring_ends;  ///< where the nodes of each face of polyhedra end
+        std::vector<Index> rings;             ///< these nodes
+        std::vector<Index> parts;             ///< the first cell of each, and the number of all
+        std::vector<std::uint16_t> inside;    ///< of each cell, what of its boundary lies inside (mesh/pulling.hpp)
+
+        std::size_t count() const { return types.size(); }
+        friend bool operator==(const Shapes&, const Shapes&) = default;
+    };
+
     int dimension = 3;           ///< 2: triangles in the plane; 3: tetrahedra
     std::vector<double> points;  ///< dimension coordinates a node
     std::vector<Index> cells;    ///< dimension + 1 vertices a cell
+    Shapes shapes;               ///< what `cells` were cut from; empty if the file has simplices
 
     /// Nodes at mid-edges in the order `vtk` whatever the file's, 6 a tetrahedron or 3 a triangle; empty if linear.
     std::vector<Index> mid_nodes;
@@ -80,7 +98,8 @@ struct Mesh {
     /// Cell across the facet opposite to each corner, -1 where there is none: dimension + 1 a cell, or empty.
     std::vector<Index> neighbours;
 
-    /// The number in the file, from 0, of each cell, ascending. Empty if no cell of the file was left out.
+    /// The number in the file, from 0, of each cell, ascending; the parts of a shape have one. Empty if the cells are
+    /// those of the file.
     std::vector<Index> cell_numbers;
     Notes notes;  ///< what its readers left out, converted or guessed
 
@@ -93,7 +112,41 @@ struct Mesh {
     std::size_t corners() const { return static_cast<std::size_t>(dimension) + 1; }
     std::size_t point_count() const { return points.size() / static_cast<std::size_t>(dimension); }
     std::size_t cell_count() const { return cells.size() / corners(); }
+    /// Cells as users know them.
+    std::size_t whole_count() const { return shapes.types.empty() ? cell_count() : shapes.count(); }
     std::size_t face_count() const { return faces.size() / 3; }
 };
+
+/// Second-order cells whose sides are not straight. Locators and samplers take them as they are (locator.hpp); what else
+/// is said of meshes is exact for straight sides, and for the file's own shapes only up to about `max_deviation`.
+///
+/// The deviation of a mid-edge node is its distance from the middle of the two ends, over their distance. It is
+///   nothing   up to 2^-49 of the largest coordinate of the ends, on each axis: a middle computed in double, or written
+///             with 16 digits (derived in check/curved.cpp);
+///   rounding  up to 1e-10 of the edge: what meshers and motions compute. Or up to one unit of the last place of the
+///             mesh's coordinates, and 1/1000 of the edge, if all coordinates are single precision, or have at most 15
+///             decimal digits: the unit is that of the last decimal place in the mesh or, in single precision and with
+///             at least 5 digits, that of the largest coordinate of the ends;
+///   a curve   else.
+struct CurvedCells {
+    std::uint64_t cells = 0;          ///< with a node off the middle by a curve
+    double max_deviation = 0;         ///< of such nodes
+    std::uint64_t rounded_cells = 0;  ///< of the others: with a node off the middle by rounding
+    double max_rounded = 0;           ///< of such nodes
+    bool mapped = false;              ///< they are taken as they are
+};
+
+/// Leaves out cells with an index that is no node, and coordinates that are not finite. `each`, if given: of each cell a
+/// bit for each of its mid-edge nodes that is off the middle by a curve; empty if none is.
+CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each = nullptr);
+
+/// In one sentence, empty if all sides are straight.
+std::string message(const CurvedCells& curved);
+
+/// What becomes of curved cells.
+enum class Curved : std::uint8_t { isoparametric, straight, refuse };
+
+/// Error, with Curved::refuse: there are curved cells. `file` is what the user calls the mesh.
+Result<CurvedCells> measure_curved(const Mesh& mesh, const std::string& file, Curved curved);
 
 }  // namespace barycert

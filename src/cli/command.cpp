@@ -25,8 +25,9 @@ constexpr std::string_view same_names =
     "width ";
 
 /// Those whose options have another.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> other_names{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> other_names{{
     {"all", "--on-boundary"},
+    {"cell_interpolation", "--interpolation"},
     {"counts", "--grid"},
     {"field_files", "--field"},
     {"measures", "--vtu"},

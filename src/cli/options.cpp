@@ -115,10 +115,21 @@ CLI::Option* Options::flag(Text name, bool& value, Text help, bool given) const 
         name, [&value, given] { value = given; }, with_command_name(help));
 }
 
+void Options::cell_interpolation(CellInterpolation& interpolation) const {
+    choice<CellInterpolation>(
+        "--interpolation", interpolation,
+        {{"linear", CellInterpolation::linear}, {"multilinear", CellInterpolation::multilinear}},
+        "Of cells that are no triangles or tetrahedra: linear (default) on the simplices that each is cut into, or "
+        "multilinear: the isoparametric function of hexahedra, wedges, pyramids and quadrilaterals");
+}
+
 void Options::curved(Curved& curved) const {
-    choice<Curved>("--curved", curved, {{"straight", Curved::straight}, {"refuse", Curved::refuse}},
-                   "Second-order cells with mid-edge nodes off the middle: straight: take their sides as straight, and "
-                   "say so (default); refuse: fail");
+    choice<Curved>(
+        "--curved", curved,
+        {{"isoparametric", Curved::isoparametric}, {"straight", Curved::straight}, {"refuse", Curved::refuse}},
+        "Second-order cells with mid-edge nodes off the middle: isoparametric: take them as they are where "
+        "points are located (default), elsewhere their sides as straight, and say so; straight: everywhere; "
+        "refuse: fail");
 }
 
 void Options::vtk_data(std::optional<VtkData>& data) const {

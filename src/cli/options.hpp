@@ -145,6 +145,7 @@ public:
     void mesh(std::string& mesh) const { text("MESH", mesh, mesh_help)->required(); }
     void threads(int& threads) const { integer("--threads", threads, 0, 4096, "Number of threads; 0: all"); }
     void curved(Curved& curved) const;
+    void cell_interpolation(CellInterpolation& interpolation) const;
     void vtk_data(std::optional<VtkData>& data) const;
     void nonfinite(NonfinitePoints& points) const;
     void rounding(Rounding& rounding, const char* help) const {

@@ -53,6 +53,7 @@ void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) 
     o.parsed("--within", "DISTANCE", "The same as --outside nearest=DISTANCE", "", job.options.outside,
              [](const std::string& text) { return std::optional(policy_of("nearest=" + text)); });
     o.curved(job.curved);
+    o.cell_interpolation(job.cell_interpolation);
     o.threads(job.options.threads);
     o.vtk_data(job.vtk_data);
     reports.file(o, "--json", json_summary);

@@ -81,6 +81,7 @@ Exit codes: 0 all rows are right, 1 some are wrong (see --fail-on), 2 usage or i
            [&job](const std::string& text) { job.limits.push_back(parse_verify_limit(text).value()); })
         ->delimiter(',');
     o.curved(job.curved);
+    o.cell_interpolation(job.cell_interpolation);
     o.threads(job.options.threads);
     a.reports.file(o, "--json", "Write the report as JSON; - is stdout");
     a.reports.file(o, "--html", "Write the report as an HTML page; - is stdout");

@@ -5,6 +5,13 @@
 namespace barycert::python {
 
 template <>
+inline constexpr Words<Curved> words<Curved>{
+    "curved=",
+    {{{"isoparametric", Curved::isoparametric}, {"straight", Curved::straight}, {"refuse", Curved::refuse}}}};
+template <>
+inline constexpr Words<CellInterpolation> words<CellInterpolation> = named("interpolation=", CellInterpolation::linear,
+                                                                           CellInterpolation::multilinear);
+template <>
 inline constexpr Words<VtkData> words<VtkData> = named("encoding of VTK's files", VtkData::raw, VtkData::zlib,
                                                        VtkData::lz4, VtkData::lzma, VtkData::ascii);
 
@@ -88,13 +95,21 @@ py::list notes_of(const MeshObject& mesh) {
     return list_of(mesh.mesh().notes, [](const Note& note) { return std::pair(message(note), note.important); });
 }
 
-/// The figures of CurvedCells, and what to warn of: empty if no cell is curved.
-std::pair<py::dict, std::string> take_mesh_as_straight(const MeshObject& object, const std::string& file, bool refuse) {
-    const CurvedCells curved =
-        take_as_straight(object.mesh(), file, refuse ? Curved::refuse : Curved::straight).value();
+/// The figures of CurvedCells, and what to warn of: empty if no cell is curved, or all are taken as they are.
+std::pair<py::dict, std::string> curved_of(const MeshObject& object, const std::string& file, Curved how) {
+    CurvedCells curved = measure_curved(object.mesh(), file, how).value();
+    curved.mapped = !object.geometry()->options.straight_sides;
     return {py::dict("cells"_a = curved.cells, "max_deviation"_a = curved.max_deviation,
                      "rounded_cells"_a = curved.rounded_cells, "max_rounded"_a = curved.max_rounded),
-            curved.cells == 0 ? std::string() : message(curved)};
+            curved.cells == 0 || curved.mapped ? std::string() : message(curved)};
+}
+
+/// How points are located in cells that are no straight simplices: before anything is.
+std::string set_cells(const MeshObject& object, const std::string& file, Curved curved,
+                      CellInterpolation interpolation) {
+    object.geometry()->options.straight_sides = curved != Curved::isoparametric;
+    object.geometry()->options.interpolation = interpolation;
+    return curved_of(object, file, curved).second;
 }
 
 MeshObject read(const std::string& path, std::optional<std::size_t> number, bool last, std::optional<double> time) {
@@ -162,7 +177,11 @@ void bind_mesh(py::module_& module) {
         .def_property_readonly("cell_numbers", [](Object m) { return if_any(m, m.mesh().cell_numbers); })
         .def_property_readonly("point_markers", [](Object m) { return if_any(m, m.mesh().point_markers); })
         .def_property_readonly("notes", &notes_of)
-        .def("take_as_straight", &take_mesh_as_straight)
+        .def("set_cells",
+             [](Object m, const std::string& file, const std::string& curved, const std::string& interpolation) {
+                 return set_cells(m, file, words<Curved>.at(curved), words<CellInterpolation>.at(interpolation));
+             })
+        .def("curved", [](Object m) { return curved_of(m, "", Curved::isoparametric).first; })
         .def("field_names", &field_names)
         .def("field", &field_named)
         .def("set_field", &set_field)

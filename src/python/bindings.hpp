@@ -194,6 +194,7 @@ void in_blocks(const Progress& progress, std::string_view stage, std::size_t tot
 template <class Data, class Locator>
 struct Located {
     Data data;
+    BuildOptions options{.prove = Prove::when_it_pays, .progress = {}};  ///< of the locator, before it is made
 
     explicit Located(Data all = {}) : data(std::move(all)) {}
 
@@ -202,8 +203,9 @@ struct Located {
         const py::gil_scoped_release unlocked;
         const std::lock_guard once(making_);
         if (!locator_) {
-            const auto on_stage = [&](const char* stage) { tell(progress, stage, 0, 0); };
-            locator_ = Locator::build(data, {.prove = Prove::when_it_pays, .progress = on_stage}).value();
+            BuildOptions told = options;
+            told.progress = [&](const char* stage) { tell(progress, stage, 0, 0); };
+            locator_ = Locator::build(data, told).value();
         }
         return *locator_;
     }

@@ -181,13 +181,42 @@ TEST_F(Converted, WhatCannotBeReadIsAnError) {
     EXPECT_TRUE(contains(barycert({"check", "b.inp"}).err, "not a mesh of Abaqus"));
     scratch_.put("c.vol", "mesh3d\n");
     EXPECT_EQ(barycert({"check", "c.vol"}).code, 2);
-    // Cells that are no simplices are told as of any file.
+    // What is wrong with the mesh is told of the file itself.
+    scratch_.put("q.inp", "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,5\n*ELEMENT, TYPE=CPS4\n1, 1,2,3,4\n");
+    const Ended off_plane = barycert({"render", "mesh", "q.inp", "--output", "q.png"});
+    EXPECT_EQ(off_plane.code, 2);
+    EXPECT_TRUE(contains(off_plane.err, "q.inp: z of point 3 (from 0)")) << off_plane.err;
+    EXPECT_FALSE(contains(off_plane.err, "/proc/")) << off_plane.err;
+}
+
+/// All that meshio has of each kind, of both orders, in one file; values of cells come through.
+TEST_F(Converted, CellsOfAllShapes) {
+    scratch_.put("make.py", R"(
+import meshio, numpy as np
+x = np.array([[i, j, k] for k in (0, 1, 2) for j in (0, 1) for i in (0, 1, 2)] + [[2.5, .5, .5]], float)
+cells = [("hexahedron", [[0, 1, 4, 3, 6, 7, 10, 9]]), ("wedge", [[6, 7, 9, 12, 13, 15], [7, 10, 9, 13, 16, 15]]),
+         ("pyramid", [[2, 5, 11, 8, 18]]), ("quad", [[0, 1, 4, 3]]), ("tetra", [[1, 2, 4, 7]])]
+meshio.Mesh(x, cells, cell_data={"q": [[5.], [1., 2.], [3.], [7.], [9.]]}).write("a.xdmf")
+)");
+    shell(std::string(python) + " make.py");
+    const Ended check = barycert({"check", "a.xdmf", "--json", "a.json", "--quiet"});
+    EXPECT_TRUE(
+        contains(check.err + check.out + read_file(scratch_.path("a.json")), "5 cells are cut into 15 tetrahedra"))
+        << check.err << read_file(scratch_.path("a.json"));
+    scratch_.put("p.csv", "x,y,z\n.25,.5,.5\n.2,.25,1.5\n.8,.9,1.5\n2.25,.5,.5\n");
+    const Ended rows = barycert({"sample", "a.xdmf", "--points", "p.csv", "--output", "-", "--fields", "q", "--quiet"});
+    EXPECT_EQ(lines_of(rows.out).size(), 5U) << rows.err;
+    for (const char* end : {",5\n", ",1\n", ",2\n", ",3\n"}) EXPECT_TRUE(contains(rows.out, end)) << rows.out;
     scratch_.put("h.inp",
                  "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
                  "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n");
-    const Ended hexahedron = barycert({"check", "h.inp"});
-    EXPECT_TRUE(contains(hexahedron.err, "h.inp: cells that are neither tetrahedra nor triangles")) << hexahedron.err;
-    EXPECT_FALSE(contains(hexahedron.err, "/proc/")) << hexahedron.err;
+    const Ended hexahedron = barycert({"sample", "h.inp", "--points", "h.inp", "--output", "-"});
+    EXPECT_EQ(hexahedron.code, 0) << hexahedron.err;
+    EXPECT_EQ(lines_of(hexahedron.out).at(7), "1,1,1,0,vertex");
+    scratch_.put("q.inp", "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n*ELEMENT, TYPE=CPS4\n1, 1,2,3,4\n");
+    const Ended quad = barycert({"sample", "q.inp", "--points", "q.inp", "--output", "-"});
+    EXPECT_EQ(quad.code, 0) << quad.err;
+    EXPECT_EQ(lines_of(quad.out).at(4), "0,1,0,vertex") << quad.out;
 }
 
 TEST_F(Converted, ItIsTurnedOffByAnEmptyVariable) {

@@ -146,7 +146,7 @@ TEST(EveryEnvironment, CurvedCells) {
             for (const std::uint64_t n : {curved.cells, curved.rounded_cells}) out.add(n);
             for (const double x : {curved.max_deviation, curved.max_rounded}) out.add(x);
             for (const std::uint8_t one : each) out.add(std::uint64_t{one});
-            const auto straight = take_as_straight(mesh, "mesh", Curved::refuse);
+            const auto straight = measure_curved(mesh, "mesh", Curved::refuse);
             out.add(std::string_view(straight ? "" : straight.error().message()));
             out.add(std::string_view(message(curved)));
         });

@@ -204,9 +204,9 @@ TEST(Curved, Words) {
     EXPECT_EQ(message(found),
               "8 cells are curved: mid-edge nodes lie up to 0.21 of the edge off its middle; sides were taken "
               "as straight");
-    EXPECT_TRUE(take_as_straight(curved_ball(3), "ball.vtu", Curved::straight));
-    EXPECT_TRUE(take_as_straight(straight_ball(3), "ball.vtu", Curved::refuse));
-    const auto refused = take_as_straight(curved_ball(3), "ball.vtu", Curved::refuse);
+    EXPECT_TRUE(measure_curved(curved_ball(3), "ball.vtu", Curved::straight));
+    EXPECT_TRUE(measure_curved(straight_ball(3), "ball.vtu", Curved::refuse));
+    const auto refused = measure_curved(curved_ball(3), "ball.vtu", Curved::refuse);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().file, "ball.vtu");
     EXPECT_NE(refused.error().found.find("8 cells are curved"), std::string::npos);

@@ -170,22 +170,45 @@ def test_curved_cells_are_told_or_refused(tmp_path, recwarn):
     assert not recwarn.list
     points[4] += 0.5
     with pytest.warns(UserWarning, match="1 cell is curved: mid-edge nodes lie up to 0.1") as told:
-        mesh = barycert.Mesh(points, cells)
+        mesh = barycert.Mesh(points, cells, curved="straight")
     assert told[0].filename == __file__
     assert mesh.curved["cells"] == 1 and abs(mesh.curved["max_deviation"] - 0.125) < 1e-15
     report = mesh.check()
     assert report.certified and str(report).startswith("curved     1 cell is curved") and "for straight sides" in str(report)
-    assert report.to_dict()["curved"] == mesh.curved and "1 cell is curved" in report.html()
+    assert report.to_dict()["curved"] == {**mesh.curved, "mapped": False} and "1 cell is curved" in report.html()
     path = str(tmp_path / "curved.vtu")
     mesh.write(path)
     with pytest.warns(UserWarning, match="curved.vtu: 1 cell is curved") as told:
-        assert barycert.read(path).curved == mesh.curved
+        assert barycert.read(path, curved="straight").curved == mesh.curved
     assert told[0].filename == __file__
     for make in (lambda: barycert.read(path, curved="refuse"), lambda: barycert.Mesh(points, cells, curved="refuse")):
         with pytest.raises(barycert.Error, match="the mesh is curved.*1 cell is curved"):
             make()
-    with pytest.raises(barycert.Error, match="curved=: expected 'straight' or 'refuse', found 'bent'"):
+    with pytest.raises(barycert.Error, match="curved=: expected isoparametric, straight or refuse, found bent"):
         barycert.read(path, curved="bent")
+    # As it is: the bulge is inside, and the node has its value.
+    bulge = [[2.4, 2.4]]
+    mesh.point_data["f"] = np.arange(6.0)
+    assert mesh.locate(bulge).cell[0] == -1
+    bent = barycert.Mesh(points, cells, point_data={"f": np.arange(6.0)})
+    assert bent.locate(bulge).cell[0] == 0
+    assert bent.sample(points[4:5], "f")[0] == 4
+
+
+def test_cells_of_other_shapes(tmp_path):
+    path = str(tmp_path / "hex.vtk")
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    with open(path, "w") as out:
+        out.write("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n")
+        out.writelines("%d %d %d\n" % c for c in corners)
+        out.write("CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\nPOINT_DATA 8\nSCALARS f double 1\nLOOKUP_TABLE default\n")
+        out.writelines("%d\n" % (x * y * z) for x, y, z in corners)
+    linear, multilinear = barycert.read(path), barycert.read(path, interpolation="multilinear")
+    point = [[0.5, 0.25, 0.75]]
+    assert linear.sample(point, "f")[0] == 0.25  # on the part with corners 0 4 7 6, or the like
+    assert multilinear.sample(point, "f")[0] == 0.5 * 0.25 * 0.75
+    with pytest.raises(barycert.Error, match="interpolation=: expected linear or multilinear, found cubic"):
+        barycert.read(path, interpolation="cubic")
 
 
 def test_a_repaired_copy():

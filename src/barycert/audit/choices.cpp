@@ -41,7 +41,7 @@ Result<std::vector<Item>> chosen(const std::vector<std::string>& globs, std::vec
 /// A mesh whose cells are taken with straight sides, as far as they may. Throws an Exception.
 Mesh cells_of(const std::string& path, int threads, Curved curved, Notes& notes) {
     Mesh mesh = read_mesh(path, {.faces = false, .neighbours = false, .threads = threads}).value();
-    if (curved == Curved::refuse) take_as_straight(mesh, path, curved).value();
+    if (curved == Curved::refuse) measure_curved(mesh, path, curved).value();
     notes.insert(notes.end(), mesh.notes.begin(), mesh.notes.end());
     return mesh;
 }

@@ -190,7 +190,8 @@ struct CellChecker {
         const Integer volume = c.volumes.cell(p);
         const int sign = volume.sign();
         m.orientation[cell] = static_cast<std::int8_t>(sign);
-        if (sign == 0) note(DefectKind::degenerate_cell, cell, part, kind(d, p));
+        if (sign == 0 && c.mesh.shapes.types.empty()) note(DefectKind::degenerate_cell, cell, part, kind(d, p));
+        if (sign == 0) c.defects.mark(static_cast<Mesh::Index>(cell), DefectKind::degenerate_cell);
         ++(sign == 0 ? part.degenerate : sign > 0 ? part.positive : part.negative);
         part.total = sign < 0 ? part.total - volume : part.total + volume;
         if (plain_sign(d, p) != sign) note(DefectKind::plain_sign_wrong, cell, part);
@@ -212,6 +213,25 @@ struct CellChecker {
         part.defects.add_marked(defect, {.cells = {static_cast<Mesh::Index>(cell), -1}, .detail = detail});
     }
 };
+
+/// Shapes with parts in both orders, or without a volume: each once.
+void find_folded(Checked& c) {
+    const std::vector<Mesh::Index>& parts = c.mesh.shapes.parts;
+    for (std::size_t shape = 0; shape + 1 < parts.size(); ++shape) {
+        bool positive = false, negative = false, zero = false;
+        const auto first = std::min(static_cast<std::size_t>(parts[shape]), c.orientation.size());
+        const auto last = std::min(static_cast<std::size_t>(parts[shape + 1]), c.orientation.size());
+        for (std::size_t cell = first; cell < last; ++cell) {
+            positive |= c.orientation[cell] > 0;
+            negative |= c.orientation[cell] < 0;
+            zero |= c.usable[cell] != 0 && c.orientation[cell] == 0;
+        }
+        if (zero)
+            c.defects.add(DefectKind::degenerate_cell,
+                          {.cells = {parts[shape], -1}, .detail = positive || negative ? "in part" : "as a whole"});
+        if (positive && negative) c.defects.add_marked(DefectKind::folded_cell, {.cells = {parts[shape], -1}});
+    }
+}
 
 /// Cells in both orders: those of the rarer one are told.
 void find_mixed(Checked& c) {
@@ -254,6 +274,7 @@ void check_cells(Checked& c) {
             c.report.negative += part.negative;
             c.report.degenerate += part.degenerate;
         });
+    find_folded(c);
     find_mixed(c);
 }
 

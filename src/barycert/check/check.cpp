@@ -112,6 +112,7 @@ private:
         if (const char* fault = mesh::inconsistency_of_extras(c.mesh, mesh::FieldValues::any); fault != nullptr)
             defects_.add(DefectKind::unfit_array, {.detail = fault});
         if (enough()) return;
+        if (!options_.verdict_only) report_.maps = check_maps(c);
         if (options_.delaunay) {
             stage("Delaunay");
             report_.delaunay = check_delaunay(c);
@@ -197,6 +198,7 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
     if (mesh.dimension == 2 || mesh.dimension == 3) {
         report.nodes = mesh.point_count();
         report.cells = mesh.cell_count();
+        report.shapes = mesh.shapes.count();
         if (mesh.cell_numbers.size() == mesh.cell_count()) report.cell_numbers = mesh.cell_numbers;
     }
     report.curved = note_curved_cells(mesh, report);

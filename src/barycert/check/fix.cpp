@@ -51,6 +51,7 @@ public:
         : old_(mesh), options_(options), report_(report), mesh_(mesh), same_(mesh.point_count()) {}
 
     Result<Mesh> run() {
+        mesh_.shapes = {};  // the copy has their parts
         if (options_.nodes && !merge_nodes())
             return Error{.what = "so large a distance would merge nodes throughout the mesh",
                          .found = base::shortest(options_.merge_within),

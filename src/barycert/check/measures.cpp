@@ -32,6 +32,8 @@ Distribution distribution(const std::vector<double>& values) {
 std::vector<Field> measure_fields(const CellMeasures& measures) {
     std::vector<Field> all{{"orientation", 1, {measures.orientation.begin(), measures.orientation.end()}}};
     for (const auto& [name, values] : cell_measures) all.push_back({std::string(name), 1, measures.*values});
+    if (!measures.jacobian.empty())
+        all.push_back({"jacobian", 1, {measures.jacobian.begin(), measures.jacobian.end()}});
     all.push_back({"problems", 1, {measures.defects.begin(), measures.defects.end()}});
     return all;
 }

@@ -271,6 +271,8 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
 
 // What else can be asked of a mesh, on all threads of the calling arena.
 
+/// Sets CellMeasures::jacobian. Nothing if no cell has a map, or the arrays of the mesh do not fit.
+std::optional<MapReport> check_maps(const Checked& c);
 DelaunayReport check_delaunay(const Checked& c);
 
 /// Areas mean little where the mesh is not certified. Precondition: tetrahedra.

@@ -235,7 +235,10 @@ std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
 }
 
 CellIndex make_cell_index(const Mesh& mesh) {
-    return make_cell_index(mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron, mesh.points, mesh.cells);
+    const Simplex simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
+    CellIndex index = make_cell_index(simplex, mesh.points, mesh.cells);
+    if (!mesh.shapes.inside.empty()) index.inside = mesh.shapes.inside.data();
+    return index;
 }
 
 }  // namespace barycert::index

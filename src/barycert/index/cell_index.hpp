@@ -35,6 +35,7 @@ struct CellIndex {
     std::vector<Mesh::Index> original_node;  ///< node of the mesh by place; those of no cell have none
     /// By bin, without its last part_bits bits: the first cell there or later; one more at the end. Empty of surfaces.
     std::vector<Place> first;
+    const std::uint16_t* inside = nullptr;  ///< Mesh::Shapes::inside, where cells of the mesh are parts of others
 
     std::size_t dimension() const { return static_cast<std::size_t>(space_dimension(simplex)); }
     std::size_t corners() const { return static_cast<std::size_t>(vertex_count(simplex)); }

@@ -84,11 +84,8 @@ Error unknown_suffix(const std::string& path, std::string what, std::string expe
 }
 
 bool is_vtk_file(std::string_view path) {
-    return has_one_of(path, {".vtu", ".vtk", ".vtp", ".pvtu", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".pvd", ".series"});
-}
-
-bool is_vtk_points_file(std::string_view path) {
-    return is_vtk_file(path) || has_one_of(path, {".vti", ".vtr", ".vts"});
+    return has_one_of(path, {".vtu", ".vtk", ".vtp", ".pvtu", ".pvtp", ".vtm", ".vtpd", ".vtpc", ".pvd", ".series",
+                             ".vti", ".vtr", ".vts"});
 }
 
 Result<FileFormat> format_of(const std::string& path) {
@@ -259,6 +256,8 @@ Notes left_out_by(MeshFormat format, const Mesh& mesh) {
         if (format == MeshFormat::tetgen || (format == MeshFormat::gmsh && !own))
             leave_out("labels of cells, for which the format has no place: " + labels.name);
     }
+    if (format != MeshFormat::vtk && !mesh.shapes.types.empty())
+        notes.push_back({Note::Kind::converted, "cells are written as the simplices that they are cut into"});
     if (format != MeshFormat::tetgen && !mesh.faces.empty())
         leave_out("faces, for which the format has no place: " + std::to_string(mesh.face_count()));
     return notes;

@@ -90,11 +90,9 @@ std::string suffix_of(const std::string& path);
 /// That the suffix of the path is another one.
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
-/// True if the path ends as those of VTK's files with meshes do: .vtu .vtk .vtp, .pvtu .pvtp .vtm .vtpd .vtpc .pvd.
+/// True if the path ends as those of VTK's files with meshes do: .vtu .vtk .vtp .vti .vtr .vts, .pvtu .pvtp .vtm .vtpd
+/// .vtpc .pvd.
 bool is_vtk_file(std::string_view path);
-
-/// True for these and grids, whose points can be read: .vti .vtr .vts.
-bool is_vtk_points_file(std::string_view path);
 
 // `path`, `options` and `format` are as for open_points and open_table.
 // Errors are thrown as Exceptions.
@@ -145,6 +143,10 @@ std::string meshio_format(const std::string& path);
 /// Of a mesh that is to be written: by the end of its name. Error: it is another one.
 Result<MeshFormat> mesh_output_format(const std::string& path);
 
+/// Cuts the shapes of a mesh whose cell numbers, fields and labels have a row for each shape, and tells it; nothing if
+/// it has no shapes. Error: a polyhedron that is not closed.
+void cut_into_simplices(Mesh& mesh, const std::string& path);
+
 /// What of the mesh a file of that format has no place for: names of fields, labels of cells, faces. What follows from
 /// the cells, as neighbours do, is not among it.
 Notes left_out_by(MeshFormat format, const Mesh& mesh);
@@ -175,7 +177,7 @@ const OtherFormat* packed_format(std::string_view head);
 /// That the file is not read, and what to do.
 Error other_format_error(const OtherFormat& format, const std::string& path);
 
-/// How to cut the cells of a file into simplices.
+/// How to cut the cells of a file of VTK into simplices.
 std::string to_simplices(const std::string& path);
 
 /// Whether all points x, y, z lie in that plane; and what to do where they do not in z = 0. `path`: of a file of linear
@@ -183,13 +185,12 @@ std::string to_simplices(const std::string& path);
 bool in_plane(std::span<const double> points, double z = 0);
 std::string plane_remedy(std::span<const double> points, const std::string& path);
 
-/// The command that writes a file of Gmsh anew, in version 4.1, with `more` arguments; in backquotes.
-std::string gmsh_command(const std::string& path, const std::string& more = {});
+/// The command that writes a file of Gmsh anew, in version 4.1; in backquotes.
+std::string gmsh_command(const std::string& path);
 
 inline constexpr const char* formats_read =
-    "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .pvtu .vtm .pvd .vtu.series .vtp.series), TetGen "
-    "or "
-    "Triangle (.node .ele), or one that meshio reads";
+    "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .vti .vtr .vts .pvtu .vtm .pvd .vtu.series "
+    ".vtp.series), TetGen or Triangle (.node .ele), or one that meshio reads";
 
 /// Reads a mesh by way of meshio, whose name of the format is `format`: nodes and cells in its order, which is told
 /// with its version and what it printed. Error: run_meshio(); meshio cannot read the file; read_vtk(); what comes back

@@ -183,16 +183,13 @@ const OtherFormat* other_format_by_content(std::string_view head, std::string_vi
     return nullptr;
 }
 
-std::string gmsh_command(const std::string& path, const std::string& more) {
-    return "`gmsh " + shell_word(path) + more + " -save -save_all -format msh41 -o " +
-           shell_word(stem_of(path) + "-new.msh") + "`";
+std::string gmsh_command(const std::string& path) {
+    return "`gmsh " + shell_word(path) + " -save -save_all -format msh41 -o " + shell_word(stem_of(path) + "-new.msh") +
+           "`";
 }
 
 std::string to_simplices(const std::string& path) {
-    const std::string stem = stem_of(path);
-    if (is_vtk_file(path)) return "cut them into simplices with " + paraview_command(path, stem);
-    return "cut them into simplices with `meshio convert " + shell_word(path) + " " + shell_word(stem + "-all.vtu") +
-           "` and " + paraview_command(stem + "-all.vtu", stem);
+    return "cut them into simplices with " + paraview_command(path, stem_of(path));
 }
 
 bool in_plane(std::span<const double> points, double z) {

@@ -63,17 +63,16 @@ void grow(std::vector<T>& values, std::size_t count) {
     values.resize(values.size() + count);
 }
 
-/// Leaves those rows, which ascend, and no others.
+/// Leaves those rows, which do not descend, and no others; a row may be there several times.
 template <class T>
 void keep_rows(std::vector<T>& values, std::size_t components, const std::vector<std::int32_t>& rows) {
-    std::size_t to = 0;
+    std::vector<T> kept;
+    kept.reserve(rows.size() * components);
     for (const std::int32_t row : rows) {
-        const std::size_t from = static_cast<std::size_t>(row) * components;
-        for (std::size_t c = 0; c < components; ++c, ++to) {
-            if (to != from + c) values[to] = std::move(values[from + c]);
-        }
+        const auto from = values.begin() + row * static_cast<std::ptrdiff_t>(components);
+        kept.insert(kept.end(), from, from + static_cast<std::ptrdiff_t>(components));
     }
-    values.resize(to);
+    values = std::move(kept);
 }
 
 }  // namespace barycert::io

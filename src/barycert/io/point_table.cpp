@@ -57,7 +57,7 @@ Source open_any(const std::string& path, int dimension, const PointOptions& opti
     const auto source_of = [&](PointTable table) {
         return points_of_table(std::move(table), path, dimension, options);
     };
-    if (is_vtk_points_file(path)) {
+    if (is_vtk_file(path)) {
         const bool arrays = !options.keep.empty() || !options.columns.empty();
         return source_of(read_vtk_table(path, arrays, options.nonfinite_points).value());
     }

@@ -204,7 +204,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         refuse(job.measures, "job.measures writes VTU files of meshes", "a name that ends in .vtu", "",
                "choose another name");
     const Mesh& mesh = checked.mesh;
-    if (job.curved == Curved::refuse) take_as_straight(checked.mesh, job.mesh, job.curved).value();
+    if (job.curved == Curved::refuse) measure_curved(checked.mesh, job.mesh, job.curved).value();
     check_nothing_in_the_way(job, mesh);
     Plc plc;
     if (!job.plc.empty()) {

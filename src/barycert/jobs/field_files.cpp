@@ -44,7 +44,7 @@ std::string names_of(const std::vector<Field>& fields) {
 
 /// The points of a VTK file that has no cells, such as rows of `sample`, with their arrays.
 Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error& fault) {
-    if (!io::is_vtk_points_file(path)) return fault;
+    if (!io::is_vtk_file(path)) return fault;
     Result<io::PointTable> table = io::read_vtk_table(path, true);
     if (!table) return fault;
     Mesh mesh;
@@ -160,7 +160,7 @@ void check_label(const Mesh& mesh, const Column& label) {
 }  // namespace
 
 bool is_file_of_a_mesh(const std::string& path) {
-    if (io::is_vtk_points_file(path) || has_suffix_of(path, {".msh", ".mesh", ".meshb", ".node", ".ele"})) return true;
+    if (io::is_vtk_file(path) || has_suffix_of(path, {".msh", ".mesh", ".meshb", ".node", ".ele"})) return true;
     std::error_code ignored;  // what is no regular file is not opened to look at it
     return !has_suffix_of(path, {".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"}) &&
            std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);

@@ -30,7 +30,7 @@ void check_steps(const SamplingJob& job, const std::vector<Step>& steps) {
 }
 
 void add_input(std::vector<base::NamedFile>& inputs, const std::string& what, const std::string& path) {
-    if (!io::is_vtk_points_file(path)) return inputs.push_back({what, path});
+    if (!io::is_vtk_file(path)) return inputs.push_back({what, path});
     for (const std::string& file : vtk_mesh_files(path)) inputs.push_back({what, file});
 }
 
@@ -69,7 +69,7 @@ void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done)
 Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved) {
     tell_stage(job, "reading " + job.mesh);
     Mesh mesh = read_mesh(job.mesh, {.faces = false, .neighbours = false, .threads = threads, .step = step}).value();
-    const CurvedCells straight = take_as_straight(mesh, job.mesh, job.curved).value();
+    const CurvedCells straight = measure_curved(mesh, job.mesh, job.curved).value();
     // Of steps, that with the largest deviation.
     if (straight.max_deviation >= curved.max_deviation) curved = straight;
     return mesh;
@@ -85,7 +85,8 @@ Mesh open_mesh_with_fields(const MeshJob& job, int threads, MeshReport& report) 
 void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& report) {
     report.mesh = job.mesh;
     report.nodes = mesh.point_count();
-    report.cells = mesh.cell_count();
+    report.cells = mesh.whole_count();
+    report.simplices = mesh.shapes.types.empty() ? 0 : mesh.cell_count();
     report.dimension = mesh.dimension;
     report.notes = mesh.notes;
     report.threads = base::threads_for(threads);
@@ -93,7 +94,24 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
 
 Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove) {
     const auto progress = [&](const char* stage) { tell_stage(job, stage); };
-    return Locator::build(mesh, {.prove = prove, .threads = threads, .progress = progress}).value();
+    return Locator::build(mesh, {.prove = prove,
+                                 .interpolation = job.cell_interpolation,
+                                 .straight_sides = job.curved == Curved::straight,
+                                 .threads = threads,
+                                 .progress = progress})
+        .value();
+}
+
+Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& path) {
+    const std::uint64_t unmapped = locator.unmapped_cells();
+    if (asked == CellInterpolation::multilinear && locator.interpolation() == CellInterpolation::linear)
+        return {{Note::Kind::guessed, "no cell is a hexahedron or the like: multilinear interpolation is linear here",
+                 path, true}};
+    if (unmapped == 0) return {};
+    return {{Note::Kind::guessed,
+             std::to_string(unmapped) +
+                 " cells are taken as straight or by their parts: it is not proved that their maps are injective",
+             path, true}};
 }
 
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more) {

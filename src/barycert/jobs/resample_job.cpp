@@ -149,7 +149,7 @@ void onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
                std::to_string(other.dimension),
                "resample between meshes of triangles, or between meshes of tetrahedra");
     SampleReport& report = mesh.report;
-    report.onto_curved = take_as_straight(other, job.onto, job.curved).value();
+    report.onto_curved = measure_curved(other, job.onto, job.curved).value();
     report.from = PointsFrom::mesh;
     report.points = job.onto;
     const bool further = mesh.has_further_steps();

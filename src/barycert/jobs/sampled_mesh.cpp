@@ -10,6 +10,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"
+#include "barycert/mesh/pulling.hpp"
 #include "barycert/sample/points/chunk_sampler.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 #include "barycert/surface/parts.hpp"
@@ -48,9 +49,10 @@ std::string reason_of(const Locator& locator, std::uint64_t degenerate, bool cur
     if (locator.certified()) return curved ? "the mesh is certified for straight sides" : "the mesh is certified";
     if (contested == 0 && degenerate != 0) return "cells meet in common faces; degenerate ones are left out";
     return fmt::format(
-        "{} of {} cells may meet others beside common faces, and there other such cells are tested, too; `{} check` "
+        "{} of {} {} may meet others beside common faces, and there other such cells are tested, too; `{} check` "
         "tells more",
-        contested, locator.mesh().cell_count(), program);
+        contested, locator.mesh().cell_count(), locator.mesh().shapes.inside.empty() ? "cells" : "parts of cells",
+        program);
 }
 
 }  // namespace
@@ -231,7 +233,9 @@ TableFormat SampledMesh::format() const {
 
 void SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields, Prove prove) {
     Stopwatch watch;
-    locator_ = build_locator(job, mesh, job.options.threads, prove);
+    locator_ = build_locator(job, mesh, job.options.threads, may_be_mapped() ? Prove::at_once : prove);
+    report.curved.mapped = locator_->has_curved_cells();
+    tell_once(notes_of_maps(*locator_, job.cell_interpolation, job.mesh));
     build_sampler(fields);
     if (job.count_degenerate)
         report.degenerate_cells += prove == Prove::never ? count_degenerate(mesh) : locator_->degenerate_cells();
@@ -273,7 +277,14 @@ void SampledMesh::prepare(std::span<const double> all_points) {
     // Of several meshes, that all are certified, or why one is not.
     if (report.verdict == Verdict::not_certified) return;
     report.verdict = locator_->certified() ? Verdict::certified : Verdict::not_certified;
-    report.reason = reason_of(*locator_, locator_->degenerate_cells(), report.curved.cells != 0, job.program);
+    report.reason = reason_of(*locator_, locator_->degenerate_cells(),
+                              report.curved.cells != 0 && !report.curved.mapped, job.program);
+}
+
+bool SampledMesh::may_be_mapped() const {
+    const bool curved = report.curved.cells + report.curved.rounded_cells != 0 ||
+                        std::ranges::any_of(mesh_.shapes.types, mesh::is_curved_simplex);
+    return job.cell_interpolation != CellInterpolation::linear || (curved && job.curved != Curved::straight);
 }
 
 /// If points are few, the cells that may hold some of them.
@@ -284,7 +295,8 @@ std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const 
         return mesh::check_field(choice.field, choice.of_cells ? cells : mesh_.point_count(), "").has_value();
     });
     // What is wrong with fields or points is told by the usual way.
-    if (gives_distances(job.options.outside) || !needs_no_index(count, cells) || !fit || !base::all_finite(points))
+    if (gives_distances(job.options.outside) || may_be_mapped() || !needs_no_index(count, cells) || !fit ||
+        !base::all_finite(points))
         return std::nullopt;
     // If more cells may hold a point, an index is made all the same.
     const std::size_t most = cells / 8;
@@ -297,7 +309,7 @@ std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const 
 }
 
 void SampledMesh::let_go_of_mesh() {
-    if (gives_distances(job.options.outside) || !mesh_.mid_nodes.empty() || step_by_step()) return;
+    if (gives_distances(job.options.outside) || !mesh_.mid_nodes.empty() || step_by_step() || may_be_mapped()) return;
     // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
     give_back(mesh_.points);
     give_back(mesh_.cells);

@@ -104,6 +104,8 @@ private:
     void choose_fields();
     std::vector<std::string> names_of_fields() const;
     std::vector<FieldChoice> fields_of_part();
+    /// Whether cells may have maps (BuildOptions).
+    bool may_be_mapped() const;
     std::optional<std::vector<Mesh::Index>> cells_near(std::span<const double> points);
     void build_sampler(const std::vector<FieldChoice>& fields);
     void build(const Mesh& mesh, const std::vector<FieldChoice>& fields, Prove prove);

@@ -101,4 +101,28 @@ bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<cons
     return finite;
 }
 
+/// Owners and features of points, by those in parts of cells, on the threads of the calling arena; counts features
+/// anew.
+inline void settle_mapped(const LocatorData& data, std::span<const double> points, std::span<Mesh::Index> cells,
+                          std::span<Feature> features, LocationCounts& counts) {
+    const std::size_t d = data.index.dimension();
+    const LocationCounts found = base::parallel_reduce(
+        cells.size(), std::size_t{1} << 12, LocationCounts(),
+        [&](std::size_t first, std::size_t last, LocationCounts& part) {
+            for (std::size_t i = first; i < last; ++i) {
+                const Location own = base::all_finite(points.subspan(d * i, d))
+                                         ? data.settle(&points[d * i], {cells[i], features[i]})
+                                         : Location{};
+                cells[i] = own.cell;
+                features[i] = own.feature;
+                part.add(own.feature);
+            }
+        },
+        [](LocationCounts& all, const LocationCounts& part) { all.add(part); });
+    const auto [tests, ways] = std::pair(counts.tests, counts.ways);
+    counts = found;
+    counts.tests = tests;
+    counts.ways = ways;
+}
+
 }  // namespace barycert::locate

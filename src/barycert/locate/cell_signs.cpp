@@ -1,5 +1,7 @@
 #include "barycert/locate/cell_signs.hpp"
 
+#include "barycert/mesh/pulling.hpp"
+
 namespace barycert::locate {
 namespace {
 
@@ -49,6 +51,13 @@ WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, 
     if (!certain) return weight_signs(index.simplex, vertices_of(index, cell).data(), point, &tiers);
     tiers.add(Tier::filter);
     return *certain;
+}
+
+Feature feature_of(const CellIndex& index, Place cell, WeightSigns signs) {
+    if (index.inside == nullptr || signs.region() != Region::boundary) return signs.feature(index.simplex);
+    const auto original = static_cast<std::size_t>(index.original[static_cast<std::size_t>(cell)]);
+    return mesh::feature_of_whole(index.inside[original], signs.bits() >> 4U & 0xfU,
+                                  static_cast<int>(index.dimension()));
 }
 
 }  // namespace barycert::locate

@@ -49,6 +49,9 @@ struct CellAtPoint {
 /// at), all finite.
 WeightSigns cell_signs(const CellIndex& index, Place cell, const double* point, TierCounts& tiers);
 
+/// The feature on which a point with these signs lies: of the whole cell, where this is a part of one.
+Feature feature_of(const CellIndex& index, Place cell, WeightSigns signs);
+
 /// False if the cell's box does not hold the point, told by comparisons alone.
 inline bool box_holds(const CellIndex& index, Place cell, const double* point) {
     const CellRecord& record = index.cells[static_cast<std::size_t>(cell)];

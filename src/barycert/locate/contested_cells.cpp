@@ -72,7 +72,7 @@ void ContestedCells::find_owners(const PointRecord* points, const std::uint32_t*
         const WeightSigns signs = cell_signs(index_, cell, point, tests);
         if (!signs.contains()) return;
         owner[i] = cell;
-        feature[i] = signs.feature(index_.simplex);
+        feature[i] = feature_of(index_, cell, signs);
     };
     const Lists* const lists = lists_.made();
     if (lists != nullptr && !lists->begin.empty()) {

@@ -140,13 +140,16 @@ void Finder::resolve(const PointRecord& point, Walk stuck, Place* owner, Feature
         asked_[asked_count_++] = stuck.point;
         return;
     }
-    feature[stuck.point] = signs.feature(index.simplex);
-    owner[stuck.point] = stuck.cell;
-    if (signs.region() == Region::interior) return;
-    data_.node_cells().for_each_around(index, stuck.cell, signs, [&](Place first) {
-        owner[stuck.point] = first;
-        return false;
-    });
+    Place& first = owner[stuck.point] = stuck.cell;
+    if (signs.region() != Region::interior) {
+        data_.node_cells().for_each_around(index, stuck.cell, signs, [&](Place lowest) {
+            first = lowest;
+            return false;
+        });
+        // Where whole cells do not meet face to face, a feature of one need not be one of the other.
+        if (index.inside != nullptr) signs = cell_signs(index, first, point.at.data(), tests);
+    }
+    feature[stuck.point] = feature_of(index, first, signs);
 }
 
 void Finder::ask_candidates(const PointRecord* points, Place* owner, Feature* feature, TierCounts& tests) {
@@ -157,7 +160,7 @@ void Finder::ask_candidates(const PointRecord* points, Place* owner, Feature* fe
         Place& best = owner[c.point];
         if (best >= 0 && original(best) < original(c.cell)) return;
         best = c.cell;
-        feature[c.point] = signs.feature(index.simplex);
+        feature[c.point] = feature_of(index, c.cell, signs);
     });
 }
 

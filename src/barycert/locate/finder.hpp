@@ -40,7 +40,7 @@ public:
         for_candidates(points, which.data(), count, counts.tests, [&](const Candidate& c, WeightSigns signs) {
             if (signs.contains())
                 found(c.point, data_.index.original[static_cast<std::size_t>(c.cell)],
-                      signs.feature(data_.index.simplex));
+                      feature_of(data_.index, c.cell, signs));
         });
     }
 

@@ -26,9 +26,32 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
         };
         stage("ordering cells");
         data->index = locate::make_cell_index(mesh);
+        const bool products = options.interpolation == CellInterpolation::multilinear;
+        if (products || (!options.straight_sides && (!mesh.mid_nodes.empty() || !mesh.shapes.types.empty())))
+            data->mapped = locate::MappedCells::make(mesh, products, !options.straight_sides);
         if (!later) data->prove(stage);
     });
     return Locator(std::move(data));
+}
+
+Location locate::LocatorData::settle(const double* point, Location in_parts) const {
+    return mapped->owner(point, in_parts, [&](std::vector<Location>& all) {
+        if (in_parts.cell < 0) return;
+        const bool alone = proved() != nullptr && proved()->proof.partition && in_parts.feature == Feature::interior;
+        if (alone) return all.push_back(in_parts);
+        PointRecord record{};
+        std::copy_n(point, index.dimension(), record.at.begin());
+        LocationCounts ignored;
+        Finder(*this, index.nodes.data(), 1)
+            .find_all(&record, 1, ignored, [&](std::uint32_t, Mesh::Index cell, Feature feature) {
+                all.push_back({cell, feature});
+            });
+        std::ranges::sort(all, {}, &Location::cell);
+        const auto same = [&](const Location& a, const Location& b) {
+            return mesh->cell_number(a.cell) == mesh->cell_number(b.cell);
+        };
+        if (index.inside != nullptr) all.erase(std::unique(all.begin(), all.end(), same), all.end());
+    });
 }
 
 const Mesh& Locator::mesh() const {
@@ -52,6 +75,18 @@ std::uint64_t Locator::contested_cells() const {
 std::uint64_t Locator::degenerate_cells() const {
     const ExactEnvironment environment;
     return data_->demand_proved().degenerate.size();
+}
+
+CellInterpolation Locator::interpolation() const {
+    return data_->mapped && data_->mapped->has_products() ? CellInterpolation::multilinear : CellInterpolation::linear;
+}
+
+bool Locator::has_curved_cells() const {
+    return data_->mapped && data_->mapped->has_curves();
+}
+
+std::uint64_t Locator::unmapped_cells() const {
+    return data_->mapped ? data_->mapped->unproved() : 0;
 }
 
 std::size_t Locator::bytes() const {
@@ -95,8 +130,10 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
         data_->locations.put(std::move(worker.found));
     };
     bool finite = true;
-    base::in_arena(threads, data_->index.cell_count() + cells.size(),
-                   [&] { finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write); });
+    base::in_arena(threads, data_->index.cell_count() + cells.size(), [&] {
+        finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write);
+        if (data_->mapped) locate::settle_mapped(*data_, points, cells, features, all);
+    });
     if (!finite) {
         if (nonfinite == NonfinitePoints::error) return locate::check_finite(points, data_->index.dimension());
         all.not_finite = locate::count_not_finite(points, data_->index.dimension());
@@ -151,7 +188,25 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
                                 });
             }
             parts[b].ways.no_cell_near += sorted.left_out();
-            std::ranges::sort(found[b], {}, [](const Found& f) { return std::pair(f.point, f.cell); });
+            const auto key = [](const Found& f) { return std::pair(f.point, f.cell); };
+            std::ranges::sort(found[b], {}, key);
+            if (data_->index.inside == nullptr) return;
+            const auto same = [&](const Found& f, const Found& g) {  // parts of one cell
+                return f.point == g.point && mesh().cell_number(f.cell) == mesh().cell_number(g.cell);
+            };
+            found[b].erase(std::unique(found[b].begin(), found[b].end(), same), found[b].end());
+            if (!data_->mapped) return;
+            std::vector<Found> mapped;
+            std::vector<Location> all;
+            for (std::size_t i = 0, at = 0; i < size; ++i) {
+                all.clear();
+                for (; at < found[b].size() && found[b][at].point == first + i; ++at)
+                    all.push_back({found[b][at].cell, found[b][at].feature});
+                if (base::all_finite(points.subspan(d * (first + i), d)))
+                    data_->mapped->all_owners(&points[d * (first + i)], all);
+                for (const Location& own : all) mapped.push_back({first + i, own.cell, own.feature});
+            }
+            found[b] = std::move(mapped);
         });
     });
     Table table;

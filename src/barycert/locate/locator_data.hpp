@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "barycert/locate/contested_cells.hpp"
+#include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/locate/nearest.hpp"
 #include "barycert/locate/node_cells.hpp"
 #include "barycert/locate/occupancy.hpp"
@@ -48,7 +49,11 @@ struct LocatorData {
 
     const Mesh* mesh = nullptr;
     Method method = Method::candidates;
-    int threads = 0;          ///< of BuildOptions
+    int threads = 0;                            ///< of BuildOptions
+    std::unique_ptr<const MappedCells> mapped;  ///< nullptr: cells are simplices, or their parts
+
+    /// Its location, by that in straight simplices or parts of cells. Precondition: mapped.
+    Location settle(const double* point, Location in_parts) const;
     mutable CellIndex index;  ///< links of its cells are set by prove(), and read by those who found proved()
 
     /// Up to 12 MiB a thread: the system would have to clear as much for every block of points.
@@ -127,7 +132,7 @@ struct LocatorData {
     }
     std::size_t bytes() const {
         const std::size_t bits = proved() != nullptr ? proved()->proof.contested.size() : 0;
-        return index.bytes() + bits * sizeof(std::uint64_t) +
+        return index.bytes() + bits * sizeof(std::uint64_t) + (mapped ? mapped->bytes() : 0) +
                bytes_of(tree_, nearest_tree_, coarse_, fine_, node_cells_, contested_cells_) +
                (places_.made() != nullptr ? places_.made()->size() * sizeof(Place) : 0);
     }

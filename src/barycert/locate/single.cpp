@@ -124,14 +124,16 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     for (std::size_t k = 0; k < d; ++k) {
         if (!std::isfinite(point[k])) return locate::check_finite({point, d}, d).error();
     }
-    if (!index.box_holds(point)) return Location{};
     const auto location = [&](locate::Place owner, Feature feature) {
-        return owner < 0 ? Location{} : Location{index.original[static_cast<std::size_t>(owner)], feature};
+        const Location found =
+            owner < 0 ? Location{} : Location{index.original[static_cast<std::size_t>(owner)], feature};
+        return data.mapped ? data.settle(point, found) : found;
     };
+    if (!index.box_holds(point)) return location(-1, Feature::outside);
     const locate::Occupancy* const occupancy = data.occupancy();
     const auto no_cell_is_near = [&] { return occupancy != nullptr && !occupancy->may_hold(index, point); };
     // Who has no hint may be outside, and then a walk would be in vain.
-    if (hint < 0 && no_cell_is_near()) return Location{};
+    if (hint < 0 && no_cell_is_near()) return location(-1, Feature::outside);
     locate::PointRecord record{};
     for (std::size_t k = 0; k < d; ++k) record.at[k] = point[k];
     locate::Place stuck = -1;
@@ -151,7 +153,7 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
         }
         stuck = end.outside ? ~end.cell : end.cell;
     }
-    if (hint >= 0 && no_cell_is_near()) return Location{};
+    if (hint >= 0 && no_cell_is_near()) return location(-1, Feature::outside);
     locate::Finder finder(data, index.nodes.data(), 1);
     locate::Place owner = -1;
     Feature feature = Feature::outside;

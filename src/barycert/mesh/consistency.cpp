@@ -50,6 +50,12 @@ const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
     if (const char* fault = fault_of_fields(mesh.point_fields, nodes, values); fault != nullptr) return fault;
     if (const char* fault = fault_of_fields(mesh.cell_fields, mesh.cell_count(), values); fault != nullptr)
         return fault;
+    const Mesh::Shapes& shapes = mesh.shapes;
+    if (!fits(shapes.inside, mesh.cell_count())) return "its shapes do not match the cells";
+    if (shapes.count() != 0 && (shapes.parts.size() != shapes.count() + 1 || shapes.ends.size() != shapes.count() ||
+                                shapes.parts.back() != static_cast<Mesh::Index>(mesh.cell_count()) ||
+                                mesh.cell_numbers.size() != mesh.cell_count()))
+        return "its cells are not the parts of its shapes";
     if (!fits(mesh.mid_nodes, mesh.cell_count() * edges_of(mesh.dimension).size()))
         return "the mid-edge nodes do not match the cells";
     if (!all_within(mesh.mid_nodes, 0, nodes)) return "a mid-edge node of a cell is not a node";

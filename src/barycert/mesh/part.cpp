@@ -16,6 +16,10 @@ Part part_of(const Mesh& mesh, std::vector<Mesh::Index> cells) {
     part.cells = std::move(cells);
     part.mesh.dimension = mesh.dimension;
     append_rows_of(mesh.cells, mesh.corners(), part.cells, part.mesh.cells);
+    if (!mesh.shapes.inside.empty()) {
+        append_rows_of(mesh.shapes.inside, 1, part.cells, part.mesh.shapes.inside);
+        append_rows_of(mesh.cell_numbers, 1, part.cells, part.mesh.cell_numbers);
+    }
     if (!mesh.mid_nodes.empty()) {
         const std::size_t mids = mesh.mid_nodes.size() / mesh.cell_count();
         append_rows_of(mesh.mid_nodes, mids, part.cells, part.mesh.mid_nodes);

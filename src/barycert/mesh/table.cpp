@@ -34,7 +34,8 @@ void LocationCounts::add(const LocationCounts& other) {
 }
 
 void SampleCounts::add(const SampleCounts& other) {
-    add_members(*this, other, &SampleCounts::snapped, &SampleCounts::extrapolated, &SampleCounts::without_value);
+    add_members(*this, other, &SampleCounts::snapped, &SampleCounts::extrapolated, &SampleCounts::without_value,
+                &SampleCounts::unproved);
     locations.add(other.locations);
     values.add(other.values);
     // Bits of numbers that are not negative compare as they do, whatever the environment does to subnormal ones.

@@ -143,6 +143,7 @@ Document contour_document(const ContourReport& s, const Environment& environment
     Document d;
     d.data = record("schema", contour_schema, "command", s.value ? "render iso" : "render slice",
                     MEMBERS(s, mesh, curved, dimension, nodes, cells, field, value));
+    if (s.simplices != 0) put(d.data, MEMBERS(s, simplices));
     if (s.plane) put(d.data, MEMBERS(*s.plane, normal, offset));
     const CutCounts& cut = s.counts;
     put(d.data, MEMBERS(s, low, high, output, points, parts), "cut",
@@ -173,7 +174,7 @@ Document contour_document(const ContourReport& s, const Environment& environment
         d.name("fields", fmt::format("{}", fmt::join(s.fields, ", ")));
     }
     tell_notes(d, s);
-    d.name("mesh", counted(s.cells, "cell") + ", " + counted(s.nodes, "node"));
+    d.name("mesh", cells_text(s.cells, s.simplices, s.dimension) + ", " + counted(s.nodes, "node"));
     const JobSeconds& t = s.seconds;
     std::vector<std::pair<std::string_view, double>> parts{{"mesh", t.mesh}, {"cutting", t.build}};
     if (s.pixels || s.view) parts.emplace_back(s.pixels ? "sampling" : "drawing", t.sample);

@@ -48,6 +48,8 @@ void tell_values(Document& d, const SampleReport& s) {
     if (t.cases() != 0)
         text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
                             t.double_double, t.exact);
+    if (s.counts.unproved != 0)
+        text += fmt::format("; {} not proved", counted(s.counts.unproved, "point is", "points are"));
     if (s.rounding == Rounding::plain) text = "plain double, by --rounding plain; cells and features are exact";
     if (s.columns.empty()) text = "none: the mesh has no fields, and --field was not given";
     d.figure("values",
@@ -94,9 +96,12 @@ void tell_integrals(Document& d, const std::vector<FieldIntegral>& all) {
 }
 
 void tell_mesh(Document& d, const SampleReport& s) {
-    std::string cells = counted(s.cells, s.surface ? "triangle" : "cell") + ", " + counted(s.nodes, "node");
+    std::string cells = s.surface ? counted(s.cells, "triangle") : cells_text(s.cells, s.simplices, s.dimension);
+    cells += ", " + counted(s.nodes, "node");
+    const char* const one = s.simplices != 0 ? "part is" : "cell is";
+    const char* const more = s.simplices != 0 ? "parts are" : "cells are";
     if (s.degenerate_cells != 0)
-        cells += fmt::format("; {} degenerate and own{} nothing", counted(s.degenerate_cells, "cell is", "cells are"),
+        cells += fmt::format("; {} degenerate and own{} nothing", counted(s.degenerate_cells, one, more),
                              s.degenerate_cells == 1 ? "s" : "");
     d.name(s.surface ? "surface" : "mesh", cells, s.degenerate_cells == 0 ? Tone::plain : Tone::strong);
 }
@@ -126,6 +131,7 @@ Document sample_document(const SampleReport& s, const Environment& environment) 
     if (!message(s.onto_curved).empty()) d.name("--onto", s.points + ":");
     d.curved(s.onto_curved);
     put(d.data, MEMBERS(s, dimension, nodes, cells, degenerate_cells, contested_cells, verdict, from));
+    if (s.simplices != 0) put(d.data, MEMBERS(s, simplices));
     s.grid ? put(d.data, "grid", grid_json(*s.grid)) : put(d.data, "file", s.points);
     put(d.data, MEMBERS(s, output));
     if (!s.weights.empty()) put(d.data, MEMBERS(s, weights));

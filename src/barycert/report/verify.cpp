@@ -193,7 +193,7 @@ Json verify_data(const VerifyReport& s, const Environment& environment) {
     const auto text = [](const std::string& column) { return column.empty() ? Json() : Json(column); };
     const Verdicts& v = s.verdicts;
     const JobSeconds& t = s.seconds;
-    return record(
+    Json data = record(
         "schema", verify_schema, "command", "verify",
         MEMBERS(s, mesh, results, curved, dimension, nodes, cells, certified, contested_cells), "cell_column",
         text(s.cell_column), "mask_column", text(s.mask_column), MEMBERS(s, tolerance, exact, outside_value),
@@ -203,6 +203,8 @@ Json verify_data(const VerifyReport& s, const Environment& environment) {
         list(v.examples, [&](const WrongRow& row) { return example_json(s, row); }), MEMBERS(s, notes), "seconds",
         record(MEMBERS(t, mesh, build, read), "compare", t.sample, MEMBERS(t, total)), MEMBERS(s, threads),
         "environment", environment);
+    if (s.simplices != 0) put(data, MEMBERS(s, simplices));
+    return data;
 }
 
 Document verify_document(const VerifyReport& s, const Environment& environment) {
@@ -230,7 +232,7 @@ Document verify_document(const VerifyReport& s, const Environment& environment) 
                                      "{} cells may meet others beside common faces; any cell that contains a "
                                      "point counts as right",
                                      s.contested_cells);
-    d.name("mesh", fmt::format("{} cells, {} nodes: {}", s.cells, s.nodes, of));
+    d.name("mesh", fmt::format("{}, {} nodes: {}", cells_text(s.cells, s.simplices, s.dimension), s.nodes, of));
     for (const Note& note : s.notes)
         d.name(std::string(name(note.kind)), note.text + (note.file.empty() ? "" : " (" + note.file + ")"));
     const JobSeconds& t = s.seconds;

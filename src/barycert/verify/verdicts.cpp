@@ -54,12 +54,25 @@ private:
 
     bool names_wrong_cell(std::size_t row) {
         if (claimed_.cells.empty() || claimed_.cells[row] < 0 || claimed_.cells[row] == table_.cells[row]) return false;
-        if (static_cast<std::uint64_t>(claimed_.cells[row]) >= sampler_.locator().mesh().cell_count()) return true;
+        const Mesh& mesh = sampler_.locator().mesh();
+        const auto cells = static_cast<std::int64_t>(mesh.cell_count());
+        if (claimed_.cells[row] >= cells) return true;
         std::array<double, 3> at{};
         std::copy_n(point(row), d_, at.begin());
         const locate::LocatorData& data = locate::LocatorData::of(sampler_.locator());
-        const locate::Place place = data.places()[static_cast<std::size_t>(claimed_.cells[row])];
-        return !locate::cell_signs(data.index, place, at.data(), tests_).contains();
+        if (data.mapped) {
+            const Result<Table> held = sampler_.locator().locate_all({at.data(), d_}, 1);
+            return !held || std::ranges::none_of(held->cells, [&](Mesh::Index cell) {
+                return mesh.cell_number(cell) == mesh.cell_number(static_cast<Mesh::Index>(claimed_.cells[row]));
+            });
+        }
+        const auto number = [&](std::int64_t cell) { return mesh.cell_number(static_cast<Mesh::Index>(cell)); };
+        for (std::int64_t part = claimed_.cells[row]; part < cells && number(part) == number(claimed_.cells[row]);
+             ++part) {
+            const locate::Place place = data.places()[static_cast<std::size_t>(part)];
+            if (locate::cell_signs(data.index, place, at.data(), tests_).contains()) return false;
+        }
+        return true;
     }
 
     void look_at(std::size_t row) {

@@ -142,8 +142,10 @@ class Mesh(GivenBack):
             SciPy Delaunay or matplotlib Triangulation of the points.
             With 6 or 10 columns cells of second order, nodes at mid-edges in VTK's order: edges 01 12 02 (03 13 23).
         point_data, cell_data: fields, name to array (n, ...) or (m, ...).
-        curved: of cells of second order whose mid-edge nodes are not at the middle (see `Mesh.curved`): "straight" takes
-            their sides as straight, with a warning; "refuse" raises an Error.
+        curved: cells of second order whose mid-edge nodes are not at the middle (see `Mesh.curved`): "isoparametric", as
+            they are where points are located; "straight", with straight sides, and a warning; "refuse" raises an Error.
+        interpolation: in hexahedra and other cells that are no simplices, which files have: "linear" on the simplices that
+            each is cut into, or "multilinear", their isoparametric functions.
 
     The geometry is copied once and cannot be changed; fields can. The index for point location is made when it is first
     needed. Any number of threads may use a mesh at the same time. Meshes can be pickled and copied.
@@ -155,7 +157,8 @@ class Mesh(GivenBack):
 
     def __init__(
         self, points: Any, cells: Any = None, *, point_data: Optional[Mapping[str, Any]] = None,
-        cell_data: Optional[Mapping[str, Any]] = None, curved: str = "straight",
+        cell_data: Optional[Mapping[str, Any]] = None, curved: str = "isoparametric",
+        interpolation: str = "linear",
     ) -> None:  # fmt: skip
         parts = Parts(points, cells)
         if cells is None:
@@ -181,7 +184,7 @@ class Mesh(GivenBack):
         if indices.dtype.kind not in "iu":
             _core.fail("type of the cells", expected="integers", found=str(indices.dtype))
         self._make(parts)
-        self._take_as_straight("", curved)
+        self._set_cells("", curved, interpolation)
 
     def _make(self, parts: Parts) -> Mesh:
         points, cells = parts.points, parts.cells
@@ -205,10 +208,8 @@ class Mesh(GivenBack):
         self._cell_data = FieldData(core, True, len(core.cells))
         return self
 
-    def _take_as_straight(self, file: str, curved: str) -> None:
-        if curved not in ("straight", "refuse"):
-            _core.fail("curved=", expected="'straight' or 'refuse'", found=repr(curved))
-        _, told = self._core.take_as_straight(file, curved == "refuse")
+    def _set_cells(self, file: str, curved: str, interpolation: str) -> None:
+        told = self._core.set_cells(file, curved, interpolation)
         if told:
             warnings.warn(f"{file}: {told}" if file else told, stacklevel=3)
 
@@ -253,10 +254,10 @@ class Mesh(GivenBack):
 
     @property
     def curved(self) -> Dict[str, float]:
-        """How far sides are from the straight ones that all answers are of: `cells`, how many have a mid-edge node off the
+        """How far sides are from straight ones, of which `check` speaks: `cells`, how many have a mid-edge node off the
         middle of its edge; `max_deviation`, the largest distance from it in parts of the edge's length; `rounded_cells`
         and `max_rounded`, the same of those where rounding of coordinates explains it. All 0 for linear cells."""
-        return self._core.take_as_straight("", False)[0]
+        return self._core.curved()
 
     @property
     def bounds(self) -> np.ndarray:
@@ -499,7 +500,7 @@ def _unpickle(parts: Parts) -> Mesh:
 
 def read(
     path: Union[str, os.PathLike], step: Union[int, str, None] = None, time: Optional[float] = None, *,
-    curved: str = "straight",
+    curved: str = "isoparametric", interpolation: str = "linear",
 ) -> Mesh:  # fmt: skip
     """Reads a mesh with its fields: TetGen's or Triangle's files by their stem or any one of them; .msh of Gmsh;
     .mesh and .meshb of Medit; .vtu, .vtk, .vtp, .pvtu, .vtm and .pvd of VTK. The format is told by the contents.
@@ -507,7 +508,7 @@ def read(
     Args:
         step: of a series (.pvd, .vtu.series, .vtp.series), by its number from 0, or "last"; default: the first, with a warning.
         time: likewise, by its time, exactly as the file has it.
-        curved: as for `Mesh`.
+        curved, interpolation: as for `Mesh`.
 
     What may change what results mean is a warning, all else that was left out, converted or guessed is in `notes`.
 
@@ -521,7 +522,7 @@ def read(
         _core.fail("step of a series", expected='a number from 0, or "last"', found=repr(step))
     number = None if step is None or last else count_of(step, "step=")
     mesh = Mesh.__new__(Mesh)._set_core(_core.read(os.fspath(path), number, last, time))
-    mesh._take_as_straight(os.fspath(path), curved)
+    mesh._set_cells(os.fspath(path), curved, interpolation)
     for text, important in mesh._core.notes:
         if important:
             warnings.warn(text, stacklevel=2)

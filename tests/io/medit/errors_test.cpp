@@ -68,13 +68,16 @@ TEST(MeditErrors, Text) {
         {head + nodes + "Tetrahedra\n1\n1 2 3 4 0", 11, "the last row has no line end, so the file may be cut short",
          nullptr, nullptr},
         {head + nodes + cells + "End\nVertices 3\n", 12, "text after the keyword End", nullptr, nullptr},
-        {head + nodes + cells + "Hexahedra 1 1 2 3 4 1 2 3 4 0\n", 0, "cells that are no tetrahedra",
-         "Tetrahedra or TetrahedraP2", "1 Tetrahedra, 1 Hexahedra"},
-        {head + nodes + "TetrahedraP3 1 1 2 3\n", 0, "cells that are no tetrahedra", nullptr, "1 TetrahedraP3"},
-        {head + nodes + "Triangles 1 1 2 3 0 Quadrilaterals 1 1 2 3 4 0\n", 0, "cells that are no triangles", nullptr,
-         nullptr},
-        {head + nodes + cells + "TetrahedraP2 1 1 2 3 4 1 2 3 4 1 2 0\n", 0, "cells of both orders in one mesh",
-         nullptr, "1 Tetrahedra, 1 TetrahedraP2"},
+        {head + nodes + cells + "Hexahedra 1 1 2 3 4 1 2 3 9 0\n", 12, "row 1 (from 1) of Hexahedra",
+         "a node from 1 to 4", "9"},
+        {head + nodes + cells + "Pyramids 1 1 2 3 4 0 0\n", 12, "row 1 (from 1) of Pyramids", "a node from 1 to 4",
+         "0"},
+        {head + nodes + "Prisms\n1\n1 2 3 4 1 2\n", 12, "the end of Prisms", "1 rows of 7 numbers", "6 numbers"},
+        {head + nodes + "TetrahedraP3 1 1 2 3\n", 10, "the end of TetrahedraP3", "1 rows of 21 numbers", "3 numbers"},
+        {head + nodes + cells + "TetrahedraP2 1 1 2 3 4 1 2 3 4 1 2\n", 13, "the end of TetrahedraP2",
+         "1 rows of 11 numbers", "10 numbers"},
+        {head + nodes + "Triangles 1 1 2 3 0 Quadrilaterals 1 1 2 3 4 0\n", 0, "z of point 3 (from 0)",
+         "0, as the mesh is 2D", "1"},
     };
     for (const Refused& one : all) {
         SCOPED_TRACE(one.text);

@@ -93,7 +93,7 @@ TEST(VtkCollections, BlocksAndSeries) {
     ASSERT_TRUE(blocks) << blocks.error().message();
     EXPECT_EQ(blocks->cell_count(), 2U);
     ASSERT_EQ(notes_of(*blocks).size(), 1U);
-    EXPECT_EQ(notes_of(*blocks)[0].substr(0, 50), "1 blocks that are no unstructured grids: \"walls (/");
+    EXPECT_EQ(notes_of(*blocks)[0], "1 blocks beside those with the mesh: \"walls (" + folder / "walls.vtp" + ")\"");
     EXPECT_TRUE(blocks->notes[0].important);
     EXPECT_TRUE(notes_of(*blocks, Note::Kind::guessed).empty());  // they do not touch
 
@@ -182,7 +182,7 @@ TEST(VtkCollections, PolygonDataAreTheMeshWhereThereIsNoOther) {
         return "<VTKFile type='vtkMultiBlockDataSet'><vtkMultiBlockDataSet>" + files +
                "</vtkMultiBlockDataSet></VTKFile>";
     };
-    put(folder / "s.vtm", blocks("<DataSet index='0' file='s.vtp'/><DataSet index='1' file='none.vti'/>"));
+    put(folder / "s.vtm", blocks("<DataSet index='0' file='s.vtp'/><DataSet index='1' file='none.pvti'/>"));
     put(folder / "s.pvtp", "<VTKFile type='PPolyData'><PPolyData><Piece Source='s.vtp'/></PPolyData></VTKFile>");
     put(folder / "outer.vtm", blocks("<DataSet index='0' file='s.pvtp'/>"));
     const Result<Mesh> alone = read_mesh(folder / "s.vtp");
@@ -198,6 +198,52 @@ TEST(VtkCollections, PolygonDataAreTheMeshWhereThereIsNoOther) {
     const Result<Mesh> both = read_mesh(folder / "both.vtm");
     ASSERT_TRUE(both) << both.error().message();
     EXPECT_EQ(both->point_count(), 4U);
+}
+
+/// Two pixels, in the plane z = 0, or along other axes.
+std::string image(const std::string& extent = "0 2 0 1 0 0") {
+    return "<VTKFile type='ImageData'><ImageData WholeExtent='" + extent + "'><Piece Extent='" + extent +
+           "'/></ImageData></VTKFile>";
+}
+
+TEST(VtkCollections, StructuredGridsAreTheMeshWhereNoneIsUnstructured) {
+    const TemporaryFolder folder;
+    put(folder / "g.vti", image());
+    put(folder / "h.vtr",
+        "<VTKFile type='RectilinearGrid'><RectilinearGrid WholeExtent='0 1 0 1 0 0'><Piece Extent='0 1 0 1 0 "
+        "0'><Coordinates><DataArray type='Float64'>5 6</DataArray><DataArray type='Float64'>0 2</DataArray><DataArray "
+        "type='Float64'>0</DataArray></Coordinates></Piece></RectilinearGrid></VTKFile>");
+    put(folder / "s.vtp", "no file of VTK");
+    put(folder / "0.vtu", piece(0));
+    const auto read = [&](const Texts& files) {
+        std::string text = "<VTKFile type='vtkMultiBlockDataSet'><vtkMultiBlockDataSet>";
+        for (const std::string& file : files) text += "<DataSet file='" + file + "'/>";
+        put(folder / "m.vtm", text + "</vtkMultiBlockDataSet></VTKFile>");
+        return read_vtk(folder / "m.vtm");
+    };
+    const auto left_out = [&](const Texts& files) {
+        std::string text = std::to_string(files.size()) + " blocks beside those with the mesh: ";
+        for (std::size_t i = 0; i < files.size(); ++i) text += (i == 0 ? "\"" : ", \"") + folder / files[i] + "\"";
+        return Texts{text};
+    };
+    const Result<Mesh> grids = read({"s.vtp", "g.vti", "h.vtr", "none.pvtr"});
+    ASSERT_TRUE(grids) << grids.error().message();
+    EXPECT_EQ(notes_of(*grids), left_out({"s.vtp", "none.pvtr"}));
+    EXPECT_EQ(grids->shapes.types, (std::vector<std::uint8_t>{8, 8, 8}));
+    EXPECT_EQ(grids->shapes.nodes, (std::vector<Mesh::Index>{0, 1, 3, 4, 1, 2, 4, 5, 6, 7, 8, 9}));
+    EXPECT_EQ(grids->point_count(), 10U);
+    EXPECT_EQ(grids->points[12], 5);
+    // Beside an unstructured grid they are left out.
+    const Result<Mesh> both = read({"g.vti", "0.vtu", "s.vtp"});
+    ASSERT_TRUE(both) << both.error().message();
+    EXPECT_EQ(notes_of(*both), left_out({"g.vti", "s.vtp"}));
+    EXPECT_EQ(both->point_count(), 4U);
+    EXPECT_TRUE(both->shapes.types.empty());
+    // One that is missing is an error, where it is the mesh.
+    const Result<Mesh> missing = read({"g.vti", "none.vts"});
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().what, "a file that is named here is missing");
+    EXPECT_EQ(missing.error().expected, folder / "none.vts");
 }
 
 TEST(VtkCollections, ASeriesFileThatIsWrong) {

@@ -124,7 +124,7 @@ def write(file, mesh):
         lost.extend(of.replace("_", " ") + " " + str(k) for k in getattr(mesh, of, None) or {})
     types = {}
     for c in mesh.cells:
-        types[c.type] = types.get(c.type, 0) + len(c.data)
+        types[TYPES[c.type]] = types.get(TYPES[c.type], 0) + len(c.data)
     return dict(nodes=nodes, types=types, rows=rows)
 
 try:

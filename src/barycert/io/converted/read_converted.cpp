@@ -14,6 +14,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/io/converted/meshio_script.hpp"
+#include "barycert/io/vtk/raw_grid.hpp"
 
 extern char** environ;
 
@@ -216,10 +217,12 @@ void check_complete(const Json& answer, const Mesh& mesh, const std::string& pat
                         std::to_string(counted) + " " + what + ", of which " + std::to_string(read) + " came through");
     };
     need("nodes", answer.at("nodes"), mesh.point_count());
-    const std::string type = mesh.dimension == 3      ? mesh.mid_nodes.empty() ? "tetra" : "tetra10"
-                             : mesh.mid_nodes.empty() ? "triangle"
-                                                      : "triangle6";
-    need("cells of type " + type, answer.at("types").value(type, std::size_t{0}), mesh.cell_count());
+    std::size_t cells = 0;
+    for (const auto& [type, count] : answer.at("types").items()) {
+        if (cell_types()[whole_number<std::uint8_t>(type).value_or(0)].dimension() == mesh.dimension)
+            cells += count.get<std::size_t>();
+    }
+    need("cells of dimension " + std::to_string(mesh.dimension), cells, mesh.whole_count());
     for (const bool of_cells : {false, true}) {
         const std::size_t rows = of_cells ? mesh.cell_count() : mesh.point_count();
         const Json& shapes = answer.at("rows").at(of_cells ? "CellData" : "PointData");

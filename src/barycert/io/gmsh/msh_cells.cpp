@@ -1,6 +1,10 @@
+#include <map>
+#include <numeric>
+
 #include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/parallel.hpp"
+#include "barycert/mesh/pulling.hpp"
 
 namespace barycert::io {
 namespace {
@@ -49,14 +53,8 @@ std::string counted_types(const TypeCounts& counts, int low, int high) {
     return text;
 }
 
-/// What makes all cells second-order ones.
-std::string order_remedy(const MshFile& file) {
-    return "make them cells of order 2 (or 1): `echo 'SetOrder 2;' > order2.geo`, then " +
-           gmsh_command(file.path(), " order2.geo");
-}
-
-/// The type of the cells.
-const ElementType& choose(const MshFile& file, const TypeCounts& counts) {
+/// The types of the cells.
+std::vector<const ElementType*> choose(const MshFile& file, const TypeCounts& counts) {
     int dimension = 0;
     std::vector<const ElementType*> kinds;  // of that dimension
     for (const ElementType& type : element_types) {
@@ -65,25 +63,18 @@ const ElementType& choose(const MshFile& file, const TypeCounts& counts) {
         dimension = type.dimension();
         kinds.push_back(&type);
     }
-    const auto refuse = [&](const char* what, const char* expected, const std::string& remedy) {
-        const std::string found = counted_types(counts, dimension, dimension);
-        refuse_file(file.path(), what, expected, found.empty() ? "no elements" : found, remedy);
-    };
-    const bool solid = dimension == 3;
-    if (dimension < 2)
-        refuse("the file contains no mesh", "tetrahedra, or triangles in the plane z = 0",
-               "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the volume one, or "
-               "add -save_all");
-    const char* const expected = solid ? "tetrahedra of order 1 or 2" : "triangles of order 1 or 2";
-    if (std::ranges::any_of(kinds, [](const ElementType* type) {
-            return type->family != ElementFamily::tetrahedron && type->family != ElementFamily::triangle;
-        }))
-        refuse(solid ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
-               to_simplices(file.path()));
-    if (std::ranges::any_of(kinds, [](const ElementType* type) { return type->order > 2; }))
-        refuse("cells of a higher order", expected, order_remedy(file));
-    if (kinds.size() > 1) refuse("cells of both orders in one mesh", "cells of one order", order_remedy(file));
-    return *kinds.front();
+    if (dimension > 1) return kinds;
+    const std::string found = counted_types(counts, dimension, dimension);
+    refuse_file(file.path(), "the file contains no mesh", "cells that fill space, or polygons in the plane z = 0",
+                found.empty() ? "no elements" : found,
+                "mesh the geometry in Gmsh; if there are physical groups, it saves these alone: give the volume one, "
+                "or add -save_all");
+}
+
+/// VTK's number of the type of its corners.
+std::uint8_t linear_type(const ElementType& type) {
+    constexpr std::array<std::uint8_t, 8> numbers{0, 0, 5, 9, 10, 12, 13, 14};
+    return numbers[static_cast<std::size_t>(type.family)];
 }
 
 /// Takes the tags of nodes and gives their positions.
@@ -175,12 +166,80 @@ void read_chosen(const Target& to, std::span<const Run> runs) {
     to.cells.partitioned = more;
 }
 
+/// Simplices of order 2 to 4, whose nodes are all kept: the place of each in VTK's order; empty of others.
+std::vector<std::size_t> kept_places(const ElementType& type) {
+    constexpr std::array<std::uint8_t, 10> third{11, 10, 15, 14, 13, 12, 17, 19, 18, 16};
+    constexpr std::array<std::uint8_t, 22> fourth{15, 14, 13, 21, 20, 19, 18, 17, 16, 25, 26,
+                                                  27, 33, 31, 32, 28, 29, 30, 22, 23, 24, 34};
+    const bool solid = type.family == ElementFamily::tetrahedron;
+    if ((!solid && type.family != ElementFamily::triangle) ||
+        mesh::simplex_order(type.dimension(), type.nodes) != type.order)
+        return {};
+    std::vector<std::size_t> places(type.nodes);
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    if (!solid) return places;
+    if (type.order == 2) std::swap(places[8], places[9]);
+    const auto move = [&](const auto& order, std::size_t first) {
+        for (std::size_t i = 0; i < order.size(); ++i) places[order[i]] = first + i;
+    };
+    if (type.order == 3) move(third, 10);
+    if (type.order == 4) move(fourth, 13);
+    return places;
+}
+
+/// Elements of several types, or none of which is a mesh's own: by their corners, but for curved simplices.
+void read_shapes(const Target& to, std::span<const Run> runs) {
+    Mesh::Shapes& shapes = to.cells.mesh.shapes;
+    for (const Run& run : runs) {
+        const ElementType& own = *to.elements.blocks[run.id].type;
+        const bool whole = !kept_places(own).empty();
+        const std::uint8_t linear = linear_type(own), curved = own.dimension() == 3 ? 71 : 69,
+                           type = whole ? curved : linear;
+        const auto corners = static_cast<std::int64_t>(whole ? own.nodes : mesh::shape_of(type).corners);
+        shapes.types.insert(shapes.types.end(), run.count, type);
+        for (std::size_t i = 0; i < run.count; ++i)
+            shapes.ends.push_back((shapes.ends.empty() ? 0 : shapes.ends.back()) + corners);
+    }
+    shapes.nodes.resize(static_cast<std::size_t>(shapes.ends.back()));
+    std::map<const ElementType*, std::vector<std::size_t>> kept;
+    for (const Run& run : runs)
+        kept.try_emplace(to.elements.blocks[run.id].type, kept_places(*to.elements.blocks[run.id].type));
+    const bool old = to.file.version() == 22;
+    std::atomic<bool> more{false};
+    parse_runs(to.file, "Elements", runs, [&](auto& row, const Run& run, std::size_t i) {
+        const ElementBlock& block = to.elements.blocks[run.id];
+        Head head;
+        if (!take_head(row, to.file.version(), block, head)) return false;
+        to.cells.tags[i] = head.tag;
+        if (old) {
+            to.cells.physical[i] = static_cast<double>(head.physical);
+            to.cells.geometrical[i] = static_cast<double>(head.entity);
+            if (head.more) more = true;
+        }
+        const std::vector<std::size_t>& places = kept.at(block.type);
+        const std::size_t corners = places.empty() ? mesh::shape_of(shapes.types[i]).corners : places.size();
+        const auto end = static_cast<std::size_t>(shapes.ends[i]);
+        for (std::size_t k = 0; k < block.type->nodes; ++k) {
+            Mesh::Index node = 0;
+            if (!take_node(row, to.nodes, node)) return false;
+            if (k < corners) shapes.nodes[end - corners + (places.empty() ? k : places[k])] = node;
+        }
+        return true;
+    });
+    to.cells.partitioned = more;
+}
+
 /// In 2.x Gmsh writes an element of several groups once for each, one after the other. All but the first go.
 void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
     const std::size_t count = cells.tags.size();
+    Mesh::Shapes& shapes = cells.mesh.shapes;
+    const auto nodes_of = [&](std::size_t i) {
+        if (shapes.types.empty()) return std::span(&cells.mesh.cells[i * corners], corners);
+        const auto begin = i == 0 ? 0 : shapes.ends[i - 1];
+        return std::span(shapes.nodes.data() + begin, shapes.nodes.data() + shapes.ends[i]);
+    };
     const auto repeats = [&](std::size_t i) {
-        const Mesh::Index* const c = &cells.mesh.cells[i * corners];
-        return std::equal(c, c + corners, c - corners) && cells.geometrical[i] == cells.geometrical[i - 1] &&
+        return std::ranges::equal(nodes_of(i), nodes_of(i - 1)) && cells.geometrical[i] == cells.geometrical[i - 1] &&
                cells.physical[i] != cells.physical[i - 1];
     };
     std::size_t first = 1;
@@ -196,8 +255,19 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
         keep_rows(cells.mesh.cell_numbers, 1, kept);
     }
     cells.repeated = count - kept.size();
-    keep_rows(cells.mesh.cells, corners, kept);
-    keep_rows(cells.mesh.mid_nodes, mids, kept);
+    if (shapes.types.empty()) {
+        keep_rows(cells.mesh.cells, corners, kept);
+        keep_rows(cells.mesh.mid_nodes, mids, kept);
+    } else {
+        Mesh::Shapes own;
+        for (const Mesh::Index i : kept) {
+            const auto nodes = nodes_of(static_cast<std::size_t>(i));
+            own.nodes.insert(own.nodes.end(), nodes.begin(), nodes.end());
+            own.ends.push_back(static_cast<std::int64_t>(own.nodes.size()));
+            own.types.push_back(shapes.types[static_cast<std::size_t>(i)]);
+        }
+        shapes = std::move(own);
+    }
     keep_rows(cells.tags, 1, kept);
     keep_rows(cells.physical, 1, kept);
     keep_rows(cells.geometrical, 1, kept);
@@ -207,7 +277,7 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
 std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::size_t node_count) {
     std::vector<std::uint8_t> used(node_count);
     constexpr std::size_t step = std::size_t{1} << 16;
-    for (const std::vector<Mesh::Index>* nodes : {&cells.mesh.cells, &cells.mesh.mid_nodes}) {
+    for (const auto* nodes : {&cells.mesh.cells, &cells.mesh.mid_nodes, &cells.mesh.shapes.nodes}) {
         base::share_work(file.threads(), (nodes->size() + step - 1) / step, [&](std::size_t part) {
             const std::size_t last = std::min(nodes->size(), (part + 1) * step);
             for (std::size_t i = part * step; i < last; ++i) {
@@ -253,29 +323,40 @@ const ElementType* element_type(std::int64_t number) {
 }
 
 MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes) {
-    const ElementType& type = choose(file, elements.counts);
+    const std::vector<const ElementType*> types = choose(file, elements.counts);
+    const ElementType& type = *types.front();
+    const bool simplices = types.size() == 1 && type.order <= 2 &&
+                           (type.family == ElementFamily::tetrahedron || type.family == ElementFamily::triangle);
     MshCells cells;
     cells.mesh.dimension = type.dimension();
+    cells.left_out = elements.counts;
+    for (const ElementType* const own : types) {
+        std::size_t& left_out = cells.left_out[static_cast<std::size_t>(own->number)];
+        if (!simplices && own->order > 1 && kept_places(*own).empty()) cells.by_corners += left_out;
+        left_out = 0;
+    }
     std::vector<Run> runs, others;
     std::size_t count = 0;
     for (const ElementBlock& block : elements.blocks) {
-        const bool taken = block.type == &type;
+        const bool taken = std::ranges::count(types, block.type) != 0;
         (taken ? runs : others).push_back(block.run);
         if (!taken) continue;
         runs.back().first = count;
         count += block.run.count;
     }
     const auto corners = static_cast<std::size_t>(cells.mesh.dimension) + 1;
-    const Target target{file, elements, nodes.index, cells, type.nodes - corners};
-    base::resize_large(cells.mesh.cells, count * corners);
-    base::resize_large(cells.mesh.mid_nodes, count * target.mids);
+    const Target target{file, elements, nodes.index, cells, simplices ? type.nodes - corners : 0};
+    if (simplices) {
+        base::resize_large(cells.mesh.cells, count * corners);
+        base::resize_large(cells.mesh.mid_nodes, count * target.mids);
+    }
     base::resize_large(cells.tags, count);
     if (file.version() == 22) {
         base::resize_large(cells.geometrical, count);
         base::resize_large(cells.physical, count);
     }
 
-    corners == 4 ? read_chosen<4>(target, runs) : read_chosen<3>(target, runs);
+    !simplices ? read_shapes(target, runs) : corners == 4 ? read_chosen<4>(target, runs) : read_chosen<3>(target, runs);
     if (count != elements.count) {
         cells.mesh.cell_numbers.reserve(count);
         for (const Run& run : runs) {
@@ -285,8 +366,6 @@ MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const 
     }
     if (file.version() == 22) drop_repeats(cells, corners, target.mids);
     const std::vector<std::uint8_t> used = mark_nodes(file, cells, nodes.points.size() / 3);
-    cells.left_out = elements.counts;
-    cells.left_out[static_cast<std::size_t>(type.number)] = 0;
     look_at_others(target, others, used);
     return cells;
 }
@@ -302,6 +381,11 @@ void note_cells(MshCells& cells, bool partitioned, const std::string& path) {
     if (!others.empty())
         left_out("elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
                  cells.apart);
+    if (cells.by_corners != 0)
+        cells.mesh.notes.push_back(
+            {Note::Kind::converted,
+             std::to_string(cells.by_corners) + " cells of a higher order: they are taken by their corners", path,
+             true});
     if (cells.repeated != 0)
         left_out(std::to_string(cells.repeated) +
                      " elements that repeat the one before them for a further physical group: gmsh:physical has the "

@@ -106,18 +106,19 @@ struct MshElements {
 MshElements find_msh_elements(const MshFile& file);
 
 struct MshCells {
-    Mesh mesh;                                  ///< its cells, with mid-edge nodes in Gmsh's order
+    Mesh mesh;                                  ///< its cells or shapes, with mid-edge nodes in Gmsh's order
     std::vector<std::int64_t> tags;             ///< of elements
     std::vector<double> physical, geometrical;  ///< tags of groups and of entities; in 2.x only
     TypeCounts left_out{};                      ///< of a lower dimension
     bool apart = false;                         ///< one of these has a node that no cell has
     bool partitioned = false;                   ///< there are further tags; 2.x only
     std::size_t unused_nodes = 0;
-    std::size_t repeated = 0;  ///< elements of further groups; 2.x only
+    std::size_t by_corners = 0;  ///< cells of a higher order
+    std::size_t repeated = 0;    ///< elements of further groups; 2.x only
 };
 
-/// Tetrahedra, or triangles where there is nothing of dimension 3. Error: other cells of that dimension, cells of both
-/// orders, an element that names a node that there is not.
+/// Those of the highest dimension; unless all are simplices of one type, they are shapes that are not cut yet. Error:
+/// an element that names a node that there is not.
 MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes);
 
 /// Tells which elements are not among the cells, and which nodes are of no cell. `partitioned`: entities are.

@@ -244,8 +244,8 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options, InSpace* sp
     }
     mesh.index_base = 1;
     if (mesh.dimension == 2)
-        mesh.points =
-            to_points(std::move(mesh.points), 2, file.path(), mesh.mid_nodes.empty() ? file.path() : "", "node", space);
+        mesh.points = to_points(std::move(mesh.points), 2, file.path(),
+                                mesh.mid_nodes.empty() && mesh.shapes.types.empty() ? file.path() : "", "node", space);
     note_cells(cells, groups.partitioned, file.path());
     read_msh_fields(file, views, MshView::Of::nodes, {nodes.index, mesh.point_count(), "node", "nodes"}, options.step,
                     mesh.point_fields, mesh.notes);
@@ -256,11 +256,12 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options, InSpace* sp
                         "two cells with the tag " + std::to_string(cells.tags[*twice]),
                         "each tag once, for $ElementData refers to them",
                         "it again at cell " + std::to_string(*twice) + " from 0", "give each element a tag of its own");
-        read_msh_fields(file, views, MshView::Of::elements, {index, mesh.cell_count(), "cell", "cells"}, options.step,
+        read_msh_fields(file, views, MshView::Of::elements, {index, mesh.whole_count(), "cell", "cells"}, options.step,
                         mesh.cell_fields, mesh.notes);
     }
     label_cells(file, elements, groups, cells);
     note_sections(file, views, mesh.notes);
+    cut_into_simplices(mesh, file.path());
     return std::move(mesh);
 }
 

@@ -6,6 +6,7 @@
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/mid_edges.hpp"
+#include "barycert/mesh/pulling.hpp"
 
 namespace barycert::io {
 namespace {
@@ -36,9 +37,11 @@ void add_medit_fields(const MeditFile& file, Mesh& mesh) {
     for (const MeditSection& section : file.sections()) {
         if (section.keyword.kind != MeditKind::solution) continue;
         const int of = section.keyword.dimension;
-        const std::size_t rows = of == 0 ? mesh.point_count() : mesh.cell_count();
-        if (of != 0 && of != mesh.dimension) {
-            mesh.notes.push_back({Note::Kind::left_out, section.name + ": they are no cells of the mesh", file.path()});
+        const std::size_t rows = of == 0 ? mesh.point_count() : mesh.whole_count();
+        const bool some = of != 0 && !mesh.shapes.types.empty() && section.count != rows;
+        if (some || (of != 0 && of != mesh.dimension)) {
+            const char* const why = some ? ": not of all cells of the mesh" : ": they are no cells of the mesh";
+            mesh.notes.push_back({Note::Kind::left_out, section.name + why, file.path(), some});
         } else if (rows != 0 && section.count != rows) {  // of a file that holds both
             refuse_file(file.path(), "the rows of solution0", std::to_string(rows), std::to_string(section.count),
                         "one for each node or cell");
@@ -84,6 +87,7 @@ public:
         add_medit_fields(file_, mesh_);
         note_medit_sections(file_, mesh_.notes);
         note_solution_beside();
+        cut_into_simplices(mesh_, file_.path());
         mesh_.index_base = 1;
         return std::move(mesh_);
     }
@@ -111,21 +115,13 @@ private:
             (found.empty() || dimension == found.front()->keyword.dimension ? found : lower_).push_back(&section);
         }
         if (nodes_ == nullptr || found.empty() || found.front()->keyword.dimension < 2)
-            refuse("the file contains no mesh", "Vertices, and Tetrahedra or Triangles",
+            refuse("the file contains no mesh", "Vertices, and Tetrahedra, Hexahedra, Triangles or the like",
                    file_.sections().empty() ? "nothing" : file_.sections().front().name,
                    "name a file with a mesh; the fields of a .sol file go with --field NAME=FILE");
         cells_ = found.front();
         mesh_.dimension = cells_->keyword.dimension;
-        const bool solid = mesh_.dimension == 3;
-        const std::string expected = solid ? "Tetrahedra or TetrahedraP2" : "Triangles or TrianglesP2";
-        for (const MeditSection* section : found) {
-            if (is_simplex(section->keyword, 1) || is_simplex(section->keyword, 2)) continue;
-            refuse(solid ? "cells that are no tetrahedra" : "cells that are no triangles", expected,
-                   counted_sections(found), to_simplices(file_.path()));
-        }
-        if (found.size() > 1)
-            refuse("cells of both orders in one mesh", expected, counted_sections(found),
-                   "write the mesh with cells of one order");
+        const MeditKeyword& keyword = cells_->keyword;
+        if (found.size() > 1 || !(is_simplex(keyword, 1) || is_simplex(keyword, 2))) shapes_ = std::move(found);
         if (mesh_.dimension > file_.dimension())
             refuse("cells in space, and nodes in the plane", "Dimension 3", "Dimension 2", "mend the dimension");
     }
@@ -139,8 +135,9 @@ private:
         mesh_.point_markers = references(std::move(rows.integers));
         mesh_.points = std::move(rows.reals);
         if (mesh_.dimension < file_.dimension())
-            mesh_.points = to_points(std::move(mesh_.points), 2, file_.path(),
-                                     is_simplex(cells_->keyword, 1) ? file_.path() : "", "point", space_);
+            mesh_.points =
+                to_points(std::move(mesh_.points), 2, file_.path(),
+                          shapes_.empty() && is_simplex(cells_->keyword, 1) ? file_.path() : "", "point", space_);
         if (file_.narrow()) note(Note::Kind::converted, "float32 to double: the coordinates");
     }
 
@@ -179,8 +176,37 @@ private:
         return cells;
     }
 
+    /// Several sections, or one whose cells are no mesh's own: by their corners.
+    Cells take_shapes() {
+        Cells all;
+        std::size_t by_corners = 0;
+        Mesh::Shapes& shapes = mesh_.shapes;
+        for (const MeditSection* const section : shapes_) {
+            const std::string_view name = section->keyword.name;
+            const auto is = [&](const char* start) { return name.starts_with(start); };
+            const std::uint8_t type = is("Tri")     ? 5
+                                      : is("Quad")  ? 9
+                                      : is("Tetra") ? 10
+                                      : is("Hexa")  ? 12
+                                      : is("Pyr")   ? 14
+                                                    : 13;
+            const std::size_t corners = mesh::shape_of(type).corners;
+            const Cells own = take(*section, corners);
+            if (section->keyword.nodes != corners) by_corners += section->count;
+            shapes.types.insert(shapes.types.end(), section->count, type);
+            for (std::size_t i = 1; i <= section->count; ++i)
+                shapes.ends.push_back(static_cast<std::int64_t>(shapes.nodes.size() + i * corners));
+            shapes.nodes.insert(shapes.nodes.end(), own.corners.begin(), own.corners.end());
+            all.references.insert(all.references.end(), own.references.begin(), own.references.end());
+        }
+        if (by_corners != 0)
+            note(Note::Kind::converted,
+                 std::to_string(by_corners) + " cells of a higher order: they are taken by their corners", true);
+        return all;
+    }
+
     void read_cells() {
-        Cells cells = take(*cells_, mesh_.corners());
+        Cells cells = shapes_.empty() ? take(*cells_, mesh_.corners()) : take_shapes();
         mesh_.cells = std::move(cells.corners);
         mesh_.mid_nodes = std::move(cells.mids);
         const std::vector<std::int64_t> all = references(std::move(cells.references));
@@ -211,7 +237,7 @@ private:
     /// its own is told to all, as by Gmsh's reader.
     void read_the_lower() {
         std::vector<std::uint8_t> used(mesh_.point_count(), 0);
-        for (const auto* nodes : {&mesh_.cells, &mesh_.mid_nodes}) {
+        for (const auto* nodes : {&mesh_.cells, &mesh_.mid_nodes, &mesh_.shapes.nodes}) {
             for (const Mesh::Index node : *nodes) used[static_cast<std::size_t>(node)] = 1;
         }
         bool apart = false;
@@ -249,6 +275,7 @@ private:
     const ReadOptions& options_;
     InSpace* space_;
     const MeditSection *nodes_ = nullptr, *cells_ = nullptr;
+    std::vector<const MeditSection*> shapes_;  ///< those with the cells, unless these are simplices of one type
     std::vector<const MeditSection*> lower_;
     Mesh mesh_;
 };

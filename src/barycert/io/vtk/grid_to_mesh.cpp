@@ -1,8 +1,11 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 
+#include <numeric>
+
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
+#include "barycert/mesh/pulling.hpp"
 #include "barycert/surface/facet_triangles.hpp"
 
 namespace barycert::io {
@@ -41,50 +44,48 @@ TypeCounts count_types(const RawGrid& grid) {
     return counts;
 }
 
-/// The rings of a polygon, by its corners; those of a strip are triangles.
-void add_rings(std::uint8_t type, std::span<const std::int32_t> nodes, std::vector<std::vector<Mesh::Index>>& rings) {
-    std::vector<Mesh::Index> ring(nodes.begin(), nodes.end());
-    const std::string& name = cell_types()[type].name;
-    if (type == vtk_triangle_strip) {
-        for (std::size_t i = 0; i + 2 < ring.size(); ++i)
-            rings.push_back({ring[i + i % 2], ring[i + 1 - i % 2], ring[i + 2]});
-        return;
-    }
-    const bool quadratic_polygon = name == "vtkQuadraticPolygon";
-    const std::size_t corners = type == vtk_polygon                          ? ring.size()
-                                : quadratic_polygon                          ? ring.size() / 2
-                                : name.find("Triangle") != std::string::npos ? 3
-                                                                             : 4;
-    ring.resize(std::min(corners, ring.size()));
-    if (name == "vtkPixel" && ring.size() == 4) std::swap(ring[2], ring[3]);
-    rings.push_back(std::move(ring));
+/// Those at corners.
+std::span<const std::int32_t> corners_of(const CellType& type, std::span<const std::int32_t> nodes) {
+    const std::size_t fixed = mesh::shape_of(type.linear).corners;
+    return nodes.first(fixed != 0 ? fixed : type.name == "vtkQuadraticPolygon" ? nodes.size() / 2 : nodes.size());
 }
 
-/// Makes triangles of all polygons, by their corners, where there are no cells that fill space.
-void cut_polygons(RawGrid& grid, const std::string& path, InSpace& space) {
-    const auto is = [&](CellKind kind) {
-        return [kind](std::uint8_t type) { return cell_types()[type].kind == kind; };
-    };
-    const auto curved = [](std::uint8_t type) { return type == vtk_quadratic_triangle; };
-    const auto fills = [&](std::uint8_t type) { return is(CellKind::tetrahedron)(type) || is(CellKind::other)(type); };
-    if (std::ranges::any_of(grid.types, fills)) return;
-    const auto polygons = std::ranges::count_if(grid.types, is(CellKind::surface));
-    const bool mixed = std::ranges::any_of(grid.types, curved) &&
-                       std::ranges::any_of(grid.types, [](std::uint8_t type) { return type == vtk_triangle; });
-    if (polygons == 0 && !mixed) return;
+/// The rings of a polygon, by its corners; those of a strip are triangles.
+void add_rings(const CellType& type, std::span<const std::int32_t> nodes,
+               std::vector<std::vector<Mesh::Index>>& rings) {
+    const auto c = corners_of(type, nodes);
+    if (type.linear == vtk_triangle_strip) {
+        for (std::size_t i = 0; i + 2 < c.size(); ++i) rings.push_back({c[i + i % 2], c[i + 1 - i % 2], c[i + 2]});
+        return;
+    }
+    rings.emplace_back(c.begin(), c.end());
+    if (type.name == "vtkPixel") std::swap(rings.back()[2], rings.back()[3]);
+}
+
+/// Makes triangles of all polygons in space, by their corners, where there are no cells that fill it.
+void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& path, InSpace& space) {
+    std::size_t polygons = 0, curved = 0, flat = 0;
+    for (std::size_t type = 0; type < counts.size(); ++type) {
+        const CellKind kind = cell_types()[type].kind;
+        if (counts[type] != 0 && (kind == CellKind::other || cell_types()[type].dimension() == 3)) return;
+        polygons += kind == CellKind::surface ? counts[type] : 0;
+    }
+    curved = counts[vtk_quadratic_triangle];
+    flat = counts[vtk_triangle];
+    if ((polygons == 0 && (curved == 0 || flat == 0)) || in_plane(grid.points)) return;
     RawCells cells;
     std::vector<std::uint8_t> types;
     std::vector<std::int32_t> rows;
     std::size_t uncut = 0, by_corners = 0;
     std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
-        const std::uint8_t type = grid.types[cell];
+        const CellType& type = cell_types()[grid.types[cell]];
         const std::int32_t* const all = grid.cells.connectivity.data();
         const std::span nodes(all + std::exchange(begin, grid.cells.ends[cell]), all + grid.cells.ends[cell]);
-        if (cell_types()[type].kind == CellKind::lower) continue;
+        if (type.kind == CellKind::lower) continue;
         std::vector<std::vector<Mesh::Index>> rings;
-        add_rings(type == vtk_triangle || curved(type) ? std::uint8_t{vtk_triangle} : type, nodes, rings);
-        by_corners += nodes.size() > rings.size() * 4 && type != vtk_polygon && type != vtk_triangle_strip ? 1 : 0;
+        add_rings(type, nodes, rings);
+        by_corners += corners_of(type, nodes).size() < nodes.size() && type.kind == CellKind::surface ? 1 : 0;
         for (const auto& ring : rings) {
             const auto triangles = surface::triangles_of_facet(grid.points, {&ring, 1}, {}).triangles;
             uncut += triangles.empty() ? 1 : 0;
@@ -100,61 +101,34 @@ void cut_polygons(RawGrid& grid, const std::string& path, InSpace& space) {
     const auto note = [&](std::size_t count, const char* what, Note::Kind kind) {
         if (count != 0) grid.notes.push_back({kind, std::to_string(count) + what, path, true});
     };
-    note(static_cast<std::size_t>(polygons), " polygons, which are cut into triangles of their corners",
-         Note::Kind::converted);
+    note(polygons, " polygons, which are cut into triangles of their corners", Note::Kind::converted);
     note(by_corners, " polygons of a higher order: they are taken by their corners", Note::Kind::converted);
     note(uncut, " polygons that are no simple ones, and cannot be cut", Note::Kind::left_out);
     grid.cells = std::move(cells);
     grid.types = std::move(types);
-    for (RawArray& array : grid.cell_arrays) {
-        if (!array.fault.empty()) continue;
-        const std::ptrdiff_t width = array.components;
-        std::visit(
-            [&](auto& values) {
-                std::remove_reference_t<decltype(values)> all;
-                for (const std::int32_t row : rows) {
-                    const auto first = values.begin() + row * width;
-                    all.insert(all.end(), first, first + width);
-                }
-                values = std::move(all);
-            },
-            array.values);
-    }
+    keep_rows(grid.cell_arrays, rows);
     space.facets = std::move(rows);
 }
 
-/// The type of the cells that make the mesh.
-const CellType& choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
-    const std::string others =
-        counts_by_name(counts, true, [](std::uint8_t type) { return cell_types()[type].kind >= CellKind::surface; });
-    if (!others.empty()) {
-        const auto in_surface = [](std::uint8_t type) {
-            return cell_types()[type].kind != CellKind::tetrahedron && cell_types()[type].kind != CellKind::other;
-        };
-        const bool surface = std::all_of(grid.types.begin(), grid.types.end(), in_surface) && !in_plane(grid.points);
-        refuse_file(path, "cells that are neither tetrahedra nor triangles",
-                    "tetrahedra or triangles, linear or quadratic", others,
-                    surface ? plane_remedy(grid.points, {}) : to_simplices(path));
+/// The dimension of the cells that make the mesh.
+int choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
+    int dimension = 0;
+    std::string others;
+    for (std::size_t type = 0; type < counts.size(); ++type) {
+        if (counts[type] != 0) dimension = std::max(dimension, cell_types()[type].dimension());
     }
-    constexpr std::array<std::array<VtkCell, 2>, 2> orders{
-        {{vtk_tetra, vtk_quadratic_tetra}, {vtk_triangle, vtk_quadratic_triangle}}};
-    for (const auto& both : orders) {
-        if (counts[both[0]] != 0 && counts[both[1]] != 0) {
-            const auto is_one = [&](std::uint8_t type) { return type == both[0] || type == both[1]; };
-            refuse_file(path, "linear and quadratic cells in one mesh", "cells of one type",
-                        counts_by_name(counts, true, is_one),
-                        "make all cells linear, or all quadratic: " + to_simplices(path));
-        }
-        for (const VtkCell type : both) {
-            if (counts[type] != 0) return cell_types()[type];
-        }
-    }
-    refuse_file(path, "the file contains no mesh", "tetrahedra or triangles",
-                std::to_string(grid.types.size()) + " cells of other kinds",
-                "name a file with cells; this one may contain points only");
+    others = counts_by_name(counts, true, [](std::uint8_t type) { return cell_types()[type].kind == CellKind::other; });
+    if (!others.empty())
+        refuse_file(path, "cells whose corners are not known", "polygons, polyhedra and what has a shape of its own",
+                    others, to_simplices(path));
+    if (dimension == 0)
+        refuse_file(path, "the file contains no mesh", "cells that fill space, or polygons in the plane z = 0",
+                    std::to_string(grid.types.size()) + " cells of other kinds",
+                    "name a file with cells; this one may contain points only");
+    return dimension;
 }
 
-/// The simplices with as many nodes as their type has.
+/// Cells have as many nodes as their type has.
 void check_cells(const RawGrid& grid, const std::string& path) {
     const std::array<CellType, 256>& types = cell_types();
     if (!grid.types.empty() && is_uniform(grid.types)) {
@@ -172,9 +146,16 @@ void check_cells(const RawGrid& grid, const std::string& path) {
         const std::int64_t end = grid.cells.ends[cell];
         const auto nodes = static_cast<std::size_t>(end - std::exchange(begin, end));
         const CellType& type = types[grid.types[cell]];
-        if (type.kind != CellKind::lower && nodes != type.nodes)
+        if (type.kind == CellKind::lower || type.kind == CellKind::other) continue;
+        const std::size_t least = mesh::shape_of(type.linear).corners;
+        if (type.nodes != 0 ? nodes != type.nodes : nodes < least)
             refuse_file(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
-                        std::to_string(type.nodes) + " in a " + name_of(grid.types[cell]), std::to_string(nodes));
+                        (type.nodes != 0 ? std::to_string(type.nodes) : std::to_string(least) + " or more") + " in a " +
+                            name_of(grid.types[cell]),
+                        std::to_string(nodes));
+        if (type.linear == vtk_polyhedron && grid.faces.face_ends.empty())
+            refuse_file(path, "the faces of cell " + std::to_string(cell) + " (from 0)", "those of a polyhedron",
+                        "none");
     }
 }
 
@@ -183,7 +164,7 @@ constexpr const char* ghost_name = "vtkGhostType";
 constexpr unsigned duplicate_cell = 1, refined_cell = 8, hidden_cell = 32;
 
 /// The numbers of the cells that make the mesh; empty if that is all of them. Ghosts are counted.
-std::vector<Mesh::Index> kept_cells(const RawGrid& grid, CellKind kind, std::size_t& ghosts) {
+std::vector<Mesh::Index> kept_cells(const RawGrid& grid, int dimension, std::size_t& ghosts) {
     const auto ghost = std::ranges::find_if(grid.cell_arrays, [](const RawArray& array) {
         return array.name == ghost_name && array.fault.empty() && !array.has_labels() && array.components == 1;
     });
@@ -197,7 +178,7 @@ std::vector<Mesh::Index> kept_cells(const RawGrid& grid, CellKind kind, std::siz
     std::vector<Mesh::Index> kept;
     if (ghost == grid.cell_arrays.end() && is_uniform(grid.types)) return kept;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
-        if (types[grid.types[cell]].kind != kind) continue;
+        if (types[grid.types[cell]].dimension() != dimension) continue;
         if (is_ghost(cell)) {
             ++ghosts;
         } else {
@@ -226,6 +207,52 @@ void copy_cells(RawGrid& grid, std::size_t nodes, std::size_t count, Mesh& mesh)
             std::copy_n(from + corners, mids, mesh.mid_nodes.data() + cell * mids);
         }
     });
+}
+
+/// The cells that were chosen, by their corners.
+void copy_shapes(const RawGrid& grid, const std::string& path, Mesh& mesh) {
+    std::vector<Mesh::Index> kept = std::move(mesh.cell_numbers);
+    if (kept.empty()) {
+        kept.resize(grid.types.size());
+        std::iota(kept.begin(), kept.end(), 0);
+    }
+    Mesh::Shapes& shapes = mesh.shapes;
+    const bool polyhedra = !grid.faces.face_ends.empty();
+    std::size_t by_corners = 0;
+    for (const Mesh::Index number : kept) {
+        const auto cell = static_cast<std::size_t>(number);
+        const CellType& type = cell_types()[grid.types[cell]];
+        const auto begin = cell == 0 ? 0 : grid.cells.ends[cell - 1];
+        const std::int32_t* const all = grid.cells.connectivity.data();
+        const std::span nodes(all + begin, all + grid.cells.ends[cell]);
+        // Simplices up to order 4 keep all of their nodes.
+        const bool whole =
+            mesh::is_curved_simplex(grid.types[cell]) && mesh::simplex_order(mesh.dimension, nodes.size()) != 0;
+        const std::span corners = whole ? nodes : corners_of(type, nodes);
+        by_corners += corners.size() < nodes.size() ? 1 : 0;
+        if (mesh.dimension == 2 && corners.size() < 3)
+            refuse_file(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
+                        (type.name == "vtkQuadraticPolygon" ? "6 or more in a " : "3 or more in a ") +
+                            name_of(grid.types[cell]),
+                        std::to_string(nodes.size()));
+        shapes.types.push_back(whole ? grid.types[cell] : type.linear);
+        shapes.nodes.insert(shapes.nodes.end(), corners.begin(), corners.end());
+        shapes.ends.push_back(static_cast<std::int64_t>(shapes.nodes.size()));
+        if (!polyhedra) continue;
+        const RawFaces& faces = grid.faces;
+        for (auto f = cell == 0 ? 0 : faces.face_ends[cell - 1]; f != faces.face_ends[cell]; ++f) {
+            const auto face = static_cast<std::size_t>(f);
+            shapes.rings.insert(shapes.rings.end(), faces.rings.begin() + (face == 0 ? 0 : faces.ring_ends[face - 1]),
+                                faces.rings.begin() + faces.ring_ends[face]);
+            shapes.ring_ends.push_back(static_cast<std::int64_t>(shapes.rings.size()));
+        }
+        shapes.face_ends.push_back(static_cast<std::int64_t>(shapes.ring_ends.size()));
+    }
+    mesh.cell_numbers = std::move(kept);
+    if (by_corners != 0)
+        mesh.notes.push_back({Note::Kind::converted,
+                              std::to_string(by_corners) + " cells of a higher order: they are taken by their corners",
+                              path, true});
 }
 
 /// Makes doubles of integers, if these are exact: the field that they would be in a file of these cells alone.
@@ -296,15 +323,24 @@ void note_narrow_points(const RawGrid& grid, const std::string& path, Notes& not
 }
 
 Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space) {
-    if (space != nullptr) cut_polygons(grid, path, *space);
-    const TypeCounts counts = count_types(grid);
-    const CellType& type = choose(counts, grid, path);
     check_cells(grid, path);
+    if (space != nullptr) cut_polygons(grid, count_types(grid), path, *space);
+    const TypeCounts counts = count_types(grid);
     Mesh mesh;
-    mesh.dimension = type.kind == CellKind::tetrahedron ? 3 : 2;
+    mesh.dimension = choose(counts, grid, path);
+    // Simplices of one type are the mesh's cells themselves.
+    const auto of_mesh = [&](std::size_t type) { return cell_types()[type].dimension() == mesh.dimension; };
+    std::size_t types = 0, own = 0;
+    for (std::size_t t = 0; t < counts.size(); ++t) {
+        if (counts[t] == 0 || !of_mesh(t)) continue;
+        ++types;
+        own = t;
+    }
+    const CellType& type = cell_types()[own];
+    const bool simplices = types == 1 && (type.kind == CellKind::tetrahedron || type.kind == CellKind::triangle);
     mesh.notes = std::move(grid.notes);
     std::size_t ghosts = 0;
-    mesh.cell_numbers = kept_cells(grid, type.kind, ghosts);
+    mesh.cell_numbers = kept_cells(grid, mesh.dimension, ghosts);
     const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
     if (cells == 0)
         refuse_file(path, "the file contains no mesh", "cells of its own",
@@ -312,17 +348,20 @@ Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space) {
     const auto leave_out = [&](bool there_are, std::string what, bool important = true) {
         if (there_are) mesh.notes.push_back({Note::Kind::left_out, std::move(what), path, important});
     };
-    const auto is_other = [&](std::uint8_t one) { return cell_types()[one].kind != type.kind; };
-    leave_out(cells + ghosts != grid.types.size(),
-              std::to_string(grid.types.size() - cells - ghosts) + " cells that are no " +
-                  (mesh.dimension == 3 ? "tetrahedra: " : "triangles: ") + counts_by_name(counts, false, is_other));
+    const auto is_other = [&](std::uint8_t one) { return !of_mesh(one); };
+    leave_out(cells + ghosts != grid.types.size(), std::to_string(grid.types.size() - cells - ghosts) +
+                                                       " cells that are no " +
+                                                       (!simplices            ? "cells of the mesh's dimension: "
+                                                        : mesh.dimension == 3 ? "tetrahedra: "
+                                                                              : "triangles: ") +
+                                                       counts_by_name(counts, false, is_other));
     leave_out(ghosts != 0, std::to_string(ghosts) +
                                " ghost cells, which stand for cells of other pieces or are hidden (vtkGhostType)");
-    copy_cells(grid, type.nodes, cells, mesh);
-    if (type.nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
+    simplices ? copy_cells(grid, type.nodes, cells, mesh) : copy_shapes(grid, path, mesh);
+    if (simplices && type.nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
     grid.cells.connectivity = {};
-    mesh.points =
-        to_points(std::move(grid.points), mesh.dimension, path, mesh.mid_nodes.empty() ? path : "", "point", space);
+    mesh.points = to_points(std::move(grid.points), mesh.dimension, path,
+                            simplices && mesh.mid_nodes.empty() ? path : "", "point", space);
     if (!mesh.cell_numbers.empty()) {
         keep_rows(grid.cell_arrays, mesh.cell_numbers);
         std::ranges::for_each(grid.cell_arrays, make_field);
@@ -341,6 +380,7 @@ Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space) {
     leave_out(!grid.loose_arrays.empty(),
               "arrays of neither points nor cells (field data): " + list_of(grid.loose_arrays), false);
     leave_out(grid.has_steps, "all steps but the first of arrays with several time steps");
+    cut_into_simplices(mesh, path);
     return mesh;
 }
 

@@ -1,5 +1,6 @@
 // VTK's legacy files: words and numbers of them, sections made of these.
 
+#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
@@ -184,8 +185,10 @@ public:
             if (keyword.empty()) break;
             read_section(keyword);
         }
-        if (!has_points_ && (part_ != Part::all || cell_count() != 0)) fail("the file has no points", "POINTS", "none");
-        if (part_ == Part::all) gather_cells();
+        if (!structured_ && !has_points_ && (part_ != Part::all || cell_count() != 0))
+            fail("the file has no points", "POINTS", "none");
+        if (structured_) make_structured();
+        if (part_ == Part::all && !structured_) gather_cells();
         return std::move(grid_);
     }
 
@@ -194,33 +197,95 @@ private:
         take("DATASET");
         const std::string keyword = take_keyword();
         polydata_ = keyword == "POLYDATA";
-        if (polydata_ || keyword == "UNSTRUCTURED_GRID") return;
-        if (part_ == Part::all)
-            fail("the kind of the data set", "UNSTRUCTURED_GRID or POLYDATA", in_quotes(keyword),
-                 keyword == "FIELD" ? "" : to_simplices(file_.path));
-        if (keyword != "STRUCTURED_GRID")
-            fail("the kind of the data set", "UNSTRUCTURED_GRID, POLYDATA or STRUCTURED_GRID", in_quotes(keyword),
-                 "save the points as .vti or .vtr, in ParaView");
+        structured_ = keyword.starts_with("STRUCTURED_") || keyword == "RECTILINEAR_GRID";
+        if (!polydata_ && !structured_ && keyword != "UNSTRUCTURED_GRID")
+            fail("the kind of the data set",
+                 "UNSTRUCTURED_GRID, POLYDATA, STRUCTURED_POINTS, RECTILINEAR_GRID or STRUCTURED_GRID",
+                 in_quotes(keyword));
+        rectilinear_ = keyword == "RECTILINEAR_GRID";
+        along_axes_ = rectilinear_ || keyword == "STRUCTURED_POINTS";
+        has_points_ = along_axes_;
+    }
+
+    /// What places the points of a structured grid; false if the keyword is none of it.
+    bool read_structure(const std::string& keyword) {
+        StructuredGrid& grid = grid_of_axes_;
+        if (keyword == "DIMENSIONS") {
+            if (has_dimensions_) fail("a second line DIMENSIONS", "one", "two");
+            has_dimensions_ = true;
+            for (std::size_t& count : grid.counts) count = take_count("the points along an axis");
+            const std::string fault = grid.fault(along_axes_ ? part_ : Part::points);
+            if (!fault.empty()) fail("the points of the grid", fault, "more");
+            point_count_ = grid.point_count();
+            return true;
+        }
+        if (keyword == "ORIGIN" || keyword == "SPACING" || keyword == "ASPECT_RATIO") {
+            for (double& x : keyword == "ORIGIN" ? origin_ : spacing_) {
+                const std::string word = take_word();
+                x = base::parse_double(word).value_or(HUGE_VAL);
+                if (!std::isfinite(x)) fail("the origin or spacing of the grid", "a finite number", shown(word));
+            }
+            return true;
+        }
+        if (!rectilinear_ || keyword.size() != 13 || !keyword.ends_with("_COORDINATES") || keyword[0] < 'X' ||
+            keyword[0] > 'Z')
+            return false;
+        const auto axis = static_cast<std::size_t>(keyword[0] - 'X');
+        if (!grid.axes[axis].empty()) fail("a second section " + keyword, "one", "two");
+        const std::size_t count = take_count("the points along an axis");
+        if (count != grid.counts[axis])
+            fail("the points along an axis", std::to_string(grid.counts[axis]) + ", as DIMENSIONS says",
+                 std::to_string(count));
+        const NumberType type = take_type("the coordinates along an axis");
+        grid_.narrow_points = grid_.narrow_points || type == NumberType::float32;
+        take_numbers("the coordinates along an axis", type, count, grid.axes[axis]);
+        return true;
+    }
+
+    /// Points and cells, as soon as they are known.
+    void make_structured() {
+        if (is_made_) return;
+        is_made_ = true;
+        StructuredGrid& grid = grid_of_axes_;
+        if (!has_dimensions_) fail("the points of the grid", "DIMENSIONS before data", "none");
+        if (!has_points_ || (!along_axes_ && grid_.points.size() != 3 * point_count_))
+            fail("the points of the grid", "POINTS before data", "none");
+        for (std::size_t axis = 0; along_axes_ && axis < 3; ++axis) {
+            std::vector<double>& own = grid.axes[axis];
+            if (rectilinear_ && own.size() != grid.counts[axis])
+                fail("the points of the grid", std::string(1, "XYZ"[axis]) + "_COORDINATES before data", "none");
+            // Rounded twice, as VTK has them.
+            for (std::size_t i = 0; !rectilinear_ && point_count_ != 0 && i < grid.counts[axis]; ++i)
+                own.push_back(origin_[axis] + spacing_[axis] * static_cast<double>(i));
+        }
+        grid.append_to(grid_, part_);
     }
 
     void read_section(const std::string& keyword) {
         if (keyword == "POINTS") return read_points();
-        if (keyword == "CELLS" && !polydata_) return read_cells(sections_[polygons]);
-        if (keyword == "CELL_TYPES" && !polydata_) return read_types();
-        if (keyword == "DIMENSIONS") return static_cast<void>(rest_of_line());
+        const bool has_cells = !polydata_ && !structured_;
+        if (keyword == "CELLS" && has_cells) return read_cells(sections_[polygons]);
+        if (keyword == "CELL_TYPES" && has_cells) return read_types();
+        if (structured_ && read_structure(keyword)) return;
         if (keyword == "METADATA") return skip_metadata();
         if (keyword == "FIELD") return read_field_arrays(nullptr, 0);
         constexpr std::array<const char*, section_count> names{"VERTICES", "LINES", "POLYGONS", "TRIANGLE_STRIPS"};
         for (std::size_t i = 0; i < section_count; ++i) {
             if (polydata_ && keyword == names[i]) return read_cells(sections_[i]);
         }
+        if (structured_ && (keyword == "POINT_DATA" || keyword == "CELL_DATA")) make_structured();
         if (keyword == "POINT_DATA") return read_attributes(keyword, point_count_, ", one a point", grid_.point_arrays);
         if (keyword == "CELL_DATA") return read_attributes(keyword, cell_count(), ", one a cell", grid_.cell_arrays);
         fail("a keyword of the format", "POINTS, CELLS, POINT_DATA and the like", in_quotes(keyword), too_many);
     }
 
     void read_points() {
-        point_count_ = take_count("the number of points");
+        if (along_axes_) fail("the points of the grid", "DIMENSIONS and what lies along the axes", "POINTS");
+        if (structured_ && !has_dimensions_) fail("the points of the grid", "DIMENSIONS before POINTS", "none");
+        const std::size_t count = take_count("the number of points");
+        if (structured_ && count != point_count_)
+            fail("the number of points", std::to_string(point_count_) + ", as DIMENSIONS says", std::to_string(count));
+        point_count_ = count;
         const NumberType type = take_type("the points");
         if (has_points_) fail("a second section POINTS", "one", "two");
         has_points_ = true;
@@ -286,7 +351,7 @@ private:
     }
 
     std::size_t cell_count() const {
-        std::size_t count = 0;
+        std::size_t count = structured_ ? grid_of_axes_.cell_count() : 0;
         for (const RawCells& cells : sections_) count += cells.ends.size();
         return count;
     }
@@ -296,12 +361,39 @@ private:
             fail("the cell types", std::to_string(cell_count()) + ", one a cell", std::to_string(grid_.types.size()));
         for (std::size_t i = 0; i < section_count; ++i)
             grid_.append(std::move(sections_[i]), polydata_ ? std::optional(static_cast<Section>(i)) : std::nullopt);
-        const RawCells& cells = grid_.cells;
+        RawCells& cells = grid_.cells;
+        if (std::ranges::count(grid_.types, vtk_polyhedron) != 0) take_faces(cells);
         const std::size_t wrong = first_wrong_node(cells.connectivity, grid_.point_count());
         if (wrong == cells.connectivity.size()) return;
         const auto cell = std::ranges::upper_bound(cells.ends, static_cast<std::int64_t>(wrong)) - cells.ends.begin();
         refuse_file(file_.path, "a node of cell " + std::to_string(cell) + " (from 0)",
                     "a point below " + std::to_string(grid_.point_count()), std::to_string(cells.connectivity[wrong]));
+    }
+
+    /// Polyhedra have a stream of faces (see RawFaces) in place of nodes.
+    void take_faces(RawCells& cells) {
+        RawCells plain;
+        std::int64_t begin = 0;
+        for (std::size_t cell = 0; cell < cells.ends.size(); ++cell) {
+            const std::int32_t* const all = cells.connectivity.data();
+            const std::span own(all + std::exchange(begin, cells.ends[cell]), all + cells.ends[cell]);
+            const std::size_t before = grid_.faces.rings.size();
+            if (grid_.types[cell] != vtk_polyhedron) {
+                plain.connectivity.insert(plain.connectivity.end(), own.begin(), own.end());
+                grid_.faces.face_ends.push_back(static_cast<std::int64_t>(grid_.faces.ring_ends.size()));
+            } else if (grid_.faces.append(std::vector<std::int64_t>(own.begin(), own.end()), grid_.point_count())) {
+                std::vector<std::int32_t> nodes(grid_.faces.rings.begin() + static_cast<std::ptrdiff_t>(before),
+                                                grid_.faces.rings.end());
+                std::ranges::sort(nodes);
+                plain.connectivity.insert(plain.connectivity.end(), nodes.begin(),
+                                          std::unique(nodes.begin(), nodes.end()));
+            } else {
+                refuse_file(file_.path, "the faces of cell " + std::to_string(cell) + " (from 0)",
+                            "nodes of faces below " + std::to_string(grid_.point_count()), "others");
+            }
+            plain.ends.push_back(static_cast<std::int64_t>(plain.connectivity.size()));
+        }
+        cells = std::move(plain);
     }
 
     /// All arrays behind POINT_DATA or CELL_DATA, up to the next of the two. `expected`: so many points or cells.
@@ -412,7 +504,11 @@ private:
     RawGrid grid_;
     std::array<RawCells, section_count> sections_;
     std::size_t point_count_ = 0;
-    bool polydata_ = false, has_points_ = false;
+    bool polydata_ = false, structured_ = false, rectilinear_ = false, has_points_ = false;
+    bool along_axes_ = false;  ///< structured points, or rectilinear
+    bool has_dimensions_ = false, is_made_ = false;
+    StructuredGrid grid_of_axes_;
+    std::array<double, 3> origin_{}, spacing_{1, 1, 1};
     bool done_ = false;
 };
 

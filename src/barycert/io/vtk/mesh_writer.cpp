@@ -7,33 +7,66 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
+#include "barycert/mesh/pulling.hpp"
 
 namespace barycert::io {
 namespace {
 
-/// An unstructured grid of cells of one type, of so many nodes each.
+/// An unstructured grid of cells of one type, of so many nodes each, or of those shapes.
 struct OutGrid {
     std::vector<OutArray> point_arrays, cell_arrays;
     OutArray points, connectivity;
     std::size_t cells = 0, nodes = 1;
     std::uint8_t type = 0;  ///< VTK's number
+    const Mesh::Shapes* shapes = nullptr;
+
+    std::size_t numbers() const { return shapes == nullptr ? nodes * cells : shapes->nodes.size(); }
+    std::size_t end(std::size_t cell) const {
+        return shapes == nullptr ? nodes * (cell + 1) : static_cast<std::size_t>(shapes->ends[cell]);
+    }
+    std::uint8_t type_of(std::size_t cell) const { return shapes == nullptr ? type : shapes->types[cell]; }
 };
 
+/// The faces of each polyhedron: how many, then how many nodes and these, face after face; where each ends goes to
+/// `ends`, -1 of other cells.
+std::vector<std::int64_t> face_streams(const Mesh::Shapes& shapes, std::vector<std::int64_t>& ends) {
+    std::vector<std::int64_t> stream;
+    std::int64_t face = 0, node = 0;
+    for (std::size_t cell = 0; cell < shapes.count(); ++cell) {
+        if (shapes.types[cell] == vtk_polyhedron) {
+            stream.push_back(shapes.face_ends[cell] - face);
+            for (; face < shapes.face_ends[cell]; ++face) {
+                const std::int64_t end = shapes.ring_ends[static_cast<std::size_t>(face)];
+                stream.push_back(end - node);
+                for (; node < end; ++node) stream.push_back(shapes.rings[static_cast<std::size_t>(node)]);
+            }
+        }
+        ends.push_back(shapes.types[cell] == vtk_polyhedron ? static_cast<std::int64_t>(stream.size()) : -1);
+    }
+    return stream;
+}
+
 Status write_grid(OutGrid grid, const std::string& path, VtkData data) {
-    const auto end = [nodes = grid.nodes](std::size_t i) { return nodes * (i + 1); };
-    const auto type = [own = grid.type](std::size_t) { return own; };
-    const bool wide = grid.nodes * grid.cells > std::numeric_limits<std::int32_t>::max();
+    const auto end = [&](std::size_t i) { return grid.end(i); };
+    const auto type = [&](std::size_t i) { return grid.type_of(i); };
+    const bool wide = grid.numbers() > std::numeric_limits<std::int32_t>::max();
+    std::vector<std::int64_t> stream, ends;
+    std::vector<OutArray> cells{std::move(grid.connectivity),
+                                wide ? array_made<std::int64_t>("offsets", grid.cells, end)
+                                     : array_made<std::int32_t>("offsets", grid.cells, end),
+                                array_made<std::uint8_t>("types", grid.cells, type)};
+    if (grid.shapes != nullptr && !grid.shapes->face_ends.empty()) {
+        stream = face_streams(*grid.shapes, ends);
+        cells.push_back(array_in_memory<std::int64_t>("faces", stream));
+        cells.push_back(array_in_memory<std::int64_t>("faceoffsets", ends));
+    }
     return write_xml({.data_set = "UnstructuredGrid",
                       .piece = " NumberOfPoints=\"" + std::to_string(grid.points.count / 3) + "\" NumberOfCells=\"" +
                                std::to_string(grid.cells) + "\"",
                       .sections = {{"PointData", std::move(grid.point_arrays)},
                                    {"CellData", std::move(grid.cell_arrays)},
                                    {"Points", {std::move(grid.points)}},
-                                   {"Cells",
-                                    {std::move(grid.connectivity),
-                                     wide ? array_made<std::int64_t>("offsets", grid.cells, end)
-                                          : array_made<std::int32_t>("offsets", grid.cells, end),
-                                     array_made<std::uint8_t>("types", grid.cells, type)}}}},
+                                   {"Cells", std::move(cells)}}},
                      path, data);
 }
 
@@ -125,14 +158,16 @@ public:
     Status write(OutGrid grid, const CellNodes& node) {
         const std::size_t points = grid.points.count / 3, cells = grid.cells;
         // Version 4.2 counts all numbers of the cells, the lengths among them, with 32 bits.
-        const bool wide = cells * (node.nodes + 1) > max_entities;
+        const bool wide = grid.shapes == nullptr && cells * (node.nodes + 1) > max_entities;
         file_.write(std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") + "\nmesh\n" +
                     (text_ ? "ASCII" : "BINARY") + "\nDATASET UNSTRUCTURED_GRID\nPOINTS " + std::to_string(points) +
                     " double\n");
         write_array(grid.points, 3);
-        wide ? write_wide_cells(node, cells) : write_cells(node, cells);
+        wide                     ? write_wide_cells(node, cells)
+        : grid.shapes != nullptr ? write_shapes(*grid.shapes)
+                                 : write_cells(node, cells);
         file_.write("CELL_TYPES " + std::to_string(cells) + "\n");
-        write_array(array_made<std::int32_t>("types", cells, [type = grid.type](std::size_t) { return type; }), 12);
+        write_array(array_made<std::int32_t>("types", cells, [&](std::size_t i) { return grid.type_of(i); }), 12);
         write_arrays("CELL_DATA", cells, grid.cell_arrays);
         write_arrays("POINT_DATA", points, grid.point_arrays);
         return file_.commit();
@@ -159,6 +194,28 @@ private:
             return i % row == 0 ? static_cast<std::int32_t>(node.nodes) : node(i / row * node.nodes + i % row - 1);
         };
         write_array(array_made<std::int32_t>("cells", cells * row, number), row);
+    }
+
+    /// Version 4.2, too; polyhedra have the stream of their faces in place of nodes.
+    void write_shapes(const Mesh::Shapes& shapes) {
+        std::vector<std::int64_t> ends;
+        const std::vector<std::int64_t> stream = face_streams(shapes, ends);
+        std::vector<std::int32_t> numbers;
+        std::ptrdiff_t in_stream = 0;
+        for (std::size_t cell = 0; cell < shapes.count(); ++cell) {
+            const auto add = [&](auto first, auto last) {
+                numbers.push_back(static_cast<std::int32_t>(last - first));
+                for (; first != last; ++first) numbers.push_back(static_cast<std::int32_t>(*first));
+            };
+            if (ends[cell] >= 0) {
+                add(stream.begin() + std::exchange(in_stream, ends[cell]), stream.begin() + ends[cell]);
+            } else {
+                add(shapes.nodes.begin() + (cell == 0 ? 0 : shapes.ends[cell - 1]),
+                    shapes.nodes.begin() + shapes.ends[cell]);
+            }
+        }
+        file_.write("CELLS " + std::to_string(shapes.count()) + " " + std::to_string(numbers.size()) + "\n");
+        write_array(array_in_memory<std::int32_t>("cells", numbers), 12);
     }
 
     /// Version 5.1: where the nodes of each cell begin and the last ones end, then all nodes.
@@ -222,16 +279,20 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
         if (!fault.empty()) return cannot_write("the mesh", fault, path);
         std::vector<std::string> room;
         const CellNodes node{mesh};
-        const std::size_t cells = mesh.cell_count();
-        OutGrid grid{.point_arrays = point_arrays_of(mesh),
-                     .cell_arrays = cell_arrays_of(mesh, room),
-                     .points = array_of_points(mesh.points, mesh.dimension),
-                     .connectivity = mesh.mid_nodes.empty()
-                                         ? array_in_memory<Mesh::Index>("connectivity", mesh.cells)
-                                         : array_made<Mesh::Index>("connectivity", node.nodes * cells, node),
-                     .cells = cells,
-                     .nodes = node.nodes,
-                     .type = node.type()};
+        const bool shaped = !mesh.shapes.types.empty();
+        const std::size_t cells = mesh.whole_count();
+        const Mesh rows = shaped ? mesh::rows_of_wholes(mesh) : Mesh();
+        OutGrid grid{
+            .point_arrays = point_arrays_of(mesh),
+            .cell_arrays = cell_arrays_of(shaped ? rows : mesh, room),
+            .points = array_of_points(mesh.points, mesh.dimension),
+            .connectivity = mesh.mid_nodes.empty()
+                                ? array_in_memory<Mesh::Index>("connectivity", shaped ? mesh.shapes.nodes : mesh.cells)
+                                : array_made<Mesh::Index>("connectivity", node.nodes * cells, node),
+            .cells = cells,
+            .nodes = node.nodes,
+            .type = node.type(),
+            .shapes = shaped ? &mesh.shapes : nullptr};
         fault = fault_of_names(grid.point_arrays, names);
         if (fault.empty()) fault = fault_of_names(grid.cell_arrays, names);
         if (!fault.empty()) return cannot_write("the mesh", fault, path);

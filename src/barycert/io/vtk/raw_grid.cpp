@@ -8,35 +8,52 @@
 namespace barycert::io {
 
 const std::array<CellType, 256>& cell_types() {
-    /// Numbers and names in vtkCellType.h.
-    constexpr std::array<std::pair<CellKind, std::string_view>, 5> known{
-        {{CellKind::tetrahedron, "10 Tetra 24 QuadraticTetra"},
-         {CellKind::triangle, "5 Triangle 22 QuadraticTriangle"},
-         {CellKind::lower,
-          "0 EmptyCell 1 Vertex 2 PolyVertex 3 Line 4 PolyLine 21 QuadraticEdge 35 CubicLine 68 LagrangeCurve"},
-         {CellKind::surface,
-          "6 TriangleStrip 7 Polygon 8 Pixel 9 Quad 23 QuadraticQuad 28 BiQuadraticQuad 30 QuadraticLinearQuad "
-          "34 BiQuadraticTriangle 36 QuadraticPolygon 61 HigherOrderTriangle 62 HigherOrderQuad 69 LagrangeTriangle "
-          "70 LagrangeQuadrilateral 76 BezierTriangle 77 BezierQuadrilateral"},
-         {CellKind::other,
-          "11 Voxel 12 Hexahedron 13 Wedge 14 Pyramid 15 PentagonalPrism 16 HexagonalPrism 25 QuadraticHexahedron "
-          "26 QuadraticWedge 27 QuadraticPyramid 29 TriQuadraticHexahedron 31 QuadraticLinearWedge "
-          "32 BiQuadraticQuadraticWedge 33 BiQuadraticQuadraticHexahedron 37 TriQuadraticPyramid 41 ConvexPointSet "
-          "42 Polyhedron 51 ParametricCurve 52 ParametricSurface 53 ParametricTriSurface 54 ParametricQuadSurface "
-          "55 ParametricTetraRegion 56 ParametricHexRegion 60 HigherOrderEdge 63 HigherOrderPolygon "
-          "64 HigherOrderTetrahedron 71 LagrangeTetra 72 LagrangeHexahedron 73 LagrangeWedge 74 LagrangePyramid "
-          "75 BezierCurve 78 BezierTetra 79 BezierHexahedron 80 BezierWedge"}}};
+    /// Numbers and names in vtkCellType.h, by the type of their corners; a number behind a name: of nodes.
+    struct Known {
+        CellKind kind;
+        std::uint8_t linear;
+        std::string_view text;
+    };
+    constexpr std::array<Known, 17> known{
+        {{CellKind::tetrahedron, vtk_tetra, "10 Tetra 4 24 QuadraticTetra 10"},
+         {CellKind::triangle, vtk_triangle, "5 Triangle 3 22 QuadraticTriangle 6"},
+         {CellKind::lower, 0,
+          "0 EmptyCell 0 1 Vertex 0 2 PolyVertex 0 3 Line 0 4 PolyLine 0 21 QuadraticEdge 0 35 CubicLine 0 "
+          "68 LagrangeCurve 0"},
+         {CellKind::surface, vtk_triangle_strip, "6 TriangleStrip 0"},
+         {CellKind::surface, vtk_polygon, "7 Polygon 0 36 QuadraticPolygon 0"},
+         {CellKind::surface, 8, "8 Pixel 4"},
+         {CellKind::surface, vtk_quad,
+          "9 Quad 4 23 QuadraticQuad 8 28 BiQuadraticQuad 9 30 QuadraticLinearQuad 6 62 HigherOrderQuad 0 "
+          "70 LagrangeQuadrilateral 0 77 BezierQuadrilateral 0"},
+         {CellKind::surface, vtk_triangle,
+          "34 BiQuadraticTriangle 7 61 HigherOrderTriangle 0 69 LagrangeTriangle 0 76 BezierTriangle 0"},
+         {CellKind::solid, vtk_tetra, "64 HigherOrderTetrahedron 0 71 LagrangeTetra 0 78 BezierTetra 0"},
+         {CellKind::solid, 11, "11 Voxel 8"},
+         {CellKind::solid, 12,
+          "12 Hexahedron 8 25 QuadraticHexahedron 20 29 TriQuadraticHexahedron 27 "
+          "33 BiQuadraticQuadraticHexahedron 24 72 LagrangeHexahedron 0 79 BezierHexahedron 0"},
+         {CellKind::solid, 13,
+          "13 Wedge 6 26 QuadraticWedge 15 31 QuadraticLinearWedge 12 32 BiQuadraticQuadraticWedge 18 "
+          "73 LagrangeWedge 0 80 BezierWedge 0"},
+         {CellKind::solid, 14, "14 Pyramid 5 27 QuadraticPyramid 13 37 TriQuadraticPyramid 19 74 LagrangePyramid 0"},
+         {CellKind::solid, 15, "15 PentagonalPrism 10"},
+         {CellKind::solid, 16, "16 HexagonalPrism 12"},
+         {CellKind::solid, vtk_polyhedron, "42 Polyhedron 0"},
+         {CellKind::other, 0,
+          "41 ConvexPointSet 0 51 ParametricCurve 0 52 ParametricSurface 0 53 ParametricTriSurface 0 "
+          "54 ParametricQuadSurface 0 55 ParametricTetraRegion 0 56 ParametricHexRegion 0 60 HigherOrderEdge 0 "
+          "63 HigherOrderPolygon 0 75 BezierCurve 0"}}};
     static const std::array<CellType, 256> types = [&] {
         std::array<CellType, 256> all{};
         for (std::size_t type = 0; type < all.size(); ++type) all[type].name = "unknown type " + std::to_string(type);
-        for (auto [kind, text] : known) {
-            for (std::string_view word = next_word(text); !word.empty(); word = next_word(text))
-                all[*parse_count(word)] = {kind, 0, "vtk" + std::string(next_word(text))};
+        for (auto [kind, linear, text] : known) {
+            for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
+                CellType& type = all[*parse_count(word)];
+                type = {kind, linear, 0, "vtk" + std::string(next_word(text))};
+                type.nodes = static_cast<std::size_t>(*parse_count(next_word(text)));
+            }
         }
-        all[vtk_triangle].nodes = 3;
-        all[vtk_tetra].nodes = 4;
-        all[vtk_quadratic_triangle].nodes = 6;
-        all[vtk_quadratic_tetra].nodes = 10;
         return all;
     }();
     return types;
@@ -233,12 +250,45 @@ void merge_points(RawGrid& grid, const std::vector<std::int32_t>& first) {
         number[point] = own == point ? static_cast<std::int32_t>(kept.size()) : number[own];
         if (own == point) kept.push_back(first[point]);
     }
-    for (std::int32_t& node : grid.cells.connectivity) node = number[static_cast<std::size_t>(node)];
+    for (auto* const nodes : {&grid.cells.connectivity, &grid.faces.rings}) {
+        for (std::int32_t& node : *nodes) node = number[static_cast<std::size_t>(node)];
+    }
     keep_rows(grid.points, 3, kept);
     keep_rows(grid.point_arrays, kept);
 }
 
 }  // namespace
+
+bool RawFaces::append(std::span<const std::int64_t> stream, std::size_t points) {
+    std::size_t at = 0;
+    const auto take = [&](std::int64_t& number) {
+        if (at == stream.size()) return false;
+        number = stream[at++];
+        return number >= 0;
+    };
+    std::int64_t faces = 0, nodes = 0, node = 0;
+    if (!take(faces)) return false;
+    for (; faces != 0; --faces) {
+        if (!take(nodes)) return false;
+        for (; nodes != 0; --nodes) {
+            if (!take(node) || static_cast<std::size_t>(node) >= points) return false;
+            rings.push_back(static_cast<std::int32_t>(node));
+        }
+        ring_ends.push_back(static_cast<std::int64_t>(rings.size()));
+    }
+    face_ends.push_back(static_cast<std::int64_t>(ring_ends.size()));
+    return at == stream.size();
+}
+
+void RawFaces::append(RawFaces more, std::size_t before, std::size_t cells, std::size_t points) {
+    if (face_ends.empty() && more.face_ends.empty()) return;
+    const auto faces = static_cast<std::int64_t>(ring_ends.size()), nodes = static_cast<std::int64_t>(rings.size());
+    face_ends.resize(before, faces);
+    more.face_ends.resize(cells, static_cast<std::int64_t>(more.ring_ends.size()));
+    for (const std::int64_t end : more.face_ends) face_ends.push_back(faces + end);
+    for (const std::int64_t end : more.ring_ends) ring_ends.push_back(nodes + end);
+    for (const std::int32_t node : more.rings) rings.push_back(node + static_cast<std::int32_t>(points));
+}
 
 void RawGrid::append(RawCells more, std::optional<Section> section) {
     const auto before = static_cast<std::int64_t>(cells.connectivity.size());
@@ -293,6 +343,7 @@ void append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
     if (points != 0) {
         for (std::int32_t& node : piece.cells.connectivity) node += static_cast<std::int32_t>(points);
     }
+    grid.faces.append(std::move(piece.faces), cells, piece.types.size(), points);
     grid.append(std::move(piece.cells));
     move_behind(grid.types, piece.types);
 }

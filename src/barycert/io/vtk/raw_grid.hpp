@@ -25,20 +25,28 @@ enum VtkCell : std::uint8_t {
     vtk_tetra = 10,
     vtk_quadratic_triangle = 22,
     vtk_quadratic_tetra = 24,
+    vtk_polyhedron = 42,
 };
 
 enum class CellKind : std::uint8_t {
     tetrahedron,
     triangle,
     lower,    ///< points and lines
-    surface,  ///< polygons of any order: triangles, once they are cut, and nothing more
-    other,
+    surface,  ///< polygons of any order
+    solid,    ///< what else fills space
+    other,    ///< whose corners are not known
 };
 
 struct CellType {
     CellKind kind = CellKind::other;
-    std::size_t nodes = 0;  ///< of tetrahedra and triangles
-    std::string name;       ///< "vtkTetra"; "unknown type 200"
+    std::uint8_t linear = 0;  ///< the type of its corners, which come first
+    std::size_t nodes = 0;    ///< 0: any number, but at least the corners
+    std::string name;         ///< "vtkTetra"; "unknown type 200"
+
+    int dimension() const {
+        if (kind == CellKind::triangle || kind == CellKind::surface) return 2;
+        return kind == CellKind::tetrahedron || kind == CellKind::solid ? 3 : 0;
+    }
 };
 const std::array<CellType, 256>& cell_types();
 
@@ -67,9 +75,22 @@ struct RawCells {
     std::vector<std::int64_t> ends;          ///< where the nodes of each cell end in the connectivity
 };
 
+/// Faces of polyhedra, as of Mesh::Shapes.
+struct RawFaces {
+    std::vector<std::int64_t> face_ends, ring_ends;
+    std::vector<std::int32_t> rings;
+
+    /// Of the next cell, as VTK writes them: how many, then how many nodes and these, face after face. False if the
+    /// numbers do not fit, or a node is none of `points`.
+    bool append(std::span<const std::int64_t> stream, std::size_t points);
+    /// Behind those of `before` cells.
+    void append(RawFaces more, std::size_t before, std::size_t cells, std::size_t points);
+};
+
 struct RawGrid {
     std::vector<double> points;  ///< 3 coordinates a point
     RawCells cells;
+    RawFaces faces;
     std::vector<std::uint8_t> types;  ///< VTK's number of each cell's type
     std::vector<RawArray> point_arrays, cell_arrays;
     std::vector<std::string> unread_arrays;       ///< of points, by name, where only points were asked for (XML)
@@ -133,6 +154,18 @@ bool takes_texts(RawArray& array, bool may_label);
 
 /// The first node that is none of `count` points; nodes.size() if there is none.
 std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t count);
+
+/// The points and, with Part::all, cells of a structured grid, the first axis running fastest.
+struct StructuredGrid {
+    std::array<std::size_t, 3> counts{};           ///< of points along each axis
+    std::array<std::vector<double>, 3> axes = {};  ///< coordinates along them; empty where the points are given
+
+    /// What is wrong with their number; empty: nothing. Few bytes describe any number: no more than memory holds.
+    std::string fault(Part part) const;
+    std::size_t point_count() const { return counts[0] * counts[1] * counts[2]; }
+    std::size_t cell_count() const;
+    void append_to(RawGrid& grid, Part part) const;
+};
 
 /// Those of `from` behind those of `to`, on large pages.
 template <class T>

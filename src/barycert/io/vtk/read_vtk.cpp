@@ -201,18 +201,33 @@ bool is_polygons(const std::string& path) {
     return has_suffix(path, ".vtp") || has_suffix(path, ".pvtp");
 }
 
-/// Blocks of surfaces and grids beside the mesh.
-bool is_other_kind(const std::string& path) {
-    constexpr std::string_view others = " .vtp .vti .vtr .vts .pvtp .pvti .pvtr .pvts .vtt .vth ";
-    return others.find(' ' + std::filesystem::path(path).extension().string() + ' ') != std::string_view::npos;
+bool is_structured(const std::string& path) {
+    return has_suffix(path, ".vti") || has_suffix(path, ".vtr") || has_suffix(path, ".vts");
 }
 
-/// Whether a grid that is no polygon data is among the files, or those that they name.
-bool has_cells_of_grids(std::span<const CollectionFile> files) {
-    const auto is_grid = [](const std::string& path) { return has_suffix(path, ".vtu") || has_suffix(path, ".vtk"); };
-    return std::ranges::any_of(files, [&](const CollectionFile& file) {
-        return !is_polygons(file.path) && std::ranges::any_of(vtk_mesh_files(file.path), is_grid);
-    });
+/// What blocks make the mesh: unstructured grids; where there are none, structured ones; else polygons.
+enum class Blocks : std::uint8_t { unstructured, structured, polygons };
+
+Blocks kind_of_block(const std::string& path) {
+    return is_polygons(path) ? Blocks::polygons : is_structured(path) ? Blocks::structured : Blocks::unstructured;
+}
+
+/// Of the files, or those that they name.
+Blocks blocks_of_mesh(std::span<const CollectionFile> files) {
+    Blocks kind = Blocks::polygons;
+    for (const CollectionFile& file : files) {
+        for (const std::string& own : vtk_mesh_files(file.path)) {
+            if (has_suffix(own, ".vtu") || has_suffix(own, ".vtk") || is_structured(own))
+                kind = std::min(kind, kind_of_block(own));
+        }
+    }
+    return kind;
+}
+
+/// Kinds that are not read: pieces of structured grids, trees, hypertrees.
+bool is_unread(const std::string& path) {
+    constexpr std::string_view others = " .pvti .pvtr .pvts .vtt .vth ";
+    return others.find(' ' + std::filesystem::path(path).extension().string() + ' ') != std::string_view::npos;
 }
 
 /// Of files that name files, each is read once. Errors are thrown as Exceptions.
@@ -245,9 +260,9 @@ private:
     RawGrid read_all(std::span<const CollectionFile> files, const std::string& path, int depth) {
         RawGrid grid;
         std::vector<std::string> others;
-        if (!polygons_) polygons_ = !has_cells_of_grids(files);
+        if (!blocks_) blocks_ = blocks_of_mesh(files);
         for (const CollectionFile& file : files) {
-            if (part_ == Part::all && is_other_kind(file.path) && !(*polygons_ && is_polygons(file.path))) {
+            if (part_ == Part::all && (is_unread(file.path) || kind_of_block(file.path) > *blocks_)) {
                 others.push_back(file.block.empty() ? file.path : file.block + " (" + file.path + ")");
                 continue;
             }
@@ -257,7 +272,7 @@ private:
                             "put it there, or correct the name");
             append_piece(grid, read(file.path, depth + 1), path);
         }
-        const std::string left_out = std::to_string(others.size()) + " blocks that are no unstructured grids: ";
+        const std::string left_out = std::to_string(others.size()) + " blocks beside those with the mesh: ";
         if (!others.empty()) grid.notes.push_back({Note::Kind::left_out, left_out + list_of(others), path, true});
         if (part_ == Part::all) join_pieces(grid, path);
         return grid;
@@ -281,8 +296,8 @@ private:
     }
 
     Part part_;
-    StepChoice step_;               ///< not yet made use of
-    std::optional<bool> polygons_;  ///< they are the mesh: there is no other
+    StepChoice step_;  ///< not yet made use of
+    std::optional<Blocks> blocks_;
     std::set<std::string> seen_;
 };
 
@@ -358,8 +373,9 @@ Result<std::vector<SeriesStep>> read_series(const std::string& path) {
 
 std::vector<std::string> vtk_mesh_files(const std::string& path) {
     std::vector<std::string> all{path};
+    constexpr std::string_view alone = " .vtu .vtk .vtp .vti .vtr .vts ";
     const std::string suffix = std::filesystem::path(path).extension().string();
-    if (suffix == ".vtu" || suffix == ".vtk" || suffix == ".vtp") return all;
+    if (alone.find(' ' + suffix + ' ') != std::string_view::npos) return all;
     std::set<std::string> known{path};
     for (std::size_t i = 0; i < all.size(); ++i) {
         std::optional<io::Collection> named;

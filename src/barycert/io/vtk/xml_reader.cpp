@@ -41,7 +41,7 @@ public:
         const std::string type(root().attribute_or("type", ""));
         const XmlElement* const data = root().name == "VTKFile" ? child(&root(), type) : nullptr;
         is_polygons_ = type == "PolyData";
-        const bool structured = part_ != Part::all && is_structured(type);
+        const bool structured = is_structured(type);
         if (data == nullptr || !(is_polygons_ || structured || type == "UnstructuredGrid")) refuse_kind(data, type);
         RawGrid grid;
         std::size_t pieces = 0;
@@ -55,7 +55,7 @@ public:
                 refuse_at(element, "a grid in several pieces", "one piece", "more",
                           "write it again in one piece, as ParaView's Merge Blocks or VTK's writer do");
             RawGrid piece;
-            structured ? read_grid_points(*data, element, type, piece)
+            structured ? read_structured(*data, element, type, piece)
                        : read_points(element, count_of(element, "NumberOfPoints", grid.point_count()), piece);
             if (const XmlElement* const of_points = child(&element, "PointData"); of_points != nullptr) {
                 piece.global_ids = of_points->attribute_or("GlobalIds", "");
@@ -65,7 +65,8 @@ public:
                     read_arrays(*of_points, piece.point_count(), piece.has_steps, piece.point_arrays);
                 }
             }
-            if (part_ == Part::all) read_cells(element, grid.types.size(), piece);
+            if (part_ == Part::all && !structured) read_cells(element, grid.types.size(), piece);
+            if (part_ == Part::all) read_cell_arrays(element, piece);
             append_piece(grid, std::move(piece), path);
         }
         return grid;
@@ -77,10 +78,7 @@ private:
                                   : data == nullptr        ? "no element of its type " + in_quotes(type)
                                                            : "type " + in_quotes(type);
         refuse_at(root(), "the kind of the file",
-                  part_ == Part::all ? "a VTKFile of type UnstructuredGrid or PolyData"
-                                     : "a VTKFile of type UnstructuredGrid, PolyData, ImageData, "
-                                       "RectilinearGrid or StructuredGrid",
-                  found, is_structured(type) ? to_simplices(path) : "");
+                  "a VTKFile of type UnstructuredGrid, PolyData, ImageData, RectilinearGrid or StructuredGrid", found);
     }
 
     std::size_t count_of(const XmlElement& piece, std::string_view key, std::size_t before) const {
@@ -104,45 +102,30 @@ private:
         take_numbers(*array, "the coordinates", std::uint64_t{3} * count, grid.points);
     }
 
-    /// The points of the only piece of a structured grid, x running fastest. Error: an extent that is none, or not that
-    /// of the whole; more points than a mesh can have, or than the file has numbers for.
-    void read_grid_points(const XmlElement& data, const XmlElement& piece, const std::string& type,
-                          RawGrid& grid) const {
+    /// The only piece of a structured grid. Error: an extent that is none, or not that of the whole; more points than a
+    /// mesh can have, or than the file has numbers for.
+    void read_structured(const XmlElement& data, const XmlElement& piece, const std::string& type,
+                         RawGrid& grid) const {
         const std::string_view whole_text = data.attribute_or("WholeExtent", ""),
                                text = piece.attribute_or("Extent", "");
         const auto whole = parse_all<std::int64_t, 6>(whole_text), extent = parse_all<std::int64_t, 6>(text);
         if (!extent || whole != extent)
             refuse_at(piece, "the extent of the piece", "that of the whole, six integers",
                       in_quotes(text) + " of " + in_quotes(whole_text));
-        std::array<std::size_t, 3> counts{};
-        std::uint64_t points = 1;
+        StructuredGrid structured;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::int64_t count = (*extent)[2 * axis + 1] - (*extent)[2 * axis] + 1;
-            counts[axis] = count > 0 ? static_cast<std::size_t>(count) : 0;
-            points = std::min(points * counts[axis], max_entities + 1);  // at most 2^31 times 2^32
+            structured.counts[axis] = count > 0 ? static_cast<std::size_t>(count) : 0;
         }
-        if (points > max_entities)
-            refuse_at(piece, "the points of the grid", "at most " + std::to_string(max_entities),
-                      "the extent " + in_quotes(text));
-        if (points == 0) return;
-        if (type == "StructuredGrid") return read_points(piece, points, grid);
-        // Few bytes describe any number of points: no more than memory holds.
-        const std::uint64_t memory =
-            static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-        if (points > memory / 2 / (3 * sizeof(double)))
-            refuse_at(piece, "the points of the grid", "as many as fit in half of the memory of this machine",
-                      std::to_string(points), "use a smaller grid");
-        const Axes axes =
-            type == "ImageData" ? image_axes(data, *extent) : rectilinear_axes(piece, counts, grid.narrow_points);
-        grid.points.resize(3 * points);
-        in_parallel(counts[2], [&](std::size_t k) {
-            double* to = grid.points.data() + 3 * k * counts[0] * counts[1];
-            for (const double y : axes[1]) {
-                for (const double x : axes[0]) {
-                    for (const double own : {x, y, axes[2][k]}) *to++ = own;
-                }
-            }
-        });
+        const std::string fault = structured.fault(type == "StructuredGrid" ? Part::points : part_);
+        if (!fault.empty()) refuse_at(piece, "the points of the grid", fault, "the extent " + in_quotes(text));
+        if (type == "StructuredGrid") {
+            read_points(piece, structured.point_count(), grid);
+        } else if (structured.point_count() != 0) {
+            structured.axes = type == "ImageData" ? image_axes(data, *extent)
+                                                  : rectilinear_axes(piece, structured.counts, grid.narrow_points);
+        }
+        structured.append_to(grid, part_);
     }
 
     using Axes = std::array<std::vector<double>, 3>;
@@ -205,6 +188,9 @@ private:
         } else {
             read_section(piece, "Cells", count_of(piece, "NumberOfCells", before), std::nullopt, grid);
         }
+    }
+
+    void read_cell_arrays(const XmlElement& piece, RawGrid& grid) const {
         if (const XmlElement* const data = child(&piece, "CellData"); data != nullptr)
             read_arrays(*data, grid.types.size(), grid.has_steps, grid.cell_arrays);
     }
@@ -236,7 +222,93 @@ private:
         if (wrong != cells.connectivity.size())
             refuse_at(*connectivity, "a node of a cell", "a point below " + std::to_string(grid.point_count()),
                       std::to_string(cells.connectivity[wrong]));
+        if (!section && std::ranges::count(grid.types, vtk_polyhedron) != 0) read_faces(piece, *element, cells, grid);
         grid.append(std::move(cells), section);
+    }
+
+    /// Where the faces of each cell end, and a stream of these (see RawFaces).
+    struct FaceStreams {
+        std::vector<std::int64_t> ends, numbers;
+    };
+
+    /// Faces of polyhedra.
+    void read_faces(const XmlElement& piece, const XmlElement& element, const RawCells& cells, RawGrid& grid) const {
+        const auto refuse = [&](std::size_t cell) {
+            refuse_at(element, "the faces of cell " + std::to_string(cell) + " (from 0) of the piece",
+                      "nodes of faces below " + std::to_string(grid.point_count()), "others");
+        };
+        const std::size_t count = cells.ends.size();
+        const bool by_number = child(&element, "polyhedron_to_faces", "Name") != nullptr;
+        const FaceStreams streams =
+            by_number ? numbered_faces(piece, element, grid.types) : streams_of_faces(piece, element, count);
+        std::int64_t begin = 0;
+        for (std::size_t cell = 0; cell < count; ++cell) {
+            if (grid.types[cell] != vtk_polyhedron) {
+                grid.faces.face_ends.push_back(static_cast<std::int64_t>(grid.faces.ring_ends.size()));
+                continue;
+            }
+            if (streams.ends[cell] < begin) refuse(cell);
+            const std::span own(streams.numbers.data() + begin, streams.numbers.data() + streams.ends[cell]);
+            if (!grid.faces.append(own, grid.point_count())) refuse(cell);
+            begin = streams.ends[cell];
+        }
+    }
+
+    std::vector<std::int64_t> take_integers(const XmlElement& piece, const XmlElement& element, const char* name,
+                                            std::size_t count) const {
+        std::vector<std::int64_t> numbers;
+        const XmlElement* const array = child(&element, name, "Name");
+        if (array == nullptr) refuse_at(piece, "the faces of polyhedra", std::string("an array ") + name, "none");
+        take_numbers(*array, name, count, numbers);
+        return numbers;
+    }
+
+    /// Up to version 2.2 of the format: as they are.
+    FaceStreams streams_of_faces(const XmlElement& piece, const XmlElement& element, std::size_t count) const {
+        FaceStreams streams{.ends = take_integers(piece, element, "faceoffsets", count), .numbers = {}};
+        const std::int64_t size = std::max(std::int64_t{0}, *std::ranges::max_element(streams.ends));
+        streams.numbers = take_integers(piece, element, "faces", static_cast<std::size_t>(size));
+        return streams;
+    }
+
+    /// Since then faces are numbered, and the two cells at a face name it.
+    FaceStreams numbered_faces(const XmlElement& piece, const XmlElement& element,
+                               const std::vector<std::uint8_t>& types) const {
+        const auto refuse = [&](const char* expected) {
+            refuse_at(element, "the faces of polyhedra", expected, "others");
+        };
+        const auto size_of = [&](const std::vector<std::int64_t>& ends) {
+            if (!std::ranges::is_sorted(ends) || (!ends.empty() && ends.front() < 0))
+                refuse("offsets that are not negative, none below the one before it");
+            return static_cast<std::size_t>(ends.empty() ? 0 : ends.back());
+        };
+        const std::vector<std::int64_t> cell_ends = take_integers(piece, element, "polyhedron_offsets", types.size());
+        const std::vector<std::int64_t> of_cells =
+            take_integers(piece, element, "polyhedron_to_faces", size_of(cell_ends));
+        std::int64_t faces = 0;
+        for (const std::int64_t face : of_cells) {
+            if (face < 0 || face >= static_cast<std::int64_t>(max_entities)) refuse("numbers of faces");
+            faces = std::max(faces, face + 1);
+        }
+        const std::vector<std::int64_t> face_ends =
+            take_integers(piece, element, "face_offsets", static_cast<std::size_t>(faces));
+        const std::vector<std::int64_t> nodes = take_integers(piece, element, "face_connectivity", size_of(face_ends));
+        // Else few numbers could make many.
+        std::vector<std::uint8_t> cells_at(face_ends.size(), 0);
+        FaceStreams streams;
+        std::int64_t next = 0;
+        for (std::size_t cell = 0; cell < types.size(); ++cell) {
+            if (types[cell] == vtk_polyhedron) streams.numbers.push_back(cell_ends[cell] - next);
+            for (; next < cell_ends[cell]; ++next) {
+                const auto face = static_cast<std::size_t>(of_cells[static_cast<std::size_t>(next)]);
+                if (types[cell] != vtk_polyhedron || ++cells_at[face] > 2) refuse("each of two polyhedra at most");
+                const std::int64_t begin = face == 0 ? 0 : face_ends[face - 1];
+                streams.numbers.push_back(face_ends[face] - begin);
+                streams.numbers.insert(streams.numbers.end(), nodes.begin() + begin, nodes.begin() + face_ends[face]);
+            }
+            streams.ends.push_back(static_cast<std::int64_t>(streams.numbers.size()));
+        }
+        return streams;
     }
 
     void read_arrays(const XmlElement& data, std::size_t count, bool& has_steps, std::vector<RawArray>& arrays) const {

@@ -51,8 +51,8 @@ void tell_verdict(Document& d, const CheckReport& r, const std::string& name) {
             Headline{Tone::good,
                      name,
                      "certified" + of,
-                     {fmt::format("{} {} a domain of {}", counted(r.cells, "cell"), r.cells == 1 ? "is" : "partition",
-                                  domain_text(r))},
+                     {fmt::format("{}{} {} a domain of {}", cells_text(r), r.shapes != 0 ? "," : "",
+                                  r.cells == 1 ? "is" : "partition", domain_text(r))},
                      {fmt::format("Proved {}cells meet in a common face or not at all. No overlap, no gap.", how)}});
     }
     // Overlaps first: they matter most. An open boundary follows from other defects, if there are any.
@@ -174,7 +174,9 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
     const std::string size = r.dimension == 2 ? "area" : "volume";
     d.part("Cells and boundary");
     d.add(Named{"mesh",
-                {(r.dimension == 2 ? counted(r.cells, "triangle") : counted(r.cells, "tetrahedron", "tetrahedra")) +
+                {(r.shapes != 0      ? cells_text(r)
+                  : r.dimension == 2 ? counted(r.cells, "triangle")
+                                     : counted(r.cells, "tetrahedron", "tetrahedra")) +
                  ", " + counted(r.nodes, "node")}},
           For::page);
     d.name("cells", fmt::format("{} positive, {} negative, {} degenerate, by the exact sign of the {}", r.positive,
@@ -193,6 +195,19 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
                              !r.volume.equal ? "NOT equal"
                              : r.certified() ? "exactly equal"
                                              : "equal, no proof"));
+    if (r.maps) {
+        const MapReport& m = *r.maps;
+        std::string text =
+            fmt::format("{} isoparametric maps: Jacobian positive {}, negative {}", m.cells, m.positive, m.negative);
+        if (m.changing != 0) text += fmt::format(", changing its sign or zero {}", m.changing);
+        if (m.unknown != 0) text += fmt::format(", not known {}", m.unknown);
+        std::vector<std::string> first;
+        for (const Mesh::Index cell : m.examples) first.push_back(std::to_string(r.cell_number(cell)));
+        if (!first.empty())
+            text += fmt::format("; cells {}{}", fmt::join(first, ", "),
+                                m.changing + m.unknown > m.examples.size() ? ", ..." : "");
+        d.name("maps", text, first.empty() ? Tone::plain : Tone::strong);
+    }
     if (r.delaunay) d.add(Named{"Delaunay", delaunay_sentences(r)});
     if (r.conformity) d.add(Named{"PLC", conformity_sentences(r, 40)}, For::terminal);
     if (r.conformity) d.add(Named{"PLC", conformity_sentences(r, 400)}, For::page);
@@ -325,7 +340,9 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
                           !r.surface       ? "Cell"
                           : r.surface->plc ? "Facet"
                                            : "Triangle",
-                          r.surface || r.cell_numbers.empty() ? "" : ", cells that were left out included",
+                          r.surface || r.cell_numbers.empty() ? ""
+                          : r.shapes != 0                     ? "; of a cell that is cut, its parts are checked"
+                                                              : ", cells that were left out included",
                           mesh.index_base == 1 ? " (the file itself numbers from 1)" : ""));
     tell_conditions(d, r, mesh);
     tell_defects(d, r, true, "Defects and remedies");
@@ -349,7 +366,7 @@ Document check_document(const CheckReport& r, const Mesh& mesh, const std::strin
         d.add(Named{"read", std::move(notes)});
     }
     const std::string checked = fmt::format("{}, {}; checked in {:.3g} s on {}", counted(r.nodes, "node"),
-                                            counted(r.cells, r.surface ? "triangle" : "cell"), r.seconds,
+                                            r.surface ? counted(r.cells, "triangle") : cells_text(r), r.seconds,
                                             counted(static_cast<std::uint64_t>(r.threads), "thread"));
     d.part();
     d.say(checked, Tone::plain, For::terminal);

@@ -131,6 +131,13 @@ std::string check_json(const CheckReport& r, const std::string& name, const Envi
                defects_json(r), "contacts", list(r.contacts, [&](const CellContact& c) { return contact_json(r, c); }),
                "orientation", record(MEMBERS(r, positive, negative, degenerate)), MEMBERS(r, parts, boundary, volume),
                "measures", measures_json(r));
+    if (r.shapes != 0) put(j, MEMBERS(r, shapes));
+    if (r.maps) {
+        const MapReport& m = *r.maps;
+        put(j, "maps",
+            record(MEMBERS(m, cells, positive, negative, changing, unknown), "examples",
+                   list(m.examples, [&](Mesh::Index cell) { return Json(r.cell_number(cell)); })));
+    }
     if (const auto& s = r.surface) {
         for (const char* of_cells : {"orientation", "parts", "boundary", "volume", "measures"}) j.erase(of_cells);
         put(j, "surface",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "barycert/report.hpp"
+#include "barycert/report/common/terminal_text.hpp"
 
 namespace barycert::report {
 
@@ -18,6 +19,10 @@ std::vector<ConditionRow> condition_rows(const CheckReport& report, const Mesh& 
 /// What the report counts: cells, triangles, or facets of a PLC.
 inline const char* cell_word(const CheckReport& report) {
     return !report.surface ? "cell" : report.surface->plc ? "facet" : "triangle";
+}
+/// "8 cells, cut into 48 tetrahedra,": of a mesh; "8 cells" of simplices.
+inline std::string cells_text(const CheckReport& r) {
+    return r.shapes == 0 ? cells_text(r.cells, 0, r.dimension) : cells_text(r.shapes, r.cells, r.dimension);
 }
 /// Whether TetGen gets what it needs, and why not. Of surfaces.
 std::string tetgen_sentence(const CheckReport& report);

@@ -32,8 +32,9 @@ void Document::curved(const CurvedCells& curved, const std::string& mesh) {
     if (!really) return say(line + ".", Tone::soft, For::page);
     add(Headline{.tone = Tone::strong,
                  .text = "Curved cells",
-                 .sentences = {line + ". What is said below, \"exact\" and \"certified\" included, holds of the cells "
-                                      "with straight sides."}},
+                 .sentences = {line + (curved.mapped ? "."
+                                                     : ". What is said below, \"exact\" and \"certified\" included, "
+                                                       "holds of the cells with straight sides.")}},
         For::page);
 }
 

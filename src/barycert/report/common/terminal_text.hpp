@@ -80,6 +80,15 @@ inline std::string counted(std::uint64_t n, std::string_view one, std::string_vi
                   : fmt::format("{} {}{}", n, more.empty() ? one : more, more.empty() ? "s" : "");
 }
 
+/// "8 cells, cut into 48 tetrahedra"; "8 cells" without parts.
+inline std::string cells_text(std::uint64_t cells, std::uint64_t parts, int dimension) {
+    std::string text = counted(cells, "cell");
+    if (parts != 0)
+        text +=
+            ", cut into " + (dimension == 2 ? counted(parts, "triangle") : counted(parts, "tetrahedron", "tetrahedra"));
+    return text;
+}
+
 using base::shell_word;
 
 }  // namespace barycert::report

@@ -97,6 +97,34 @@ Status check_grid(const SamplerData& data, const Grid& grid) {
     return Done{};
 }
 
+/// Point by point, some layers at a time: cells that have maps are not filled.
+Result<SampleCounts> resample_points(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
+                                     const GridSink& sink) {
+    SampleCounts all;
+    Table rows;
+    std::vector<double> points;
+    const std::int64_t count = grid.point_count(), width = grid.counts[0], height = grid.counts[1];
+    constexpr std::int64_t step = std::int64_t{1} << 18;
+    for (std::int64_t first = 0; first < count; first += step) {
+        points.clear();
+        for (std::int64_t i = first; i < std::min(count, first + step); ++i) {
+            points.push_back(grid.coordinate(0, i % width));
+            points.push_back(grid.coordinate(1, i / width % height));
+            if (grid.dimension == 3) points.push_back(grid.coordinate(2, i / width / height));
+        }
+        Status done = sampler.sample(points, options, rows, static_cast<std::size_t>(first));
+        TableView block = rows.view();
+        block.points = {};
+        block.first_row = static_cast<std::uint64_t>(first);
+        if (done) done = sink(block);
+        if (!done) return done.error();
+        ExactEnvironment::renew();
+        rows.counts.locations.ways = {};
+        all.add(rows.counts);
+    }
+    return all;
+}
+
 }  // namespace
 
 SlabCells::SlabCells(const locate::CellIndex& index, const Raster& raster, std::size_t depth) {
@@ -146,6 +174,7 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
     const ExactEnvironment environment;
     const sample::SamplerData& data = sample::SamplerData::of(sampler);
     if (Status status = sample::check_grid(data, grid); !status) return status.error();
+    if (data.located().mapped) return sample::resample_points(sampler, grid, options, sink);
     const sample::Raster raster = sample::raster_of(grid, data.index());
     const std::vector<double>& layers = raster.at[data.index().dimension() - 1];
     const std::size_t layer = static_cast<std::size_t>(grid.point_count()) / layers.size();

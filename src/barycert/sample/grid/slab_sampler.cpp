@@ -88,7 +88,7 @@ std::optional<std::size_t> SlabSampler::own(locate::Place cell, const std::array
     for (std::size_t k = 0; k < 3; ++k) at[k] = raster_.at[k][static_cast<std::size_t>(places[k])];
     const WeightSigns signs = locate::cell_signs(data_.index(), cell, at.data(), counts_.locations.tests);
     if (!signs.contains()) return std::nullopt;
-    const Feature feature = signs.feature(data_.index().simplex);
+    const Feature feature = locate::feature_of(data_.index(), cell, signs);
     owners_[point] = number;
     found_[point] = with_value ? feature : without_value(feature);
     return point;

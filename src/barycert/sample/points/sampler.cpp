@@ -1,4 +1,7 @@
+#include <functional>
+
 #include "barycert/base/finite.hpp"
+#include "barycert/core/isoparametric/lanes.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -135,6 +138,13 @@ AtPoint at_points(const Mesh& mesh, const FieldChoice& choice) {
 Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields, SamplerData& data) {
     std::vector<TableField> of_points, of_cells, late;
     for (const FieldChoice& asked : fields) {
+        const auto is_gradient = [](const QuantityStep& step) { return step.kind == QuantityStep::Kind::gradient; };
+        const locate::MappedCells* const mapped = data.located().mapped.get();
+        if (mapped != nullptr && (mapped->has_products() || mapped->has_curves()) &&
+            std::ranges::any_of(asked.steps, is_gradient))
+            return Error{.what = "gradients are those of straight cells and their parts",
+                         .found = mapped->has_products() ? "multilinear interpolation" : "curved cells",
+                         .remedy = "take the interpolation linear, and straight sides"};
         const std::size_t rows = asked.of_cells ? mesh.cell_count() : mesh.point_count();
         if (Status fits = mesh::check_field(asked.field, rows, asked.of_cells ? "cell" : "node"); !fits) return fits;
         const Result<QuantityShape> shape = shape_of(mesh, asked);
@@ -181,6 +191,89 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     out.features.resize(rows);
     out.values.resize(rows * data.columns.size());
     out.distances.assign(gives_distances(options.outside) ? rows : 0, 0);
+}
+
+/// Rows of points in hexahedra and the like, some at a time.
+class MappedLanes {
+public:
+    using Alone = std::function<void(std::size_t row)>;
+
+    /// `alone`: for a row whose values are not proved on lanes.
+    MappedLanes(const SamplerData& data, Rounding rounding, double* rows, Alone alone)
+        : data_(data), rounding_(rounding), rows_(rows), alone_(std::move(alone)) {
+        for (Batch& batch : batches_) {
+            batch.values.assign(8 * max * data.point_components, 0);
+            batch.out.resize(max * data.point_components);
+        }
+    }
+
+    /// False, and nothing done, for what is no such row.
+    bool push(Mesh::Index cell, Feature feature, const double* point, std::size_t row) {
+        const locate::MappedCells& mapped = *data_.located().mapped;
+        if (data_.point_components == 0 || !mapped.is_mapped(cell)) return false;
+        Batch& batch = batches_[mapped.is_wedge(cell) ? 1 : 0];
+        if (!mapped.set_lane(cell, feature, point, data_.point_fields, batch.count, batch.places.data(),
+                             batch.point.data(), batch.values.data()))
+            return false;
+        batch.rows[batch.count] = row;
+        batch.cells[batch.count] = cell;
+        if (++batch.count == max) flush(batch);
+        return true;
+    }
+    void flush() {
+        for (Batch& batch : batches_) flush(batch);
+    }
+    const SampleCounts& counts() const { return counts_; }
+
+private:
+    static constexpr std::size_t max = core::isoparametric::max_lanes;
+    struct Batch {
+        std::size_t count = 0;
+        std::array<double, 24 * max> places{};
+        std::array<double, 3 * max> point{};
+        std::vector<double> values, out;
+        std::array<std::size_t, max> rows{};
+        std::array<Mesh::Index, max> cells{};
+    };
+
+    void flush(Batch& batch) {
+        if (batch.count == 0) return;
+        const std::uint32_t proved = core::isoparametric::evaluate_lanes(
+            {batch.count, &batch == &batches_[1], batch.places.data(), batch.point.data(), batch.values.data(),
+             data_.point_components, batch.out.data()});
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            if ((proved >> i & 1U) == 0) {
+                alone_(batch.rows[i]);
+                continue;
+            }
+            double* const row = rows_ + data_.width * batch.rows[i];
+            for (std::size_t c = 0; c < data_.point_components; ++c) row[c] = batch.out[c * max + i];
+            if (data_.has_rest()) set_rest_of_row(data_, rounding_, batch.cells[i], nullptr, row);
+            counts_.values.add(Tier::double_double);
+        }
+        batch.count = 0;
+    }
+
+    const SamplerData& data_;
+    Rounding rounding_;
+    double* rows_;
+    Alone alone_;
+    std::array<Batch, 2> batches_;  ///< of wedges the second
+    SampleCounts counts_;
+};
+
+/// The row of a point in a cell with a map; false, and nothing set, if the map was not inverted.
+bool sample_mapped(const SamplerData& data, Rounding rounding, Mesh::Index cell, Feature feature, const double* point,
+                   locate::MappedCells::Scratch& scratch, double* row, SampleCounts& counts) {
+    using core::isoparametric::Certainty;
+    if (data.point_components != 0) {
+        const auto found = data.located().mapped->evaluate(cell, feature, point, data.point_fields, scratch, row);
+        if (found.certainty != Certainty::proved) ++counts.unproved;
+        if (found.certainty == Certainty::not_found) return false;
+        counts.values.add(found.tier);
+    }
+    if (data.has_rest()) set_rest_of_row(data, rounding, cell, point, row);
+    return true;
 }
 
 /// What the policies say of the rows: an Error, or NaN where a point is not finite. `finite`: all points are.
@@ -259,6 +352,17 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     if (Status status = locate::check_size(points, data_->index().dimension()); !status) return status;
     sample::resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
+    if (data_->located().mapped) {
+        LocationCounts found;
+        if (!base::all_finite(points) && options.nonfinite_points == NonfinitePoints::error)
+            return locate::check_finite(points, data_->index().dimension(), first_point);
+        Status done =
+            data_->locator->locate(points, out.cells, out.features, &found, options.threads, options.nonfinite_points);
+        if (done) done = evaluate(points, options, out, first_point);
+        out.counts.locations = found;
+        if (!done) out.counts = {};
+        return done;
+    }
     bool finite = true;
     base::in_arena(options.threads, data_->index().cell_count() + out.cells.size(), [&] {
         const std::size_t count = out.cells.size(), block = locate::block_of(count, data_->index().cell_count());
@@ -299,12 +403,27 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     sample::resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
     const locate::CellIndex& index = data_->index();
+    const locate::MappedCells* const mapped = data_->located().mapped.get();
     out.values.resize(data_->width * count);
     const sample::BlockRows rows{out.cells.data(), out.features.data(), out.values.data(),
                                  out.distances.empty() ? nullptr : out.distances.data()};
     constexpr std::size_t grain = std::size_t{1} << 13;
     const auto evaluate_rows = [&](std::size_t first, std::size_t last, SampleCounts& counts) {
         sample::ChunkSampler sampler(*data_, options, rows);
+        locate::MappedCells::Scratch scratch;
+        SampleCounts of_maps;
+        const auto alone = [&](std::size_t row) {
+            if (sample::sample_mapped(*data_, options.rounding, cells[row], features[row], &points[d * row], scratch,
+                                      rows.values + data_->width * row, of_maps))
+                return;
+            const Mesh::Index part = mapped->part_at(cells[row], &points[d * row]);
+            locate::PointRecord record{};
+            std::copy_n(&points[d * row], d, record.at.begin());
+            record.number = static_cast<std::uint32_t>(row);
+            sampler.push(record, places[static_cast<std::size_t>(part)], features[row]);
+        };
+        std::optional<sample::MappedLanes> lanes;
+        if (mapped != nullptr) lanes.emplace(*data_, options.rounding, rows.values, alone);
         for (std::size_t row = first; row < last; ++row) {
             locate::PointRecord record{};
             std::copy_n(&points[d * row], d, record.at.begin());
@@ -315,10 +434,17 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                 __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
             const locate::Place owner = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
             if (owner >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner)]);
-            sampler.push(record, owner, features[row]);
+            if (mapped == nullptr || !mapped->evaluates(cells[row], record.at.data())) {
+                sampler.push(record, owner, features[row]);
+            } else if (!lanes->push(cells[row], features[row], record.at.data(), row)) {
+                alone(row);
+            }
         }
+        if (lanes) lanes->flush();
         sampler.flush();
         counts = sampler.counts();
+        counts.add(of_maps);
+        if (lanes) counts.add(lanes->counts());
     };
     const SampleCounts counts = base::in_arena(options.threads, count, [&] {
         return base::parallel_reduce(count, grain, SampleCounts{}, evaluate_rows,

@@ -8,7 +8,7 @@
 namespace barycert {
 namespace {
 
-constexpr std::size_t max_nodes_of_cell = 10;
+constexpr std::size_t max_nodes_of_cell = core::isoparametric::max_nodes;
 
 class WeightRows {
 public:
@@ -16,6 +16,15 @@ public:
         : locator_(locator), rows_(rows), outside_(outside) {}
 
     Result<NodeWeights> all() {
+        if (mapped_ != nullptr) {
+            for (std::size_t i = 0; i < rows_.cells.size(); ++i) {
+                if (Status done = mapped_->evaluates(rows_.cells[i], rows_.points.data() + d_ * i) ? add_mapped(i)
+                                                                                                   : add(i, i + 1);
+                    !done)
+                    return done.error();
+            }
+            return std::move(out_);
+        }
         // Cases of second order have nodes of their own, with unit vectors as values: the value of component c is then
         // the weight of node c.
         for (std::size_t i = 0; quadratic() && i < nodes_ * chunk; ++i) {
@@ -64,6 +73,17 @@ private:
             const sample::CellNodes nodes(mesh_, static_cast<std::size_t>(owner));
             add_row(nodes.begin(), &weights_[nodes_ * inside++], nodes_);
         }
+        return Done{};
+    }
+
+    Status add_mapped(std::size_t row) {
+        std::array<double, max_nodes_of_cell> weights{};
+        const auto nodes = mapped_->weights(rows_.cells[row], rows_.points.data() + d_ * row, weights.data());
+        if (nodes.count == 0)
+            return Error{.what = "the map of cell " + std::to_string(mesh_.cell_number(rows_.cells[row])) +
+                                 " cannot be inverted at a point",
+                         .remedy = "take the interpolation linear"};
+        add_row(nodes.at.data(), weights.data(), nodes.count);
         return Done{};
     }
 
@@ -128,6 +148,7 @@ private:
 
     const Locator& locator_;
     const Mesh& mesh_ = locator_.mesh();
+    const locate::MappedCells* mapped_ = locate::LocatorData::of(locator_).mapped.get();
     const TableView& rows_;
     const OutsidePolicy& outside_;
     std::size_t d_ = static_cast<std::size_t>(mesh_.dimension), corners_ = mesh_.corners();

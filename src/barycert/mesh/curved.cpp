@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/check.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 
@@ -54,8 +53,8 @@ constexpr double max_rounded_part = 1e-3;  ///< of an edge: units beyond it woul
 /// motion there and back (4e-13).
 constexpr double computed_part = 1e-10;
 
-/// Adds the deviation of one node to those of its cell.
-void look_at_edge(const double* a, const double* b, const double* m, std::size_t d, const LastPlace& last,
+/// Adds the deviation of one node to those of its cell. Returns whether it is one by a curve.
+bool look_at_edge(const double* a, const double* b, const double* m, std::size_t d, const LastPlace& last,
                   CurvedCells& bend) {
     double largest = 0;
     for (std::size_t k = 0; k < d; ++k) largest = std::max({largest, std::fabs(a[k]), std::fabs(b[k])});
@@ -72,18 +71,19 @@ void look_at_edge(const double* a, const double* b, const double* m, std::size_t
     // digits by up to 5e-16 L < 5uL each, 10uL for the three; the terms above are off by 2uL. That is below 16uL, twice
     // that here, as `off` is twice the distance. Subnormal numbers are rounded by their unit.
     const double nothing = std::max(0x1p-48 * largest, std::numeric_limits<double>::denorm_min());
-    if (!(most > nothing) || !std::isfinite(most)) return;
+    if (!(most > nothing) || !std::isfinite(most)) return false;
     const double deviation = std::hypot(off[0], off[1], off[2]) / (2 * std::hypot(edge[0], edge[1], edge[2]));
     const bool written =
         most <= 2 * std::max(last.relative * largest, last.absolute * scale) && deviation <= max_rounded_part;
     const bool rounded = written || deviation <= computed_part;
     double& most_so_far = rounded ? bend.max_rounded : bend.max_deviation;
     most_so_far = std::max(most_so_far, deviation);
+    return !rounded;
 }
 
 CurvedCells sum(const CurvedCells& x, const CurvedCells& y) {
     return {x.cells + y.cells, std::max(x.max_deviation, y.max_deviation), x.rounded_cells + y.rounded_cells,
-            std::max(x.max_rounded, y.max_rounded)};
+            std::max(x.max_rounded, y.max_rounded), false};
 }
 
 CurvedCells measure(const Mesh& mesh, const LastPlace& last, std::vector<std::uint8_t>* each) {
@@ -99,15 +99,17 @@ CurvedCells measure(const Mesh& mesh, const LastPlace& last, std::vector<std::ui
             const ExactEnvironment of_task;
             for (std::size_t cell = begin; cell != end; ++cell) {
                 CurvedCells bend;
+                unsigned bits = 0;
                 for (std::size_t e = 0; e < edges.size(); ++e) {
                     const double* const a = point(mesh.cells[(d + 1) * cell + edges[e][0]]);
                     const double* const b = point(mesh.cells[(d + 1) * cell + edges[e][1]]);
                     const double* const m = point(mesh.mid_nodes[edges.size() * cell + e]);
-                    if (a != nullptr && b != nullptr && m != nullptr) look_at_edge(a, b, m, d, last, bend);
+                    if (a == nullptr || b == nullptr || m == nullptr) continue;
+                    if (look_at_edge(a, b, m, d, last, bend)) bits |= 1U << e;
                 }
                 bend.cells = bend.max_deviation > 0 ? 1 : 0;
                 bend.rounded_cells = bend.max_rounded > 0 && bend.cells == 0 ? 1 : 0;
-                if (each != nullptr && bend.cells != 0) (*each)[cell] = 1;
+                if (each != nullptr) (*each)[cell] = static_cast<std::uint8_t>(bits);
                 found = sum(found, bend);
             }
         },
@@ -145,12 +147,12 @@ CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each) {
 
 std::string message(const CurvedCells& curved) {
     if (curved.cells == 0 && curved.rounded_cells == 0) return "";
-    return deviations(curved) + "; sides were taken as straight";
+    return deviations(curved) + (curved.mapped ? "; they are taken as they are" : "; sides were taken as straight");
 }
 
-Result<CurvedCells> take_as_straight(const Mesh& mesh, const std::string& file, Curved curved) {
+Result<CurvedCells> measure_curved(const Mesh& mesh, const std::string& file, Curved curved) {
     const CurvedCells found = curved_cells(mesh);
-    if (curved == Curved::straight || found.cells == 0) return found;
+    if (curved != Curved::refuse || found.cells == 0) return found;
     return Error{.what = "the mesh is curved",
                  .file = file,
                  .expected = "every mid-edge node at the middle of its edge",

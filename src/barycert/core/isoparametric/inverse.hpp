@@ -1,0 +1,88 @@
+/// Points of isoparametric cells: what x of the reference cell is taken there, enclosed, and values rounded once.
+///
+/// A cell takes x to X(x) = sum of N_i(x) p_i. Newton's method in double finds x about; then, with Y about the inverse
+/// of X' there, Krawczyk's operator proves it: if all Jacobians over the box B of radius R around c satisfy
+/// |1 - Y X'| <= m < 1/2 by the row sums, and |Y (X(c) - p)| <= R / 2, there is exactly one x in B with X(x) = p, and
+/// it differs from c - Y (X(c) - p) by at most m R. Repeated in numbers of more and more bits until the value rounds to
+/// one double. Where cells are affine, or x turns out to be a number of few bits, all is rational and exact.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "barycert/core/isoparametric/shape_functions.hpp"
+#include "barycert/simplex.hpp"
+
+namespace barycert::core::isoparametric {
+
+/// Where nodes are, `dimension` coordinates each; one with another place is amid both, exactly.
+struct Places {
+    std::array<const double*, max_nodes> at{}, other{};
+};
+
+/// How a value was found; `undecided`: between two neighbouring doubles that no precision told apart.
+enum class Certainty : std::uint8_t { proved, undecided, not_found };
+
+struct Evaluated {
+    Certainty certainty = Certainty::not_found;
+    Tier tier = Tier::double_double;
+};
+
+/// sum of N_i(x) values[components * i + c] to out[c], rounded once, where x is taken to `point`. `active`: a bit for
+/// each node whose function is not zero there; others are left out. A value that is not finite makes its component NaN.
+/// Preconditions: the point is in the cell, on which the map is injective; coordinates are finite.
+Evaluated evaluate(const Reference& reference, const Places& places, const double* point, std::uint64_t active,
+                   const double* values, std::size_t components, double* out);
+
+/// The sign of the Jacobian all over the cell, exactly.
+enum class JacobianSign : std::int8_t {
+    negative = -1,
+    unknown = 0,  ///< it has one sign at the corners, but not all Bernstein coefficients have it
+    positive = 1,
+    changes = 2,  ///< it is zero at a corner, or has both signs at corners
+};
+JacobianSign jacobian_sign(const Reference& reference, const Places& places);
+/// Of simplices alone.
+JacobianSign simplex_jacobian_sign(const Reference& reference, const Places& places);
+
+/// 1 or -1 where the Jacobian is proved to have that sign; else 0.
+inline int proved_orientation(const Reference& reference, const Places& places) {
+    const auto sign = static_cast<int>(jacobian_sign(reference, places));
+    return sign == 2 ? 0 : sign;
+}
+
+/// By the signs of coefficients, and of those that are values at corners.
+class CoefficientSigns {
+public:
+    void add(int sign, bool at_corner) {
+        min_ = std::min(min_, sign);
+        max_ = std::max(max_, sign);
+        if (!at_corner) return;
+        corner_min_ = std::min(corner_min_, sign);
+        corner_max_ = std::max(corner_max_, sign);
+    }
+    JacobianSign sign() const {
+        if (min_ == max_ && min_ != 0) return static_cast<JacobianSign>(min_);
+        return corner_min_ == corner_max_ && corner_min_ != 0 ? JacobianSign::unknown : JacobianSign::changes;
+    }
+
+private:
+    int min_ = 1, max_ = -1, corner_min_ = 1, corner_max_ = -1;
+};
+
+/// Where a point is in a simplex of order 2 to 4.
+struct InSimplex {
+    bool inside = false;
+    unsigned zeros = 0;   ///< a bit for each barycentric coordinate that is zero there
+    bool proved = false;  ///< else it may be otherwise: a zero is a number below 2^-240, or nothing was found
+};
+/// `flat`: a bit for each facet, opposite to a corner, that is straight; `beyond`: for each of these the sign of the
+/// corner's weight in the straight simplex, which decides where the coordinate is about zero. Preconditions: as of
+/// evaluate(), but the point may be anywhere.
+InSimplex locate_in_simplex(const Reference& reference, const Places& places, const double* point, unsigned flat,
+                            const std::array<int, 4>& beyond);
+
+/// A box of all points of the cell, a simplex of order 2 to 4: low, then high coordinates.
+std::array<double, 6> hull_box(const Reference& reference, const Places& places);
+
+}  // namespace barycert::core::isoparametric

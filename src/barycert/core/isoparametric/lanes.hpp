@@ -1,0 +1,27 @@
+/// Values in hexahedra, wedges and pyramids, many at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace barycert::core::isoparametric {
+
+inline constexpr std::size_t max_lanes = 16;
+
+/// Cases of one element, as corners of hexahedra: a pyramid has its apex four times, a wedge nodes 0 1 2 0 3 4 5 3.
+/// Number j of a row belongs to case j; rows have max_lanes numbers, all of which are set.
+struct LaneCases {
+    std::size_t count = 0;  ///< at most max_lanes
+    bool wedge = false;
+    const double* places = nullptr;  ///< 24 rows: x, y, z of each corner
+    const double* point = nullptr;   ///< 3 rows
+    const double* values = nullptr;  ///< 8 rows a component
+    std::size_t components = 0;
+    double* out = nullptr;  ///< a row a component
+};
+
+/// Sets values, each rounded once; returns a bit for each case of which all are proved to be. Preconditions: as of
+/// evaluate(); values are finite.
+std::uint32_t evaluate_lanes(const LaneCases& cases);
+
+}  // namespace barycert::core::isoparametric

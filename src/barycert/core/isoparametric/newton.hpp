@@ -1,0 +1,381 @@
+/// Newton's method on the map of a cell, and proofs of what it finds: see inverse.hpp.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "barycert/core/isoparametric/ball.hpp"
+#include "barycert/core/isoparametric/inverse.hpp"
+#include "barycert/core/whole_points.hpp"
+
+namespace barycert::core::isoparametric {
+
+template <class T>
+using Vector = std::array<T, 3>;
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+inline Rational rational(double x) {
+    return Rational(x);
+}
+
+inline double rounded(const Rational& x) {
+    using boost::multiprecision::cpp_int;
+    const cpp_int n = numerator(x), d = denominator(x);
+    return rounded_quotient(n, d, 0);
+}
+
+/// Exponent e so that all numbers are below 2^e.
+inline int top_exponent(std::span<const double> numbers) {
+    double most = 0;
+    for (const double x : numbers) most = std::max(most, std::abs(x));
+    int exponent = 0;
+    std::frexp(most, &exponent);
+    return exponent;
+}
+
+template <class T>
+T scaled_by(double x, int exponent) {
+    if constexpr (std::is_same_v<T, TwoDoubles>) {
+        return std::ldexp(x, exponent);
+    } else {
+        return ldexp(T(x), exponent);
+    }
+}
+
+/// 1 / n.
+template <class T>
+Ball<T> inverse_of(int n) {
+    if (n == 1) return Ball<T>(1);
+    if constexpr (std::is_same_v<T, TwoDoubles>) {
+        const double high = 1.0 / n, low = -__builtin_fma(high, n, -1.0) / n;
+        return {{high, low}, 0x1p-104};
+    } else {
+        return {T(1) / T(n), NumberTraits<T>::of_sum};
+    }
+}
+
+/// A point beside the nodes of a cell, all of them divided by one power of two.
+class Inverse {
+public:
+    Inverse(const Reference& reference, const Places& places, const double* point)
+        : of_(reference), d_(reference.dimension()) {
+        std::array<double, 6 * max_nodes + 3> numbers{};
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < of_.nodes; ++i) {
+            for (std::size_t k = 0; k < d_; ++k) {
+                numbers[count++] = places.at[i][k];
+                if (places.other[i] != nullptr) numbers[count++] = places.other[i][k];
+            }
+        }
+        for (std::size_t k = 0; k < d_; ++k) numbers[count++] = point[k];
+        const int down = top_exponent({numbers.data(), count}) + 1;  // differences do not overflow
+        double most = 0;
+        for (std::size_t i = 0; i < of_.nodes; ++i) {
+            for (std::size_t k = 0; k < d_; ++k) {
+                const auto from_point = [&](const double* at) {
+                    return TwoDoubles::sum(std::ldexp(at[k], -down), -std::ldexp(point[k], -down));
+                };
+                TwoDoubles q = from_point(places.at[i]);
+                if (places.other[i] != nullptr) {
+                    const TwoDoubles sum = q + from_point(places.other[i]);
+                    q = {sum.high / 2, sum.low / 2};
+                    amid_ = true;
+                }
+                offset_[i][k] = q;
+                most = std::max(most, std::abs(q.high));
+            }
+        }
+        int up = 0;
+        std::frexp(most, &up);
+        shift_ = -down - up;
+        for (std::size_t i = 0; i < of_.nodes; ++i) {
+            for (std::size_t k = 0; k < d_; ++k)
+                offset_[i][k] = {std::ldexp(offset_[i][k].high, -up), std::ldexp(offset_[i][k].low, -up)};
+        }
+        places_ = places;
+        point_ = point;
+    }
+
+    /// About the point of the reference cell; false if Newton's method does not get there. `beside`: one that lies
+    /// outside the reference cell will do.
+    bool search(bool beside = false) {
+        constexpr std::array<Vector<double>, 9> starts{{{0.5, 0.5, 0.5},
+                                                        {0.1, 0.1, 0.1},
+                                                        {0.8, 0.1, 0.05},
+                                                        {0.1, 0.8, 0.05},
+                                                        {0.05, 0.1, 0.8},
+                                                        {0.8, 0.8, 0.2},
+                                                        {0.8, 0.2, 0.8},
+                                                        {0.2, 0.8, 0.8},
+                                                        {0.9, 0.9, 0.9}}};
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            Vector<double> x = starts[i];
+            if (of_.is_simplex() || of_.element == Element::wedge) {
+                if (i == 0) x = {0.3, 0.3, of_.element == Element::wedge ? 0.5 : 0.3};
+                if (x[0] + x[1] + (of_.is_simplex() && d_ == 3 ? x[2] : 0) > 1) continue;
+            }
+            if (!newton(x) || !(beside || near_cell(x))) continue;
+            x_ = x;
+            return true;
+        }
+        return false;
+    }
+
+    const Vector<double>& found() const { return x_; }
+    /// Of the Jacobian there, about.
+    const Matrix& inverse() const { return inverse_; }
+    /// What coordinates were multiplied by, a power of two: they are below 1 from the point.
+    int shift() const { return shift_; }
+
+    /// x enclosed, by as many steps as it takes to get below `goal`, if it can be.
+    template <class T>
+    bool enclose(std::array<Ball<T>, 3>& x, double goal) const {
+        std::array<Vector<Ball<T>>, max_nodes> q;
+        for (std::size_t i = 0; i < of_.nodes; ++i) {
+            for (std::size_t k = 0; k < d_; ++k) q[i][k] = offset<T>(i, k);
+        }
+        Vector<Ball<T>> c;
+        for (std::size_t k = 0; k < 3; ++k) c[k] = Ball<T>(T(k < d_ ? x_[k] : 0.0));
+        double box = 0, m = 0, radius = 0;
+        for (int step = 0; step < 200; ++step) {
+            std::array<Ball<T>, max_nodes> n;
+            shape_functions(of_, c, n, nullptr);
+            Vector<Ball<T>> rest, correction;
+            double most = 0;
+            for (std::size_t k = 0; k < d_; ++k) {
+                rest[k] = Ball<T>(0);
+                for (std::size_t i = 0; i < of_.nodes; ++i) rest[k] = rest[k] + n[i] * q[i][k];
+            }
+            for (std::size_t k = 0; k < d_; ++k) {
+                correction[k] = Ball<T>(0);
+                for (std::size_t j = 0; j < d_; ++j)
+                    correction[k] = correction[k] + Ball<T>(T(inverse_[k][j])) * rest[j];
+                most = std::max(most, correction[k].most());
+            }
+            if (step == 0) {
+                box = 4 * most + 0x1p-45;
+                m = contraction(box);
+                if (!(m < 0.25)) return false;
+            }
+            // Within the box of the first step: it started at its middle, and moved by less than half of it.
+            const double before = radius;
+            radius = 2 * most * m;
+            for (std::size_t k = 0; k < d_; ++k) {
+                c[k] = c[k] - correction[k];
+                radius = std::max(radius, 2 * most * m + c[k].radius);
+            }
+            if (step > 0 && !(most < box / 8)) return false;
+            x = c;
+            for (std::size_t k = 0; k < d_; ++k) x[k].radius = radius * (1 + 0x1p-40);
+            for (std::size_t k = 0; k < d_; ++k) c[k].radius = 0;
+            if (radius < goal) return true;
+            if (step > 1 && !(radius < before / 2)) return true;  // no better in these numbers
+        }
+        return true;
+    }
+
+    /// x as rational numbers, if they can be told.
+    std::optional<Vector<Rational>> exactly(const Vector<double>& about) const {
+        Vector<Rational> x{};
+        if (affine(x)) return x;
+        for (std::size_t k = 0; k < d_; ++k) {
+            const double near = std::nearbyint(about[k] * 0x1p30) * 0x1p-30;
+            if (std::abs(near - about[k]) > 0x1p-60) return std::nullopt;
+            x[k] = Rational(near);
+        }
+        return is_at(x) ? std::optional(x) : std::nullopt;
+    }
+
+    template <class T>
+    Ball<T> offset(std::size_t node, std::size_t axis) const {
+        const TwoDoubles& q = offset_[node][axis];
+        if constexpr (std::is_same_v<T, double>) {
+            return {q.high, std::abs(q.low)};
+        } else if constexpr (std::is_same_v<T, TwoDoubles>) {
+            // The sum of two is rounded: both are at most 4 in these units.
+            return {q, amid_ ? 0x1p-100 : 0x1p-1060};
+        } else {
+            const T from = T(places_.at[node][axis]) - T(point_[axis]);
+            if (places_.other[node] == nullptr) return Ball<T>(ldexp(from, shift_));
+            return Ball<T>(ldexp(T(from + (T(places_.other[node][axis]) - T(point_[axis]))), shift_ - 1));
+        }
+    }
+
+private:
+    bool newton(Vector<double>& x) {
+        Vector<double> q{};
+        double last = std::numeric_limits<double>::infinity();
+        for (int step = 0; step < 40; ++step) {
+            std::array<double, max_nodes> n;
+            std::array<Vector<double>, max_nodes> dn;
+            shape_functions(of_, x, n, &dn);
+            Matrix jacobian{};
+            q = {};
+            for (std::size_t i = 0; i < of_.nodes; ++i) {
+                for (std::size_t k = 0; k < d_; ++k) {
+                    const double at = offset_[i][k].high;
+                    q[k] += n[i] * at;
+                    for (std::size_t j = 0; j < d_; ++j) jacobian[k][j] += dn[i][j] * at;
+                }
+            }
+            if (!invert(jacobian)) return false;
+            double moved = 0;
+            for (std::size_t k = 0; k < d_; ++k) {
+                double by = 0;
+                for (std::size_t j = 0; j < d_; ++j) by += inverse_[k][j] * q[j];
+                by = std::clamp(by, -1.0, 1.0);
+                x[k] -= by;
+                moved = std::max(moved, std::abs(by));
+            }
+            if (!(moved < 8)) return false;
+            if (moved < 0x1p-40 || (moved < 0x1p-26 && moved >= last / 2)) return true;
+            last = moved;
+        }
+        return false;
+    }
+
+    bool near_cell(const Vector<double>& x) const {
+        constexpr double off = 0x1p-20;
+        double sum = 0;
+        for (std::size_t k = 0; k < d_; ++k) {
+            if (!(x[k] > -off && x[k] < 1 + off)) return false;
+            if (of_.is_simplex() || (of_.element == Element::wedge && k < 2)) sum += x[k];
+        }
+        return sum < 1 + off;
+    }
+
+    /// inverse_ of the matrix, by elimination with pivots.
+    bool invert(Matrix a) {
+        Matrix y{};
+        for (std::size_t i = 0; i < d_; ++i) y[i][i] = 1;
+        for (std::size_t c = 0; c < d_; ++c) {
+            std::size_t pivot = c;
+            for (std::size_t i = c + 1; i < d_; ++i) pivot = std::abs(a[i][c]) > std::abs(a[pivot][c]) ? i : pivot;
+            if (a[pivot][c] == 0 || !std::isfinite(a[pivot][c])) return false;
+            std::swap(a[pivot], a[c]);
+            std::swap(y[pivot], y[c]);
+            const double by = 1 / a[c][c];
+            for (std::size_t j = 0; j < d_; ++j) {
+                a[c][j] *= by;
+                y[c][j] *= by;
+            }
+            for (std::size_t i = 0; i < d_; ++i) {
+                const double factor = a[i][c];
+                if (i == c || factor == 0) continue;
+                for (std::size_t j = 0; j < d_; ++j) {
+                    a[i][j] -= factor * a[c][j];
+                    y[i][j] -= factor * y[c][j];
+                }
+            }
+        }
+        inverse_ = y;
+        return true;
+    }
+
+    /// The largest row sum of |1 - Y X'| over the box of that radius around x_.
+    double contraction(double radius) const {
+        std::array<Ball<double>, 3> x;
+        for (std::size_t k = 0; k < 3; ++k) x[k] = {x_[k], k < d_ ? radius : 0};
+        std::array<Ball<double>, max_nodes> n;
+        std::array<Vector<Ball<double>>, max_nodes> dn;
+        shape_functions(of_, x, n, &dn);
+        std::array<Vector<Ball<double>>, 3> jacobian;
+        for (std::size_t k = 0; k < d_; ++k) {
+            for (std::size_t j = 0; j < d_; ++j) {
+                jacobian[k][j] = Ball<double>(0);
+                for (std::size_t i = 0; i < of_.nodes; ++i)
+                    jacobian[k][j] = jacobian[k][j] + dn[i][j] * offset<double>(i, k);
+            }
+        }
+        double most = 0;
+        for (std::size_t row = 0; row < d_; ++row) {
+            double sum = 0;
+            for (std::size_t column = 0; column < d_; ++column) {
+                Ball<double> entry(row == column ? 1 : 0);
+                for (std::size_t k = 0; k < d_; ++k)
+                    entry = entry - Ball<double>(inverse_[row][k]) * jacobian[k][column];
+                sum += entry.most();
+            }
+            most = std::max(most, sum * (1 + 0x1p-48));
+        }
+        return most;
+    }
+
+    Rational at(std::size_t node, std::size_t axis) const {
+        const Rational x = rational(places_.at[node][axis]);
+        return places_.other[node] == nullptr ? x : Rational((x + rational(places_.other[node][axis])) / 2);
+    }
+
+    /// Where the map is affine: opposite edges are the same vectors. Sets x.
+    bool affine(Vector<Rational>& x) const {
+        const auto same = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t e) {  // b - a == e - c
+            for (std::size_t k = 0; k < d_; ++k) {
+                if (at(b, k) - at(a, k) != at(e, k) - at(c, k)) return false;
+            }
+            return true;
+        };
+        std::array<std::size_t, 3> along{1, 3, 4};
+        switch (of_.element) {
+            case Element::hexahedron:
+                if (!same(0, 1, 4, 5) || !same(0, 1, 7, 6) || !same(0, 3, 4, 7)) return false;
+                [[fallthrough]];
+            case Element::quadrilateral:
+            case Element::pyramid:
+                if (!same(0, 1, 3, 2)) return false;
+                break;
+            case Element::wedge:
+                if (!same(0, 1, 3, 4) || !same(0, 2, 3, 5)) return false;
+                along = {1, 2, 3};
+                break;
+            default:
+                return false;
+        }
+        // Gauss on [edges | p - p0].
+        std::array<std::array<Rational, 4>, 3> a;
+        for (std::size_t k = 0; k < d_; ++k) {
+            for (std::size_t j = 0; j < d_; ++j) a[k][j] = at(along[j], k) - at(0, k);
+            a[k][d_] = rational(point_[k]) - at(0, k);
+        }
+        for (std::size_t c = 0; c < d_; ++c) {
+            std::size_t pivot = c;
+            while (pivot < d_ && a[pivot][c] == 0) ++pivot;
+            if (pivot == d_) return false;
+            std::swap(a[pivot], a[c]);
+            for (std::size_t i = 0; i < d_; ++i) {
+                if (i == c) continue;
+                const Rational factor = a[i][c] / a[c][c];
+                for (std::size_t j = c; j <= d_; ++j) a[i][j] -= factor * a[c][j];
+            }
+        }
+        for (std::size_t k = 0; k < d_; ++k) x[k] = a[k][d_] / a[k][k];
+        if (of_.element == Element::pyramid) {
+            if (x[2] == 1) return false;  // the apex
+            for (std::size_t k = 0; k < 2; ++k) x[k] /= Rational(1 - x[2]);
+        }
+        return true;
+    }
+
+    bool is_at(const Vector<Rational>& x) const {
+        std::array<Rational, max_nodes> n;
+        shape_functions(of_, x, n, nullptr);
+        for (std::size_t k = 0; k < d_; ++k) {
+            Rational sum = -rational(point_[k]) * of_.scale;
+            for (std::size_t i = 0; i < of_.nodes; ++i) sum += n[i] * at(i, k);
+            if (sum != 0) return false;
+        }
+        return true;
+    }
+
+    const Reference& of_;
+    std::size_t d_;
+    int shift_ = 0;
+    bool amid_ = false;  ///< some nodes are amid two places
+    Places places_{};
+    const double* point_ = nullptr;
+    std::array<Vector<TwoDoubles>, max_nodes> offset_;  ///< of nodes from the point, below 1
+    Vector<double> x_{};
+    Matrix inverse_{};
+};
+
+}  // namespace barycert::core::isoparametric

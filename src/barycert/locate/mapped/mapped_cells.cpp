@@ -1,0 +1,334 @@
+#include "barycert/locate/mapped/mapped_cells.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+#include "barycert/base/arena.hpp"
+#include "barycert/core/isoparametric/lanes.hpp"
+#include "barycert/mesh/adjacency.hpp"
+#include "barycert/mesh/mid_edges.hpp"
+#include "barycert/mesh/pulling.hpp"
+
+namespace barycert::locate {
+
+namespace iso = core::isoparametric;
+
+std::unique_ptr<MappedCells> MappedCells::make(const Mesh& mesh, bool products, bool curves) {
+    auto cells = std::unique_ptr<MappedCells>(new MappedCells(mesh, products, curves));
+    const bool none = std::ranges::all_of(cells->sign_, [](std::int8_t s) { return s == 0; });
+    if (none && cells->unproved_ == 0) return nullptr;
+    return cells;
+}
+
+MappedCells::MappedCells(const Mesh& mesh, bool products, bool curves)
+    : mesh_(mesh), maps_(mesh, products, curves), products_(products), curves_(curves) {
+    if (has_shapes()) {
+        whole_.resize(mesh.cell_count());
+        warped_.assign(mesh.shapes.count(), 0);
+    }
+    sign_.assign(mesh.whole_count(), 0);
+    std::atomic<std::uint64_t> unproved = 0, of_products = 0;
+    base::parallel_for_each(whole_count(), 1024, [&](std::size_t whole) {
+        for (auto cell = first_part(whole); has_shapes() && cell < first_part(whole + 1); ++cell)
+            whole_[static_cast<std::size_t>(cell)] = static_cast<Mesh::Index>(whole);
+        const iso::Reference* const reference = maps_.reference(whole);
+        if (reference == nullptr) return;
+        sign_[whole] = static_cast<std::int8_t>(iso::proved_orientation(*reference, maps_.places(whole)));
+        if (sign_[whole] == 0) return static_cast<void>(unproved.fetch_add(1, std::memory_order_relaxed));
+        if (reference->is_simplex()) return;
+        of_products.fetch_add(1, std::memory_order_relaxed);
+        for_sides(whole, [&](const std::array<Mesh::Index, 4>& ring, unsigned bit) {
+            if (orient3d(at(ring[0]), at(ring[1]), at(ring[2]), at(ring[3])) != Sign::zero)
+                warped_[whole] = static_cast<std::uint8_t>(warped_[whole] | bit);
+        });
+    });
+    unproved_ = unproved;
+    products_ = of_products != 0;
+    if (products_) find_sides();
+    find_curves();
+    curves_ = !curved_.empty();
+}
+
+std::size_t MappedCells::bytes() const {
+    return whole_.size() * sizeof(Mesh::Index) + 2 * sign_.size() +
+           sides_.size() * (sizeof(Side) + 2 * sizeof(index::Box)) +
+           curved_.size() * (sizeof(Mesh::Index) + 2 * sizeof(index::Box));
+}
+
+// Curved simplices.
+
+MappedCells::PointBits MappedCells::bits_of(const double* point) const {
+    PointBits bits{};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mesh_.dimension); ++k)
+        bits[k] = std::bit_cast<std::uint64_t>(point[k] + 0.0);
+    return bits;
+}
+
+/// Mid-edge nodes of the boundary that are off the middle by rounding: they may be outside.
+MappedCells::NodeTable MappedCells::rounded_nodes() const {
+    NodeTable table;
+    if (mesh_.mid_nodes.empty()) return table;
+    const auto edges = mesh::edges_of(mesh_.dimension);
+    const std::size_t corners = mesh_.corners();
+    for (const std::int64_t facet : mesh::hull_facets(mesh_, mesh::compute_neighbours(mesh_))) {
+        const auto cell = static_cast<std::size_t>(facet) / corners, corner = static_cast<std::size_t>(facet) % corners;
+        for (std::size_t e = 0; e < edges.size(); ++e) {
+            if (edges[e][0] == corner || edges[e][1] == corner || (maps_.curved_edges(cell) >> e & 1U) != 0) continue;
+            const Mesh::Index node = mesh_.mid_nodes[cell * edges.size() + e];
+            const auto [at, first] =
+                table.try_emplace(bits_of(this->at(node)), static_cast<Mesh::Index>(cell), Feature::edge);
+            at->second.cell = std::min(at->second.cell, static_cast<Mesh::Index>(cell));
+        }
+    }
+    return table;
+}
+
+const Location* MappedCells::node_at(const double* point) const {
+    const NodeTable& table = nodes_.get([&] { return rounded_nodes(); });
+    const auto found = table.find(bits_of(point));
+    return found == table.end() ? nullptr : &found->second;
+}
+
+void MappedCells::find_curves() {
+    for (std::size_t whole = 0; whole < whole_count(); ++whole) {
+        if (sign_[whole] != 0 && maps_.reference(whole)->is_simplex())
+            curved_.push_back(static_cast<Mesh::Index>(whole));
+    }
+    if (curved_.empty()) return;
+    std::vector<index::Box> boxes(curved_.size());
+    base::parallel_for_each(boxes.size(), 1024, [&](std::size_t i) {
+        const auto whole = static_cast<std::size_t>(curved_[i]);
+        const auto hull = iso::hull_box(*maps_.reference(whole), maps_.places(whole));
+        for (std::size_t k = 0; k < static_cast<std::size_t>(mesh_.dimension); ++k) {
+            boxes[i].low[k] = hull[k];
+            boxes[i].high[k] = hull[3 + k];
+        }
+    });
+    curved_tree_ = std::make_unique<index::BoxTree>(std::move(boxes));
+}
+
+iso::InSimplex MappedCells::in_curved(std::size_t whole, const double* point) const {
+    const mesh::CellMaps::Nodes nodes = maps_.nodes(whole);
+    const iso::Reference& reference = *maps_.reference(whole);
+    for (std::size_t i = 0; i < nodes.count; ++i) {
+        if (!std::equal(point, point + mesh_.dimension, at(nodes.at[i]))) continue;
+        const bool kept = maps_.places(whole).other[i] == nullptr;  // else it is off its straight edge
+        for (unsigned c = 0, zeros = 0; kept && c <= static_cast<unsigned>(mesh_.dimension); ++c) {
+            zeros |= reference.indices[i][c] == 0 ? 1U << c : 0U;
+            if (c == static_cast<unsigned>(mesh_.dimension)) return {.inside = true, .zeros = zeros, .proved = true};
+        }
+    }
+    unsigned flat = 0;
+    std::array<int, 4> beyond{};
+    if (!has_shapes()) {
+        const auto edges = mesh::edges_of(mesh_.dimension);
+        const std::size_t corners = mesh_.corners();
+        const WeightSigns signs = in_part(static_cast<Mesh::Index>(whole), point);
+        for (std::size_t c = 0; c < corners; ++c) {
+            bool straight = true;
+            for (std::size_t e = 0; e < edges.size(); ++e)
+                straight =
+                    straight && (edges[e][0] == c || edges[e][1] == c || (maps_.curved_edges(whole) >> e & 1U) == 0);
+            flat |= straight && !signs.degenerate() ? 1U << c : 0U;
+            beyond[c] = static_cast<int>(signs.sign(static_cast<int>(c)));
+        }
+    }
+    return iso::locate_in_simplex(reference, maps_.places(whole), point, flat, beyond);
+}
+
+void MappedCells::add_curved(const double* point, std::vector<Location>& found) const {
+    if (curved_tree_ == nullptr) return;
+    index::Box box{};
+    std::copy_n(point, static_cast<std::size_t>(mesh_.dimension), box.low.begin());
+    box.high = box.low;
+    curved_tree_->for_each(box, [&](std::uint32_t i) {
+        const auto whole = static_cast<std::size_t>(curved_[i]);
+        const iso::InSimplex in = in_curved(whole, point);
+        if (!in.inside) return true;
+        const int zeros = std::popcount(in.zeros);
+        const Feature feature = zeros == 0                           ? Feature::interior
+                                : zeros == mesh_.dimension           ? Feature::vertex
+                                : zeros == 1 && mesh_.dimension == 3 ? Feature::face
+                                                                     : Feature::edge;
+        found.push_back({first_part(whole), feature});
+        return true;
+    });
+}
+
+WeightSigns MappedCells::in_part(Mesh::Index cell, const double* point) const {
+    std::array<double, 12> vertices{};
+    const auto d = static_cast<std::size_t>(mesh_.dimension);
+    for (std::size_t i = 0; i < mesh_.corners(); ++i)
+        std::copy_n(at(mesh_.cells[static_cast<std::size_t>(cell) * mesh_.corners() + i]), d, &vertices[d * i]);
+    return weight_signs(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), point);
+}
+
+Feature MappedCells::in_parts(std::size_t whole, const double* point) const {
+    for (auto cell = first_part(whole); cell < mesh_.shapes.parts[whole + 1]; ++cell) {
+        const WeightSigns signs = in_part(cell, point);
+        if (signs.contains())
+            return mesh::feature_of_whole(mesh_.shapes.inside[static_cast<std::size_t>(cell)],
+                                          signs.bits() >> 4U & 0xfU, mesh_.dimension);
+    }
+    return Feature::outside;
+}
+
+Location MappedCells::owner(const double* point, Location in_parts, const AllInParts& all_in_parts) const {
+    bool near = false;
+    if (is_mapped(in_parts.cell) && in_parts.feature == Feature::interior && products_ &&
+        !maps_.reference(whole(in_parts.cell))->is_simplex()) {
+        // Inside one of its parts, the cells across its own sides are all that could hold it, too.
+        if (!in_some_side(whole(in_parts.cell), point)) return {first_part(whole(in_parts.cell)), Feature::interior};
+        near = true;
+    }
+    index::Box box{};
+    std::copy_n(point, static_cast<std::size_t>(mesh_.dimension), box.low.begin());
+    box.high = box.low;
+    const auto some = [&](std::uint32_t) { return near = true, false; };
+    if (tree_ != nullptr && !near) tree_->for_each(box, some);
+    if (curved_tree_ != nullptr && !near) {
+        // Inside a curved cell, and not on its sides, it is nowhere else.
+        if (is_mapped(in_parts.cell) && maps_.reference(whole(in_parts.cell))->is_simplex()) {
+            const iso::InSimplex in = in_curved(whole(in_parts.cell), point);
+            if (in.inside && in.zeros == 0 && in.proved) return {first_part(whole(in_parts.cell)), Feature::interior};
+            near = true;
+        }
+        if (!near) curved_tree_->for_each(box, some);
+    }
+    if (near) {
+        std::vector<Location> all;
+        all_in_parts(all);
+        all_owners(point, all);
+        // In a gap between a cell with a map and one without the parts decide.
+        const bool gap = all.empty() && in_parts.cell >= 0 && unproved_ != 0;
+        if (!all.empty()) return all.front();
+        if (!gap) in_parts = {};
+    }
+    if (in_parts.cell < 0 && curves_) {
+        if (const Location* const at_node = node_at(point)) return *at_node;
+    }
+    if (is_mapped(in_parts.cell)) in_parts.cell = first_part(whole(in_parts.cell));
+    return in_parts;
+}
+
+void MappedCells::all_owners(const double* point, std::vector<Location>& all) const {
+    std::vector<std::size_t> wholes;
+    for (const Location& own : all) wholes.push_back(whole(own.cell));
+    index::Box box{};
+    std::copy_n(point, static_cast<std::size_t>(mesh_.dimension), box.low.begin());
+    box.high = box.low;
+    if (tree_ != nullptr) {
+        tree_->for_each(box, [&](std::uint32_t i) {
+            for (const Mesh::Index cell : sides_[i].cells) {
+                if (cell >= 0) wholes.push_back(static_cast<std::size_t>(cell));
+            }
+            return true;
+        });
+    }
+    std::ranges::sort(wholes);
+    wholes.erase(std::unique(wholes.begin(), wholes.end()), wholes.end());
+    std::vector<Location> found;
+    for (const std::size_t own : wholes) {
+        if (sign_[own] != 0 && maps_.reference(own)->is_simplex()) continue;
+        const auto known = std::ranges::find_if(all, [&](const Location& l) { return whole(l.cell) == own; });
+        const Feature parts = known != all.end() ? known->feature : in_parts(own, point);
+        const Feature feature = held(own, point, parts);
+        const bool kept = sign_[own] == 0 && known != all.end();
+        if (feature != Feature::outside) found.push_back({kept ? known->cell : first_part(own), feature});
+    }
+    add_curved(point, found);
+    std::ranges::sort(found, {}, &Location::cell);
+    all = std::move(found);
+}
+
+Mesh::Index MappedCells::part_at(Mesh::Index cell, const double* point) const {
+    const std::size_t own = whole(cell);
+    for (auto part = first_part(own); has_shapes() && part < first_part(own + 1); ++part) {
+        if (in_part(part, point).contains()) return part;
+    }
+    return first_part(own);
+}
+
+iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const double* point,
+                                     const std::vector<const Field*>& fields, Scratch& scratch, double* out) const {
+    const mesh::CellMaps::Nodes nodes = maps_.nodes(whole(cell));
+    const auto d = static_cast<std::size_t>(mesh_.dimension);
+    std::size_t components = 0, first = 0, at_node = nodes.count;
+    for (const Field* const field : fields) components += static_cast<std::size_t>(field->components);
+    scratch.values.resize(nodes.count * components);
+    bool finite = true;
+    for (const Field* const field : fields) {
+        const auto width = static_cast<std::size_t>(field->components);
+        for (std::size_t i = 0; i < nodes.count; ++i) {
+            for (std::size_t c = 0; c < width; ++c) {
+                const double x = field->data[static_cast<std::size_t>(nodes.at[i]) * width + c];
+                finite = finite && std::isfinite(x);
+                scratch.values[i * components + first + c] = x;
+            }
+        }
+        first += width;
+    }
+    const iso::Reference* const reference = maps_.reference(whole(cell));
+    const bool may_be_node = feature == Feature::vertex || reference == nullptr || reference->is_simplex();
+    for (std::size_t i = 0; may_be_node && i < nodes.count; ++i) {
+        if (std::equal(point, point + d, at(nodes.at[i]))) at_node = i;
+    }
+    if (at_node != nodes.count) {
+        for (std::size_t c = 0; c < components; ++c) {
+            const double x = scratch.values[at_node * components + c];
+            out[c] = std::isfinite(x) ? x + 0.0 : std::numeric_limits<double>::quiet_NaN();
+        }
+        return {iso::Certainty::proved, Tier::filter};
+    }
+    const std::uint64_t active = finite ? ~std::uint64_t{0} : active_nodes(whole(cell), point);
+    return iso::evaluate(*reference, maps_.places(whole(cell)), point, active, scratch.values.data(), components, out);
+}
+
+bool MappedCells::set_lane(Mesh::Index cell, Feature feature, const double* point,
+                           const std::vector<const Field*>& fields, std::size_t lane, double* places, double* points,
+                           double* values) const {
+    constexpr std::array<std::array<std::uint8_t, 8>, 3> corners{
+        {{0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 0, 3, 4, 5, 3}, {0, 1, 2, 3, 4, 4, 4, 4}}};
+    const std::size_t own = whole(cell);
+    const std::uint8_t type = has_shapes() ? mesh_.shapes.types[own] : 0;
+    if (sign_[own] == 0 || type < 11 || type > 14 || feature == Feature::vertex) return false;
+    const mesh::CellMaps::Nodes nodes = maps_.nodes(own);
+    const auto& corner = corners[type == 13 ? 1 : type == 14 ? 2 : 0];
+    for (std::size_t i = 0; i < 8; ++i) {
+        const auto node = static_cast<std::size_t>(nodes.at[corner[i]]);
+        for (std::size_t k = 0; k < 3; ++k) places[(3 * i + k) * iso::max_lanes + lane] = mesh_.points[3 * node + k];
+        std::size_t c = i;
+        for (const Field* const field : fields) {
+            const auto width = static_cast<std::size_t>(field->components);
+            for (std::size_t w = 0; w < width; ++w, c += 8) {
+                const double x = field->data[node * width + w];
+                if (!std::isfinite(x)) return false;
+                values[c * iso::max_lanes + lane] = x;
+            }
+        }
+    }
+    for (std::size_t k = 0; k < 3; ++k) points[k * iso::max_lanes + lane] = point[k];
+    return true;
+}
+
+bool MappedCells::is_wedge(Mesh::Index cell) const {
+    return has_shapes() && mesh_.shapes.types[whole(cell)] == 13;
+}
+
+mesh::CellMaps::Nodes MappedCells::weights(Mesh::Index cell, const double* point, double* out) const {
+    const mesh::CellMaps::Nodes nodes = maps_.nodes(whole(cell));
+    std::fill_n(out, nodes.count, 0.0);
+    for (std::size_t i = 0; i < nodes.count; ++i) {
+        if (!std::equal(point, point + mesh_.dimension, at(nodes.at[i]))) continue;
+        out[i] = 1;
+        return nodes;
+    }
+    std::vector<double> units(nodes.count * nodes.count);
+    for (std::size_t i = 0; i < nodes.count; ++i) units[i * nodes.count + i] = 1;
+    const iso::Evaluated found = iso::evaluate(*maps_.reference(whole(cell)), maps_.places(whole(cell)), point,
+                                               ~std::uint64_t{0}, units.data(), nodes.count, out);
+    return found.certainty == iso::Certainty::not_found ? mesh::CellMaps::Nodes() : nodes;
+}
+
+}  // namespace barycert::locate

@@ -1,0 +1,136 @@
+/// Cells that are images of their reference cells: who owns a point, and values there.
+///
+/// Products. Hexahedra, voxels, wedges, pyramids and quadrilaterals. Their edges are straight, and the sides through
+/// four nodes that are not in one plane are pieces of hyperbolic paraboloids. What the cell and its parts
+/// (mesh/pulling.hpp) do not have in common lies in the tetrahedra of the nodes of such sides: a point in none of them
+/// is in the cell if it is in one of its parts; one that is in some, if it is on the inner side of each of these
+/// paraboloids, which are the points with a c = b d, where a, b, c, d are its weights in the tetrahedron.
+///
+/// Curved simplices of order 2 to 4. A point is in the cell if Newton's method finds it there, proved, and not if the
+/// cell is proved to have it nowhere else (core/isoparametric). Facets whose edges are all straight are flat, and
+/// orient3d decides on which side a point is. Mid-edge nodes that are off the middle by rounding alone count as amid; a
+/// point at such a node, or any other, is at that node.
+///
+/// All of that holds where the map is injective, which is proved cell by cell (proved_orientation). What is not proved
+/// is left as its parts, or straight, and counted.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <unordered_map>
+
+#include "barycert/base/random.hpp"
+#include "barycert/index/box_tree.hpp"
+#include "barycert/locate/lazy.hpp"
+#include "barycert/locator.hpp"
+#include "barycert/mesh/cell_maps.hpp"
+#include "barycert/predicates.hpp"
+
+namespace barycert::locate {
+
+class MappedCells {
+public:
+    /// Sets all cells that hold a point, as straight simplices or by their parts.
+    using AllInParts = std::function<void(std::vector<Location>&)>;
+
+    /// nullptr if no cell has a map, and no node is off a middle. `products`: those of Mesh::shapes. `curves`:
+    /// simplices of a higher order. On the threads of the calling arena.
+    static std::unique_ptr<MappedCells> make(const Mesh& mesh, bool products, bool curves);
+
+    /// Cells that have no map, though others of their types have: it is not proved that it would be injective.
+    std::uint64_t unproved() const { return unproved_; }
+    bool has_products() const { return products_; }
+    bool has_curves() const { return curves_; }
+    std::size_t bytes() const;
+
+    bool is_mapped(Mesh::Index cell) const { return cell >= 0 && sign_[whole(cell)] != 0; }
+    /// Whether evaluate() knows the values there: of a mapped cell, or at a node.
+    bool evaluates(Mesh::Index cell, const double* point) const {
+        return is_mapped(cell) || (cell >= 0 && curves_ && node_at(point) != nullptr);
+    }
+
+    /// The owner of a point, by what its location is in parts of cells; the first part stands for a mapped cell.
+    Location owner(const double* point, Location in_parts, const AllInParts& all_in_parts) const;
+    /// Likewise of all cells that hold it, ascending; `in_parts` has one entry a cell, and none outside.
+    void all_owners(const double* point, std::vector<Location>& in_parts) const;
+
+    /// The part of a mapped cell that holds the point, or the first.
+    Mesh::Index part_at(Mesh::Index cell, const double* point) const;
+
+    struct Scratch {
+        std::vector<double> values;
+    };
+    /// All components of fields of nodes, one field after the other, where evaluates(). NaN as in V2 of sampler.hpp.
+    core::isoparametric::Evaluated evaluate(Mesh::Index cell, Feature feature, const double* point,
+                                            const std::vector<const Field*>& fields, Scratch& scratch,
+                                            double* out) const;
+    // For core/isoparametric/lanes.hpp.
+    bool is_wedge(Mesh::Index cell) const;
+    /// Sets the case of that lane; false of other cells than hexahedra, voxels, wedges and pyramids, at a vertex, and
+    /// where a value is not finite. `values`: 8 rows a component.
+    bool set_lane(Mesh::Index cell, Feature feature, const double* point, const std::vector<const Field*>& fields,
+                  std::size_t lane, double* places, double* points, double* values) const;
+    /// Nodes of a mapped cell, and its shape functions at the point, each rounded once; none if they are not found.
+    mesh::CellMaps::Nodes weights(Mesh::Index cell, const double* point, double* out) const;
+
+private:
+    struct Side {
+        std::array<Mesh::Index, 4> nodes{};
+        std::array<Mesh::Index, 2> cells{-1, -1};  ///< whole ones
+    };
+    using PointBits = std::array<std::uint64_t, 3>;
+    struct HashOfBits {
+        std::size_t operator()(const PointBits& x) const {
+            return base::mix64(base::mix64(base::mix64(x[0]) ^ x[1]) ^ x[2]);
+        }
+    };
+
+    MappedCells(const Mesh& mesh, bool products, bool curves);
+    bool has_shapes() const { return !mesh_.shapes.types.empty(); }
+    std::size_t whole_count() const { return sign_.size(); }
+    std::size_t whole(Mesh::Index cell) const {
+        const auto c = static_cast<std::size_t>(cell);
+        return has_shapes() ? static_cast<std::size_t>(whole_[c]) : c;
+    }
+    Mesh::Index first_part(std::size_t whole) const {
+        return has_shapes() ? mesh_.shapes.parts[whole] : static_cast<Mesh::Index>(whole);
+    }
+    const double* at(Mesh::Index node) const {
+        return &mesh_.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh_.dimension)];
+    }
+    PointBits bits_of(const double* point) const;
+    const Location* node_at(const double* point) const;
+
+    void find_curves();
+    using NodeTable = std::unordered_map<PointBits, Location, HashOfBits>;
+    NodeTable rounded_nodes() const;
+    core::isoparametric::InSimplex in_curved(std::size_t whole, const double* point) const;
+    void add_curved(const double* point, std::vector<Location>& found) const;
+
+    /// use(ring of nodes, bit of the side) for each side of four nodes.
+    void for_sides(std::size_t whole,
+                   const std::function<void(const std::array<Mesh::Index, 4>&, unsigned)>& use) const;
+    void find_sides();
+    /// Whether the tetrahedron of one of its sides that are not flat holds the point.
+    bool in_some_side(std::size_t whole, const double* point) const;
+    /// Whether a cell holds the point, and where; in_parts: what its parts say.
+    Feature held(std::size_t whole, const double* point, Feature in_parts) const;
+    WeightSigns in_part(Mesh::Index cell, const double* point) const;
+    Feature in_parts(std::size_t whole, const double* point) const;
+    std::uint64_t active_nodes(std::size_t whole, const double* point) const;
+
+    const Mesh& mesh_;
+    mesh::CellMaps maps_;
+    bool products_, curves_;
+    std::vector<Mesh::Index> whole_;    ///< shape of each cell
+    std::vector<std::int8_t> sign_;     ///< of each Jacobian; 0: no map
+    std::vector<std::uint8_t> warped_;  ///< a bit for each side that is not flat
+    std::vector<Side> sides_;           ///< those of products that are not flat
+    std::unique_ptr<index::BoxTree> tree_;
+    std::vector<Mesh::Index> curved_;  ///< wholes
+    std::unique_ptr<index::BoxTree> curved_tree_;
+    Lazy<NodeTable> nodes_;
+    std::uint64_t unproved_ = 0;
+};
+
+}  // namespace barycert::locate

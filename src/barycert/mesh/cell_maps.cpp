@@ -1,0 +1,64 @@
+#include "barycert/mesh/cell_maps.hpp"
+
+#include <algorithm>
+
+#include "barycert/mesh/mid_edges.hpp"
+#include "barycert/mesh/pulling.hpp"
+
+namespace barycert::mesh {
+
+namespace iso = core::isoparametric;
+
+CellMaps::CellMaps(const Mesh& mesh, bool products, bool curves) : mesh_(mesh), products_(products), curves_(curves) {
+    if (curves && !mesh.mid_nodes.empty()) curved_cells(mesh, &curved_);
+}
+
+const iso::Reference* CellMaps::reference(std::size_t whole) const {
+    if (!has_shapes()) {
+        const bool curved = curved_edges(whole) != 0;
+        return curved ? iso::simplex_reference(mesh_.dimension, mesh_.dimension == 3 ? 10 : 6) : nullptr;
+    }
+    const std::uint8_t type = mesh_.shapes.types[whole];
+    if (!is_curved_simplex(type)) return products_ ? iso::linear_reference(type) : nullptr;
+    const auto begin = whole == 0 ? 0 : mesh_.shapes.ends[whole - 1];
+    return curves_ ? iso::simplex_reference(mesh_.dimension, static_cast<std::size_t>(mesh_.shapes.ends[whole] - begin))
+                   : nullptr;
+}
+
+/// VTK numbers the nodes of pixels and voxels row by row, those of the others round each layer.
+CellMaps::Nodes CellMaps::nodes(std::size_t whole) const {
+    Nodes nodes;
+    const auto add = [&](const Mesh::Index* first, std::size_t count) {
+        std::copy_n(first, count, nodes.at.begin() + static_cast<std::ptrdiff_t>(nodes.count));
+        nodes.count += count;
+    };
+    if (has_shapes()) {
+        const auto begin = whole == 0 ? 0 : mesh_.shapes.ends[whole - 1];
+        add(mesh_.shapes.nodes.data() + begin, static_cast<std::size_t>(mesh_.shapes.ends[whole] - begin));
+        if (mesh_.shapes.types[whole] == 8 || mesh_.shapes.types[whole] == 11) {
+            std::swap(nodes.at[2], nodes.at[3]);
+            std::swap(nodes.at[6], nodes.at[7]);
+        }
+    } else {
+        const std::size_t corners = mesh_.corners(),
+                          mids = mesh_.mid_nodes.size() / std::max<std::size_t>(mesh_.cell_count(), 1);
+        add(&mesh_.cells[whole * corners], corners);
+        if (mids != 0) add(&mesh_.mid_nodes[whole * mids], mids);
+    }
+    return nodes;
+}
+
+iso::Places CellMaps::places(std::size_t whole) const {
+    iso::Places places;
+    const Nodes nodes = this->nodes(whole);
+    for (std::size_t i = 0; i < nodes.count; ++i) places.at[i] = at(nodes.at[i]);
+    const auto edges = edges_of(mesh_.dimension);
+    for (std::size_t e = 0; !has_shapes() && e < edges.size(); ++e) {
+        if ((curved_edges(whole) >> e & 1U) != 0) continue;
+        places.at[mesh_.corners() + e] = at(nodes.at[edges[e][0]]);
+        places.other[mesh_.corners() + e] = at(nodes.at[edges[e][1]]);
+    }
+    return places;
+}
+
+}  // namespace barycert::mesh

@@ -1,0 +1,353 @@
+#include "barycert/mesh/pulling.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "barycert/base/arena.hpp"
+#include "barycert/mesh/columns.hpp"
+#include "barycert/mesh/part.hpp"
+
+namespace barycert::mesh {
+namespace {
+
+using Index = Mesh::Index;
+
+/// The parts of a cell, by the places of their nodes among its own.
+struct Parts {
+    std::vector<std::array<Index, 4>> corners;
+    std::vector<std::uint16_t> inside;
+};
+
+/// Rings of a cell, by places among its nodes, and which of them have each node.
+class Faces {
+public:
+    Faces(std::vector<std::vector<Index>> rings, std::size_t nodes) : rings_(std::move(rings)), of_node_(nodes) {
+        for (std::size_t r = 0; r < rings_.size(); ++r) {
+            for (const Index node : rings_[r]) of_node_[static_cast<std::size_t>(node)].push_back(r);
+        }
+    }
+
+    const std::vector<std::vector<Index>>& rings() const { return rings_; }
+
+    /// Whether a face has all of these.
+    bool share(std::initializer_list<Index> nodes) const {
+        return std::ranges::any_of(of(*nodes.begin()), [&](std::size_t ring) {
+            return std::all_of(nodes.begin() + 1, nodes.end(),
+                               [&](Index node) { return std::ranges::count(of(node), ring) != 0; });
+        });
+    }
+    bool is_edge(Index a, Index b) const {
+        return std::ranges::any_of(of(a), [&](std::size_t r) {
+            const std::vector<Index>& ring = rings_[r];
+            const auto at = static_cast<std::size_t>(std::ranges::find(ring, a) - ring.begin());
+            return ring[(at + 1) % ring.size()] == b || ring[(at + ring.size() - 1) % ring.size()] == b;
+        });
+    }
+
+    /// Turns rings so that each edge is passed both ways. False if an edge is not one of two faces.
+    bool orient() {
+        std::vector<std::size_t> known(rings_.size(), 0), next;
+        for (std::size_t first = 0; first < rings_.size(); ++first) {
+            if (known[first] != 0) continue;
+            known[first] = 1;
+            next.push_back(first);
+            while (!next.empty()) {
+                const std::size_t own = next.back();
+                next.pop_back();
+                for (std::size_t i = 0; i < rings_[own].size(); ++i) {
+                    const Index a = rings_[own][i], b = rings_[own][(i + 1) % rings_[own].size()];
+                    std::size_t others = 0;
+                    for (const std::size_t r : of(a)) {
+                        if (r == own) continue;
+                        const bool same = follows(rings_[r], a, b);
+                        if (!same && !follows(rings_[r], b, a)) continue;
+                        ++others;
+                        if (known[r] != 0 && same) return false;
+                        if (known[r] != 0) continue;
+                        if (same) std::ranges::reverse(rings_[r]);
+                        known[r] = 1;
+                        next.push_back(r);
+                    }
+                    if (others != 1) return false;
+                }
+            }
+        }
+        return !rings_.empty();
+    }
+
+private:
+    const std::vector<std::size_t>& of(Index node) const { return of_node_[static_cast<std::size_t>(node)]; }
+    static bool follows(const std::vector<Index>& ring, Index a, Index b) {
+        const auto at = static_cast<std::size_t>(std::ranges::find(ring, a) - ring.begin());
+        return at < ring.size() && ring[(at + 1) % ring.size()] == b;
+    }
+
+    std::vector<std::vector<Index>> rings_;
+    std::vector<std::vector<std::size_t>> of_node_;
+};
+
+/// The ring from its lowest node on; `rank`: numbers of nodes.
+template <class Rank>
+std::vector<Index> from_lowest(std::vector<Index> ring, Rank rank) {
+    std::ranges::rotate(ring, std::ranges::min_element(ring, {}, rank));
+    return ring;
+}
+
+/// Places are of nodes whose numbers are rank(place).
+template <class Rank>
+Parts cut_solid(const Faces& faces, std::size_t nodes, Rank rank) {
+    Parts parts;
+    Index apex = 0;
+    for (Index i = 1; static_cast<std::size_t>(i) < nodes; ++i) apex = rank(i) < rank(apex) ? i : apex;
+    const auto edge = [&](Index a, Index b) -> unsigned {
+        return faces.is_edge(a, b) ? 0 : faces.share({a, b}) ? 1 : 2;
+    };
+    for (const auto& given : faces.rings()) {
+        if (std::ranges::count(given, apex) != 0) continue;
+        const std::vector<Index> ring = from_lowest(given, rank);
+        for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+            const Index v = apex, w = ring[0], a = ring[i], b = ring[i + 1];
+            unsigned bits = (faces.share({v, a, b}) ? 0U : 2U) | (faces.share({v, w, b}) ? 0U : 4U) |
+                            (faces.share({v, w, a}) ? 0U : 8U);
+            unsigned shift = 4;
+            for (const auto& [from, to] : {std::pair(v, w), {v, a}, {v, b}, {w, a}, {w, b}, {a, b}}) {
+                bits |= edge(from, to) << shift;
+                shift += 2;
+            }
+            parts.corners.push_back({v, w, a, b});
+            parts.inside.push_back(static_cast<std::uint16_t>(bits));
+        }
+    }
+    return parts;
+}
+
+template <class Rank>
+Parts cut_polygon(std::uint8_t type, std::vector<Index> nodes, Rank rank) {
+    Parts parts;
+    const std::size_t n = nodes.size();
+    if (type != strip) nodes = from_lowest(std::move(nodes), rank);
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+        const bool first = i == 1, last = i + 2 == n;
+        if (type == strip) {
+            // Every other triangle is turned.
+            const std::size_t odd = (i + 1) % 2;
+            parts.corners.push_back({nodes[i - 1 + odd], nodes[i - odd], nodes[i + 1], -1});
+            const unsigned before = first ? 0U : 4U, behind = last ? 0U : odd != 0 ? 2U : 1U;
+            parts.inside.push_back(static_cast<std::uint16_t>(before | behind));
+        } else {
+            parts.corners.push_back({nodes[0], nodes[i], nodes[i + 1], -1});
+            parts.inside.push_back(static_cast<std::uint16_t>((last ? 0U : 2U) | (first ? 0U : 4U)));
+        }
+    }
+    return parts;
+}
+
+/// Corners of a face, in base 16.
+std::vector<Index> ring_of(std::string_view word) {
+    std::vector<Index> ring;
+    for (const char c : word) ring.push_back(c <= '9' ? c - '0' : c - 'a' + 10);
+    return ring;
+}
+
+std::vector<std::vector<Index>> rings_of(std::string_view text) {
+    std::vector<std::vector<Index>> rings;
+    for (std::size_t end = 0; !text.empty(); text.remove_prefix(std::min(end + 1, text.size()))) {
+        end = std::min(text.find(' '), text.size());
+        rings.push_back(ring_of(text.substr(0, end)));
+    }
+    return rings;
+}
+
+/// Of the types that have the same faces in all cells.
+const std::vector<std::vector<Index>>& rings_of_type(std::uint8_t type) {
+    static const auto all = [] {
+        std::array<std::vector<std::vector<Index>>, 72> rings;
+        for (std::size_t i = 0; i < rings.size(); ++i)
+            rings[i] = rings_of(shape_of(static_cast<std::uint8_t>(i)).faces);
+        return rings;
+    }();
+    return all[type < all.size() ? type : 0];
+}
+
+/// Cuts cells one after the other. What is cut alike is cut once.
+class Cutter {
+public:
+    explicit Cutter(const Mesh& mesh) : mesh_(mesh) {}
+
+    std::vector<Index> cells, counts;
+    std::vector<std::uint16_t> inside;
+    std::optional<std::size_t> open;  ///< the first polyhedron whose faces do not close
+
+    void cut(std::size_t cell) {
+        const Mesh::Shapes& shapes = mesh_.shapes;
+        const auto begin = cell == 0 ? 0 : shapes.ends[cell - 1];
+        const std::uint8_t type = shapes.types[cell];
+        std::span nodes(shapes.nodes.data() + begin, shapes.nodes.data() + shapes.ends[cell]);
+        if (is_curved_simplex(type)) nodes = nodes.first(mesh_.corners());
+        const auto& of_type = rings_of_type(type);
+        any_ = nodes.empty() ? 0 : nodes.front();
+        if (type == polyhedron) return cut_rings(cell, rings_of_polyhedron(cell), true);
+        if (mesh_.dimension == 2 && of_type.empty()) {
+            const auto own = [](Index node) { return node; };
+            return add(cut_polygon(type, {nodes.begin(), nodes.end()}, own), own);
+        }
+        const auto rank = [&](Index place) { return nodes[static_cast<std::size_t>(place)]; };
+        // Which node is lowest, of all and of each face, tells how the cell is cut.
+        std::uint64_t key = type;
+        Index apex = 0;
+        bool twice = false;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            if (nodes[i] < rank(apex)) apex = static_cast<Index>(i);
+            for (std::size_t j = 0; j < i; ++j) twice |= nodes[i] == nodes[j];
+        }
+        for (const auto& ring : of_type) {
+            std::size_t lowest = 0;
+            for (std::size_t i = 1; i < ring.size(); ++i) lowest = rank(ring[i]) < rank(ring[lowest]) ? i : lowest;
+            key = key << 3U | lowest;
+        }
+        if (twice) {
+            std::vector<std::vector<Index>> rings = of_type;
+            for (auto& ring : rings) std::ranges::transform(ring, ring.begin(), rank);
+            return cut_rings(cell, std::move(rings), false);
+        }
+        Parts& parts = known_[key << 4U | static_cast<std::uint64_t>(apex)];
+        if (parts.corners.empty())
+            parts = mesh_.dimension == 3 ? cut_solid(Faces(of_type, nodes.size()), nodes.size(), rank)
+                                         : cut_polygon(type, of_type.front(), rank);
+        add(parts, rank);
+    }
+
+private:
+    std::vector<std::vector<Index>> rings_of_polyhedron(std::size_t cell) const {
+        const Mesh::Shapes& s = mesh_.shapes;
+        std::vector<std::vector<Index>> rings;
+        for (auto face = cell == 0 ? 0 : s.face_ends[cell - 1]; face != s.face_ends[cell]; ++face) {
+            const auto f = static_cast<std::size_t>(face);
+            rings.emplace_back(s.rings.begin() + (f == 0 ? 0 : s.ring_ends[f - 1]), s.rings.begin() + s.ring_ends[f]);
+        }
+        return rings;
+    }
+
+    /// Rings of nodes of the mesh, with some twice.
+    void cut_rings(std::size_t cell, std::vector<std::vector<Index>> rings, bool must_close) {
+        std::vector<Index> nodes;
+        for (auto& ring : rings) {
+            nodes.insert(nodes.end(), ring.begin(), ring.end());
+            ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+            if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+        }
+        std::erase_if(rings, [](const auto& ring) { return ring.size() < 3; });
+        std::ranges::sort(nodes);
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        const auto own = [&](Index place) { return nodes[static_cast<std::size_t>(place)]; };
+        for (auto& ring : rings) {
+            for (Index& node : ring) node = static_cast<Index>(std::ranges::lower_bound(nodes, node) - nodes.begin());
+        }
+        if (mesh_.dimension == 2) {
+            if (rings.empty()) return add({}, own);
+            return add(cut_polygon(0, rings.front(), own), own);
+        }
+        Faces faces(std::move(rings), nodes.size());
+        if (must_close && !faces.orient() && !open) open = cell;
+        add(cut_solid(faces, nodes.size(), own), own);
+    }
+
+    template <class Node>
+    void add(const Parts& parts, Node node) {
+        const std::size_t corners = mesh_.corners(), before = inside.size();
+        for (std::size_t i = 0; i < parts.corners.size(); ++i) {
+            const auto& part = parts.corners[i];
+            for (std::size_t k = 0; k < corners; ++k) cells.push_back(node(part[k]));
+            inside.push_back(parts.inside[i]);
+        }
+        // A cell that is flat has one degenerate part, so that it is counted.
+        if (inside.size() == before) {
+            cells.resize(cells.size() + corners, any_);
+            inside.push_back(0);
+        }
+        counts.push_back(static_cast<Index>(inside.size() - before));
+    }
+
+    const Mesh& mesh_;
+    Index any_ = 0;  ///< a node of the cell
+    std::unordered_map<std::uint64_t, Parts> known_;
+};
+
+}  // namespace
+
+Shape shape_of(std::uint8_t type) {
+    switch (type) {
+        case 5:
+        case 22:
+        case 69:
+            return {2, 3, "012"};
+        case strip:
+            return {2, 0, {}};
+        case 7:
+            return {2, 0, {}};
+        case 8:
+            return {2, 4, "0132"};
+        case 9:
+            return {2, 4, "0123"};
+        case 10:
+        case 24:
+        case 71:
+            return {3, 4, "013 123 203 021"};
+        case 11:
+            return {3, 8, "0462 1375 0154 2673 0231 4576"};
+        case 12:
+            return {3, 8, "0473 1265 0154 3762 0321 4567"};
+        case 13:
+            return {3, 6, "012 354 0341 1452 2530"};
+        case 14:
+            return {3, 5, "0321 014 124 234 304"};
+        case 15:
+            return {3, 10, "04321 56789 0165 1276 2387 3498 4059"};
+        case 16:
+            return {3, 12, "054321 6789ab 0176 1287 2398 34a9 45ba 506b"};
+        case polyhedron:
+            return {3, 0, {}};
+        default:
+            return {};
+    }
+}
+
+std::optional<std::size_t> pull(Mesh& mesh) {
+    constexpr std::size_t step = std::size_t{1} << 14;
+    Mesh::Shapes& shapes = mesh.shapes;
+    const std::size_t count = shapes.count(), blocks = (count + step - 1) / step;
+    std::vector<Cutter> cutters(blocks, Cutter(mesh));
+    base::parallel_for(blocks, [&](std::size_t b) {
+        for (std::size_t cell = b * step; cell < std::min(count, (b + 1) * step); ++cell) cutters[b].cut(cell);
+    });
+    std::vector<std::size_t> first(blocks + 1);
+    for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + cutters[b].inside.size();
+    mesh.cells.resize(first[blocks] * mesh.corners());
+    shapes.inside.resize(first[blocks]);
+    shapes.parts.resize(count + 1);
+    base::parallel_for(blocks, [&](std::size_t b) {
+        std::ranges::copy(cutters[b].cells, mesh.cells.data() + first[b] * mesh.corners());
+        std::ranges::copy(cutters[b].inside, shapes.inside.data() + first[b]);
+        auto next = static_cast<Index>(first[b]);
+        for (std::size_t i = 0; i < cutters[b].counts.size(); ++i) {
+            shapes.parts[b * step + i] = next;
+            next += cutters[b].counts[i];
+        }
+        if (b + 1 == blocks) shapes.parts[count] = next;
+    });
+    const auto open = std::ranges::find_if(cutters, [](const Cutter& c) { return c.open.has_value(); });
+    return open == cutters.end() ? std::nullopt : open->open;
+}
+
+Mesh rows_of_wholes(const Mesh& mesh) {
+    Mesh rows;
+    const std::vector<Index> firsts(mesh.shapes.parts.begin(), mesh.shapes.parts.end() - 1);
+    for (const Field& field : mesh.cell_fields) {
+        Field& own = rows.cell_fields.emplace_back(Field{field.name, field.components, {}});
+        append_rows_of(field.data, static_cast<std::size_t>(field.components), firsts, own.data);
+    }
+    for (const Column& labels : mesh.cell_labels) rows.cell_labels.push_back(labels_at(labels, firsts));
+    return rows;
+}
+
+}  // namespace barycert::mesh

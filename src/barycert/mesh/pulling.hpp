@@ -1,0 +1,70 @@
+/// Cells of other shapes cut into simplices, without new nodes.
+///
+/// A polygon is cut from its node of lowest number to all edges that do not have it; a solid from its node of lowest
+/// number to the triangles, cut likewise, of all faces that do not have it. Of a convex cell these fill it: each point
+/// is seen from that node through one of the faces. Both cells at a face cut it alike, as its lowest node does not
+/// depend on the cell; a face that has the cell's lowest node is cut from it, as it is the lowest of that face, too.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "barycert/mesh.hpp"
+#include "barycert/simplex.hpp"
+
+namespace barycert::mesh {
+
+/// VTK's number of the type of polyhedra, and of strips.
+inline constexpr std::uint8_t polyhedron = 42, strip = 6;
+
+struct Shape {
+    int dimension = 0;            ///< 2, 3; 0: none that can be cut
+    std::size_t corners = 0;      ///< 0: any number
+    std::string_view faces = {};  ///< rings of corners in base 16, seen from outside; empty: the nodes tell
+};
+/// Of VTK's type of that number; of curved simplices their corners.
+Shape shape_of(std::uint8_t type);
+
+/// Triangles and tetrahedra of order 2 to 4: VTK's quadratic and Lagrange ones, whose corners come first.
+constexpr bool is_curved_simplex(std::uint8_t type) {
+    return type == 22 || type == 24 || type == 69 || type == 71;
+}
+
+/// Of a simplex with so many nodes: 2 to 4; 0 if it is another.
+constexpr int simplex_order(int dimension, std::size_t nodes) {
+    constexpr std::array<std::array<std::size_t, 3>, 2> counts{{{6, 10, 15}, {10, 20, 35}}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (counts[dimension == 3 ? 1 : 0][i] == nodes) return static_cast<int>(i) + 2;
+    }
+    return 0;
+}
+
+/// Makes cells of mesh.shapes, which has all but `parts` and `inside`. Of parts with a node twice, where a cell has
+/// one, none is kept but the first where there are no others. Returns the first polyhedron whose faces do not close, if
+/// there is one: each edge must be one of two faces. Precondition: nodes in range, as many as the types have.
+std::optional<std::size_t> pull(Mesh& mesh);
+
+/// Cell fields and labels of a mesh with shapes, a row for each of these; nothing else.
+Mesh rows_of_wholes(const Mesh& mesh);
+
+/// Bits of Shapes::inside. In space: bit k, the facet opposite to corner k lies inside the cell; from bit 4 on two bits
+/// an edge, in the order 01 02 03 12 13 23: 0 an edge of the cell, 1 on a face, 2 inside. In the plane: bit k, the edge
+/// opposite to corner k lies inside.
+///
+/// The feature of the whole cell on which a point of a part lies, by the corners of the part with weight zero.
+inline Feature feature_of_whole(std::uint16_t inside, unsigned zeros, int dimension) {
+    const int count = std::popcount(zeros);
+    if (count == dimension) return Feature::vertex;
+    if (count == 0) return Feature::interior;
+    if (count == 1) return (inside & zeros) != 0 ? Feature::interior : dimension == 3 ? Feature::face : Feature::edge;
+    constexpr std::array<unsigned, 6> others{0b1100, 0b1010, 0b0110, 0b1001, 0b0101, 0b0011};
+    unsigned edge = 0;
+    while (others[edge] != zeros) ++edge;
+    constexpr std::array kinds{Feature::edge, Feature::face, Feature::interior, Feature::interior};
+    return kinds[inside >> (4 + 2 * edge) & 3U];
+}
+
+}  // namespace barycert::mesh

@@ -1,0 +1,333 @@
+// Cells with maps of their own: owners, features and values against Newton's method for every cell, in long double.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "barycert/sampler.hpp"
+#include "mesh/curved_mesh.hpp"
+#include "mesh/shaped_mesh.hpp"
+
+namespace barycert::test {
+namespace {
+
+using Index = Mesh::Index;
+using Real = long double;
+
+/// Reference coordinates of a point and the value there, of shape functions n(x).
+struct Inverse {
+    std::array<Real, 3> x{};
+    Real value = 0;
+    bool found = false;
+};
+
+template <class Functions>
+Inverse invert(std::size_t d, const std::vector<const double*>& nodes, const std::vector<double>& values,
+               const double* p, Functions n, std::array<Real, 3> start) {
+    Inverse out{start, 0, false};
+    for (int step = 0; step < 60; ++step) {
+        const auto image = [&](const std::array<Real, 3>& x) {
+            const std::vector<Real> f = n(x);
+            std::array<Real, 4> sum{};
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                for (std::size_t k = 0; k < d; ++k) sum[k] += f[i] * nodes[i][k];
+                sum[3] += f[i] * values[i];
+            }
+            return sum;
+        };
+        const auto here = image(out.x);
+        std::array<std::array<Real, 4>, 3> a{};
+        constexpr Real h = 1e-6L;
+        for (std::size_t j = 0; j < d; ++j) {
+            auto above = out.x, below = out.x;
+            above[j] += h;
+            below[j] -= h;
+            const auto high = image(above), low = image(below);
+            for (std::size_t k = 0; k < d; ++k) a[k][j] = (high[k] - low[k]) / (2 * h);
+        }
+        for (std::size_t k = 0; k < d; ++k) a[k][d] = p[k] - here[k];
+        for (std::size_t c = 0; c < d; ++c) {
+            std::size_t pivot = c;
+            for (std::size_t i = c; i < d; ++i) pivot = std::abs(a[i][c]) > std::abs(a[pivot][c]) ? i : pivot;
+            if (a[pivot][c] == 0) return out;
+            std::swap(a[pivot], a[c]);
+            for (std::size_t i = 0; i < d; ++i) {
+                if (i == c) continue;
+                const Real f = a[i][c] / a[c][c];
+                for (std::size_t j = c; j <= d; ++j) a[i][j] -= f * a[c][j];
+            }
+        }
+        Real moved = 0;
+        for (std::size_t k = 0; k < d; ++k) {
+            const Real by = std::clamp<Real>(a[k][d] / a[k][k], -0.5L, 0.5L);
+            out.x[k] += by;
+            moved = std::max(moved, std::abs(by));
+        }
+        if (moved < 1e-17L) {
+            out.found = true;
+            out.value = image(out.x)[3];
+            return out;
+        }
+    }
+    return out;
+}
+
+std::vector<Real> products(const std::array<Real, 3>& x) {
+    const auto [r, s, t] = x;
+    const Real a = 1 - r, b = 1 - s, c = 1 - t;
+    return {a * b * c, r * b * c, r * s * c, a * s * c, a * b * t, r * b * t, r * s * t, a * s * t};
+}
+
+/// n^3 hexahedra, their nodes moved; `lattice`: by whole numbers, of cells of size 16. Numbered at random.
+Mesh warped_grid(int n, double by, bool lattice, unsigned seed) {
+    std::mt19937 random(seed);
+    const int side = n + 1;
+    std::vector<Index> number(static_cast<std::size_t>(side * side * side));
+    std::iota(number.begin(), number.end(), 0);
+    std::ranges::shuffle(number, random);
+    Mesh mesh;
+    mesh.points.resize(3 * number.size());
+    Field field{"f", 1, std::vector<double>(number.size())};
+    const auto at = [&](int i, int j, int k) { return number[static_cast<std::size_t>(i + side * (j + side * k))]; };
+    for (int k = 0; k < side; ++k) {
+        for (int j = 0; j < side; ++j) {
+            for (int i = 0; i < side; ++i) {
+                const auto node = static_cast<std::size_t>(at(i, j, k));
+                const std::array<int, 3> place{i, j, k};
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const double own = std::uniform_real_distribution(-by, by)(random);
+                    mesh.points[3 * node + axis] =
+                        lattice ? 16 * place[axis] + std::round(16 * own) : place[axis] + own;
+                }
+                field.data[node] = std::uniform_real_distribution(-1.0, 1.0)(random);
+            }
+        }
+    }
+    for (int k = 0; k < n; ++k) {
+        for (int j = 0; j < n; ++j) {
+            for (int i = 0; i < n; ++i)
+                add_shape(mesh, 12,
+                          {at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), at(i, j, k + 1),
+                           at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)});
+        }
+    }
+    cut(mesh);
+    mesh.point_fields = {field};
+    return mesh;
+}
+
+std::vector<const double*> nodes_of(const Mesh& mesh, std::size_t shape, std::vector<double>& values) {
+    std::vector<const double*> nodes;
+    values.clear();
+    for (auto i = shape == 0 ? 0 : mesh.shapes.ends[shape - 1]; i < mesh.shapes.ends[shape]; ++i) {
+        const auto node = static_cast<std::size_t>(mesh.shapes.nodes[static_cast<std::size_t>(i)]);
+        nodes.push_back(&mesh.points[3 * node]);
+        values.push_back(mesh.point_fields[0].data[node]);
+    }
+    return nodes;
+}
+
+TEST(MappedCells, L1V1HexahedraWithCurvedSides) {
+    std::mt19937 random(4);
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const Mesh mesh = warped_grid(4, 0.2, false, seed);
+        const Sampler sampler =
+            Sampler::build(mesh, {}, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
+        EXPECT_EQ(sampler.locator().unmapped_cells(), 0U);
+        std::vector<double> points;
+        for (int i = 0; i < 3 * 1500; ++i) points.push_back(std::uniform_real_distribution(-0.2, 4.2)(random));
+        const Table rows = sampler.sample(points).value();
+        const Table linear = Sampler::build(mesh).value().sample(points).value();
+        EXPECT_EQ(rows.counts.unproved, 0U);
+        std::size_t inside = 0, moved = 0;
+        for (std::size_t i = 0; i < rows.row_count(); ++i) {
+            Index owner = -1;
+            Real value = 0;
+            bool near = false;
+            for (std::size_t cell = 0; cell < mesh.shapes.count() && owner < 0; ++cell) {
+                std::vector<double> values;
+                const auto nodes = nodes_of(mesh, cell, values);
+                const Inverse x = invert(3, nodes, values, &points[3 * i], products, {0.5, 0.5, 0.5});
+                if (!x.found) continue;
+                const auto [low, high] = std::minmax({x.x[0], x.x[1], x.x[2]});
+                near |= std::abs(low) < 1e-12L || std::abs(high - 1) < 1e-12L;
+                if (low >= 0 && high <= 1) {
+                    owner = static_cast<Index>(cell);
+                    value = x.value;
+                }
+            }
+            if (near) continue;
+            const Index own = mesh.cell_number(rows.cells[i]);
+            ASSERT_EQ(own, owner) << i;
+            ASSERT_EQ(sampler.locator().locate(&points[3 * i]).value().cell, rows.cells[i]);
+            if (owner < 0) continue;
+            ++inside;
+            moved += mesh.cell_number(linear.cells[i]) != owner ? 1 : 0;
+            ASSERT_NEAR(rows.values[i], static_cast<double>(value), 1e-15);
+            ASSERT_EQ(rows.features[i], Feature::interior);
+        }
+        EXPECT_GT(inside, 1000U);
+        EXPECT_GT(moved, 10U);  // others than those of the parts
+    }
+}
+
+// Exactly on sides and edges: fractions of few bits between nodes on a lattice.
+TEST(MappedCells, L1L2PointsOnCurvedSides) {
+    const Mesh mesh = warped_grid(3, 0.12, true, 9);
+    const Locator locator =
+        Locator::build(mesh, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
+    ASSERT_EQ(locator.unmapped_cells(), 0U);
+    std::mt19937 random(5);
+    std::map<Feature, int> seen;
+    for (int i = 0; i < 6000; ++i) {
+        const std::size_t cell = random() % mesh.shapes.count();
+        std::array<double, 3> x{};
+        for (double& own : x) own = static_cast<double>(random() % 5) / 4;
+        std::vector<double> values;
+        const auto nodes = nodes_of(mesh, cell, values);
+        const std::vector<Real> n = products({x[0], x[1], x[2]});
+        std::array<double, 3> p{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            Real sum = 0;
+            for (std::size_t j = 0; j < 8; ++j) sum += n[j] * nodes[j][k];
+            p[k] = static_cast<double>(sum);  // exact
+        }
+        const auto on = std::ranges::count_if(x, [](double own) { return own == 0 || own == 1; });
+        const Feature feature = on == 0   ? Feature::interior
+                                : on == 1 ? Feature::face
+                                : on == 2 ? Feature::edge
+                                          : Feature::vertex;
+        const Table all = locator.locate_all(p).value();
+        const Location owner = locator.locate(p.data()).value();
+        std::vector<Index> cells;
+        for (std::size_t row = 0; row < all.row_count(); ++row) {
+            cells.push_back(mesh.cell_number(all.cells[row]));
+            ASSERT_EQ(all.features[row], feature) << i;
+        }
+        ASSERT_TRUE(std::ranges::is_sorted(cells));
+        ASSERT_EQ(std::ranges::count(cells, static_cast<Index>(cell)), 1) << i;
+        ASSERT_EQ(mesh.cell_number(owner.cell), cells.front());
+        ASSERT_EQ(owner.feature, feature);
+        if (on == 0) {
+            ASSERT_EQ(cells.size(), 1U);
+        } else if (on == 1) {
+            ASSERT_LE(cells.size(), 2U);
+        }
+        ++seen[feature];
+    }
+    EXPECT_EQ(seen.size(), 4U);
+}
+
+TEST(MappedCells, WeightsAreTheShapeFunctions) {
+    const Mesh mesh = warped_grid(3, 0.15, false, 11);
+    const Locator locator =
+        Locator::build(mesh, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
+    std::mt19937 random(6);
+    std::vector<double> points;
+    for (int i = 0; i < 900; ++i) points.push_back(std::uniform_real_distribution(0.3, 2.7)(random));
+    Table rows = locator.locate(points).value();
+    rows.points = points;
+    const NodeWeights weights = node_weights(locator, rows.view()).value();
+    const Table values = Sampler::build(locator, {{&mesh.point_fields[0]}}).value().sample(points).value();
+    for (std::size_t i = 0; i < rows.row_count(); ++i) {
+        ASSERT_EQ(weights.begin[i + 1] - weights.begin[i], 8U);
+        double sum = 0, value = 0;
+        for (std::size_t k = weights.begin[i]; k < weights.begin[i + 1]; ++k) {
+            sum += weights.weights[k];
+            value += weights.weights[k] * mesh.point_fields[0].data[static_cast<std::size_t>(weights.nodes[k])];
+        }
+        ASSERT_NEAR(sum, 1, 1e-15);
+        ASSERT_NEAR(value, values.values[i], 1e-15);
+    }
+}
+
+Mesh with_field(Mesh mesh) {
+    std::mt19937 random(8);
+    Field field{"f", 1, {}};
+    for (std::size_t i = 0; i < mesh.point_count(); ++i)
+        field.data.push_back(std::uniform_real_distribution(-1.0, 1.0)(random));
+    mesh.point_fields = {field};
+    return mesh;
+}
+
+TEST(MappedCells, NodesOfCurvedCellsHaveTheirOwnValues) {
+    for (const int d : {2, 3}) {
+        for (const double part : {0.0, 0.1, 0.4}) {
+            Mesh mesh = with_field(testing::curved_ball(d, part));
+            // One node of the boundary is off the middle by rounding alone, to the outside.
+            const auto axes = static_cast<std::size_t>(d);
+            for (std::size_t k = 0; part != 0 && k < axes; ++k) {
+                double& x = mesh.points[axes * static_cast<std::size_t>(mesh.mid_nodes[1]) + k];
+                if (x != 0) x = std::copysign(0.5 + 1e-13, x);
+            }
+            const Sampler sampler = Sampler::build(mesh).value();
+            ASSERT_EQ(sampler.locator().unmapped_cells(), 0U) << d << ' ' << part;
+            const Table rows = sampler.sample(mesh.points).value();
+            for (std::size_t i = 0; i < mesh.point_count(); ++i) {
+                ASSERT_GE(rows.cells[i], 0) << "node " << i << ", " << d << "D, " << part;
+                ASSERT_EQ(rows.values[i], mesh.point_fields[0].data[i]) << i;
+            }
+        }
+    }
+}
+
+TEST(MappedCells, L1V1CurvedSimplices) {
+    std::mt19937 random(12);
+    for (const int d : {2, 3}) {
+        const auto axes = static_cast<std::size_t>(d);
+        const Mesh mesh = with_field(testing::curved_ball(d, 0.4));
+        const Sampler sampler = Sampler::build(mesh).value();
+        ASSERT_TRUE(sampler.locator().has_curved_cells());
+        std::vector<double> points;
+        for (std::size_t i = 0; i < axes * 1500; ++i)
+            points.push_back(std::uniform_real_distribution(-1.0, 1.0)(random));
+        const Table rows = sampler.sample(points).value();
+        const auto edges = mesh::edges_of(d);
+        const auto functions = [&](const std::array<Real, 3>& x) {
+            std::array<Real, 4> l{1 - x[0] - x[1] - (d == 3 ? x[2] : 0), x[0], x[1], x[2]};
+            std::vector<Real> n;
+            for (std::size_t c = 0; c <= axes; ++c) n.push_back(l[c] * (2 * l[c] - 1));
+            for (const auto& edge : edges) n.push_back(4 * l[edge[0]] * l[edge[1]]);
+            return n;
+        };
+        std::size_t inside = 0, outside_straight = 0;
+        const Table straight =
+            Locator::build(mesh, {.straight_sides = true, .progress = {}}).value().locate(points).value();
+        for (std::size_t i = 0; i < rows.row_count(); ++i) {
+            Index owner = -1;
+            Real value = 0;
+            bool near = false;
+            for (std::size_t cell = 0; cell < mesh.cell_count() && owner < 0; ++cell) {
+                std::vector<const double*> nodes;
+                std::vector<double> values;
+                const auto add = [&](Index node) {
+                    nodes.push_back(&mesh.points[axes * static_cast<std::size_t>(node)]);
+                    values.push_back(mesh.point_fields[0].data[static_cast<std::size_t>(node)]);
+                };
+                for (std::size_t c = 0; c <= axes; ++c) add(mesh.cells[(axes + 1) * cell + c]);
+                for (std::size_t e = 0; e < edges.size(); ++e) add(mesh.mid_nodes[edges.size() * cell + e]);
+                const Inverse x =
+                    invert(axes, nodes, values, &points[axes * i], functions, {0.3, 0.3, d == 3 ? 0.3 : 0});
+                if (!x.found) continue;
+                Real low = 1 - x.x[0] - x.x[1] - (d == 3 ? x.x[2] : 0);
+                for (std::size_t k = 0; k < axes; ++k) low = std::min(low, x.x[k]);
+                near |= std::abs(low) < 1e-12L;
+                if (low >= 0) {
+                    owner = static_cast<Index>(cell);
+                    value = x.value;
+                }
+            }
+            if (near) continue;
+            ASSERT_EQ(rows.cells[i], owner) << d << "D, point " << i;
+            if (owner < 0) continue;
+            ++inside;
+            outside_straight += straight.cells[i] < 0 ? 1 : 0;
+            ASSERT_NEAR(rows.values[i], static_cast<double>(value), 1e-15);
+        }
+        EXPECT_GT(inside, 300U);
+        EXPECT_GT(outside_straight, 20U);
+    }
+}
+
+}  // namespace
+}  // namespace barycert::test
