@@ -5,7 +5,6 @@
 
 #include "barycert/audit_report.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 
 namespace barycert::cli {
 namespace {

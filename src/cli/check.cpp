@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "barycert/base/text.hpp"
 #include "barycert/report/check/check_words.hpp"
 #include "reports.hpp"
 

@@ -4,7 +4,6 @@
 
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
-#include "barycert/base/text.hpp"
 
 namespace barycert::cli {
 namespace {

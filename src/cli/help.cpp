@@ -2,17 +2,12 @@
 
 #include <fmt/chrono.h>
 
-#include <CLI/CLI.hpp>
-
-#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/jobs.hpp"
-#include "command.hpp"
 #include "options.hpp"
 #include "options/command_table.hpp"
 #ifdef BARYCERT_WITH_AUDIT

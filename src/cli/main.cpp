@@ -3,7 +3,6 @@
 #include <tbb/cache_aligned_allocator.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -15,9 +14,7 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/output_file.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "command.hpp"
 #include "options.hpp"
 #include "options/want_of_memory.hpp"
 #include "tetgen/options.hpp"

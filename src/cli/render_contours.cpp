@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/weights.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {

@@ -7,7 +7,6 @@
 #include "audit_inputs.hpp"
 #include "barycert/audit_report.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 
 namespace barycert::cli {
 namespace {

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "barycert/base/text.hpp"
-
 namespace barycert::cli {
 
 void Progress::stage(std::string_view text) {

@@ -6,7 +6,6 @@
 
 #include "barycert/base/named_file.hpp"
 #include "barycert/report.hpp"
-#include "command.hpp"
 #include "options.hpp"
 
 namespace barycert::cli {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <chrono>
 #include <tuple>
 
 #include "audit_inputs.hpp"

@@ -1,13 +1,6 @@
 #include "vtk/distributed_probe.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
 #include <cstring>
-#include <memory>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 #include <vtkBitArray.h>
 #include <vtkCellData.h>
@@ -25,8 +18,6 @@
 
 #include "barycert/environment.hpp"
 #include "barycert/pieces/distribution.hpp"
-#include "barycert/sampler.hpp"
-#include "vtk/exact_index.hpp"
 #include "vtk/probe_arrays.hpp"
 
 namespace barycert::in_vtk {

@@ -1,10 +1,7 @@
 #include "vtk/exact_index.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <list>
 #include <mutex>
-#include <utility>
 
 #include <vtkCallbackCommand.h>
 #include <vtkCell.h>

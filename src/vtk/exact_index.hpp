@@ -1,13 +1,6 @@
 /// What the exact locator knows of a data set of VTK, made once for all that ask.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include <vtkType.h>
 
 #include "barycert/io.hpp"

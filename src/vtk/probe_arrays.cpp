@@ -1,14 +1,6 @@
 #include "vtk/probe_arrays.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
-#include <limits>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 #include <vtkBitArray.h>
 #include <vtkCellData.h>
@@ -25,7 +17,6 @@
 #include <vtkPoints.h>
 
 #include "barycert/grid.hpp"
-#include "barycert/predicates.hpp"
 
 namespace barycert::in_vtk {
 namespace {

@@ -1,12 +1,7 @@
 /// The arrays that a probe gives its output, and how rows of a sampler come into them.
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "barycert/sampler.hpp"
-#include "barycert/table.hpp"
 #include "vtk/exact_index.hpp"
 
 class vtkAbstractArray;

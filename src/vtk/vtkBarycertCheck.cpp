@@ -1,15 +1,7 @@
 #include "vtkBarycertCheck.h"
 
-#include <algorithm>
-#include <array>
-#include <functional>
 #include <iterator>
-#include <limits>
 #include <sstream>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -32,7 +24,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnsignedIntArray.h>
 
-#include "barycert/check.hpp"
 #include "barycert/report.hpp"
 #include "vtk/exact_index.hpp"
 

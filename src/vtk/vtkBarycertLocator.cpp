@@ -1,14 +1,8 @@
 #include "vtkBarycertLocator.h"
 
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <limits>
 #include <mutex>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include <vtkBox.h>
 #include <vtkDataSet.h>

@@ -1,11 +1,5 @@
 #include "vtkBarycertProbe.h"
 
-#include <algorithm>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <vtkCellData.h>
 #include <vtkCharArray.h>
 #include <vtkDataSet.h>
@@ -20,7 +14,6 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "barycert/environment.hpp"
-#include "vtk/exact_index.hpp"
 #include "vtk/probe_arrays.hpp"
 
 using namespace barycert;

@@ -1,10 +1,7 @@
 #include "vtkBarycertTetGenReader.h"
 
 #include <algorithm>
-#include <string>
-#include <string_view>
 #include <type_traits>
-#include <variant>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -1,28 +1,20 @@
 #include "vtkPBarycertProbe.h"
 
 #include <algorithm>
-#include <exception>
 #include <map>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <vtkAlgorithm.h>
 #include <vtkAlgorithmOutput.h>
 #include <vtkCallbackCommand.h>
-#include <vtkCharArray.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataSet.h>
 #include <vtkErrorCode.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkMultiProcessController.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "vtk/distributed_probe.hpp"

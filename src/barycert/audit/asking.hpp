@@ -12,7 +12,6 @@ using kernels::Asked;
 using kernels::Statement;
 using kernels::unset_weights;
 
-/// Interior or boundary.
 constexpr bool is_inside(Region r) {
     return r == Region::interior || r == Region::boundary;
 }

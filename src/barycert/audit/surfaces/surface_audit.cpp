@@ -3,9 +3,8 @@
 #include <cmath>
 #include <mutex>
 
-#include "barycert/audit.hpp"
+#include "barycert/audit/asking.hpp"
 #include "barycert/base/ulp.hpp"
-#include "barycert/base/workers.hpp"
 
 namespace barycert {
 
@@ -63,8 +62,7 @@ void audit_surfaces(SurfaceAudit& audit) {
     std::vector<std::vector<SurfaceTally>> tallies(families.size(), std::vector<SurfaceTally>(rules.size()));
     std::mutex merging;
     std::uint64_t done = 0;
-    base::share_work(audit.threads, families.size() * blocks, [&](std::size_t work) {
-        const ExactEnvironment of_thread;
+    audit::on_threads(audit.threads, families.size() * blocks, [&](std::size_t work) {
         const std::size_t f = work / blocks;
         const SurfaceFamily& family = families[f];
         std::vector<SurfaceTally> found(rules.size());
@@ -81,7 +79,6 @@ void audit_surfaces(SurfaceAudit& audit) {
         for (std::size_t r = 0; r < rules.size(); ++r) tallies[f][r].merge(found[r]);
         done += std::min(block, audit.count - first);
         if (audit.progress) audit.progress({done, families.size() * audit.count, family.name});
-        return true;
     });
     audit.results.clear();
     for (std::size_t r = 0; r < rules.size(); ++r) {
