@@ -122,7 +122,7 @@ struct Mesh {
 ///
 /// The deviation of a mid-edge node is its distance from the middle of the two ends, over their distance. It is
 ///   nothing   up to 2^-49 of the largest coordinate of the ends, on each axis: a middle computed in double, or written
-///             with 16 digits (derived in check/curved.cpp);
+///             with 16 digits (derived in mesh/curved.cpp);
 ///   rounding  up to 1e-10 of the edge: what meshers and motions compute. Or up to one unit of the last place of the
 ///             mesh's coordinates, and 1/1000 of the edge, if all coordinates are single precision, or have at most 15
 ///             decimal digits: the unit is that of the last decimal place in the mesh or, in single precision and with

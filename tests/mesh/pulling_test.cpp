@@ -48,7 +48,9 @@ std::int64_t filled(const Mesh& mesh) {
 TEST(Pulling, FillsAConvexCellFromItsLowestNodeInAllNumberings) {
     const std::map<std::uint8_t, std::int64_t> measures{{10, 216},  {11, 1296}, {12, 1296}, {13, 648}, {14, 432},
                                                         {15, 1872}, {16, 1728}, {7, 96},    {8, 72},   {9, 72}};
-    for (const auto& [type, expected] : measures) {
+    for (const auto& of_type : measures) {
+        const std::uint8_t type = of_type.first;
+        const std::int64_t expected = of_type.second;
         const std::size_t nodes = places_of(type).size();
         std::size_t wrong = 0, orders = 0;
         for_orders(nodes, 3000, [&](const std::vector<Index>& order) {
@@ -211,7 +213,8 @@ TEST(Pulling, CellsOfAllTypesAgreeOnTheirCommonFace) {
                     if (own.size() != other.size()) continue;
                     ++pairs;
                     std::ranges::reverse(other);
-                    std::ranges::rotate(other, other.begin() + static_cast<std::ptrdiff_t>(pairs % other.size()));
+                    std::rotate(other.begin(), other.begin() + static_cast<std::ptrdiff_t>(pairs % other.size()),
+                                other.end());
                     const std::size_t n = one.point_count(), all = n + two.point_count() - own.size();
                     std::vector<Index> number = first_numbers(all);
                     std::ranges::shuffle(number, random);

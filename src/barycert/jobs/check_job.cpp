@@ -63,6 +63,7 @@ Status write_measures(const CheckJob& job, const CheckReport& report, Mesh mesh)
         mesh.cell_fields.push_back(
             {taken ? "cell in file" : "cell", 1, {mesh.cell_numbers.begin(), mesh.cell_numbers.end()}});
     }
+    mesh.shapes = {};  // these are of their simplices
     for (Field& field : measure_fields(report.measures)) mesh.cell_fields.push_back(std::move(field));
     return write_vtu(mesh, job.measures, job.vtk_data.value_or(VtkData::raw));
 }
@@ -81,6 +82,8 @@ void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked)
         refuse(fixed.file, "no copy is written, as it would have no cells", "", "",
                "look at the mesh, and where nodes were merged choose a smaller distance");
     fixed.notes = io::left_out_by(*io::mesh_output_format(fixed.file), copy);
+    if (checked.mesh.shapes.count() != 0)
+        fixed.notes.push_back({Note::Kind::converted, "cells are written as the simplices that they are cut into"});
     write_mesh(copy, fixed.file, {.comment = {}, .data = job.vtk_data.value_or(VtkData::raw)}).value();
     const Mesh read = read_mesh(fixed.file, {.faces = true, .neighbours = true, .threads = options.threads}).value();
     options.delaunay = false;

@@ -89,7 +89,7 @@ private:
 /// The ring from its lowest node on; `rank`: numbers of nodes.
 template <class Rank>
 std::vector<Index> from_lowest(std::vector<Index> ring, Rank rank) {
-    std::ranges::rotate(ring, std::ranges::min_element(ring, {}, rank));
+    std::rotate(ring.begin(), std::ranges::min_element(ring, {}, rank), ring.end());
     return ring;
 }
 
@@ -142,33 +142,6 @@ Parts cut_polygon(std::uint8_t type, std::vector<Index> nodes, Rank rank) {
     return parts;
 }
 
-/// Corners of a face, in base 16.
-std::vector<Index> ring_of(std::string_view word) {
-    std::vector<Index> ring;
-    for (const char c : word) ring.push_back(c <= '9' ? c - '0' : c - 'a' + 10);
-    return ring;
-}
-
-std::vector<std::vector<Index>> rings_of(std::string_view text) {
-    std::vector<std::vector<Index>> rings;
-    for (std::size_t end = 0; !text.empty(); text.remove_prefix(std::min(end + 1, text.size()))) {
-        end = std::min(text.find(' '), text.size());
-        rings.push_back(ring_of(text.substr(0, end)));
-    }
-    return rings;
-}
-
-/// Of the types that have the same faces in all cells.
-const std::vector<std::vector<Index>>& rings_of_type(std::uint8_t type) {
-    static const auto all = [] {
-        std::array<std::vector<std::vector<Index>>, 72> rings;
-        for (std::size_t i = 0; i < rings.size(); ++i)
-            rings[i] = rings_of(shape_of(static_cast<std::uint8_t>(i)).faces);
-        return rings;
-    }();
-    return all[type < all.size() ? type : 0];
-}
-
 /// Cuts cells one after the other. What is cut alike is cut once.
 class Cutter {
 public:
@@ -184,7 +157,7 @@ public:
         const std::uint8_t type = shapes.types[cell];
         std::span nodes(shapes.nodes.data() + begin, shapes.nodes.data() + shapes.ends[cell]);
         if (is_curved_simplex(type)) nodes = nodes.first(mesh_.corners());
-        const auto& of_type = rings_of_type(type);
+        const auto& of_type = rings_of(type);
         any_ = nodes.empty() ? 0 : nodes.front();
         if (type == polyhedron) return cut_rings(cell, rings_of_polyhedron(cell), true);
         if (mesh_.dimension == 2 && of_type.empty()) {
@@ -310,6 +283,24 @@ Shape shape_of(std::uint8_t type) {
         default:
             return {};
     }
+}
+
+const std::vector<std::vector<Index>>& rings_of(std::uint8_t type) {
+    static const auto all = [] {
+        std::array<std::vector<std::vector<Index>>, 72> types;
+        for (std::size_t i = 0; i < types.size(); ++i) {
+            const std::string_view faces = shape_of(static_cast<std::uint8_t>(i)).faces;
+            if (!faces.empty()) types[i].emplace_back();
+            for (const char c : faces) {
+                if (c == ' ')
+                    types[i].emplace_back();
+                else
+                    types[i].back().push_back(c <= '9' ? c - '0' : c - 'a' + 10);
+            }
+        }
+        return types;
+    }();
+    return all[type < all.size() ? type : 0];
 }
 
 std::optional<std::size_t> pull(Mesh& mesh) {

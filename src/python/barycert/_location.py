@@ -52,8 +52,8 @@ class Location:
         """(..., d + 1) barycentric weights in the owner, in the order of its vertices in `mesh.cells`; each the exact one
         rounded once, to nearest, ties to even. NaN outside. Computed when first asked for.
 
-        Of cells of second order these are the weights in the cell with straight sides; `matrix` has those of their
-        nodes."""
+        Of cells with other nodes (curved, or whole hexahedra and the like) these are the weights in the straight simplex
+        that `mesh.cells` has; `matrix` has those of all their nodes."""
         if self._weights is None:
             inside, weights = self.inside, np.full(self.cell.shape + (self.mesh.dimension + 1,), np.nan)
             weights[inside] = _core.weights_of(self.mesh._core, self.points[inside], self.cell[inside])

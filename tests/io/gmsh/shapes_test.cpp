@@ -1,4 +1,5 @@
 // Hexahedra, prisms, pyramids and quadrangles, made here and by Gmsh.
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <set>

@@ -105,7 +105,7 @@ Evaluated evaluate(const Reference& of, const Places& places, const double* poin
             if (open[c] == 0) continue;
             Rational sum = 0;
             for (std::size_t i = 0; i < of.nodes; ++i) {
-                if ((active >> i & 1U) != 0) sum += n[i] * rational(values[components * i + c]);
+                if ((active >> i & 1U) != 0) sum += n[i] * Rational(values[components * i + c]);
             }
             out[c] = rounded(sum / of.scale);
         }

@@ -76,8 +76,8 @@ struct InSimplex {
     unsigned zeros = 0;   ///< a bit for each barycentric coordinate that is zero there
     bool proved = false;  ///< else it may be otherwise: a zero is a number below 2^-240, or nothing was found
 };
-/// `flat`: a bit for each facet, opposite to a corner, that is straight; `beyond`: for each of these the sign of the
-/// corner's weight in the straight simplex, which decides where the coordinate is about zero. Preconditions: as of
+/// `beyond`: the sign of each corner's weight in the straight simplex. `flat`: a bit for each facet, opposite to a
+/// corner, that is straight: these signs decide where the coordinate is about zero. Preconditions: as of
 /// evaluate(), but the point may be anywhere.
 InSimplex locate_in_simplex(const Reference& reference, const Places& places, const double* point, unsigned flat,
                             const std::array<int, 4>& beyond);

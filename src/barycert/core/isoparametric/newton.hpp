@@ -15,10 +15,6 @@ template <class T>
 using Vector = std::array<T, 3>;
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-inline Rational rational(double x) {
-    return Rational(x);
-}
-
 inline double rounded(const Rational& x) {
     using boost::multiprecision::cpp_int;
     const cpp_int n = numerator(x), d = denominator(x);
@@ -190,11 +186,12 @@ public:
     template <class T>
     Ball<T> offset(std::size_t node, std::size_t axis) const {
         const TwoDoubles& q = offset_[node][axis];
+        // The sum of two is rounded: both are at most 4 in these units.
+        const double off = amid_ ? 0x1p-100 : 0x1p-1060;
         if constexpr (std::is_same_v<T, double>) {
-            return {q.high, std::abs(q.low)};
+            return {q.high, std::abs(q.low) + off};
         } else if constexpr (std::is_same_v<T, TwoDoubles>) {
-            // The sum of two is rounded: both are at most 4 in these units.
-            return {q, amid_ ? 0x1p-100 : 0x1p-1060};
+            return {q, off};
         } else {
             const T from = T(places_.at[node][axis]) - T(point_[axis]);
             if (places_.other[node] == nullptr) return Ball<T>(ldexp(from, shift_));
@@ -303,8 +300,8 @@ private:
     }
 
     Rational at(std::size_t node, std::size_t axis) const {
-        const Rational x = rational(places_.at[node][axis]);
-        return places_.other[node] == nullptr ? x : Rational((x + rational(places_.other[node][axis])) / 2);
+        const Rational x = Rational(places_.at[node][axis]);
+        return places_.other[node] == nullptr ? x : Rational((x + Rational(places_.other[node][axis])) / 2);
     }
 
     /// Where the map is affine: opposite edges are the same vectors. Sets x.
@@ -335,7 +332,7 @@ private:
         std::array<std::array<Rational, 4>, 3> a;
         for (std::size_t k = 0; k < d_; ++k) {
             for (std::size_t j = 0; j < d_; ++j) a[k][j] = at(along[j], k) - at(0, k);
-            a[k][d_] = rational(point_[k]) - at(0, k);
+            a[k][d_] = Rational(point_[k]) - at(0, k);
         }
         for (std::size_t c = 0; c < d_; ++c) {
             std::size_t pivot = c;
@@ -360,7 +357,7 @@ private:
         std::array<Rational, max_nodes> n;
         shape_functions(of_, x, n, nullptr);
         for (std::size_t k = 0; k < d_; ++k) {
-            Rational sum = -rational(point_[k]) * of_.scale;
+            Rational sum = -Rational(point_[k]) * of_.scale;
             for (std::size_t i = 0; i < of_.nodes; ++i) sum += n[i] * at(i, k);
             if (sum != 0) return false;
         }

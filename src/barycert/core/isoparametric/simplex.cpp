@@ -458,13 +458,6 @@ std::array<double, 6> hull_box(const Reference& of, const Places& places) {
 InSimplex locate_in_simplex(const Reference& of, const Places& places, const double* point, unsigned flat,
                             const std::array<int, 4>& beyond) {
     const std::size_t corners = of.dimension() + 1;
-    const double scale = scale_of(of, places);
-    auto points = rounded_control_points(simplex_of(of), places, scale);
-    for (auto& p : points) {
-        for (std::size_t k = 0; k < of.dimension(); ++k) p[k] -= point[k] * scale;
-    }
-    Search search(simplex_of(of));
-    if (search.apart(points)) return {.proved = true};
     Inverse inverse(of, places, point);
     const auto judge = [&]<class T>(const std::array<Ball<T>, 3>& x, bool last) -> std::optional<InSimplex> {
         InSimplex in{.inside = true, .proved = true};
@@ -487,33 +480,43 @@ InSimplex locate_in_simplex(const Reference& of, const Places& places, const dou
         }
         return in;
     };
-    bool beside = false;
-    if (inverse.search() || inverse.search(true)) {
-        beside = true;
+    bool beside = *std::min_element(beyond.begin(), beyond.begin() + static_cast<std::ptrdiff_t>(corners)) >= 0 &&
+                  inverse.search();
+    if (beside) {
+        std::array<Ball<double>, 3> x;
+        const std::optional<InSimplex> found = inverse.enclose<double>(x, 0x1p-30) ? judge(x, false) : std::nullopt;
+        if (found && found->inside) return *found;
+    }
+    const double scale = scale_of(of, places);
+    auto points = rounded_control_points(simplex_of(of), places, scale);
+    for (auto& p : points) {
+        for (std::size_t k = 0; k < of.dimension(); ++k) p[k] -= point[k] * scale;
+    }
+    Search search(simplex_of(of));
+    if (search.apart(points)) return {.proved = true};
+    beside = beside || inverse.search() || inverse.search(true);
+    if (beside) {
         std::array<Ball<TwoDoubles>, 3> x;
-        if (inverse.enclose<TwoDoubles>(x, 0x1p-88)) {
-            if (auto found = judge(x, false); found && found->inside) return *found;
-            Vector<double> about{};
-            for (std::size_t k = 0; k + 1 < corners; ++k) about[k] = x[k].mid.high;
-            if (const auto exact = inverse.exactly(about)) {
-                std::array<Ball<Rational>, 3> own;
-                for (std::size_t k = 0; k < 3; ++k) own[k] = Ball<Rational>((*exact)[k]);
-                InSimplex in{.inside = true, .proved = true};
-                Rational sum = 0;
-                for (std::size_t k = 0; k + 1 < corners; ++k) sum += (*exact)[k];
-                for (std::size_t c = 0; c < corners; ++c) {
-                    const Rational l = c == 0 ? Rational(1 - sum) : (*exact)[c - 1];
-                    if (l < 0) in.inside = false;
-                    if (l == 0) in.zeros |= 1U << c;
-                }
-                if (in.inside) return in;
-            } else {
-                std::array<Ball<Wide<300>>, 3> wide;
-                if (inverse.enclose<Wide<300>>(wide, 0x1p-250)) {
-                    if (auto found = judge(wide, true); found && found->inside) return *found;
-                }
+        const bool enclosed = inverse.enclose<TwoDoubles>(x, 0x1p-88);
+        std::optional<InSimplex> found = enclosed ? judge(x, false) : std::nullopt;
+        Vector<double> about{};
+        for (std::size_t k = 0; k + 1 < corners; ++k) about[k] = x[k].mid.high;
+        // On a facet or about there: exactly, or with more digits.
+        const auto exact = enclosed && !found ? inverse.exactly(about) : std::nullopt;
+        if (exact) {
+            found = {.inside = true, .proved = true};
+            Rational sum = 0;
+            for (std::size_t k = 0; k + 1 < corners; ++k) sum += (*exact)[k];
+            for (std::size_t c = 0; c < corners; ++c) {
+                const Rational l = c == 0 ? Rational(1 - sum) : (*exact)[c - 1];
+                if (l < 0) found->inside = false;
+                if (l == 0) found->zeros |= 1U << c;
             }
+        } else if (enclosed && !found) {
+            std::array<Ball<Wide<300>>, 3> wide;
+            if (inverse.enclose<Wide<300>>(wide, 0x1p-250)) found = judge(wide, true);
         }
+        if (found && found->inside) return *found;
     }
     // Not where Newton's method went: nowhere?
     constexpr Search::Corners corners_at{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

@@ -39,8 +39,8 @@ MappedCells::MappedCells(const Mesh& mesh, bool products, bool curves)
         if (reference->is_simplex()) return;
         of_products.fetch_add(1, std::memory_order_relaxed);
         for_sides(whole, [&](const std::array<Mesh::Index, 4>& ring, unsigned bit) {
-            if (orient3d(at(ring[0]), at(ring[1]), at(ring[2]), at(ring[3])) != Sign::zero)
-                warped_[whole] = static_cast<std::uint8_t>(warped_[whole] | bit);
+            const Sign turned = orient3d(at(ring[0]), at(ring[1]), at(ring[2]), at(ring[3]));
+            if (turned != Sign::zero) warped_[whole] = static_cast<std::uint8_t>(warped_[whole] | bit);
         });
     });
     unproved_ = unproved;
@@ -77,7 +77,7 @@ MappedCells::NodeTable MappedCells::rounded_nodes() const {
             if (edges[e][0] == corner || edges[e][1] == corner || (maps_.curved_edges(cell) >> e & 1U) != 0) continue;
             const Mesh::Index node = mesh_.mid_nodes[cell * edges.size() + e];
             const auto [at, first] =
-                table.try_emplace(bits_of(this->at(node)), static_cast<Mesh::Index>(cell), Feature::edge);
+                table.try_emplace(bits_of(this->at(node)), Location{static_cast<Mesh::Index>(cell), Feature::edge});
             at->second.cell = std::min(at->second.cell, static_cast<Mesh::Index>(cell));
         }
     }
@@ -121,27 +121,21 @@ iso::InSimplex MappedCells::in_curved(std::size_t whole, const double* point) co
     }
     unsigned flat = 0;
     std::array<int, 4> beyond{};
-    if (!has_shapes()) {
-        const auto edges = mesh::edges_of(mesh_.dimension);
-        const std::size_t corners = mesh_.corners();
-        const WeightSigns signs = in_part(static_cast<Mesh::Index>(whole), point);
-        for (std::size_t c = 0; c < corners; ++c) {
-            bool straight = true;
-            for (std::size_t e = 0; e < edges.size(); ++e)
-                straight =
-                    straight && (edges[e][0] == c || edges[e][1] == c || (maps_.curved_edges(whole) >> e & 1U) == 0);
-            flat |= straight && !signs.degenerate() ? 1U << c : 0U;
-            beyond[c] = static_cast<int>(signs.sign(static_cast<int>(c)));
-        }
+    const auto edges = mesh::edges_of(mesh_.dimension);
+    const WeightSigns signs = in_part(first_part(whole), point);
+    for (std::size_t c = 0; c < mesh_.corners(); ++c) {
+        bool straight = !has_shapes() && !signs.degenerate();
+        for (std::size_t e = 0; e < edges.size(); ++e)
+            straight = straight && (edges[e][0] == c || edges[e][1] == c || (maps_.curved_edges(whole) >> e & 1U) == 0);
+        flat |= straight ? 1U << c : 0U;
+        beyond[c] = static_cast<int>(signs.sign(static_cast<int>(c)));
     }
     return iso::locate_in_simplex(reference, maps_.places(whole), point, flat, beyond);
 }
 
 void MappedCells::add_curved(const double* point, std::vector<Location>& found) const {
     if (curved_tree_ == nullptr) return;
-    index::Box box{};
-    std::copy_n(point, static_cast<std::size_t>(mesh_.dimension), box.low.begin());
-    box.high = box.low;
+    const index::Box box = index::box_of(mesh_.dimension, &point, 1);
     curved_tree_->for_each(box, [&](std::uint32_t i) {
         const auto whole = static_cast<std::size_t>(curved_[i]);
         const iso::InSimplex in = in_curved(whole, point);
@@ -179,12 +173,11 @@ Location MappedCells::owner(const double* point, Location in_parts, const AllInP
     if (is_mapped(in_parts.cell) && in_parts.feature == Feature::interior && products_ &&
         !maps_.reference(whole(in_parts.cell))->is_simplex()) {
         // Inside one of its parts, the cells across its own sides are all that could hold it, too.
-        if (!in_some_side(whole(in_parts.cell), point)) return {first_part(whole(in_parts.cell)), Feature::interior};
+        if (held(whole(in_parts.cell), point, Feature::interior) == Feature::interior)
+            return {first_part(whole(in_parts.cell)), Feature::interior};
         near = true;
     }
-    index::Box box{};
-    std::copy_n(point, static_cast<std::size_t>(mesh_.dimension), box.low.begin());
-    box.high = box.low;
+    const index::Box box = index::box_of(mesh_.dimension, &point, 1);
     const auto some = [&](std::uint32_t) { return near = true, false; };
     if (tree_ != nullptr && !near) tree_->for_each(box, some);
     if (curved_tree_ != nullptr && !near) {
@@ -215,9 +208,7 @@ Location MappedCells::owner(const double* point, Location in_parts, const AllInP
 void MappedCells::all_owners(const double* point, std::vector<Location>& all) const {
     std::vector<std::size_t> wholes;
     for (const Location& own : all) wholes.push_back(whole(own.cell));
-    index::Box box{};
-    std::copy_n(point, static_cast<std::size_t>(mesh_.dimension), box.low.begin());
-    box.high = box.low;
+    const index::Box box = index::box_of(mesh_.dimension, &point, 1);
     if (tree_ != nullptr) {
         tree_->for_each(box, [&](std::uint32_t i) {
             for (const Mesh::Index cell : sides_[i].cells) {

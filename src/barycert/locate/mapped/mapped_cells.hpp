@@ -111,8 +111,6 @@ private:
     void for_sides(std::size_t whole,
                    const std::function<void(const std::array<Mesh::Index, 4>&, unsigned)>& use) const;
     void find_sides();
-    /// Whether the tetrahedron of one of its sides that are not flat holds the point.
-    bool in_some_side(std::size_t whole, const double* point) const;
     /// Whether a cell holds the point, and where; in_parts: what its parts say.
     Feature held(std::size_t whole, const double* point, Feature in_parts) const;
     WeightSigns in_part(Mesh::Index cell, const double* point) const;

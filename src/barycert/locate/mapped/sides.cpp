@@ -47,17 +47,13 @@ Sign sign_of_saddle(const std::array<const double*, 4>& n, const double* p) {
     return static_cast<Sign>(exact.sign());
 }
 
-bool in_tetrahedron(const std::array<const double*, 4>& n, const double* p) {
-    const Sign whole = orient3d(n[0], n[1], n[2], n[3]);
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (side_of_plane(n, i, p) * whole == Sign::negative) return false;
-    }
-    return true;
-}
-
 InSide look(const std::array<const double*, 4>& n, const double* p) {
-    const Sign whole = orient3d(n[0], n[1], n[2], n[3]);
     InSide out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax({n[0][k], n[1][k], n[2][k], n[3][k]});
+        if (p[k] < low || p[k] > high) return out;
+    }
+    const Sign whole = orient3d(n[0], n[1], n[2], n[3]);
     for (std::size_t i = 0; i < 4; ++i) {
         const Sign own = side_of_plane(n, i, p) * whole;
         if (own == Sign::negative) return out;
@@ -68,60 +64,26 @@ InSide look(const std::array<const double*, 4>& n, const double* p) {
     return out;
 }
 
-/// The faces with four corners of a linear solid, by places of its nodes in the order of the reference cell.
-struct Quads {
-    std::array<std::array<std::uint8_t, 4>, 6> corners{};
-    std::size_t count = 0;
-};
-
-const Quads& quads_of(std::uint8_t type) {
-    static const auto all = [] {
-        std::array<Quads, 17> quads;
-        for (std::uint8_t t = 10; t < 17; ++t) {
-            std::string_view faces = mesh::shape_of(t == 11 ? 12 : t).faces;
-            while (!faces.empty()) {
-                const std::size_t end = std::min(faces.find(' '), faces.size());
-                if (end == 4 && quads[t].count < 6) {
-                    auto& own = quads[t].corners[quads[t].count++];
-                    std::ranges::transform(faces.substr(0, 4), own.begin(),
-                                           [](char c) { return static_cast<std::uint8_t>(c - '0'); });
-                }
-                faces.remove_prefix(std::min(end + 1, faces.size()));
-            }
-        }
-        return quads;
-    }();
-    return all[type < all.size() ? type : 0];
+/// CellMaps has the nodes of a voxel in the order of a hexahedron.
+const std::vector<std::vector<Mesh::Index>>& faces_of(std::uint8_t type) {
+    return mesh::rings_of(type == 11 ? 12 : type);
 }
 
 }  // namespace
 
 void MappedCells::for_sides(std::size_t shape,
                             const std::function<void(const std::array<Mesh::Index, 4>&, unsigned)>& use) const {
+    if (mesh_.dimension == 2) return;
     const mesh::CellMaps::Nodes nodes = maps_.nodes(shape);
-    const Quads& quads = quads_of(mesh_.dimension == 2 ? 0 : mesh_.shapes.types[shape]);
-    for (std::size_t side = 0; side < quads.count; ++side) {
+    unsigned bit = 1;
+    for (const auto& corners : faces_of(mesh_.shapes.types[shape])) {
+        if (corners.size() != 4) continue;
         std::array<Mesh::Index, 4> ring{};
-        std::ranges::transform(quads.corners[side], ring.begin(), [&](std::uint8_t c) { return nodes.at[c]; });
-        use(ring, 1U << side);
+        std::ranges::transform(corners, ring.begin(),
+                               [&](Mesh::Index c) { return nodes.at[static_cast<std::size_t>(c)]; });
+        use(ring, bit);
+        bit <<= 1U;
     }
-}
-
-bool MappedCells::in_some_side(std::size_t shape, const double* point) const {
-    const mesh::CellMaps::Nodes nodes = maps_.nodes(shape);
-    const Quads& quads = quads_of(mesh_.shapes.types[shape]);
-    for (std::size_t side = 0; side < quads.count; ++side) {
-        if ((warped_[shape] >> side & 1U) == 0) continue;
-        std::array<const double*, 4> p{};
-        std::ranges::transform(quads.corners[side], p.begin(), [&](std::uint8_t c) { return at(nodes.at[c]); });
-        bool in_box = true;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax({p[0][k], p[1][k], p[2][k], p[3][k]});
-            in_box = in_box && low <= point[k] && point[k] <= high;
-        }
-        if (in_box && in_tetrahedron(p, point)) return true;
-    }
-    return false;
 }
 
 void MappedCells::find_sides() {
@@ -195,23 +157,22 @@ std::uint64_t MappedCells::active_nodes(std::size_t shape, const double* point) 
         }
         return active;
     }
-    const auto& places = maps_.places(shape).at;
     const bool flat = mesh_.dimension == 2;
-    const std::uint8_t type = mesh_.shapes.types[shape];
-    std::string_view faces = flat ? "01 12 23 30" : mesh::shape_of(type == 11 ? 12 : type).faces;
-    for (; !faces.empty(); faces.remove_prefix(std::min(faces.find(' '), faces.size() - 1) + 1)) {
+    const auto& faces = faces_of(mesh_.shapes.types[shape]);
+    const std::size_t count = flat ? faces.front().size() : faces.size();
+    for (std::size_t face = 0; face < count; ++face) {
+        const std::vector<Mesh::Index>& ring = flat ? faces.front() : faces[face];
         std::array<const double*, 4> n{};
         std::uint64_t own = 0;
-        std::size_t count = 0;
-        for (; count < 4 && count < faces.size() && faces[count] != ' '; ++count) {
-            const auto place = static_cast<std::size_t>(faces[count] - '0');
-            n[count] = places[place];
+        for (std::size_t i = 0; i < (flat ? 2 : ring.size()); ++i) {
+            const auto place = static_cast<std::size_t>(ring[(i + (flat ? face : 0)) % ring.size()]);
+            n[i] = at(nodes.at[place]);
             own |= std::uint64_t{1} << place;
         }
-        const auto in_triangle = [&](std::size_t i, std::size_t j, std::size_t k) {
-            if (orient3d(n[i], n[j], n[k], point) != Sign::zero) return false;
+        const auto in_triangle = [&](std::size_t j, std::size_t k) {
+            if (orient3d(n[0], n[j], n[k], point) != Sign::zero) return false;
             std::array<double, 9> vertices{};
-            std::copy_n(n[i], 3, vertices.begin());
+            std::copy_n(n[0], 3, vertices.begin());
             std::copy_n(n[j], 3, vertices.begin() + 3);
             std::copy_n(n[k], 3, vertices.begin() + 6);
             return weight_signs(Simplex::triangle3d, vertices.data(), point).contains();
@@ -219,16 +180,15 @@ std::uint64_t MappedCells::active_nodes(std::size_t shape, const double* point) 
         bool on = false;
         if (flat) {
             on = orient2d(n[0], n[1], point) == Sign::zero;  // of a convex cell that holds the point
-        } else if (count == 3) {
-            on = in_triangle(0, 1, 2);
+        } else if (ring.size() == 3) {
+            on = in_triangle(1, 2);
         } else if (orient3d(n[0], n[1], n[2], n[3]) == Sign::zero) {
-            on = in_triangle(0, 1, 2) || in_triangle(0, 2, 3);
+            on = in_triangle(1, 2) || in_triangle(2, 3);
         } else {
             const InSide in = look(n, point);
             on = in.holds && in.inner == Sign::zero;
         }
         if (on) active &= own;
-        if (faces.size() == count) break;
     }
     return active;
 }
