@@ -109,14 +109,26 @@ inline void settle_mapped(const LocatorData& data, std::span<const double> point
     const LocationCounts found = base::parallel_reduce(
         cells.size(), std::size_t{1} << 12, LocationCounts(),
         [&](std::size_t first, std::size_t last, LocationCounts& part) {
-            for (std::size_t i = first; i < last; ++i) {
-                const Location own = base::all_finite(points.subspan(d * i, d))
-                                         ? data.settle(&points[d * i], {cells[i], features[i]})
-                                         : Location{};
+            const auto set = [&](std::size_t i, const Location& own) {
                 cells[i] = own.cell;
                 features[i] = own.feature;
                 part.add(own.feature);
+            };
+            const auto settle = [&](std::size_t i) { set(i, data.settle(&points[d * i], {cells[i], features[i]})); };
+            const auto use = [&](const MappedCells::Batch& batch, std::size_t lane, bool inside) {
+                const std::size_t i = batch.rows[lane];
+                if (!inside) return settle(i);
+                set(i, {data.mapped->first_part_of(cells[i]), Feature::interior});
+            };
+            MappedLanes lanes(*data.mapped, {}, 0, use);
+            for (std::size_t i = first; i < last; ++i) {
+                if (!base::all_finite(points.subspan(d * i, d))) {
+                    set(i, {});
+                } else if (features[i] != Feature::interior || !lanes.push(cells[i], features[i], &points[d * i], i)) {
+                    settle(i);
+                }
             }
+            lanes.flush();
         },
         [](LocationCounts& all, const LocationCounts& part) { all.add(part); });
     const auto [tests, ways] = std::pair(counts.tests, counts.ways);

@@ -192,7 +192,14 @@ void evaluate_some(const LaneCases& cases, std::size_t first, std::uint64_t& cer
     certain = hn::And(certain, hn::And(hn::Lt(m, hn::Set(tag, 0.25)), hn::Le(radius, hn::Set(tag, 0x1p-20))));
     certain = hn::And(certain, hn::Le(y_size, hn::Set(tag, 0x1p330)));
     const V error = (hn::Set(tag, 2) * by * m + off + hn::Set(tag, 5 * u * u)) * more;
-    for (int k = 0; k < 3; ++k) from[k] = from[k] - d[k];
+    for (int k = 0; k < 3; ++k) {
+        from[k] = from[k] - d[k];
+        if (cases.components != 0) continue;
+        V room = from[k].high;  // each sum is off by less than 2 u
+        if (k == 2 || !cases.wedge) room = hn::Min(room, one - room);
+        if (k == 1 && cases.wedge) room = hn::Min(room, one - from[0].high - from[1].high);
+        certain = hn::And(certain, hn::Gt(room, hn::Set(tag, 3) * error + hn::Set(tag, 8 * u)));
+    }
     functions(tag, cases.wedge, unit, from, n);
     for (std::size_t c = 0; c < cases.components; ++c) {
         V most = zero;

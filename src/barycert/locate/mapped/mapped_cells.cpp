@@ -5,7 +5,6 @@
 #include <bit>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/core/isoparametric/lanes.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/mesh/pulling.hpp"
@@ -169,22 +168,22 @@ Feature MappedCells::in_parts(std::size_t whole, const double* point) const {
 }
 
 Location MappedCells::owner(const double* point, Location in_parts, const AllInParts& all_in_parts) const {
+    const bool mapped = is_mapped(in_parts.cell);
+    const std::size_t own = mapped ? whole(in_parts.cell) : 0;
+    const bool curved = mapped && maps_.reference(own)->is_simplex();
+    // Inside a cell and one of its parts, it is in none of the cells across its sides: no others could hold it, too.
+    if (mapped && !curved && in_parts.feature == Feature::interior &&
+        held(own, point, in_parts.feature) == in_parts.feature)
+        return {first_part(own), Feature::interior};
     bool near = false;
-    if (is_mapped(in_parts.cell) && in_parts.feature == Feature::interior && products_ &&
-        !maps_.reference(whole(in_parts.cell))->is_simplex()) {
-        // Inside one of its parts, the cells across its own sides are all that could hold it, too.
-        if (held(whole(in_parts.cell), point, Feature::interior) == Feature::interior)
-            return {first_part(whole(in_parts.cell)), Feature::interior};
-        near = true;
-    }
     const index::Box box = index::box_of(mesh_.dimension, &point, 1);
     const auto some = [&](std::uint32_t) { return near = true, false; };
-    if (tree_ != nullptr && !near) tree_->for_each(box, some);
+    if (tree_ != nullptr) tree_->for_each(box, some);
     if (curved_tree_ != nullptr && !near) {
         // Inside a curved cell, and not on its sides, it is nowhere else.
-        if (is_mapped(in_parts.cell) && maps_.reference(whole(in_parts.cell))->is_simplex()) {
-            const iso::InSimplex in = in_curved(whole(in_parts.cell), point);
-            if (in.inside && in.zeros == 0 && in.proved) return {first_part(whole(in_parts.cell)), Feature::interior};
+        if (curved) {
+            const iso::InSimplex in = in_curved(own, point);
+            if (in.inside && in.zeros == 0 && in.proved) return {first_part(own), Feature::interior};
             near = true;
         }
         if (!near) curved_tree_->for_each(box, some);
@@ -247,7 +246,7 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
     const auto d = static_cast<std::size_t>(mesh_.dimension);
     std::size_t components = 0, first = 0, at_node = nodes.count;
     for (const Field* const field : fields) components += static_cast<std::size_t>(field->components);
-    scratch.values.resize(nodes.count * components);
+    scratch.resize(nodes.count * components);
     bool finite = true;
     for (const Field* const field : fields) {
         const auto width = static_cast<std::size_t>(field->components);
@@ -255,7 +254,7 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
             for (std::size_t c = 0; c < width; ++c) {
                 const double x = field->data[static_cast<std::size_t>(nodes.at[i]) * width + c];
                 finite = finite && std::isfinite(x);
-                scratch.values[i * components + first + c] = x;
+                scratch[i * components + first + c] = x;
             }
         }
         first += width;
@@ -267,44 +266,40 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
     }
     if (at_node != nodes.count) {
         for (std::size_t c = 0; c < components; ++c) {
-            const double x = scratch.values[at_node * components + c];
+            const double x = scratch[at_node * components + c];
             out[c] = std::isfinite(x) ? x + 0.0 : std::numeric_limits<double>::quiet_NaN();
         }
         return {iso::Certainty::proved, Tier::filter};
     }
     const std::uint64_t active = finite ? ~std::uint64_t{0} : active_nodes(whole(cell), point);
-    return iso::evaluate(*reference, maps_.places(whole(cell)), point, active, scratch.values.data(), components, out);
+    return iso::evaluate(*reference, maps_.places(whole(cell)), point, active, scratch.data(), components, out);
 }
 
-bool MappedCells::set_lane(Mesh::Index cell, Feature feature, const double* point,
-                           const std::vector<const Field*>& fields, std::size_t lane, double* places, double* points,
-                           double* values) const {
+bool MappedCells::add(Mesh::Index cell, Feature feature, const double* point, const std::vector<const Field*>& fields,
+                      bool wedges, Batch& to) const {
     constexpr std::array<std::array<std::uint8_t, 8>, 3> corners{
         {{0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 0, 3, 4, 5, 3}, {0, 1, 2, 3, 4, 4, 4, 4}}};
-    const std::size_t own = whole(cell);
-    const std::uint8_t type = has_shapes() ? mesh_.shapes.types[own] : 0;
-    if (sign_[own] == 0 || type < 11 || type > 14 || feature == Feature::vertex) return false;
-    const mesh::CellMaps::Nodes nodes = maps_.nodes(own);
+    if (!is_mapped(cell) || !has_shapes() || feature == Feature::vertex) return false;
+    const std::uint8_t type = mesh_.shapes.types[whole(cell)];
+    if (type < 11 || type > 14 || (type == 13) != wedges) return false;
+    const mesh::CellMaps::Nodes nodes = maps_.nodes(whole(cell));
     const auto& corner = corners[type == 13 ? 1 : type == 14 ? 2 : 0];
     for (std::size_t i = 0; i < 8; ++i) {
         const auto node = static_cast<std::size_t>(nodes.at[corner[i]]);
-        for (std::size_t k = 0; k < 3; ++k) places[(3 * i + k) * iso::max_lanes + lane] = mesh_.points[3 * node + k];
+        for (std::size_t k = 0; k < 3; ++k) to.places[(3 * i + k) * Batch::max + to.count] = mesh_.points[3 * node + k];
         std::size_t c = i;
         for (const Field* const field : fields) {
             const auto width = static_cast<std::size_t>(field->components);
             for (std::size_t w = 0; w < width; ++w, c += 8) {
                 const double x = field->data[node * width + w];
                 if (!std::isfinite(x)) return false;
-                values[c * iso::max_lanes + lane] = x;
+                to.values[c * Batch::max + to.count] = x;
             }
         }
     }
-    for (std::size_t k = 0; k < 3; ++k) points[k * iso::max_lanes + lane] = point[k];
+    for (std::size_t k = 0; k < 3; ++k) to.point[k * Batch::max + to.count] = point[k];
+    to.cells[to.count++] = cell;
     return true;
-}
-
-bool MappedCells::is_wedge(Mesh::Index cell) const {
-    return has_shapes() && mesh_.shapes.types[whole(cell)] == 13;
 }
 
 mesh::CellMaps::Nodes MappedCells::weights(Mesh::Index cell, const double* point, double* out) const {

@@ -20,6 +20,7 @@
 #include <unordered_map>
 
 #include "barycert/base/random.hpp"
+#include "barycert/core/isoparametric/lanes.hpp"
 #include "barycert/index/box_tree.hpp"
 #include "barycert/locate/lazy.hpp"
 #include "barycert/locator.hpp"
@@ -54,22 +55,29 @@ public:
     /// Likewise of all cells that hold it, ascending; `in_parts` has one entry a cell, and none outside.
     void all_owners(const double* point, std::vector<Location>& in_parts) const;
 
+    Mesh::Index first_part_of(Mesh::Index cell) const { return first_part(whole(cell)); }
     /// The part of a mapped cell that holds the point, or the first.
     Mesh::Index part_at(Mesh::Index cell, const double* point) const;
 
-    struct Scratch {
-        std::vector<double> values;
-    };
+    using Scratch = std::vector<double>;
     /// All components of fields of nodes, one field after the other, where evaluates(). NaN as in V2 of sampler.hpp.
     core::isoparametric::Evaluated evaluate(Mesh::Index cell, Feature feature, const double* point,
                                             const std::vector<const Field*>& fields, Scratch& scratch,
                                             double* out) const;
-    // For core/isoparametric/lanes.hpp.
-    bool is_wedge(Mesh::Index cell) const;
-    /// Sets the case of that lane; false of other cells than hexahedra, voxels, wedges and pyramids, at a vertex, and
-    /// where a value is not finite. `values`: 8 rows a component.
-    bool set_lane(Mesh::Index cell, Feature feature, const double* point, const std::vector<const Field*>& fields,
-                  std::size_t lane, double* places, double* points, double* values) const;
+    /// Cases for core/isoparametric/lanes.hpp.
+    struct Batch {
+        static constexpr std::size_t max = core::isoparametric::max_lanes;
+        std::size_t count = 0;
+        std::array<double, 24 * max> places{};
+        std::array<double, 3 * max> point{};
+        std::vector<double> values, out;  ///< 8 rows, and one, a component
+        std::array<std::size_t, max> rows{};
+        std::array<Mesh::Index, max> cells{};
+    };
+    /// Adds a case; false for other cells than hexahedra, voxels, pyramids and (`wedges`) wedges, at a vertex, and
+    /// where a value is not finite.
+    bool add(Mesh::Index cell, Feature feature, const double* point, const std::vector<const Field*>& fields,
+             bool wedges, Batch& to) const;
     /// Nodes of a mapped cell, and its shape functions at the point, each rounded once; none if they are not found.
     mesh::CellMaps::Nodes weights(Mesh::Index cell, const double* point, double* out) const;
 
@@ -129,6 +137,47 @@ private:
     std::unique_ptr<index::BoxTree> curved_tree_;
     Lazy<NodeTable> nodes_;
     std::uint64_t unproved_ = 0;
+};
+
+/// Cases on lanes: use(batch, lane, proved) for each, when some are together.
+template <class Use>
+class MappedLanes {
+public:
+    MappedLanes(const MappedCells& cells, std::vector<const Field*> fields, std::size_t components, Use use)
+        : cells_(cells), fields_(std::move(fields)), use_(std::move(use)) {
+        for (Batch& batch : batches_) {
+            batch.values.assign(8 * Batch::max * components, 0);
+            batch.out.resize(Batch::max * components);
+        }
+    }
+    /// False, and nothing done, for what is no such case.
+    bool push(Mesh::Index cell, Feature feature, const double* point, std::size_t row) {
+        for (Batch& batch : batches_) {
+            if (!cells_.add(cell, feature, point, fields_, &batch == &batches_[1], batch)) continue;
+            batch.rows[batch.count - 1] = row;
+            if (batch.count == Batch::max) flush(batch);
+            return true;
+        }
+        return false;
+    }
+    void flush() {
+        for (Batch& batch : batches_) flush(batch);
+    }
+
+private:
+    using Batch = MappedCells::Batch;
+    void flush(Batch& batch) {
+        const std::size_t count = std::exchange(batch.count, 0);
+        const std::uint32_t proved =
+            core::isoparametric::evaluate_lanes({count, &batch == &batches_[1], batch.places.data(), batch.point.data(),
+                                                 batch.values.data(), batch.out.size() / Batch::max, batch.out.data()});
+        for (std::size_t i = 0; i < count; ++i) use_(batch, i, (proved >> i & 1U) != 0);
+    }
+
+    const MappedCells& cells_;
+    std::vector<const Field*> fields_;
+    Use use_;
+    std::array<Batch, 2> batches_;  ///< of wedges the second
 };
 
 }  // namespace barycert::locate

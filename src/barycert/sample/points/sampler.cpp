@@ -193,75 +193,6 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     out.distances.assign(gives_distances(options.outside) ? rows : 0, 0);
 }
 
-/// Rows of points in hexahedra and the like, some at a time.
-class MappedLanes {
-public:
-    using Alone = std::function<void(std::size_t row)>;
-
-    /// `alone`: for a row whose values are not proved on lanes.
-    MappedLanes(const SamplerData& data, Rounding rounding, double* rows, Alone alone)
-        : data_(data), rounding_(rounding), rows_(rows), alone_(std::move(alone)) {
-        for (Batch& batch : batches_) {
-            batch.values.assign(8 * max * data.point_components, 0);
-            batch.out.resize(max * data.point_components);
-        }
-    }
-
-    /// False, and nothing done, for what is no such row.
-    bool push(Mesh::Index cell, Feature feature, const double* point, std::size_t row) {
-        const locate::MappedCells& mapped = *data_.located().mapped;
-        if (data_.point_components == 0 || !mapped.is_mapped(cell)) return false;
-        Batch& batch = batches_[mapped.is_wedge(cell) ? 1 : 0];
-        if (!mapped.set_lane(cell, feature, point, data_.point_fields, batch.count, batch.places.data(),
-                             batch.point.data(), batch.values.data()))
-            return false;
-        batch.rows[batch.count] = row;
-        batch.cells[batch.count] = cell;
-        if (++batch.count == max) flush(batch);
-        return true;
-    }
-    void flush() {
-        for (Batch& batch : batches_) flush(batch);
-    }
-    const SampleCounts& counts() const { return counts_; }
-
-private:
-    static constexpr std::size_t max = core::isoparametric::max_lanes;
-    struct Batch {
-        std::size_t count = 0;
-        std::array<double, 24 * max> places{};
-        std::array<double, 3 * max> point{};
-        std::vector<double> values, out;
-        std::array<std::size_t, max> rows{};
-        std::array<Mesh::Index, max> cells{};
-    };
-
-    void flush(Batch& batch) {
-        if (batch.count == 0) return;
-        const std::uint32_t proved = core::isoparametric::evaluate_lanes(
-            {batch.count, &batch == &batches_[1], batch.places.data(), batch.point.data(), batch.values.data(),
-             data_.point_components, batch.out.data()});
-        for (std::size_t i = 0; i < batch.count; ++i) {
-            if ((proved >> i & 1U) == 0) {
-                alone_(batch.rows[i]);
-                continue;
-            }
-            double* const row = rows_ + data_.width * batch.rows[i];
-            for (std::size_t c = 0; c < data_.point_components; ++c) row[c] = batch.out[c * max + i];
-            if (data_.has_rest()) set_rest_of_row(data_, rounding_, batch.cells[i], nullptr, row);
-            counts_.values.add(Tier::double_double);
-        }
-        batch.count = 0;
-    }
-
-    const SamplerData& data_;
-    Rounding rounding_;
-    double* rows_;
-    Alone alone_;
-    std::array<Batch, 2> batches_;  ///< of wedges the second
-    SampleCounts counts_;
-};
-
 /// The row of a point in a cell with a map; false, and nothing set, if the map was not inverted.
 bool sample_mapped(const SamplerData& data, Rounding rounding, Mesh::Index cell, Feature feature, const double* point,
                    locate::MappedCells::Scratch& scratch, double* row, SampleCounts& counts) {
@@ -422,8 +353,16 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
             record.number = static_cast<std::uint32_t>(row);
             sampler.push(record, places[static_cast<std::size_t>(part)], features[row]);
         };
-        std::optional<sample::MappedLanes> lanes;
-        if (mapped != nullptr) lanes.emplace(*data_, options.rounding, rows.values, alone);
+        const std::size_t components = data_->point_components;
+        const auto set_row = [&](const locate::MappedCells::Batch& batch, std::size_t lane, bool proved) {
+            if (!proved) return alone(batch.rows[lane]);
+            double* const row = rows.values + data_->width * batch.rows[lane];
+            for (std::size_t c = 0; c < components; ++c) row[c] = batch.out[c * batch.max + lane];
+            if (data_->has_rest()) sample::set_rest_of_row(*data_, options.rounding, batch.cells[lane], nullptr, row);
+            of_maps.values.add(Tier::double_double);
+        };
+        std::optional<locate::MappedLanes<decltype(set_row)>> lanes;
+        if (mapped != nullptr) lanes.emplace(*mapped, data_->point_fields, components, set_row);
         for (std::size_t row = first; row < last; ++row) {
             locate::PointRecord record{};
             std::copy_n(&points[d * row], d, record.at.begin());
@@ -436,7 +375,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
             if (owner >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner)]);
             if (mapped == nullptr || !mapped->evaluates(cells[row], record.at.data())) {
                 sampler.push(record, owner, features[row]);
-            } else if (!lanes->push(cells[row], features[row], record.at.data(), row)) {
+            } else if (components == 0 || !lanes->push(cells[row], features[row], record.at.data(), row)) {
                 alone(row);
             }
         }
@@ -444,7 +383,6 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
         sampler.flush();
         counts = sampler.counts();
         counts.add(of_maps);
-        if (lanes) counts.add(lanes->counts());
     };
     const SampleCounts counts = base::in_arena(options.threads, count, [&] {
         return base::parallel_reduce(count, grain, SampleCounts{}, evaluate_rows,
