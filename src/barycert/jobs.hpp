@@ -35,7 +35,7 @@ struct MeshJob {
     std::string mesh;      ///< as for read_mesh
     StepChoice step = {};  ///< of a mesh that is a series (.pvd, .vtu.series); none: the first
     std::vector<FieldFile> field_files = {};
-    Curved curved = Curved::isoparametric;                                  ///< what becomes of curved cells
+    Curved curved = Curved::isoparametric;                             ///< what becomes of curved cells
     CellInterpolation cell_interpolation = CellInterpolation::linear;  ///< of sampling and verification
 
     /// Where the caller will write reports, after what it calls them: checked with the files of the job.

@@ -117,8 +117,8 @@ struct Mesh {
     std::size_t face_count() const { return faces.size() / 3; }
 };
 
-/// Second-order cells whose sides are not straight. Locators and samplers take them as they are (locator.hpp); what else
-/// is said of meshes is exact for straight sides, and for the file's own shapes only up to about `max_deviation`.
+/// Second-order cells whose sides are not straight. Locators and samplers take them as they are (locator.hpp); what
+/// else is said of meshes is exact for straight sides, and for the file's own shapes only up to about `max_deviation`.
 ///
 /// The deviation of a mid-edge node is its distance from the middle of the two ends, over their distance. It is
 ///   nothing   up to 2^-49 of the largest coordinate of the ends, on each axis: a middle computed in double, or written
@@ -136,8 +136,8 @@ struct CurvedCells {
     bool mapped = false;              ///< they are taken as they are
 };
 
-/// Leaves out cells with an index that is no node, and coordinates that are not finite. `each`, if given: of each cell a
-/// bit for each of its mid-edge nodes that is off the middle by a curve; empty if none is.
+/// Leaves out cells with an index that is no node, and coordinates that are not finite. `each`, if given: of each cell
+/// a bit for each of its mid-edge nodes that is off the middle by a curve; empty if none is.
 CurvedCells curved_cells(const Mesh& mesh, std::vector<std::uint8_t>* each = nullptr);
 
 /// In one sentence, empty if all sides are straight.

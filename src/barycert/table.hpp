@@ -73,7 +73,7 @@ struct SampleCounts {
     /// Points in cells with a map whose values are not proved to be those of the map, rounded once: they are one of two
     /// neighbouring doubles, or those of the cell's parts.
     std::uint64_t unproved = 0;
-    double farthest = 0;              ///< max distance of those snapped or extrapolated
+    double farthest = 0;  ///< max distance of those snapped or extrapolated
 
     void add(const SampleCounts& other);
 };

@@ -1,4 +1,4 @@
-// Curved second-order cells: every command that reads a mesh says first that it took their sides as straight.
+// Curved second-order cells: every command that reads a mesh says first how it took their sides.
 
 #include <gtest/gtest.h>
 
@@ -45,6 +45,11 @@ std::vector<Words> commands(const Scratch& scratch, const std::string& mesh) {
             {"gaps", mesh, "--kernel", "tetrahedron.signed-volume", "--count", "10"}};
 }
 
+/// All others take their sides as straight.
+bool takes_curves(const Words& command) {
+    return command[0] == "sample" || command[0] == "resample" || command[0] == "verify";
+}
+
 TEST(Curved, EveryCommandSaysSoFirst) {
     const Scratch scratch;
     const std::string mesh = put_curved(scratch);
@@ -54,13 +59,16 @@ TEST(Curved, EveryCommandSaysSoFirst) {
          {Words{}, Words{"--wide"}, Words{"--kernel", "tetrahedron.signed-volume"}, Words{"--kernel", "tetrahedron.*"}})
         all.push_back(plus(audit, more));
     for (const Words& command : all) {
-        const Ended ended = run(command);
-        EXPECT_NE(ended.code, 2) << ended.err;
-        const std::string said = ended.out.substr(0, ended.out.find("as straight"));
-        EXPECT_TRUE(contains(said, told)) << ended.out;
-        EXPECT_LT(said.size(), 200U) << ended.out;  // nothing stands before it
-        EXPECT_FALSE(contains(ended.out, "exact, rounded once")) << ended.out;
-        EXPECT_FALSE(contains(ended.out, "certified:")) << ended.out;
+        for (const bool straight : {false, true}) {
+            const bool mapped = !straight && takes_curves(command);
+            const Ended ended = run(straight ? plus(command, {"--curved", "straight"}) : command);
+            EXPECT_NE(ended.code, 2) << ended.err;
+            const std::string said = ended.out.substr(0, ended.out.find(mapped ? "as they are" : "as straight"));
+            EXPECT_TRUE(contains(said, told)) << ended.out;
+            EXPECT_LT(said.size(), 200U) << ended.out;  // nothing stands before it
+            EXPECT_TRUE(mapped || !contains(ended.out, "exact, rounded once")) << ended.out;
+            EXPECT_TRUE(mapped || !contains(ended.out, "certified:")) << ended.out;
+        }
     }
 }
 
@@ -75,8 +83,10 @@ TEST(Curved, JsonHasTheFigures) {
         EXPECT_EQ(j["curved"]["rounded_cells"], 0);
         EXPECT_EQ(j.contains("onto_curved"), command[0] == "resample" && command[2] == "--onto");
         if (j.contains("onto_curved")) {
-            EXPECT_EQ(j["onto_curved"], j["curved"]);
+            EXPECT_EQ(j["onto_curved"]["max_deviation"], j["curved"]["max_deviation"]);
+            EXPECT_EQ(j["onto_curved"]["mapped"], false);  // its nodes are all that is asked for
         }
+        EXPECT_EQ(j["curved"]["mapped"], takes_curves(command)) << command[0];
     }
 }
 
@@ -125,11 +135,15 @@ TEST(Curved, ValuesAreThoseOfStraightSidesAndSaidToBe) {
     const Scratch scratch;
     const std::string mesh = put_curved(scratch);
     const std::string points = scratch.put("outer.csv", "x,y,z\n0.7,0.7,0\n.5,.5,0\n");
-    const Ended ended = run({"sample", mesh, "--points", points, "--output", scratch.path("out.csv")});
+    const Words sample{"sample", mesh, "--points", points, "--output", scratch.path("out.csv")};
+    const Words straight = plus(sample, {"--curved", "straight"});
+    const Ended whole = run(sample);
+    EXPECT_TRUE(contains(whole.out, "values     exact, rounded once")) << whole.out;
+    EXPECT_FALSE(contains(read_file(scratch.path("out.csv")), "outside"));
+    const Ended ended = run(straight);
     EXPECT_TRUE(contains(ended.out, "values     exact for straight sides, rounded once")) << ended.out;
     EXPECT_TRUE(contains(read_file(scratch.path("out.csv")), "0.7,0.7,0,-1,outside")) << "inside the curved cell";
-    const Ended walked =
-        run({"sample", mesh, "--points", points, "--output", scratch.path("out.csv"), "--outside", "nearest"});
+    const Ended walked = run(plus(straight, {"--outside", "nearest"}));
     EXPECT_TRUE(contains(walked.out, "walk: the mesh is certified for straight sides\n")) << walked.out;
     const Ended check = run({"check", mesh});
     EXPECT_EQ(check.code, 0);

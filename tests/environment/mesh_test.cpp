@@ -312,12 +312,16 @@ TEST(EveryEnvironment, QuantitiesAndWeights) {
                     for (const Rounding rounding : {Rounding::correct, Rounding::plain}) {
                         const auto sampler =
                             Sampler::build(mesh, {"grad(one)", "|two|", "two.y", "mean(cell)", "|cell|", "|grad(two)|"},
-                                           {.prove = Prove::never});
-                        out.add(sampler.has_value());
-                        const auto table =
-                            sampler->sample(points, {.rounding = rounding, .outside = {.kind = outside}, .threads = 2});
-                        out.add(table.has_value());
-                        for (const double x : table->values) out.add(x);
+                                           {.prove = Prove::never, .straight_sides = true});
+                        const auto curved =
+                            Sampler::build(mesh, {"one", "|two|", "two.y", "cell"}, {.prove = Prove::never});
+                        for (const auto* each : {&sampler, &curved}) {
+                            ASSERT_TRUE(*each);
+                            const auto table = (*each)->sample(
+                                points, {.rounding = rounding, .outside = {.kind = outside}, .threads = 2});
+                            out.add(table.has_value());
+                            for (const double x : table->values) out.add(x);
+                        }
                     }
                 });
             }

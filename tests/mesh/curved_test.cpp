@@ -59,15 +59,15 @@ TEST(Curved, BallWhoseOuterNodesLieOnTheSphere) {
         EXPECT_TRUE(each.empty());
         Mesh mesh = curved_ball(d);
         expect_curved(curved_cells(mesh, &each), 1U << d, deviation_of_ball);
-        EXPECT_EQ(each, std::vector<std::uint8_t>(1U << d, 1));
+        EXPECT_EQ(each, std::vector<std::uint8_t>(1U << d, d == 2 ? 0b10 : 0b110010));  // edges 12; 12, 13 and 23
         // One node alone: of the cells around its edge.
         mesh = straight_ball(d);
         mesh.points.back() += 0.25;
         const CurvedCells one = curved_cells(mesh, &each);
         EXPECT_EQ(one.cells, d == 2 ? 1U : 2U);
         EXPECT_NEAR(one.max_deviation, 0.25 / std::sqrt(2.0), 1e-15);
-        EXPECT_EQ(std::count(each.begin(), each.end(), 1), d == 2 ? 1 : 2);
-        EXPECT_EQ(each.back(), 1);
+        EXPECT_EQ(std::count(each.begin(), each.end(), 0), (1 << d) - (d == 2 ? 1 : 2));
+        EXPECT_EQ(each.back(), d == 2 ? 0b10 : 0b100000);
     }
 }
 

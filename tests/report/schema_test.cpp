@@ -10,6 +10,7 @@
 #include "barycert/audit_search.hpp"
 #include "barycert/report.hpp"
 #include "check_meshes.hpp"
+#include "mesh/shaped_mesh.hpp"
 #include "schema_tables.hpp"
 #include "small_audit.hpp"
 
@@ -42,6 +43,11 @@ void check_reports(Schema& schema) {
     Mesh holed = own_mesh("bracket");
     holed.point_fields = {{"T", 1, std::vector<double>(holed.point_count(), HUGE_VAL)}};
     schema.check("Check", Json::parse(check_json(checked(holed, false), "part", measure_environment())), "check");
+    for (const std::uint8_t type : {std::uint8_t{12}, std::uint8_t{14}}) {
+        Mesh whole = test::one_cell(type, {0, 1, 2, 3, 4, 5, 6, 7});
+        test::cut(whole);
+        schema.check("Check", Json::parse(check_json(checked(whole), "part", measure_environment())), "check");
+    }
     const Mesh apart = cracked_and_hanging();
     FixedMesh fixed{.file = "copy.vtu", .done = {}, .after = {}};
     fixed.after = checked(fix_mesh(apart, {}, fixed.done).value());
@@ -63,6 +69,7 @@ void sample_reports(Schema& schema) {
         run.picture = SliceCounts{.drawn = 3, .below = 1, .above = 2, .low = low, .high = low};
         schema.check("Sample", Json::parse(sample_json(run, measure_environment())), "sample");
         run.from = PointsFrom::mesh;
+        run.simplices = 6;
         run.weights = "w.npz";
         run.steps = {"1", "2"};
         run.times = {0, 0.5};
@@ -77,6 +84,7 @@ void verify_reports(Schema& schema) {
     for (const bool much : {false, true}) {
         if (much) {
             run.dimension = 2;
+            run.simplices = 6;
             run.cell_column = "cell";
             run.mask_column = "mask";
             run.outside_value = 0;
@@ -143,6 +151,7 @@ void contour_reports(Schema& schema) {
     for (const double low : {0.25, std::numeric_limits<double>::quiet_NaN()}) {
         run.low = run.high = run.picture.low = run.picture.high = low;
         run.value = 1;
+        run.simplices = 6;
         run.view = RasterSize{};
         run.colours = "T";
         run.drawn.low = run.drawn.high = low;

@@ -16,15 +16,6 @@ public:
         : locator_(locator), rows_(rows), outside_(outside) {}
 
     Result<NodeWeights> all() {
-        if (mapped_ != nullptr) {
-            for (std::size_t i = 0; i < rows_.cells.size(); ++i) {
-                if (Status done = mapped_->evaluates(rows_.cells[i], rows_.points.data() + d_ * i) ? add_mapped(i)
-                                                                                                   : add(i, i + 1);
-                    !done)
-                    return done.error();
-            }
-            return std::move(out_);
-        }
         // Cases of second order have nodes of their own, with unit vectors as values: the value of component c is then
         // the weight of node c.
         for (std::size_t i = 0; quadratic() && i < nodes_ * chunk; ++i) {
@@ -33,8 +24,12 @@ public:
             (i % nodes_ < corners_ ? corner_numbers_ : mid_numbers_).push_back(node);
             for (std::size_t c = 0; c < nodes_; ++c) units_.push_back(i % nodes_ == c ? 1 : 0);
         }
-        for (std::size_t first = 0; first < rows_.cells.size(); first += chunk) {
-            if (Status done = add(first, std::min(first + chunk, rows_.cells.size())); !done) return done.error();
+        const std::size_t step = mapped_ == nullptr ? chunk : 1;
+        for (std::size_t first = 0; first < rows_.cells.size(); first += step) {
+            const bool whole =
+                mapped_ != nullptr && mapped_->evaluates(rows_.cells[first], rows_.points.data() + d_ * first);
+            Status done = whole ? add_mapped(first) : add(first, std::min(first + step, rows_.cells.size()));
+            if (!done) return done.error();
         }
         return std::move(out_);
     }
