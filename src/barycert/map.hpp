@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "barycert/locator.hpp"
 #include "barycert/surface.hpp"
 
 namespace barycert {
@@ -16,10 +17,11 @@ struct MapWriterData;
 struct MapReaderData;
 }  // namespace sample
 
-/// A hash of coordinates and cells: what a map depends on. Fields, markers, faces, neighbours and nodes at mid-edges
-/// may change; 0.0 and -0.0 are the same coordinate. Reads the whole mesh once. It is the checksum, from 0, of these
-/// words: the dimension; the number of coordinates, then the bits of each as float64, -0.0 as 0.0; the number of
-/// corners of cells, then two of them a word, the first in its low half, 0 after the last.
+/// A hash of coordinates and cells: what a map depends on, beside nodes of cells that are taken as curved or
+/// multilinear. Fields, markers, faces, neighbours and nodes at mid-edges may change; 0.0 and -0.0 are the same
+/// coordinate. Reads the whole mesh once. It is the checksum, from 0, of these words: the dimension; the number of
+/// coordinates, then the bits of each as float64, -0.0 as 0.0; the number of corners of cells, then two of them a word,
+/// the first in its low half, 0 after the last.
 std::uint64_t mesh_fingerprint(const Mesh& mesh);
 std::uint64_t mesh_fingerprint(const Surface& surface);
 
@@ -28,8 +30,9 @@ std::uint64_t mesh_fingerprint(const Surface& surface);
 class MapWriter {
 public:
     /// A map for points in `mesh`, which need not stay. `all`: there is a row for every cell that holds a point.
-    /// Errors: a path that cannot be written; a pipe or device.
-    static Result<MapWriter> open(const std::string& path, const Mesh& mesh, bool all);
+    /// `located`: how the locator was built that knows them. Errors: a path that cannot be written; a pipe or device.
+    static Result<MapWriter> open(const std::string& path, const Mesh& mesh, bool all,
+                                  const BuildOptions& located = {});
     /// A map to the nearest triangles of a surface: `cells` are triangles, features those in which nearest points lie.
     static Result<MapWriter> open(const std::string& path, const Surface& surface);
 
@@ -55,8 +58,8 @@ private:
 class MapReader {
 public:
     /// Errors: the file cannot be read; it is no map, of another version, damaged in its header, cut off or too long;
-    /// it was made for another mesh. `mesh` need not stay.
-    static Result<MapReader> open(const std::string& path, const Mesh& mesh);
+    /// it was made for another mesh, or by a locator that takes its cells otherwise. `mesh` need not stay.
+    static Result<MapReader> open(const std::string& path, const Mesh& mesh, const BuildOptions& located = {});
     static Result<MapReader> open(const std::string& path, const Surface& surface);
 
     MapReader(MapReader&&) noexcept;

@@ -154,6 +154,24 @@ TEST(Curved, ValuesAreThoseOfStraightSidesAndSaidToBe) {
     }
 }
 
+TEST(Curved, PicturesOfSlicesAreOfStraightSides) {
+    const Scratch scratch;
+    const Words slice{"render", "slice", put_curved(scratch), "--plane", "0,0,1,0.25", "--field", "t", "--output"};
+    for (const std::string how : {"isoparametric", "straight"})
+        EXPECT_EQ(run(plus(slice, {scratch.path(how + ".png"), "--curved", how})).code, 0);
+    EXPECT_EQ(read_file(scratch.path("isoparametric.png")), read_file(scratch.path("straight.png")));
+}
+
+TEST(Curved, MapsAreOfOneKindOfSides) {
+    const Scratch scratch;
+    const std::string mesh = put_curved(scratch), map = scratch.path("m.map");
+    const std::string points = scratch.put("outer.csv", "x,y,z\n0.7,0.7,0\n.5,.5,0\n");
+    const Words sample{"sample", mesh, "--output", "-", "--quiet"};
+    const Ended rows = run(plus(sample, {"--points", points, "--save-map", map}));
+    EXPECT_EQ(run(plus(sample, {"--map", map})).out, rows.out);
+    expect_error(plus(sample, {"--map", map, "--curved", "straight"}), "the map was made of cells taken otherwise");
+}
+
 TEST(Curved, PagesSaySoBeforeTheVerdict) {
     const Scratch scratch;
     const std::string mesh = put_curved(scratch), page = scratch.path("page.html");

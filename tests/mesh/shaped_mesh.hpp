@@ -78,13 +78,9 @@ inline Mesh one_cell(std::uint8_t type, const std::vector<Mesh::Index>& order, b
     }
     std::vector<std::vector<Mesh::Index>> rings;
     if (as_polyhedron) {
-        std::vector<Mesh::Index> ring;
-        for (const char c : std::string(mesh::shape_of(type).faces) + ' ') {
-            if (c == ' ') {
-                rings.push_back(std::exchange(ring, {}));
-            } else {
-                ring.push_back(order[static_cast<std::size_t>(c <= '9' ? c - '0' : c - 'a' + 10)]);
-            }
+        for (const auto& places_of_ring : mesh::rings_of(type)) {
+            auto& ring = rings.emplace_back();
+            for (const Mesh::Index place : places_of_ring) ring.push_back(order[static_cast<std::size_t>(place)]);
         }
     }
     add_shape(mesh, as_polyhedron ? mesh::polyhedron : type, order, rings);

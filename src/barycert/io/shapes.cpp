@@ -9,7 +9,7 @@ namespace barycert::io {
 
 void cut_into_simplices(Mesh& mesh, const std::string& path) {
     if (mesh.shapes.types.empty()) return;
-    std::vector<Mesh::Index> numbers = std::move(mesh.cell_numbers), of_part;
+    std::vector<Mesh::Index> numbers = std::move(mesh.cell_numbers);
     if (numbers.empty()) {
         numbers.resize(mesh.shapes.count());
         std::iota(numbers.begin(), numbers.end(), 0);
@@ -17,16 +17,10 @@ void cut_into_simplices(Mesh& mesh, const std::string& path) {
     if (const auto open = mesh::pull(mesh))
         refuse_file(path, "the faces of cell " + std::to_string(numbers[*open]) + " (from 0) do not close",
                     "each edge in two faces of the polyhedron", {}, "write the file again with all faces");
-    of_part.reserve(mesh.cell_count());
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        of_part.insert(of_part.end(), static_cast<std::size_t>(mesh.shapes.parts[i + 1] - mesh.shapes.parts[i]),
-                       static_cast<Mesh::Index>(i));
+    const std::vector<Mesh::Index> of_part = mesh::whole_of_parts(mesh);
     mesh.cell_numbers.clear();
     mesh::append_rows_of(numbers, 1, of_part, mesh.cell_numbers);
-    for (Field& field : mesh.cell_fields) {
-        const std::vector<double> whole = std::exchange(field.data, {});
-        mesh::append_rows_of(whole, static_cast<std::size_t>(field.components), of_part, field.data);
-    }
+    for (Field& field : mesh.cell_fields) field = mesh::rows_of(field, of_part);
     for (Column& labels : mesh.cell_labels) labels = mesh::labels_at(labels, of_part);
     mesh.notes.push_back({Note::Kind::converted,
                           std::to_string(numbers.size()) + " cells are cut into " + std::to_string(mesh.cell_count()) +

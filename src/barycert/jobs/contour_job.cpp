@@ -262,7 +262,9 @@ private:
         if (!over) refuse_section(section, over.error());
         const PixelGrid& pixels = report_.pixels.emplace(*over);
         const auto count = static_cast<std::uint64_t>(pixels.width * pixels.height);
-        const Locator locator = jobs::build_locator(job_, mesh_, job_.threads);
+        BuildOptions options = jobs::build_options(job_, job_.threads);
+        options.straight_sides = true;  // as the report says, and as the other pictures are
+        const Locator locator = Locator::build(mesh_, options).value();
         const Sampler sampler = Sampler::build(locator, {column}).value();
         std::vector<double> values(count);
         std::vector<std::uint8_t> valid(count);

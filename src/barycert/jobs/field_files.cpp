@@ -10,6 +10,8 @@
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/mesh/columns.hpp"
+#include "barycert/mesh/part.hpp"
+#include "barycert/mesh/pulling.hpp"
 #include "barycert/sample/quantity/quantities.hpp"
 
 namespace barycert::jobs {
@@ -180,7 +182,10 @@ FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace) {
     FieldFile of = file;
     Field field = read_field(mesh, of, mesh.notes);
     const std::size_t rows = field.data.size() / static_cast<std::size_t>(field.components);
-    const bool cells = is_of_cells(of, rows, mesh.point_count(), mesh.cell_count());
+    // Files of meshes were cut like this one.
+    const bool parts = is_file_of_a_mesh(of.path);
+    const bool cells = is_of_cells(of, rows, mesh.point_count(), parts ? mesh.cell_count() : mesh.whole_count());
+    if (cells && !parts && mesh.shapes.count() != 0) field = mesh::rows_of(field, mesh::whole_of_parts(mesh));
     std::vector<Field>& fields = cells ? mesh.cell_fields : mesh.point_fields;
     const std::string full = std::string(cells ? cell_prefix : point_prefix) + file.name;
     for (std::size_t i = 0; replace && i < fields.size(); ++i) {

@@ -92,14 +92,16 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
     report.threads = base::threads_for(threads);
 }
 
+BuildOptions build_options(const MeshJob& job, int threads, Prove prove) {
+    return {.prove = prove,
+            .interpolation = job.cell_interpolation,
+            .straight_sides = job.curved == Curved::straight,
+            .threads = threads,
+            .progress = [&job](const char* stage) { tell_stage(job, stage); }};
+}
+
 Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove) {
-    const auto progress = [&](const char* stage) { tell_stage(job, stage); };
-    return Locator::build(mesh, {.prove = prove,
-                                 .interpolation = job.cell_interpolation,
-                                 .straight_sides = job.curved == Curved::straight,
-                                 .threads = threads,
-                                 .progress = progress})
-        .value();
+    return Locator::build(mesh, build_options(job, threads, prove)).value();
 }
 
 Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& path) {

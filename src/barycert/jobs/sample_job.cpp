@@ -66,7 +66,7 @@ jobs::RowSource rows_of_map(MapReader& map) {
     };
     // The reader tells that the map is of another mesh.
     const auto again = [&map](const SampledMesh& mesh) {
-        map = MapReader::open(mesh.report.points, mesh.mesh()).value();
+        map = MapReader::open(mesh.report.points, mesh.mesh(), jobs::build_options(mesh.job, 0)).value();
     };
     return {.located = true, .count = map.rows(), .read = read, .begin_again = again};
 }
@@ -109,7 +109,7 @@ void at_points(SampledMesh& mesh, const SampleJob& job) {
 }
 
 void at_points_of_map(SampledMesh& mesh, const SampleJob& job) {
-    MapReader map = MapReader::open(job.map, mesh.mesh()).value();
+    MapReader map = MapReader::open(job.map, mesh.mesh(), jobs::build_options(job, 0)).value();
     const auto word = [](bool all) { return all ? "all" : "lowest"; };
     if (job.all && *job.all != map.all())
         refuse(job.map, "job.all differs from the map", word(map.all()), word(*job.all),

@@ -65,7 +65,10 @@ public:
 private:
     void open() {
         sink_ = open_(mesh_.format(), targets_.path);
-        if (!targets_.map.empty()) map_ = MapWriter::open(targets_.map, mesh_.mesh(), mesh_.report.all).value();
+        if (!targets_.map.empty()) {
+            const BuildOptions located = build_options(mesh_.job, 0);
+            map_ = MapWriter::open(targets_.map, mesh_.mesh(), mesh_.report.all, located).value();
+        }
         if (!targets_.weights.empty())
             weights_ = io::WeightsFile::open(targets_.weights, mesh_.mesh().point_count()).value();
     }

@@ -16,6 +16,8 @@ void append_rows_of(const std::vector<T>& whole, std::size_t size, const std::ve
     }
 }
 
+Field rows_of(const Field& whole, const std::vector<Mesh::Index>& rows);
+
 struct Part {
     Mesh mesh;                       ///< points, cells and mid-edge nodes alone, in their order; no fields
     std::vector<Mesh::Index> cells;  ///< of the whole mesh, by cell of the part

@@ -330,13 +330,18 @@ std::optional<std::size_t> pull(Mesh& mesh) {
     return open == cutters.end() ? std::nullopt : open->open;
 }
 
+std::vector<Index> whole_of_parts(const Mesh& mesh) {
+    std::vector<Index> wholes;
+    wholes.reserve(mesh.cell_count());
+    for (std::size_t i = 0; i < mesh.shapes.count(); ++i)
+        wholes.resize(static_cast<std::size_t>(mesh.shapes.parts[i + 1]), static_cast<Index>(i));
+    return wholes;
+}
+
 Mesh rows_of_wholes(const Mesh& mesh) {
     Mesh rows;
     const std::vector<Index> firsts(mesh.shapes.parts.begin(), mesh.shapes.parts.end() - 1);
-    for (const Field& field : mesh.cell_fields) {
-        Field& own = rows.cell_fields.emplace_back(Field{field.name, field.components, {}});
-        append_rows_of(field.data, static_cast<std::size_t>(field.components), firsts, own.data);
-    }
+    for (const Field& field : mesh.cell_fields) rows.cell_fields.push_back(rows_of(field, firsts));
     for (const Column& labels : mesh.cell_labels) rows.cell_labels.push_back(labels_at(labels, firsts));
     return rows;
 }

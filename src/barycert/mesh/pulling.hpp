@@ -49,6 +49,9 @@ constexpr int simplex_order(int dimension, std::size_t nodes) {
 /// there is one: each edge must be one of two faces. Precondition: nodes in range, as many as the types have.
 std::optional<std::size_t> pull(Mesh& mesh);
 
+/// The shape that each cell is a part of.
+std::vector<Mesh::Index> whole_of_parts(const Mesh& mesh);
+
 /// Cell fields and labels of a mesh with shapes, a row for each of these; nothing else.
 Mesh rows_of_wholes(const Mesh& mesh);
 

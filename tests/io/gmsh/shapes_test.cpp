@@ -1,10 +1,12 @@
 // Hexahedra, prisms, pyramids and quadrangles, made here and by Gmsh.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>
 
 #include "barycert/check.hpp"
+#include "barycert/sampler.hpp"
 #include "io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {
@@ -267,6 +269,39 @@ TEST_F(GmshMakes, Hexahedra) {
                 ASSERT_EQ(std::get<std::vector<std::string>>(names->values)[cell], z < 1 ? "low half" : "high half");
             }
             EXPECT_EQ(low, 18U * 6);
+        }
+    }
+}
+
+/// Every node is found. One on the curved surface has its own value, to the bit; one of a straight cell is the middle
+/// of an edge or face as Gmsh rounded it, and has the value of the field there.
+TEST_F(GmshMakes, NodesOfBallsAndRings) {
+    const char* const ball = "SetFactory(\"OpenCASCADE\"); Sphere(1) = {0,0,0,1}; Mesh.MeshSizeMax = 0.6;\n";
+    const char* const ring = "SetFactory(\"OpenCASCADE\"); Torus(1) = {0,0,0,1,0.4}; Mesh.MeshSizeMax = 0.22;\n";
+    for (const char* geo : {ball, ring}) {
+        for (const std::string order : {"2", "3", "4"}) {
+            SCOPED_TRACE(geo + order);
+            Mesh mesh = made(geo, "-format msh41 -order " + order);
+            mesh.point_fields = {{"f", 1, {}}};
+            for (std::size_t i = 0; i < mesh.point_count(); ++i)
+                mesh.point_fields[0].data.push_back(std::sin(static_cast<double>(i)));
+            const Locator locator = Locator::build(mesh).value();
+            EXPECT_TRUE(locator.has_curved_cells());
+            EXPECT_EQ(locator.unmapped_cells(), 0U);
+            const Table rows = Sampler::build(mesh, {"f"}).value().sample(mesh.points).value();
+            EXPECT_EQ(std::ranges::count(rows.cells, -1), 0);
+            std::size_t on_the_surface = 0;
+            for (std::size_t i = 0; i < mesh.point_count(); ++i) {
+                const double* p = mesh.points.data() + 3 * i;
+                const double from_axis = std::hypot(p[0], p[1]);
+                const double radius =
+                    geo == ball ? std::hypot(from_axis, p[2]) - 1 : std::hypot(from_axis - 1, p[2]) - 0.4;
+                const bool curved = std::abs(radius) < 1e-12;
+                on_the_surface += curved ? 1 : 0;
+                const double error = std::abs(rows.values[i] - mesh.point_fields[0].data[i]);
+                EXPECT_LE(error, curved ? 0 : 1e-13) << i;
+            }
+            EXPECT_GT(on_the_surface, 100U);
         }
     }
 }

@@ -14,6 +14,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <optional>
 
 namespace barycert::core::isoparametric {
 
@@ -90,6 +91,11 @@ struct Ball {
     Ball(T m, double r) : mid(std::move(m)), radius(r) {}
 
     double size() const { return NumberTraits<T>::size(mid); }
+    /// -1, 1, or nothing where zero may be one of its numbers.
+    std::optional<int> sign() const {
+        if (!(size() * (1 - 0x1p-40) > radius)) return std::nullopt;
+        return mid < T(0) ? -1 : 1;
+    }
     /// |x| is at most that for all of its numbers.
     double most() const { return (size() + radius) * (1 + 0x1p-50); }
 

@@ -1,3 +1,4 @@
+#include <functional>
 #include <optional>
 
 #include "barycert/core/isoparametric/ball.hpp"
@@ -74,7 +75,7 @@ std::optional<JacobianSign> common_sign(const Columns& columns, bool flat, Diffe
     CoefficientSigns signs;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         if (!sums[i]) continue;
-        const std::optional<int> own = sign_of(*sums[i]);
+        const std::optional<int> own = std::invoke(sign_of, *sums[i]);
         if (!own) return std::nullopt;
         bool middle = false;
         for (std::size_t axis = 0, rest = i; axis < 3; ++axis, rest /= 3)
@@ -119,14 +120,10 @@ JacobianSign jacobian_sign(const Reference& of, const Places& places) {
         }
     }
     const auto scaled = [&](std::size_t node, std::size_t k) { return std::ldexp(places.at[node][k], -exponent - 1); };
-    const auto sign_of_ball = [](const Ball<double>& ball) -> std::optional<int> {
-        if (!(ball.size() * (1 - 0x1p-40) > ball.radius)) return std::nullopt;
-        return ball.mid > 0 ? 1 : -1;
-    };
     const auto doubles = [&](std::size_t to, std::size_t from, std::size_t k) {
         return Ball<double>(scaled(to, k)) - Ball<double>(scaled(from, k));
     };
-    const auto sign = common_sign<Ball<double>>(columns, flat, doubles, sign_of_ball);
+    const auto sign = common_sign<Ball<double>>(columns, flat, doubles, &Ball<double>::sign);
     if (sign) return *sign;
     const auto exact = [&](std::size_t to, std::size_t from, std::size_t k) {
         return Rational(places.at[to][k]) - Rational(places.at[from][k]);

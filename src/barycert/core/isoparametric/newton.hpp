@@ -51,6 +51,26 @@ Ball<T> inverse_of(int n) {
     }
 }
 
+/// Gauss and Jordan: the first n columns of n rows become those of 1. False where that is not so.
+template <class Rows>
+bool eliminate(Rows& a, std::size_t n) {
+    using std::abs;
+    for (std::size_t c = 0; c < n; ++c) {
+        std::size_t pivot = c;
+        for (std::size_t i = c + 1; i < n; ++i) pivot = abs(a[i][c]) > abs(a[pivot][c]) ? i : pivot;
+        std::swap(a[pivot], a[c]);
+        const auto by = a[c][c];
+        if (by == 0 || by - by != 0) return false;
+        for (auto& x : a[c]) x /= by;
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto factor = a[i][c];
+            if (i == c || factor == 0) continue;
+            for (std::size_t j = c; j < a[i].size(); ++j) a[i][j] -= factor * a[c][j];
+        }
+    }
+    return true;
+}
+
 /// A point beside the nodes of a cell, all of them divided by one power of two.
 class Inverse {
 public:
@@ -242,31 +262,15 @@ private:
         return sum < 1 + off;
     }
 
-    /// inverse_ of the matrix, by elimination with pivots.
-    bool invert(Matrix a) {
-        Matrix y{};
-        for (std::size_t i = 0; i < d_; ++i) y[i][i] = 1;
-        for (std::size_t c = 0; c < d_; ++c) {
-            std::size_t pivot = c;
-            for (std::size_t i = c + 1; i < d_; ++i) pivot = std::abs(a[i][c]) > std::abs(a[pivot][c]) ? i : pivot;
-            if (a[pivot][c] == 0 || !std::isfinite(a[pivot][c])) return false;
-            std::swap(a[pivot], a[c]);
-            std::swap(y[pivot], y[c]);
-            const double by = 1 / a[c][c];
-            for (std::size_t j = 0; j < d_; ++j) {
-                a[c][j] *= by;
-                y[c][j] *= by;
-            }
-            for (std::size_t i = 0; i < d_; ++i) {
-                const double factor = a[i][c];
-                if (i == c || factor == 0) continue;
-                for (std::size_t j = 0; j < d_; ++j) {
-                    a[i][j] -= factor * a[c][j];
-                    y[i][j] -= factor * y[c][j];
-                }
-            }
+    /// Sets inverse_.
+    bool invert(const Matrix& a) {
+        std::array<std::array<double, 6>, 3> rows{};
+        for (std::size_t i = 0; i < d_; ++i) {
+            std::copy_n(a[i].begin(), d_, rows[i].begin());
+            rows[i][3 + i] = 1;
         }
-        inverse_ = y;
+        if (!eliminate(rows, d_)) return false;
+        for (std::size_t i = 0; i < d_; ++i) std::copy_n(rows[i].begin() + 3, d_, inverse_[i].begin());
         return true;
     }
 
@@ -334,18 +338,8 @@ private:
             for (std::size_t j = 0; j < d_; ++j) a[k][j] = at(along[j], k) - at(0, k);
             a[k][d_] = Rational(point_[k]) - at(0, k);
         }
-        for (std::size_t c = 0; c < d_; ++c) {
-            std::size_t pivot = c;
-            while (pivot < d_ && a[pivot][c] == 0) ++pivot;
-            if (pivot == d_) return false;
-            std::swap(a[pivot], a[c]);
-            for (std::size_t i = 0; i < d_; ++i) {
-                if (i == c) continue;
-                const Rational factor = a[i][c] / a[c][c];
-                for (std::size_t j = c; j <= d_; ++j) a[i][j] -= factor * a[c][j];
-            }
-        }
-        for (std::size_t k = 0; k < d_; ++k) x[k] = a[k][d_] / a[k][k];
+        if (!eliminate(a, d_)) return false;
+        for (std::size_t k = 0; k < d_; ++k) x[k] = a[k][d_];
         if (of_.element == Element::pyramid) {
             if (x[2] == 1) return false;  // the apex
             for (std::size_t k = 0; k < 2; ++k) x[k] /= Rational(1 - x[2]);

@@ -1,5 +1,6 @@
 // Curved simplices: their nodes, Bernstein coefficients, and where points are in them.
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -64,18 +65,7 @@ ToBernstein to_bernstein(const Reference& of) {
         }
         a[node][n + node] = 1;
     }
-    for (std::size_t c = 0; c < n; ++c) {
-        std::size_t pivot = c;
-        while (a[pivot][c] == 0) ++pivot;
-        std::swap(a[pivot], a[c]);
-        const Rational by = a[c][c];
-        for (Rational& x : a[c]) x /= by;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (i == c || a[i][c] == 0) continue;
-            const Rational factor = a[i][c];
-            for (std::size_t j = 0; j < 2 * n; ++j) a[i][j] -= factor * a[c][j];
-        }
-    }
+    eliminate(a, n);
     boost::multiprecision::cpp_int common = 1;
     for (const auto& row : a) {
         for (const Rational& x : row) common = lcm(common, boost::multiprecision::cpp_int(denominator(x)));
@@ -210,7 +200,7 @@ std::optional<JacobianSign> common_sign(const Simplex& s, const Place& place, co
     }
     CoefficientSigns signs;
     for (const auto& [index, sum] : sums) {
-        const std::optional<int> own = sign_of(sum);
+        const std::optional<int> own = std::invoke(sign_of, sum);
         if (!own) return std::nullopt;
         signs.add(*own, std::ranges::max(index) == sum_of(index));
     }
@@ -426,11 +416,7 @@ JacobianSign simplex_jacobian_sign(const Reference& of, const Places& places) {
         if (places.other[node] == nullptr) return B(places.at[node][k] * scale);
         return B(places.at[node][k] * scale / 2) + B(places.other[node][k] * scale / 2);
     };
-    const auto sign_of = [](const Ball<double>& b) -> std::optional<int> {
-        if (!(b.size() * (1 - 0x1p-40) > b.radius)) return std::nullopt;
-        return b.mid > 0 ? 1 : -1;
-    };
-    if (const auto sign = common_sign<Ball<double>>(s, near, sign_of)) return *sign;
+    if (const auto sign = common_sign<Ball<double>>(s, near, &Ball<double>::sign)) return *sign;
     if (of.order > 2) return JacobianSign::unknown;  // 1000 determinants and more in rational numbers
     const auto exact = [&](std::size_t node, std::size_t k) {
         const Rational x(places.at[node][k]);
@@ -465,8 +451,8 @@ InSimplex locate_in_simplex(const Reference& of, const Places& places, const dou
         for (std::size_t k = 0; k + 1 < corners; ++k) sum = sum + x[k];
         for (std::size_t c = 0; c < corners; ++c) {
             const Ball<T> own = c == 0 ? Ball<T>(1) - sum : x[c - 1];
-            if (own.size() * (1 - 0x1p-40) > own.radius) {
-                if (own.mid < T(0)) in.inside = false;
+            if (const auto sign = own.sign()) {
+                if (*sign < 0) in.inside = false;
                 continue;
             }
             if ((flat >> c & 1U) != 0) {

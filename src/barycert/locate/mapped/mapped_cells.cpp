@@ -23,14 +23,12 @@ std::unique_ptr<MappedCells> MappedCells::make(const Mesh& mesh, bool products, 
 MappedCells::MappedCells(const Mesh& mesh, bool products, bool curves)
     : mesh_(mesh), maps_(mesh, products, curves), products_(products), curves_(curves) {
     if (has_shapes()) {
-        whole_.resize(mesh.cell_count());
+        whole_ = mesh::whole_of_parts(mesh);
         warped_.assign(mesh.shapes.count(), 0);
     }
     sign_.assign(mesh.whole_count(), 0);
     std::atomic<std::uint64_t> unproved = 0, of_products = 0;
     base::parallel_for_each(whole_count(), 1024, [&](std::size_t whole) {
-        for (auto cell = first_part(whole); has_shapes() && cell < first_part(whole + 1); ++cell)
-            whole_[static_cast<std::size_t>(cell)] = static_cast<Mesh::Index>(whole);
         const iso::Reference* const reference = maps_.reference(whole);
         if (reference == nullptr) return;
         sign_[whole] = static_cast<std::int8_t>(iso::proved_orientation(*reference, maps_.places(whole)));

@@ -41,8 +41,7 @@ Sign sign_of_saddle(const std::array<const double*, 4>& n, const double* p) {
     using Number = iso::Ball<double>;
     const Number one(1.0);
     const Number near = weight(0, one) * weight(2, one) - weight(1, one) * weight(3, one);
-    if (std::isfinite(near.mid) && std::abs(near.mid) > near.radius)
-        return near.mid > 0 ? Sign::positive : Sign::negative;
+    if (const auto sign = near.sign(); sign && std::isfinite(near.mid)) return static_cast<Sign>(*sign);
     const iso::Rational unit(1), exact = weight(0, unit) * weight(2, unit) - weight(1, unit) * weight(3, unit);
     return static_cast<Sign>(exact.sign());
 }

@@ -6,6 +6,7 @@
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/mesh/pulling.hpp"
 #include "barycert/sample/map/map_format.hpp"
 
 namespace barycert {
@@ -28,7 +29,30 @@ std::uint64_t fingerprint(const auto& mesh) {
 }
 
 sample::MapHeader header_of(const auto& mesh, bool all) {
-    return {mesh.dimension, all, 0, mesh.point_count(), mesh.cell_count(), fingerprint(mesh)};
+    return {mesh.dimension, all, 0, 0, mesh.point_count(), mesh.cell_count(), fingerprint(mesh)};
+}
+
+/// Of a mesh some of whose cells are not taken as straight simplices also their nodes.
+sample::MapHeader header_of(const Mesh& mesh, bool all, const BuildOptions& located) {
+    sample::MapHeader header = header_of(mesh, all);
+    const auto is_curved = [&] {
+        const CurvedCells curved = curved_cells(mesh);
+        return curved.cells + curved.rounded_cells != 0 ||
+               std::ranges::any_of(mesh.shapes.types, mesh::is_curved_simplex);
+    };
+    if (located.interpolation == CellInterpolation::multilinear && mesh.shapes.count() != 0) header.taken = 1;
+    if (!located.straight_sides && is_curved()) header.taken |= 2;
+    for (const auto* nodes : {&mesh.shapes.nodes, &mesh.mid_nodes}) {
+        for (std::size_t i = 0; header.taken != 0 && i < nodes->size(); ++i)
+            header.fingerprint = sample::map_step(header.fingerprint, static_cast<std::uint32_t>((*nodes)[i]));
+    }
+    return header;
+}
+
+std::string words_of(std::uint16_t taken) {
+    constexpr std::array words{"straight cells, linear", "multilinear cells", "curved cells",
+                               "curved and multilinear cells"};
+    return words[taken & 3U];
 }
 
 }  // namespace
@@ -98,7 +122,8 @@ struct MapWriterData {
         char* at = std::copy(map_magic.begin(), map_magic.end(), all.data());
         at = put_little(at, map_version);
         at = put_little(at, static_cast<std::uint8_t>(head.dimension));
-        at = put_little(at, static_cast<std::uint8_t>(head.all)) + 2;
+        at = put_little(at, static_cast<std::uint8_t>(head.all));
+        at = put_little(at, head.taken);
         for (const std::uint64_t x : {head.rows, head.nodes, head.cells, head.fingerprint}) at = put_little(at, x);
         put_little(at, map_checksum({all.data(), map_header_size - map_checksum_size}, 0));
         return all;
@@ -159,10 +184,16 @@ struct MapReaderData {
         constexpr std::size_t before = map_header_size - map_checksum_size;
         const bool whole = map_checksum({at, before}, 0) == get_little<std::uint64_t>(at + before);
         const auto dimension = static_cast<unsigned char>(at[12]), all = static_cast<unsigned char>(at[13]);
-        if (!whole || (dimension != 2 && dimension != 3) || all > 1 || get_little<std::uint16_t>(at + 14) != 0)
+        if (!whole || (dimension != 2 && dimension != 3) || all > 1 || get_little<std::uint16_t>(at + 14) > 3)
             return damage("the header of the map is damaged", "the bytes that were written", "others");
         const auto word = [&](std::size_t i) { return get_little<std::uint64_t>(at + 16 + 8 * i); };
-        head = {static_cast<int>(dimension), all == 1, word(0), word(1), word(2), word(3)};
+        head = {static_cast<int>(dimension),
+                all == 1,
+                get_little<std::uint16_t>(at + 14),
+                word(0),
+                word(1),
+                word(2),
+                word(3)};
         // A row takes more than a byte: no product below can overflow.
         const std::uint64_t blocks = head.rows / map_block_rows, rest = head.rows % map_block_rows;
         std::uint64_t expected = map_header_size;
@@ -183,6 +214,12 @@ struct MapReaderData {
     /// `is`: what it is held against; `cells`: as a word.
     Status check(const MapHeader& is, const char* cells) const {
         const bool alike = head.dimension == is.dimension && head.nodes == is.nodes && head.cells == is.cells;
+        if (alike && head.taken != is.taken)
+            return Error{.what = "the map was made of cells taken otherwise",
+                         .file = name,
+                         .expected = words_of(is.taken),
+                         .found = words_of(head.taken),
+                         .remedy = "take them as the map does (interpolation, curved cells), or create the map again"};
         if (alike && head.fingerprint == is.fingerprint) return Done{};
         const auto size_of = [](std::uint64_t nodes, std::uint64_t count, const char* word) {
             return "one of " + std::to_string(nodes) + " nodes and " + std::to_string(count) + ' ' + word;
@@ -265,9 +302,9 @@ Result<MapWriter> MapWriter::begin(const std::string& path, const sample::MapHea
     data->file.write({no_header.data(), no_header.size()});
     return MapWriter(std::move(data));
 }
-Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, bool all) {
+Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, bool all, const BuildOptions& located) {
     const ExactEnvironment environment;
-    return begin(path, header_of(mesh, all));
+    return begin(path, header_of(mesh, all, located));
 }
 Result<MapWriter> MapWriter::open(const std::string& path, const Surface& surface) {
     const ExactEnvironment environment;
@@ -318,9 +355,9 @@ Result<MapReader> MapReader::begin(const std::string& path, const sample::MapHea
     if (Status good = data->check(of, cells); !good) return good.error();
     return MapReader(std::move(data));
 }
-Result<MapReader> MapReader::open(const std::string& path, const Mesh& mesh) {
+Result<MapReader> MapReader::open(const std::string& path, const Mesh& mesh, const BuildOptions& located) {
     const ExactEnvironment environment;
-    return begin(path, header_of(mesh, false), mesh.dimension == 2 ? "triangles" : "cells");
+    return begin(path, header_of(mesh, false, located), mesh.dimension == 2 ? "triangles" : "cells");
 }
 Result<MapReader> MapReader::open(const std::string& path, const Surface& surface) {
     const ExactEnvironment environment;

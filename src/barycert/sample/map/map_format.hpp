@@ -42,6 +42,7 @@ inline std::uint64_t map_checksum(std::string_view bytes, std::uint64_t h) {
 struct MapHeader {
     int dimension = 3;
     bool all = false;
+    std::uint16_t taken = 0;  ///< how cells are: 1, multilinear; 2, curved
     std::uint64_t rows = 0, nodes = 0, cells = 0, fingerprint = 0;
 };
 

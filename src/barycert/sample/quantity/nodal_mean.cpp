@@ -1,5 +1,6 @@
 #include "barycert/sample/quantity/quantities.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -20,26 +21,40 @@ using core::Unit;
 // 2^32 cells.
 static_assert(64 * (Integer::capacity - 2) >= 3 * 2099 + 3 + 2098 + 32);
 
-/// The cells of each node: those of node i are cells[begin[i]] to cells[begin[i + 1] - 1].
+/// The cells of each node, of shapes all parts: those of node i are cells[begin[i]] to cells[begin[i + 1] - 1].
 struct CellsOfNodes {
     std::vector<std::size_t> begin;
     std::vector<Mesh::Index> cells;
 };
 
+/// use(node, cell) for all of these.
+template <class Use>
+void for_cells_of_nodes(const Mesh& mesh, const Use& use) {
+    const Mesh::Shapes& shapes = mesh.shapes;
+    std::vector<Mesh::Index> nodes;
+    for (std::size_t i = 0; i < shapes.count(); ++i) {
+        nodes.assign(shapes.nodes.begin() + (i == 0 ? 0 : shapes.ends[i - 1]), shapes.nodes.begin() + shapes.ends[i]);
+        std::ranges::sort(nodes);
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        for (Mesh::Index cell = shapes.parts[i]; cell < shapes.parts[i + 1]; ++cell) {
+            for (const Mesh::Index node : nodes) use(static_cast<std::size_t>(node), cell);
+        }
+    }
+    if (shapes.count() != 0) return;
+    for (const std::span<const Mesh::Index> list : {std::span(mesh.cells), std::span(mesh.mid_nodes)}) {
+        const std::size_t per_cell = list.empty() ? 1 : list.size() / mesh.cell_count();
+        for (std::size_t i = 0; i < list.size(); ++i)
+            use(static_cast<std::size_t>(list[i]), static_cast<Mesh::Index>(i / per_cell));
+    }
+}
+
 CellsOfNodes cells_of_nodes(const Mesh& mesh) {
-    CellsOfNodes of{std::vector<std::size_t>(mesh.point_count() + 2, 0),
-                    std::vector<Mesh::Index>(mesh.cells.size() + mesh.mid_nodes.size())};
-    const std::array<std::span<const Mesh::Index>, 2> lists{mesh.cells, mesh.mid_nodes};
-    for (const auto& nodes : lists) {
-        for (const Mesh::Index node : nodes) ++of.begin[static_cast<std::size_t>(node) + 2];
-    }
+    CellsOfNodes of{std::vector<std::size_t>(mesh.point_count() + 2, 0), {}};
+    for_cells_of_nodes(mesh, [&](std::size_t node, Mesh::Index) { ++of.begin[node + 2]; });
     for (std::size_t i = 2; i < of.begin.size(); ++i) of.begin[i] += of.begin[i - 1];
+    of.cells.resize(of.begin.back());
     // begin[i + 1] is where the next cell of node i goes; in the end that is where those of node i + 1 begin.
-    for (const auto& nodes : lists) {
-        const std::size_t per_cell = nodes.empty() ? 1 : nodes.size() / mesh.cell_count();
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-            of.cells[of.begin[static_cast<std::size_t>(nodes[i]) + 1]++] = static_cast<Mesh::Index>(i / per_cell);
-    }
+    for_cells_of_nodes(mesh, [&](std::size_t node, Mesh::Index cell) { of.cells[of.begin[node + 1]++] = cell; });
     return of;
 }
 
