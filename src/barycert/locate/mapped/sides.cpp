@@ -113,6 +113,9 @@ std::vector<MappedCells::AtSides> MappedCells::at_sides(const double* point) con
     if (tree_ == nullptr) return all;
     tree_->for_each(index::box_of(3, &point, 1), [&](std::uint32_t i) {
         const auto shape = static_cast<std::size_t>(warped_[i].whole);
+        // The rings of a wedge are seen from outside where its Jacobian is negative, those of others where it is
+        // positive.
+        const auto outward = static_cast<Sign>(mesh_.shapes.types[shape] == 13 ? -sign_[shape] : sign_[shape]);
         bool some = false, outside = false;
         Feature on = Feature::interior;
         for_sides(shape, [&](const std::array<const double*, 4>& n, unsigned bit) {
@@ -120,7 +123,7 @@ std::vector<MappedCells::AtSides> MappedCells::at_sides(const double* point) con
             const InSide in = look(n, point);
             if (!in.holds) return;
             some = true;
-            outside = in.inner * static_cast<Sign>(sign_[shape]) == Sign::negative;
+            outside = in.inner * outward == Sign::negative;
             if (in.inner != Sign::zero) return;
             const int zeros = std::popcount(in.zeros);
             on = std::max(on, zeros == 3 ? Feature::vertex : zeros == 2 ? Feature::edge : Feature::face);
