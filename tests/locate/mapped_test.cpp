@@ -7,6 +7,7 @@
 #include "barycert/sampler.hpp"
 #include "mesh/curved_mesh.hpp"
 #include "mesh/shaped_mesh.hpp"
+#include "mesh/whole_cells.hpp"
 
 namespace barycert::test {
 namespace {
@@ -168,6 +169,59 @@ TEST(MappedCells, L1V1HexahedraWithCurvedSides) {
         }
         EXPECT_GT(inside, 1000U);
         EXPECT_GT(moved, 10U);  // others than those of the parts
+    }
+}
+
+// Single cells of each type, as VTK numbers them and mirrored, their sides warped.
+TEST(MappedCells, L1V1CellsOfAllTypes) {
+    std::mt19937 random(8);
+    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+    for (std::uint8_t type = 11; type <= 14; ++type) {
+        std::array<std::size_t, 2> inside{}, outside{};  // not as in parts
+        for (int round = 0; round < 200; ++round) {
+            const bool mirrored = round % 2 == 1;
+            Mesh mesh;
+            std::vector<Index> nodes;
+            mesh.point_fields = {{"f", 1, {}}};
+            for (const auto& place : reference_corners(type)) {
+                nodes.push_back(static_cast<Index>(nodes.size()));
+                for (const Real x : place) mesh.points.push_back(static_cast<double>(x) + uniform(-0.15, 0.15));
+                if (mirrored) mesh.points.back() = -mesh.points.back();
+                mesh.point_fields[0].data.push_back(uniform(-1, 1));
+            }
+            add_shape(mesh, type, nodes);
+            cut(mesh);
+            const Sampler sampler =
+                Sampler::build(mesh, {}, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
+            if (sampler.locator().unmapped_cells() != 0) continue;
+            std::vector<double> points, values;
+            for (int i = 0; i < 40; ++i) {
+                points.insert(points.end(), {uniform(-0.2, 1.2), uniform(-0.2, 1.2), uniform(-0.2, 1.2)});
+                if (mirrored) points.back() = -points.back();
+            }
+            const Table rows = sampler.sample(points).value(),
+                        parts = Sampler::build(mesh).value().sample(points).value();
+            const auto corners = nodes_of(mesh, 0, values);
+            const auto functions = [&](const std::array<Real, 3>& x) { return shape_functions(type, x); };
+            for (std::size_t i = 0; i < rows.row_count(); ++i) {
+                const Inverse x = invert(3, corners, values, &points[3 * i], functions, {0.4, 0.4, 0.4});
+                if (!x.found) continue;
+                const Real across = type == 13 ? x.x[0] + x.x[1] : std::max(x.x[0], x.x[1]);
+                const Real room = std::min({x.x[0], x.x[1], x.x[2], 1 - across, 1 - x.x[2]});
+                if (std::abs(room) < 1e-12L) continue;
+                ASSERT_EQ(rows.cells[i] >= 0, room > 0) << int{type} << ' ' << round << ' ' << i;
+                ASSERT_EQ(sampler.locator().locate(&points[3 * i])->cell >= 0, room > 0);
+                inside[room > 0 && parts.cells[i] < 0 ? 1 : 0] += room > 0 ? 1 : 0;
+                outside[room < 0 && parts.cells[i] >= 0 ? 1 : 0] += room < 0 ? 1 : 0;
+                if (room > 0) {
+                    ASSERT_NEAR(rows.values[i], static_cast<double>(x.value), 1e-14);
+                }
+            }
+        }
+        for (const auto& count : {inside, outside}) {
+            EXPECT_GT(count[0], 500U) << int{type};
+            EXPECT_GT(count[1], 10U) << int{type};
+        }
     }
 }
 
