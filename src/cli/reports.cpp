@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "options/want_of_memory.hpp"
+
 namespace barycert::cli {
 
 void Progress::stage(std::string_view text) {
@@ -78,6 +80,7 @@ Progress& Reports::begin_progress() {
 }
 
 int Reports::write(Told told) {
+    end_for_want_of_memory();
     if (told.ci) {
         told.files["--junit"] = [&] { return ci_junit(told.ci()); };
         told.files["--sarif"] = [&] { return ci_sarif(told.ci()); };

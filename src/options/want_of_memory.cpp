@@ -38,4 +38,11 @@ void expect_want_of_memory() noexcept {
     std::set_terminate(end);
 }
 
+void end_for_want_of_memory() noexcept {
+    std::set_new_handler([] {
+        base::remove_begun_files();
+        std::_Exit(fail_for_want_of_memory());
+    });
+}
+
 }  // namespace barycert::cli
