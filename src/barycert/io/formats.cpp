@@ -249,8 +249,7 @@ Notes left_out_by(MeshFormat format, const Mesh& mesh) {
             note_lost_names(column_names(columns), file, notes);
         }
     }
-    const bool groups = std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
-                                    [](const Field& f) { return f.name == "gmsh:physical"; });
+    const bool groups = std::ranges::any_of(mesh.cell_fields, [](const Field& f) { return f.name == "gmsh:physical"; });
     for (const Column& labels : mesh.cell_labels) {
         const bool own = labels.name == "gmsh:tag" || (groups && labels.name == "gmsh:physical_name");
         if (format == MeshFormat::tetgen || (format == MeshFormat::gmsh && !own))

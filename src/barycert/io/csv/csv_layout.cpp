@@ -25,8 +25,7 @@ char separator_of(std::string_view line) {
 
 bool is_header(const TableColumns& all, int dimension, const PointOptions& options) {
     const std::vector<std::string> asked = parts_of(options.columns, static_cast<std::size_t>(dimension));
-    if (asked.empty())
-        return find_coordinates(all, dimension) || std::none_of(all.names.begin(), all.names.end(), looks_numeric);
+    if (asked.empty()) return find_coordinates(all, dimension) || std::ranges::none_of(all.names, looks_numeric);
     if (!are_places(asked)) return true;
     return std::none_of(asked.begin(), asked.end(), [&](const std::string& text) {
         const std::size_t place = *place_of(text);

@@ -91,8 +91,7 @@ void MshFile::read_format() {
                save_remedy);
     constexpr std::array<std::pair<std::string_view, int>, 7> versions{
         {{"2", 22}, {"2.0", 22}, {"2.1", 22}, {"2.2", 22}, {"4", 40}, {"4.0", 40}, {"4.1", 41}}};
-    const auto* const version =
-        std::find_if(versions.begin(), versions.end(), [&](const auto& v) { return v.first == words[0]; });
+    const auto* const version = std::ranges::find_if(versions, [&](const auto& v) { return v.first == words[0]; });
     if (version == versions.end())
         refuse(line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]),
                words[0].starts_with("2.") || words[0].starts_with("3") ? convert_remedy : save_remedy);

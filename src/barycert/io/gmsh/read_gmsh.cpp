@@ -141,8 +141,7 @@ void fill_from_entities(const MshFile& file, const MshElements& elements, const 
 
 /// 2.x: the same for what was read with each cell.
 void drop_what_says_nothing(MshCells& cells) {
-    if (std::all_of(cells.physical.begin(), cells.physical.end(), [](double tag) { return tag == 0; }))
-        cells.physical.clear();
+    if (std::ranges::all_of(cells.physical, [](double tag) { return tag == 0; })) cells.physical.clear();
     const std::vector<double>& tags = cells.geometrical;
     const bool any = std::any_of(tags.begin(), tags.end(), [&](double tag) {
         return says_something(static_cast<std::int64_t>(tag), static_cast<std::int64_t>(tags.front()));

@@ -29,9 +29,8 @@ std::string described_columns(const TextTable& table) {
 
 /// Digits, and nothing but digits and what else is allowed.
 bool looks_like_number(std::string_view text, std::string_view also) {
-    return std::any_of(text.begin(), text.end(), is_digit) && std::all_of(text.begin(), text.end(), [&](char c) {
-               return is_digit(c) || also.find(c) != std::string_view::npos;
-           });
+    return std::any_of(text.begin(), text.end(), is_digit) &&
+           std::ranges::all_of(text, [&](char c) { return is_digit(c) || also.find(c) != std::string_view::npos; });
 }
 
 std::string_view without_sign(std::string_view field) {
