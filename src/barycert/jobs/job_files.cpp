@@ -162,17 +162,13 @@ void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::ve
     check_files(job, std::move(more_inputs), std::move(outputs), of_steps);
 }
 
-bool has_suffix_of(const std::string& path, std::initializer_list<std::string_view> suffixes) {
-    return std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view s) { return io::has_suffix(path, s); });
-}
-
 void check_vtk_data(std::optional<VtkData> data, const std::string& path) {
     if (!data) return;
     const bool legacy = io::has_suffix(path, ".vtk");
     if (legacy && *data != VtkData::raw && *data != VtkData::ascii)
         refuse(path, "job.vtk_data: legacy files of VTK know no compression", "raw or ascii", std::string(name(*data)),
                "name a .vtu file");
-    if (!legacy && !has_suffix_of(path, {".vtu", ".vtp", ".vti"}))
+    if (!legacy && !io::has_one_of(path, {".vtu", ".vtp", ".vti"}))
         refuse(path, "job.vtk_data is for files of VTK", ".vtu, .vtk, .vtp or .vti", "",
                "leave it out, or name such a file");
 }

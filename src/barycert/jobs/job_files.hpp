@@ -5,7 +5,6 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
-#include <initializer_list>
 
 #include "barycert/base/named_file.hpp"
 #include "barycert/jobs.hpp"
@@ -116,9 +115,6 @@ void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::ve
 
 /// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
 void check_vtk_data(std::optional<VtkData> data, const std::string& path);
-
-/// Whether the path ends as one of these, in any case.
-bool has_suffix_of(const std::string& path, std::initializer_list<std::string_view> suffixes);
 
 /// Refuses an output whose suffix is none of those `expected`.
 [[noreturn]] void refuse_output(const std::string& path, const std::string& expected);

@@ -56,7 +56,7 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     if (job.onto.empty()) {
         if (job.range && !io::has_suffix(job.output, ".png"))
             refuse(job.output, "job.range needs a picture", "", "", "use job.output FILE.png, or leave job.range out");
-        if (job.output != "-" && !jobs::has_suffix_of(job.output, {".csv", ".npy", ".vti", ".png"}))
+        if (job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vti", ".png"}))
             jobs::refuse_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }

@@ -191,7 +191,7 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
 }
 
 bool is_rows_output(const std::string& path) {
-    return path == "-" || has_suffix_of(path, {".csv", ".npy"});
+    return path == "-" || io::has_one_of(path, {".csv", ".npy"});
 }
 
 Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes) {

@@ -37,7 +37,7 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
         !(job.fields.empty() && job.field_files.empty() && job.series.empty() && job.keep.empty()))
         refuse("", "fields or columns without job.output", "", "",
                "weights depend on no field: leave fields out, or name job.output too");
-    if (!job.output.empty() && job.output != "-" && !jobs::has_suffix_of(job.output, {".csv", ".npy", ".vtu"}))
+    if (!job.output.empty() && job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vtu"}))
         jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
     std::vector<base::NamedFile> inputs{{"job.map", job.map}};
     if (job.map.empty()) inputs = {{"job.points", job.points}};

@@ -1,7 +1,6 @@
 #include "barycert/jobs/stream.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>

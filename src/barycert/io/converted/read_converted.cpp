@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>

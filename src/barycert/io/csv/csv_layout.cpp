@@ -93,7 +93,7 @@ CsvLine cut_first_line(std::string_view line, const LinePlace& place) {
     CsvLine out{.separator = separator_of(line)};
     FieldCutter cutter(line, out.separator);
     for (std::string_view field; cutter.next(field);) out.fields.push_back(cutter.name(field));
-    if (cutter.malformed()) throw Exception(csv_row_error({CsvFault::Kind::open_quote, line}, {}, place));
+    check_cut(cutter, line, 0, {}, place);
     return out;
 }
 

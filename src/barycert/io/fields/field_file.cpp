@@ -57,9 +57,7 @@ void take_line(std::string_view line, bool whole, const CsvLayout& layout, const
         field.data[before + static_cast<std::size_t>(component)] = *x;
         cut = !whole && text.data() + text.size() == line.data() + line.size();
     }
-    const auto fault = cutter.malformed() ? CsvFault::Kind::open_quote : CsvFault::Kind::count;
-    if (cutter.malformed() || count != layout.role_of.size())
-        throw Exception(csv_row_error({fault, line, count}, layout, place));
+    check_cut(cutter, line, count, layout, place);
     if (cut) throw Exception(base::unended_number(place.file, place.line));
 }
 

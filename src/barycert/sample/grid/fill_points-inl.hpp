@@ -9,9 +9,6 @@
 #define BARYCERT_SAMPLE_FILL_POINTS_INL_HPP
 #endif
 
-#include <algorithm>
-#include <array>
-
 #include "barycert/index/records-inl.hpp"
 #include "barycert/sample/grid/fill_values-inl.hpp"
 
