@@ -29,7 +29,6 @@ OutsidePolicy policy_of(const std::string& text) {
             '"' + (meant.empty() ? "" : "; " + meant));
 }
 
-/// What both have.
 void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) {
     o.step(job.step, &job.all_steps);
     o.field_files(job.field_files, "--field", &job.series);

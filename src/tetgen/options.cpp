@@ -9,7 +9,6 @@
 #include <iostream>
 #include <limits>
 #include <new>
-#include <stdexcept>
 
 #include "barycert/base/text.hpp"
 #include "barycert/io.hpp"

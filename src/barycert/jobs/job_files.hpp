@@ -87,7 +87,6 @@ Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCe
 /// The same at the step of the job, with the fields from files.
 Mesh open_mesh_with_fields(const MeshJob& job, int threads, MeshReport& report);
 
-/// What a report says of the mesh.
 void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& report);
 
 /// Where cells are straight or linear though their maps are asked for.

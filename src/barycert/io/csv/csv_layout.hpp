@@ -47,7 +47,6 @@ public:
 
     bool malformed() const { return malformed_; }
 
-    /// The last field stood in quotes.
     bool quoted() const { return quoted_; }
 
     /// The last field as a text: what stands between quotes with its blanks, and with doubled quotes made one.
@@ -101,7 +100,6 @@ struct CsvLayout {
     bool coordinate(std::string_view field, double& value) const;
 };
 
-/// Where a line stands.
 struct LinePlace {
     std::string file;
     std::size_t line = 0;

@@ -39,7 +39,6 @@ CsvLayout settle(std::string_view line, const std::string& column, const LinePla
                 base::did_you_mean(column, cut.fields, "name a column of the first line, or say its place, from 1"));
 }
 
-/// Appends the values of the line.
 void take_line(std::string_view line, bool whole, const CsvLayout& layout, const LinePlace& place, Field& field) {
     FieldCutter cutter(line, layout.separator);
     std::size_t count = 0;
@@ -116,7 +115,6 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
     return field;
 }
 
-/// The columns of the array that are the components.
 std::vector<std::size_t> components_of(const NpyTable& table, const Field& field, const std::string& path,
                                        const std::string& column) {
     std::vector<std::string> names;

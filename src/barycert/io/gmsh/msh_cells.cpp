@@ -1,6 +1,5 @@
 #include <numeric>
 
-#include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/mesh/pulling.hpp"
@@ -52,7 +51,6 @@ std::string counted_types(const TypeCounts& counts, int low, int high) {
     return text;
 }
 
-/// The types of the cells.
 std::vector<const ElementType*> choose(const MshFile& file, const TypeCounts& counts) {
     int dimension = 0;
     std::vector<const ElementType*> kinds;  // of that dimension

@@ -5,7 +5,6 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
-#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -59,13 +58,6 @@ std::string word_at(const char* at, const char* end) {
     while (at != end && is_space(*at)) ++at;
     const char* const stop = std::find_if(at, std::min(end, at + std::min<std::ptrdiff_t>(end - at, 64)), is_space);
     return at == stop ? "the end of the file" : base::quoted({at, static_cast<std::size_t>(stop - at)});
-}
-
-void MshFile::refuse(const char* at, std::string what, std::string expected, std::string found,
-                     std::string remedy) const {
-    const bool text = !binary_ || at < after_format_;
-    refuse_line(path_, text ? line_of(bytes_, at) : 0, std::move(what), std::move(expected), std::move(found),
-                std::move(remedy));
 }
 
 void MshFile::read_format() {

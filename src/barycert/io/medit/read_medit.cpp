@@ -101,7 +101,6 @@ private:
         mesh_.notes.push_back({kind, std::move(text), file_.path(), important});
     }
 
-    /// Which section has the cells.
     void choose() {
         std::vector<const MeditSection*> found;
         for (const MeditSection& section : file_.sections()) {

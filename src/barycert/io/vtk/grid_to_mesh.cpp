@@ -4,7 +4,6 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/mesh/pulling.hpp"
 #include "barycert/surface/facet_triangles.hpp"
 

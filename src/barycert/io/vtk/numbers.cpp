@@ -83,7 +83,6 @@ template <class Wide>
 struct WordReader {
     Wide min, max;
 
-    /// The number that a word writes.
     bool read(std::string_view word, Wide& value) const {
         if constexpr (std::is_same_v<Wide, double>) {
             const std::optional<double> number = base::parse_double(word);

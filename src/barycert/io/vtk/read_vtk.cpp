@@ -4,14 +4,12 @@
 #include <set>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/xml.hpp"
 
 namespace barycert::io {
 namespace {
 
-/// A file of a collection.
 struct CollectionFile {
     std::string path;      ///< as it can be opened: relative ones are taken from the folder of the collection
     std::string block;     ///< its name, where it has one

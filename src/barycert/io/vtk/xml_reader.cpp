@@ -3,7 +3,6 @@
 #include <set>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -32,7 +31,6 @@ bool is_structured(std::string_view type) {
     return type == "ImageData" || type == "RectilinearGrid" || type == "StructuredGrid";
 }
 
-/// Reads the pieces of a file one after the other.
 class XmlReader : XmlTree {
 public:
     XmlReader(XmlTree tree, Part part) : XmlTree(std::move(tree)), part_(part) { take_layout(); }
@@ -231,7 +229,6 @@ private:
         std::vector<std::int64_t> ends, numbers;
     };
 
-    /// Faces of polyhedra.
     void read_faces(const XmlElement& piece, const XmlElement& element, const RawCells& cells, RawGrid& grid) const {
         const auto refuse = [&](std::size_t cell) {
             refuse_at(element, "the faces of cell " + std::to_string(cell) + " (from 0) of the piece",

@@ -30,7 +30,6 @@ inline const std::string& name_of(const FieldChoice& choice) {
     return choice.name.empty() ? choice.field->name : choice.name;
 }
 
-/// What the steps of a choice give.
 struct QuantityShape {
     bool of_cells = false;
     std::size_t components = 1;
