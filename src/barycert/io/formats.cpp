@@ -239,29 +239,6 @@ Result<MeshFormat> mesh_output_format(const std::string& path) {
                           "name a file with one of these suffixes");
 }
 
-Notes left_out_by(MeshFormat format, const Mesh& mesh) {
-    Notes notes;
-    const auto leave_out = [&](std::string text) { notes.push_back({Note::Kind::left_out, std::move(text)}); };
-    if (format == MeshFormat::tetgen) {
-        for (const auto& [fields, file] : {std::pair(&mesh.point_fields, "a .node"), {&mesh.cell_fields, "an .ele"}}) {
-            std::vector<TableField> columns;
-            for (const Field& f : *fields) columns.push_back({f.name, f.components});
-            note_lost_names(column_names(columns), file, notes);
-        }
-    }
-    const bool groups = std::ranges::any_of(mesh.cell_fields, [](const Field& f) { return f.name == "gmsh:physical"; });
-    for (const Column& labels : mesh.cell_labels) {
-        const bool own = labels.name == "gmsh:tag" || (groups && labels.name == "gmsh:physical_name");
-        if (format == MeshFormat::tetgen || (format == MeshFormat::gmsh && !own))
-            leave_out("labels of cells, for which the format has no place: " + labels.name);
-    }
-    if (format != MeshFormat::vtk && !mesh.shapes.types.empty())
-        notes.push_back({Note::Kind::converted, "cells are written as the simplices that they are cut into"});
-    if (format != MeshFormat::tetgen && !mesh.faces.empty())
-        leave_out("faces, for which the format has no place: " + std::to_string(mesh.face_count()));
-    return notes;
-}
-
 void note_by_corners(std::size_t cells, const std::string& path, Notes& notes) {
     const std::string text = std::to_string(cells) + " cells of a higher order: they are taken by their corners";
     if (cells != 0) notes.push_back({Note::Kind::converted, text, path, true});

@@ -151,10 +151,6 @@ void note_by_corners(std::size_t cells, const std::string& path, Notes& notes);
 /// it has no shapes. Error: a polyhedron that is not closed.
 void cut_into_simplices(Mesh& mesh, const std::string& path);
 
-/// What of the mesh a file of that format has no place for: names of fields, labels of cells, faces. What follows from
-/// the cells, as neighbours do, is not among it.
-Notes left_out_by(MeshFormat format, const Mesh& mesh);
-
 /// Adds to `notes`, once, which of these names a .node or .ele file does not have: its columns have no names, and are
 /// read as attribute0, attribute1, ...
 void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes);

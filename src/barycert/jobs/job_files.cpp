@@ -104,16 +104,24 @@ Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove p
     return Locator::build(mesh, build_options(job, threads, prove)).value();
 }
 
-Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& path) {
-    const std::uint64_t unmapped = locator.unmapped_cells();
-    if (asked == CellInterpolation::multilinear && locator.interpolation() == CellInterpolation::linear)
-        return {{Note::Kind::guessed, "no cell is a hexahedron or the like: multilinear interpolation is linear here",
-                 path, true}};
-    if (unmapped == 0) return {};
-    return {{Note::Kind::guessed,
-             std::to_string(unmapped) +
-                 " cells are taken as straight or by their parts: it is not proved that their maps are injective",
-             path, true}};
+void tell_once(Notes notes, MeshReport& report) {
+    for (Note& note : notes) {
+        const auto same = [&](const Note& told) { return told.kind == note.kind && told.text == note.text; };
+        if (std::ranges::none_of(report.notes, same)) report.notes.push_back(std::move(note));
+    }
+}
+
+void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report) {
+    report.curved.mapped = locator.has_curved_cells();
+    const auto tell = [&](std::string text) {
+        tell_once({{Note::Kind::guessed, std::move(text), job.mesh, true}}, report);
+    };
+    if (job.cell_interpolation == CellInterpolation::multilinear &&
+        locator.interpolation() == CellInterpolation::linear)
+        tell("no cell is a hexahedron or the like: multilinear interpolation is linear here");
+    else if (const std::uint64_t unmapped = locator.unmapped_cells(); unmapped != 0)
+        tell(std::to_string(unmapped) +
+             " cells are taken as straight or by their parts: it is not proved that their maps are injective");
 }
 
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more) {

@@ -89,8 +89,13 @@ Mesh open_mesh_with_fields(const MeshJob& job, int threads, MeshReport& report);
 
 void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& report);
 
-/// Where cells are straight or linear though their maps are asked for.
-Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& path);
+/// Notes in the report what is not there yet.
+void tell_once(Notes notes, MeshReport& report);
+
+/// Whether curved cells are taken by their maps; and, noted, where cells are straight or linear though these are asked
+/// for.
+void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report);
+
 /// What finds points in the mesh.
 BuildOptions build_options(const MeshJob& job, int threads, Prove prove = Prove::at_once);
 Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove = Prove::at_once);

@@ -65,9 +65,6 @@ Status make_all_fields(const Mesh& mesh, std::vector<FieldChoice>& choices, std:
 /// What `name` means, if it is one number a node or cell. Error: several numbers, or no such field.
 Result<FieldChoice> number_named(const Mesh& mesh, const std::string& name);
 
-/// How many steps there are up to the last mean: those that need the whole mesh.
-std::size_t steps_of_whole_mesh(const FieldChoice& choice);
-
 /// sqrt(sum v_i^2), within 0.51 units in the last place of the exact length where that is not subnormal, else within
 /// 0.76 (its unit may be twice that of the sum's root); infinite where that exceeds the doubles. NaN if a component is
 /// NaN, else infinite if one is. Subnormal and huge components are no different from others.
