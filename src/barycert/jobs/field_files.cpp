@@ -247,15 +247,10 @@ void add_fields(const std::vector<FieldFile>& files, Surface& s) {
         std::vector<Field>& fields = of_cells ? s.cell_fields : s.point_fields;
         if (sample::field_named(fields, file.name) != nullptr) refuse_second(file);
         if (of_cells && !array && !s.facets.empty()) {
-            const std::vector<double> of_facets = std::exchange(field.data, {});
-            std::size_t row = 0;
-            for (std::size_t t = 0; t < s.cell_count(); ++t) {
-                row = s.facet_count != 0                         ? static_cast<std::size_t>(s.facets[t])
-                      : t != 0 && s.facets[t] != s.facets[t - 1] ? row + 1
-                                                                 : row;
-                const double* const first = &of_facets[width * row];
-                field.data.insert(field.data.end(), first, first + width);
-            }
+            std::vector<Mesh::Index> rows = s.facets;
+            for (std::size_t t = 0; s.facet_count == 0 && t < rows.size(); ++t)
+                rows[t] = t == 0 ? 0 : rows[t - 1] + (s.facets[t] != s.facets[t - 1] ? 1 : 0);
+            field = mesh::rows_of(field, rows);
         }
         fields.push_back(std::move(field));
     }

@@ -64,7 +64,9 @@ public:
                 }
             }
             if (part_ == Part::all && !structured) read_cells(element, grid.types.size(), piece);
-            if (part_ == Part::all) read_cell_arrays(element, piece);
+            const XmlElement* const of_cells = child(&element, "CellData");
+            if (part_ == Part::all && of_cells != nullptr)
+                read_arrays(*of_cells, piece.types.size(), piece.has_steps, piece.cell_arrays);
             append_piece(grid, std::move(piece), path);
         }
         return grid;
@@ -186,11 +188,6 @@ private:
         } else {
             read_section(piece, "Cells", count_of(piece, "NumberOfCells", before), std::nullopt, grid);
         }
-    }
-
-    void read_cell_arrays(const XmlElement& piece, RawGrid& grid) const {
-        if (const XmlElement* const data = child(&piece, "CellData"); data != nullptr)
-            read_arrays(*data, grid.types.size(), grid.has_steps, grid.cell_arrays);
     }
 
     /// The cells of an element, behind those that there are. Those of no section of polygon data have types.
