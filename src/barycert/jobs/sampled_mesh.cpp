@@ -32,12 +32,6 @@ std::uint64_t count_degenerate(const Mesh& mesh) {
         [](std::uint64_t& all, std::uint64_t part) { all += part; });
 }
 
-/// Clearing alone would keep the memory.
-template <class T>
-void give_back(std::vector<T>& numbers) {
-    std::vector<T>().swap(numbers);
-}
-
 /// The name of a field of one step among those of others.
 std::string name_of_step(const std::string& name, const Step& step) {
     return name + '@' + step.label;
@@ -306,10 +300,11 @@ std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const 
 void SampledMesh::let_go_of_mesh() {
     if (gives_distances(job.options.outside) || !mesh_.mid_nodes.empty() || step_by_step() || may_be_mapped()) return;
     // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
-    give_back(mesh_.points);
-    give_back(mesh_.cells);
-    give_back(mesh_.point_markers);
-    for (Field& field : mesh_.point_fields) give_back(field.data);
+    // Clearing alone would keep the memory.
+    mesh_.points = std::vector<double>();
+    mesh_.cells = std::vector<Mesh::Index>();
+    mesh_.point_markers = std::vector<std::int64_t>();
+    for (Field& field : mesh_.point_fields) field.data = std::vector<double>();
 }
 
 NodeWeights SampledMesh::weights_of(const TableView& rows) const {
