@@ -27,7 +27,6 @@ inline void add_seed(const Options& o, std::uint64_t& seed, const std::string& h
 Result<std::vector<Kernel>> chosen_kernels(const KernelChoice& choice);
 void tell_note(const std::string& path, const Kernel& kernel);
 
-/// The libraries as inputs.
 inline std::vector<base::NamedFile> library_files(const KernelChoice& kernels) {
     return base::named_files("--kernel-library", kernels.libraries);
 }

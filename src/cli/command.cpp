@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <utility>
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"

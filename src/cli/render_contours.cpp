@@ -13,7 +13,6 @@ struct ContourArguments : Arguments<ContourJob> {
     const CLI::App* app = nullptr;
 };
 
-/// What iso and slice share.
 void add_contour_options(const Options& o, ContourArguments& a) {
     a.app = &o.app();
     o.step(a.job.step);

@@ -35,7 +35,6 @@ std::string where_none_matches(const CaseJob& wanted, const std::vector<Witness>
     return rest;
 }
 
-/// What contradicts itself.
 void check_arguments(const ReplayArguments& a) {
     if (a.file.empty() == a.made.family.empty())
         throw Exception({.what = a.file.empty() ? "no case to replay" : "a witness file and a case",

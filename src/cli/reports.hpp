@@ -98,7 +98,6 @@ private:
     Progress progress_;
 };
 
-/// What most subcommands are given.
 template <class Job>
 struct Arguments {
     Job job;

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {
@@ -31,7 +29,6 @@ OutsidePolicy policy_of(const std::string& text) {
             '"' + (meant.empty() ? "" : "; " + meant));
 }
 
-/// What both have.
 void add_sampling_options(const Options& o, SamplingJob& job, Reports& reports) {
     o.step(job.step, &job.all_steps);
     o.field_files(job.field_files, "--field", &job.series);

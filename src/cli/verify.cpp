@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "barycert/base/text.hpp"
 #include "reports.hpp"
 
 namespace barycert::cli {

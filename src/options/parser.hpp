@@ -25,7 +25,6 @@ std::string joined(const std::vector<std::string>& words);
 std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,
                         std::span<const char* const> words = {});
 
-/// The integer that is the whole text.
 template <class N>
 std::optional<N> integer_of(std::string_view text) {
     N n = 0;
@@ -34,7 +33,6 @@ std::optional<N> integer_of(std::string_view text) {
     return n;
 }
 
-/// The names of the commands below one.
 std::vector<std::string> command_names(const CLI::App& app);
 
 }  // namespace barycert::cli

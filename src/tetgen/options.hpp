@@ -25,7 +25,6 @@ struct Options {
 
     /// TetGen's switches, without a dash.
     std::string tetgen_switches() const;
-    /// Cells are to be refined.
     bool refines() const { return ratio || min_dihedral || max_volume; }
     /// Only looks for self-intersections (TetGen's -d).
     bool diagnoses() const;

@@ -1,22 +1,18 @@
 #include <cctype>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
+#include "barycert/mesh/columns.hpp"
+#include "barycert/mesh/part.hpp"
+#include "barycert/mesh/pulling.hpp"
 
 namespace barycert::io {
-namespace {
 
 namespace fs = std::filesystem;
-
-bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes) {
-    return std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view one) { return has_suffix(path, one); });
-}
-
-}  // namespace
 
 void refuse_file(std::string file, std::string what, std::string expected, std::string found, std::string remedy) {
     refuse_line(std::move(file), 0, std::move(what), std::move(expected), std::move(found), std::move(remedy));
@@ -70,6 +66,10 @@ std::string plain_or_packed(const std::string& path) {
 
 bool has_suffix(std::string_view path, std::string_view suffix) {
     return lower(without_gz(path)).ends_with(suffix);
+}
+
+bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes) {
+    return std::ranges::any_of(suffixes, [&](std::string_view one) { return has_suffix(path, one); });
 }
 
 std::string suffix_of(const std::string& path) {
@@ -239,28 +239,31 @@ Result<MeshFormat> mesh_output_format(const std::string& path) {
                           "name a file with one of these suffixes");
 }
 
-Notes left_out_by(MeshFormat format, const Mesh& mesh) {
-    Notes notes;
-    const auto leave_out = [&](std::string text) { notes.push_back({Note::Kind::left_out, std::move(text)}); };
-    if (format == MeshFormat::tetgen) {
-        for (const auto& [fields, file] : {std::pair(&mesh.point_fields, "a .node"), {&mesh.cell_fields, "an .ele"}}) {
-            std::vector<TableField> columns;
-            for (const Field& f : *fields) columns.push_back({f.name, f.components});
-            note_lost_names(column_names(columns), file, notes);
-        }
+void note_by_corners(std::size_t cells, const std::string& path, Notes& notes) {
+    const std::string text = std::to_string(cells) + " cells of a higher order: they are taken by their corners";
+    if (cells != 0) notes.push_back({Note::Kind::converted, text, path, true});
+}
+
+void cut_into_simplices(Mesh& mesh, const std::string& path) {
+    if (mesh.shapes.types.empty()) return;
+    std::vector<Mesh::Index> numbers = std::move(mesh.cell_numbers);
+    if (numbers.empty()) {
+        numbers.resize(mesh.shapes.count());
+        std::iota(numbers.begin(), numbers.end(), 0);
     }
-    const bool groups = std::any_of(mesh.cell_fields.begin(), mesh.cell_fields.end(),
-                                    [](const Field& f) { return f.name == "gmsh:physical"; });
-    for (const Column& labels : mesh.cell_labels) {
-        const bool own = labels.name == "gmsh:tag" || (groups && labels.name == "gmsh:physical_name");
-        if (format == MeshFormat::tetgen || (format == MeshFormat::gmsh && !own))
-            leave_out("labels of cells, for which the format has no place: " + labels.name);
-    }
-    if (format != MeshFormat::vtk && !mesh.shapes.types.empty())
-        notes.push_back({Note::Kind::converted, "cells are written as the simplices that they are cut into"});
-    if (format != MeshFormat::tetgen && !mesh.faces.empty())
-        leave_out("faces, for which the format has no place: " + std::to_string(mesh.face_count()));
-    return notes;
+    if (const auto open = mesh::pull(mesh))
+        refuse_file(path, "the faces of cell " + std::to_string(numbers[*open]) + " (from 0) do not close",
+                    "each edge in two faces of the polyhedron", {}, "write the file again with all faces");
+    const std::vector<Mesh::Index> of_part = mesh::whole_of_parts(mesh);
+    mesh.cell_numbers.clear();
+    mesh::append_rows_of(numbers, 1, of_part, mesh.cell_numbers);
+    for (Field& field : mesh.cell_fields) field = mesh::rows_of(field, of_part);
+    for (Column& labels : mesh.cell_labels) labels = mesh::labels_at(labels, of_part);
+    mesh.notes.push_back({Note::Kind::converted,
+                          std::to_string(numbers.size()) + " cells are cut into " + std::to_string(mesh.cell_count()) +
+                              (mesh.dimension == 3 ? " tetrahedra" : " triangles") +
+                              ", each cell and face at its node of lowest number",
+                          path});
 }
 
 void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes) {

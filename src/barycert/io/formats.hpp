@@ -81,8 +81,9 @@ std::string_view without_gz(std::string_view path);
 /// The path, or with .gz at its end where there is only such a file.
 std::string plain_or_packed(const std::string& path);
 
-/// True if the path, but for .gz, ends so, in any case. `suffix` is in lower case.
+/// True if the path, but for .gz, ends so, or in one of these, in any case. Suffixes are in lower case.
 bool has_suffix(std::string_view path, std::string_view suffix);
+bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes);
 
 /// The suffix of the path with its dot; empty if it has none.
 std::string suffix_of(const std::string& path);
@@ -143,13 +144,12 @@ std::string meshio_format(const std::string& path);
 /// Of a mesh that is to be written: by the end of its name. Error: it is another one.
 Result<MeshFormat> mesh_output_format(const std::string& path);
 
+/// Tells that so many cells are taken by their corners, if there are such.
+void note_by_corners(std::size_t cells, const std::string& path, Notes& notes);
+
 /// Cuts the shapes of a mesh whose cell numbers, fields and labels have a row for each shape, and tells it; nothing if
 /// it has no shapes. Error: a polyhedron that is not closed.
 void cut_into_simplices(Mesh& mesh, const std::string& path);
-
-/// What of the mesh a file of that format has no place for: names of fields, labels of cells, faces. What follows from
-/// the cells, as neighbours do, is not among it.
-Notes left_out_by(MeshFormat format, const Mesh& mesh);
 
 /// Adds to `notes`, once, which of these names a .node or .ele file does not have: its columns have no names, and are
 /// read as attribute0, attribute1, ...

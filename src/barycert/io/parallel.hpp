@@ -7,6 +7,7 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/mesh/part.hpp"
 
 namespace barycert::io {
 
@@ -67,11 +68,7 @@ void grow(std::vector<T>& values, std::size_t count) {
 template <class T>
 void keep_rows(std::vector<T>& values, std::size_t components, const std::vector<std::int32_t>& rows) {
     std::vector<T> kept;
-    kept.reserve(rows.size() * components);
-    for (const std::int32_t row : rows) {
-        const auto from = values.begin() + row * static_cast<std::ptrdiff_t>(components);
-        kept.insert(kept.end(), from, from + static_cast<std::ptrdiff_t>(components));
-    }
+    mesh::append_rows_of(values, components, rows, kept);
     values = std::move(kept);
 }
 

@@ -24,9 +24,9 @@ std::string example(const TableColumns& all, int dimension, std::size_t first) {
     return text;
 }
 
-[[noreturn]] void refuse(const TableColumns& all, std::string what, std::string expected, std::string found,
-                         std::string remedy) {
-    refuse_line(all.file, all.line, std::move(what), std::move(expected), std::move(found), std::move(remedy));
+template <class... Parts>
+[[noreturn]] void refuse(const TableColumns& all, Parts&&... parts) {
+    refuse_line(all.file, all.line, std::forward<Parts>(parts)...);
 }
 
 /// The column of exactly that name; names.size() if there is none.

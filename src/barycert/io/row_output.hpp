@@ -38,7 +38,6 @@ public:
         for (const Number value : values) number(value);
     }
 
-    /// The values of all fields at that node or cell.
     void row_of(const std::vector<Field>& fields, std::size_t row) {
         for (const Field& field : fields) {
             const auto components = static_cast<std::size_t>(field.components);

@@ -29,7 +29,6 @@ struct OnTheWay {
     std::exception_ptr fault;
     double seconds = 0;
 
-    /// Whether there is something to do.
     bool goes_on() const { return !fault && block.size != 0; }
 
     template <class Stage>

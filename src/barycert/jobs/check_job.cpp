@@ -68,6 +68,30 @@ Status write_measures(const CheckJob& job, const CheckReport& report, Mesh mesh)
     return write_vtu(mesh, job.measures, job.vtk_data.value_or(VtkData::raw));
 }
 
+/// What of the mesh the file has no place for: names of fields, labels of cells, faces. What follows from the cells, as
+/// neighbours do, is not among it.
+Notes left_out_of(const std::string& path, const Mesh& mesh) {
+    const io::MeshFormat format = *io::mesh_output_format(path);
+    Notes notes;
+    const auto leave_out = [&](std::string text) { notes.push_back({Note::Kind::left_out, std::move(text)}); };
+    if (format == io::MeshFormat::tetgen) {
+        for (const auto& [fields, file] : {std::pair(&mesh.point_fields, "a .node"), {&mesh.cell_fields, "an .ele"}}) {
+            std::vector<TableField> columns;
+            for (const Field& f : *fields) columns.push_back({f.name, f.components});
+            io::note_lost_names(column_names(columns), file, notes);
+        }
+    }
+    const bool groups = std::ranges::any_of(mesh.cell_fields, [](const Field& f) { return f.name == "gmsh:physical"; });
+    for (const Column& labels : mesh.cell_labels) {
+        const bool own = labels.name == "gmsh:tag" || (groups && labels.name == "gmsh:physical_name");
+        if (format == io::MeshFormat::tetgen || (format == io::MeshFormat::gmsh && !own))
+            leave_out("labels of cells, for which the format has no place: " + labels.name);
+    }
+    if (format != io::MeshFormat::tetgen && !mesh.faces.empty())
+        leave_out("faces, for which the format has no place: " + std::to_string(mesh.face_count()));
+    return notes;
+}
+
 /// Writes the repaired copy, reads it again and checks it.
 void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked) {
     checked.fixed = FixedMesh{.file = copy_of(job).path, .done = {}, .notes = {}, .after = {}};
@@ -81,7 +105,7 @@ void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked)
     if (copy.cell_count() == 0 && checked.mesh.cell_count() != 0)
         refuse(fixed.file, "no copy is written, as it would have no cells", "", "",
                "look at the mesh, and where nodes were merged choose a smaller distance");
-    fixed.notes = io::left_out_by(*io::mesh_output_format(fixed.file), copy);
+    fixed.notes = left_out_of(fixed.file, copy);
     if (checked.mesh.shapes.count() != 0)
         fixed.notes.push_back({Note::Kind::converted, "cells are written as the simplices that they are cut into"});
     write_mesh(copy, fixed.file, {.comment = {}, .data = job.vtk_data.value_or(VtkData::raw)}).value();

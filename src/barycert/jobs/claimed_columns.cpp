@@ -23,7 +23,6 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
            base::did_you_mean(name, there, "name one of these"));
 }
 
-/// The columns that a choice has in rows.
 TableField columns_of(const Mesh& mesh, const FieldChoice& choice) {
     return {sample::name_of(choice), static_cast<int>(sample::shape_of(mesh, choice)->components)};
 }

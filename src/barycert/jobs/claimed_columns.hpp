@@ -20,7 +20,6 @@ struct ClaimedColumns {
 ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                                const std::vector<ColumnFormat>& there, Notes& notes);
 
-/// A block of claims.
 struct Claims {
     std::vector<std::int64_t> cells;
     std::vector<std::uint8_t> inside;

@@ -74,7 +74,7 @@ Result<Mesh> points_as_mesh(const std::string& path, int dimension, const Error&
 
 /// Whether it has fields of Medit, and no mesh.
 bool is_solution(const std::string& path) {
-    return has_suffix_of(path, {".sol", ".solb"});
+    return io::has_one_of(path, {".sol", ".solb"});
 }
 
 /// The array file.column, of nodes or of cells; file.of becomes which.
@@ -162,9 +162,9 @@ void check_label(const Mesh& mesh, const Column& label) {
 }  // namespace
 
 bool is_file_of_a_mesh(const std::string& path) {
-    if (io::is_vtk_file(path) || has_suffix_of(path, {".msh", ".mesh", ".meshb", ".node", ".ele"})) return true;
+    if (io::is_vtk_file(path) || io::has_one_of(path, {".msh", ".mesh", ".meshb", ".node", ".ele"})) return true;
     std::error_code ignored;  // what is no regular file is not opened to look at it
-    return !has_suffix_of(path, {".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"}) &&
+    return !io::has_one_of(path, {".csv", ".txt", ".dat", ".xyz", ".tsv", ".npy"}) &&
            std::filesystem::is_regular_file(path, ignored) && io::mesh_format(path);
 }
 
@@ -247,15 +247,10 @@ void add_fields(const std::vector<FieldFile>& files, Surface& s) {
         std::vector<Field>& fields = of_cells ? s.cell_fields : s.point_fields;
         if (sample::field_named(fields, file.name) != nullptr) refuse_second(file);
         if (of_cells && !array && !s.facets.empty()) {
-            const std::vector<double> of_facets = std::exchange(field.data, {});
-            std::size_t row = 0;
-            for (std::size_t t = 0; t < s.cell_count(); ++t) {
-                row = s.facet_count != 0                         ? static_cast<std::size_t>(s.facets[t])
-                      : t != 0 && s.facets[t] != s.facets[t - 1] ? row + 1
-                                                                 : row;
-                const double* const first = &of_facets[width * row];
-                field.data.insert(field.data.end(), first, first + width);
-            }
+            std::vector<Mesh::Index> rows = s.facets;
+            for (std::size_t t = 0; s.facet_count == 0 && t < rows.size(); ++t)
+                rows[t] = t == 0 ? 0 : rows[t - 1] + (s.facets[t] != s.facets[t - 1] ? 1 : 0);
+            field = mesh::rows_of(field, rows);
         }
         fields.push_back(std::move(field));
     }

@@ -14,7 +14,6 @@ bool is_name_of_rows(const std::string& name);
 /// tables do are none: .dat, which is Tecplot's, too, among them.
 bool is_file_of_a_mesh(const std::string& path);
 
-/// Where a field of the mesh is.
 struct FieldPlace {
     bool of_cells = false;
     std::size_t number = 0;

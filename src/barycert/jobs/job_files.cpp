@@ -104,16 +104,24 @@ Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove p
     return Locator::build(mesh, build_options(job, threads, prove)).value();
 }
 
-Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& path) {
-    const std::uint64_t unmapped = locator.unmapped_cells();
-    if (asked == CellInterpolation::multilinear && locator.interpolation() == CellInterpolation::linear)
-        return {{Note::Kind::guessed, "no cell is a hexahedron or the like: multilinear interpolation is linear here",
-                 path, true}};
-    if (unmapped == 0) return {};
-    return {{Note::Kind::guessed,
-             std::to_string(unmapped) +
-                 " cells are taken as straight or by their parts: it is not proved that their maps are injective",
-             path, true}};
+void tell_once(Notes notes, MeshReport& report) {
+    for (Note& note : notes) {
+        const auto same = [&](const Note& told) { return told.kind == note.kind && told.text == note.text; };
+        if (std::ranges::none_of(report.notes, same)) report.notes.push_back(std::move(note));
+    }
+}
+
+void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report) {
+    report.curved.mapped = locator.has_curved_cells();
+    const auto tell = [&](std::string text) {
+        tell_once({{Note::Kind::guessed, std::move(text), job.mesh, true}}, report);
+    };
+    if (job.cell_interpolation == CellInterpolation::multilinear &&
+        locator.interpolation() == CellInterpolation::linear)
+        tell("no cell is a hexahedron or the like: multilinear interpolation is linear here");
+    else if (const std::uint64_t unmapped = locator.unmapped_cells(); unmapped != 0)
+        tell(std::to_string(unmapped) +
+             " cells are taken as straight or by their parts: it is not proved that their maps are injective");
 }
 
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more) {
@@ -162,17 +170,13 @@ void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::ve
     check_files(job, std::move(more_inputs), std::move(outputs), of_steps);
 }
 
-bool has_suffix_of(const std::string& path, std::initializer_list<std::string_view> suffixes) {
-    return std::any_of(suffixes.begin(), suffixes.end(), [&](std::string_view s) { return io::has_suffix(path, s); });
-}
-
 void check_vtk_data(std::optional<VtkData> data, const std::string& path) {
     if (!data) return;
     const bool legacy = io::has_suffix(path, ".vtk");
     if (legacy && *data != VtkData::raw && *data != VtkData::ascii)
         refuse(path, "job.vtk_data: legacy files of VTK know no compression", "raw or ascii", std::string(name(*data)),
                "name a .vtu file");
-    if (!legacy && !has_suffix_of(path, {".vtu", ".vtp", ".vti"}))
+    if (!legacy && !io::has_one_of(path, {".vtu", ".vtp", ".vti"}))
         refuse(path, "job.vtk_data is for files of VTK", ".vtu, .vtk, .vtp or .vti", "",
                "leave it out, or name such a file");
 }

@@ -5,7 +5,6 @@
 #include <tbb/global_control.h>
 
 #include <chrono>
-#include <initializer_list>
 
 #include "barycert/base/named_file.hpp"
 #include "barycert/jobs.hpp"
@@ -88,11 +87,15 @@ Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCe
 /// The same at the step of the job, with the fields from files.
 Mesh open_mesh_with_fields(const MeshJob& job, int threads, MeshReport& report);
 
-/// What a report says of the mesh.
 void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& report);
 
-/// Where cells are straight or linear though their maps are asked for.
-Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& path);
+/// Notes in the report what is not there yet.
+void tell_once(Notes notes, MeshReport& report);
+
+/// Whether curved cells are taken by their maps; and, noted, where cells are straight or linear though these are asked
+/// for.
+void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report);
+
 /// What finds points in the mesh.
 BuildOptions build_options(const MeshJob& job, int threads, Prove prove = Prove::at_once);
 Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove = Prove::at_once);
@@ -116,9 +119,6 @@ void check_files(const SamplingJob& job, const std::vector<Step>& steps, std::ve
 
 /// Refuses a choice of data for an output that is no file of VTK, and one that its format does not know.
 void check_vtk_data(std::optional<VtkData> data, const std::string& path);
-
-/// Whether the path ends as one of these, in any case.
-bool has_suffix_of(const std::string& path, std::initializer_list<std::string_view> suffixes);
 
 /// Refuses an output whose suffix is none of those `expected`.
 [[noreturn]] void refuse_output(const std::string& path, const std::string& expected);

@@ -41,6 +41,10 @@ Grid grid_of(const ResampleJob& a, const Mesh& mesh) {
     return grid_spaced(mesh.dimension, spacing, box.low, box.high).value();
 }
 
+bool is_rows(const std::string& output) {
+    return output == "-" || io::has_one_of(output, {".csv", ".npy"});
+}
+
 void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     const int targets = (job.counts.empty() ? 0 : 1) + (job.spacing.empty() ? 0 : 1) + (job.onto.empty() ? 0 : 1);
     if (targets != 1)
@@ -56,13 +60,13 @@ void check_job(const ResampleJob& job, const std::vector<jobs::Step>& steps) {
     if (job.onto.empty()) {
         if (job.range && !io::has_suffix(job.output, ".png"))
             refuse(job.output, "job.range needs a picture", "", "", "use job.output FILE.png, or leave job.range out");
-        if (job.output != "-" && !jobs::has_suffix_of(job.output, {".csv", ".npy", ".vti", ".png"}))
+        if (job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vti", ".png"}))
             jobs::refuse_output(job.output, ".vti, .npy, .csv or .png for a grid, or - for CSV on stdout");
         return jobs::check_files(job, steps, {}, {{"job.output", job.output}});
     }
     if (job.range) refuse("", "job.range cannot be combined with job.onto", "", "", "it is for pictures: leave it out");
     std::vector<std::string> outputs{job.output};
-    if (!jobs::is_rows_output(job.output)) {
+    if (!is_rows(job.output)) {
         const Result<io::MeshFormat> format = io::mesh_output_format(job.output);
         if (!format)
             jobs::refuse_output(
@@ -140,7 +144,7 @@ void onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
 void onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
     mesh.tell("reading " + job.onto);
     Stopwatch watch;
-    const bool to_rows = jobs::is_rows_output(job.output);
+    const bool to_rows = is_rows(job.output);
     Mesh other =
         read_mesh(job.onto, {.faces = !to_rows, .neighbours = !to_rows, .threads = job.options.threads}).value();
     const int d = mesh.mesh().dimension;

@@ -190,10 +190,6 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
     });
 }
 
-bool is_rows_output(const std::string& path) {
-    return path == "-" || has_suffix_of(path, {".csv", ".npy"});
-}
-
 Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes) {
     if (!format.carried.empty())
         refuse(path, "a mesh has no labels of nodes", "fields", "label " + base::quoted(format.carried.front().name),

@@ -14,9 +14,6 @@ std::array<double, 3> point_of(const Grid& grid, std::uint64_t i);
 Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
                     std::optional<SliceCounts>& picture);
 
-/// True if the output is rows: CSV or NPY.
-bool is_rows_output(const std::string& path);
-
 /// Takes one row a node, and writes the mesh when all is there: VTK's files, or TetGen's by their stem. Refused:
 /// carried columns, for which meshes have no place. `notes` gets the names that a .node file cannot hold, once.
 Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes);

@@ -37,7 +37,7 @@ void check_job(const SampleJob& job, const std::vector<jobs::Step>& steps) {
         !(job.fields.empty() && job.field_files.empty() && job.series.empty() && job.keep.empty()))
         refuse("", "fields or columns without job.output", "", "",
                "weights depend on no field: leave fields out, or name job.output too");
-    if (!job.output.empty() && job.output != "-" && !jobs::has_suffix_of(job.output, {".csv", ".npy", ".vtu"}))
+    if (!job.output.empty() && job.output != "-" && !io::has_one_of(job.output, {".csv", ".npy", ".vtu"}))
         jobs::refuse_output(job.output, ".csv, .npy or .vtu, or - for CSV on stdout");
     std::vector<base::NamedFile> inputs{{"job.map", job.map}};
     if (job.map.empty()) inputs = {{"job.points", job.points}};
@@ -94,8 +94,7 @@ void at_points(SampledMesh& mesh, const SampleJob& job) {
     std::unique_ptr<PointSource> points = open();
     SampleReport& report = mesh.report;
     report.seconds.read += watch.lap();  // some files are read as a whole, and some twice
-    const Notes notes = points->notes();
-    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    std::ranges::copy(points->notes(), std::back_inserter(report.notes));
     report.points = job.points;
     report.all = job.all.value_or(false);
     jobs::RowSource rows = jobs::rows_of_points(points);
@@ -214,8 +213,7 @@ private:
         TableFormat format{.dimension = 3, .distances = true};
         if (job_.map.empty()) {
             points_ = points_of(job_, 3, job_.options.nonfinite_points);
-            const Notes notes = points_->notes();
-            report_.notes.insert(report_.notes.end(), notes.begin(), notes.end());
+            std::ranges::copy(points_->notes(), std::back_inserter(report_.notes));
             format.carried = points_->carried();
         } else {
             map_.emplace(MapReader::open(job_.map, surface_).value());

@@ -32,12 +32,6 @@ std::uint64_t count_degenerate(const Mesh& mesh) {
         [](std::uint64_t& all, std::uint64_t part) { all += part; });
 }
 
-/// Clearing alone would keep the memory.
-template <class T>
-void give_back(std::vector<T>& numbers) {
-    std::vector<T>().swap(numbers);
-}
-
 /// The name of a field of one step among those of others.
 std::string name_of_step(const std::string& name, const Step& step) {
     return name + '@' + step.label;
@@ -115,7 +109,8 @@ void SampledMesh::go_to(const Step& step) try {
         tell_once({{Note::Kind::left_out,
                     fmt::format("in step {} the fields of the first step: there they are {}, here {}", step.label,
                                 names_of_first_, names),
-                    job.mesh, true}});
+                    job.mesh, true}},
+                  report);
     if (!another_mesh_) build_sampler(part_ ? fields_of_part() : fields_);
     report.seconds.build += watch.lap();
 } catch (const Exception& e) {
@@ -157,7 +152,7 @@ void SampledMesh::read_mesh_of(const Step& step) {
         mesh_.notes = std::move(mesh.notes);
     }
     add_fields_of_job();
-    tell_once(mesh_.notes);
+    tell_once(mesh_.notes, report);
 }
 
 void SampledMesh::read_fields(const Step& step) {
@@ -177,14 +172,7 @@ void SampledMesh::read_fields(const Step& step) {
                    shape(field) + ", as in the first step", shape(read));
         field.data = std::move(read.data);
     }
-    tell_once(std::move(notes));
-}
-
-void SampledMesh::tell_once(Notes notes) {
-    for (Note& note : notes) {
-        const auto same = [&](const Note& told) { return told.kind == note.kind && told.text == note.text; };
-        if (std::ranges::none_of(report.notes, same)) report.notes.push_back(std::move(note));
-    }
+    tell_once(std::move(notes), report);
 }
 
 /// With columns for all steps, what is asked of a series is asked of each step.
@@ -211,9 +199,11 @@ void SampledMesh::choose_fields() {
     if (!labels_.empty() && names.empty()) return;
     fields_ = sample::quantities_named(mesh_, names).value();
     for (const FieldChoice& choice : fields_) count_not_finite(*choice.field, choice.of_cells, report.not_finite);
-    // What depends on all cells is made before some of them are looked at.
+    // What depends on all cells is made before some of them are looked at: up to the last mean.
     for (FieldChoice& choice : fields_) {
-        const std::size_t count = sample::steps_of_whole_mesh(choice);
+        const auto is_mean = [](const QuantityStep& step) { return step.kind == QuantityStep::Kind::mean; };
+        const auto last = std::find_if(choice.steps.rbegin(), choice.steps.rend(), is_mean);
+        const auto count = static_cast<std::size_t>(choice.steps.rend() - last);
         if (count == 0) continue;
         if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
             refuse(job.mesh, std::string("the mesh is inconsistent: ") + wrong);
@@ -234,8 +224,7 @@ TableFormat SampledMesh::format() const {
 void SampledMesh::build(const Mesh& mesh, const std::vector<FieldChoice>& fields, Prove prove) {
     Stopwatch watch;
     locator_ = build_locator(job, mesh, job.options.threads, may_be_mapped() ? Prove::at_once : prove);
-    report.curved.mapped = locator_->has_curved_cells();
-    tell_once(notes_of_maps(*locator_, job.cell_interpolation, job.mesh));
+    report_maps(job, *locator_, report);
     build_sampler(fields);
     if (job.count_degenerate)
         report.degenerate_cells += prove == Prove::never ? count_degenerate(mesh) : locator_->degenerate_cells();
@@ -311,10 +300,11 @@ std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const 
 void SampledMesh::let_go_of_mesh() {
     if (gives_distances(job.options.outside) || !mesh_.mid_nodes.empty() || step_by_step() || may_be_mapped()) return;
     // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
-    give_back(mesh_.points);
-    give_back(mesh_.cells);
-    give_back(mesh_.point_markers);
-    for (Field& field : mesh_.point_fields) give_back(field.data);
+    // Clearing alone would keep the memory.
+    mesh_.points = std::vector<double>();
+    mesh_.cells = std::vector<Mesh::Index>();
+    mesh_.point_markers = std::vector<std::int64_t>();
+    for (Field& field : mesh_.point_fields) field.data = std::vector<double>();
 }
 
 NodeWeights SampledMesh::weights_of(const TableView& rows) const {

@@ -43,9 +43,6 @@ public:
 
     void tell(const std::string& what, std::uint64_t done = 0) const { tell_stage(job, what, done); }
 
-    /// What would be told of every step is told once.
-    void tell_once(Notes notes);
-
     /// Prepares for points one by one. `all_points`: all that there are, if that is known. Few of them need no index of
     /// the mesh: then it is prepared for these points alone. A second call does nothing.
     void prepare(std::span<const double> all_points = {});

@@ -115,7 +115,7 @@ std::vector<Step> matches_of(const FieldFile& series) {
 }
 
 bool names_steps(const std::string& path) {
-    return has_suffix_of(path, {".pvd", ".series"});
+    return io::has_one_of(path, {".pvd", ".series"});
 }
 
 /// FILE.pvd, or FILE.pvd:COLUMN; also of .vtu.series.

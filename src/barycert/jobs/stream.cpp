@@ -1,7 +1,6 @@
 #include "barycert/jobs/stream.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -257,11 +256,12 @@ Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<Col
     if (left_out.empty()) {
         kept.clear();
     } else {
-        mesh.tell_once({{Note::Kind::left_out,
-                         fmt::format("columns {}: the rows have columns of these names; job.keep OTHER={} carries one "
-                                     "through under another name",
-                                     fmt::join(left_out, ","), left_out.front()),
-                         mesh.report.points}});
+        tell_once({{Note::Kind::left_out,
+                    fmt::format("columns {}: the rows have columns of these names; job.keep OTHER={} carries one "
+                                "through under another name",
+                                fmt::join(left_out, ","), left_out.front()),
+                    mesh.report.points}},
+                  mesh.report);
     }
     Sink sink = open(format);
     // A sink of its own only where users see something else.

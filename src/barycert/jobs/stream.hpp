@@ -48,7 +48,6 @@ public:
     /// Reads the first block, with which run() will begin.
     Block& first();
 
-    /// Whether there may be others.
     bool have_more() const { return more_; }
 
     /// Prepares the locator for all points; from now on blocks are as large as its mesh asks for.

@@ -108,9 +108,7 @@ private:
     void build() {
         Stopwatch watch;
         locator_ = jobs::build_locator(job_, mesh_, job_.options.threads);
-        report_.curved.mapped = locator_->has_curved_cells();
-        const Notes notes = jobs::notes_of_maps(*locator_, job_.cell_interpolation, job_.mesh);
-        report_.notes.insert(report_.notes.end(), notes.begin(), notes.end());
+        jobs::report_maps(job_, *locator_, report_);
         sampler_ = Sampler::build(*locator_, columns_.fields).value();
         report_.certified = locator_->certified();
         report_.contested_cells = locator_->contested_cells();

@@ -13,31 +13,28 @@
 namespace barycert::fuzz {
 namespace {
 
-template <class T>
-void put_little_at(std::string& bytes, std::size_t at, T value) {
-    sample::put_little(bytes.data() + at, value);
-}
-
 /// Checksums of the header and of each block that is there whole, as the header tells its rows.
 void mend(std::string& bytes, const Mesh& mesh) {
     using namespace sample;
     if (bytes.size() < map_header_size) return;
-    bytes.replace(0, map_magic.size(), map_magic);
-    put_little_at(bytes, 8, map_version);
-    bytes[12] = static_cast<char>(mesh.dimension);
-    put_little_at(bytes, 24, std::uint64_t{mesh.point_count()});
-    put_little_at(bytes, 32, std::uint64_t{mesh.cell_count()});
-    put_little_at(bytes, 40, mesh_fingerprint(mesh));
-    put_little_at(bytes, 48, map_checksum(std::string_view(bytes).substr(0, 48), 0));
-    const auto all_rows = get_little<std::uint64_t>(bytes.data() + 16);
-    std::uint64_t chain = mesh_fingerprint(mesh);
+    MapHeader head;
+    std::memcpy(&head, bytes.data(), sizeof head);
+    map_magic.copy(head.magic.data(), map_magic.size());
+    head.version = map_version;
+    head.dimension = static_cast<std::uint8_t>(mesh.dimension);
+    head.nodes = mesh.point_count();
+    head.cells = mesh.cell_count();
+    head.fingerprint = mesh_fingerprint(mesh);
+    head.checksum = head.right_checksum();
+    bytes.replace(0, map_header_size, head.bytes());
+    std::uint64_t chain = head.fingerprint;
     std::size_t at = map_header_size;
-    for (std::uint64_t row = 0; row < all_rows; row += map_block_rows) {
+    for (std::uint64_t row = 0; row < head.rows; row += map_block_rows) {
         const std::size_t size = map_block_size(
-            mesh.dimension, static_cast<std::size_t>(std::min<std::uint64_t>(map_block_rows, all_rows - row)));
+            mesh.dimension, static_cast<std::size_t>(std::min<std::uint64_t>(map_block_rows, head.rows - row)));
         if (bytes.size() - at < size + map_checksum_size) return;
         chain = map_checksum(std::string_view(bytes).substr(at, size), chain);
-        put_little_at(bytes, at + size, chain);
+        std::memcpy(bytes.data() + at + size, &chain, sizeof chain);
         at += size + map_checksum_size;
     }
 }

@@ -1,5 +1,3 @@
-#include "barycert/io/formats.hpp"
-
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -7,7 +5,6 @@
 #include <sys/wait.h>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -127,7 +124,6 @@ base::Text beginning_of(const base::InputFile& file, const std::string& path, co
     return format == "ansys" ? base::Text::head : base::Text::all;
 }
 
-/// A file that meshio has read.
 struct MeshioFile {
     base::Descriptor descriptor;  ///< of the mesh as a .vtu file without a name
     std::string vtu = {};         ///< its path

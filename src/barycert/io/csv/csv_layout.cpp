@@ -25,8 +25,7 @@ char separator_of(std::string_view line) {
 
 bool is_header(const TableColumns& all, int dimension, const PointOptions& options) {
     const std::vector<std::string> asked = parts_of(options.columns, static_cast<std::size_t>(dimension));
-    if (asked.empty())
-        return find_coordinates(all, dimension) || std::none_of(all.names.begin(), all.names.end(), looks_numeric);
+    if (asked.empty()) return find_coordinates(all, dimension) || std::ranges::none_of(all.names, looks_numeric);
     if (!are_places(asked)) return true;
     return std::none_of(asked.begin(), asked.end(), [&](const std::string& text) {
         const std::size_t place = *place_of(text);
@@ -94,7 +93,7 @@ CsvLine cut_first_line(std::string_view line, const LinePlace& place) {
     CsvLine out{.separator = separator_of(line)};
     FieldCutter cutter(line, out.separator);
     for (std::string_view field; cutter.next(field);) out.fields.push_back(cutter.name(field));
-    if (cutter.malformed()) throw Exception(csv_row_error({CsvFault::Kind::open_quote, line}, {}, place));
+    check_cut(cutter, line, 0, {}, place);
     return out;
 }
 

@@ -47,7 +47,6 @@ public:
 
     bool malformed() const { return malformed_; }
 
-    /// The last field stood in quotes.
     bool quoted() const { return quoted_; }
 
     /// The last field as a text: what stands between quotes with its blanks, and with doubled quotes made one.
@@ -101,7 +100,6 @@ struct CsvLayout {
     bool coordinate(std::string_view field, double& value) const;
 };
 
-/// Where a line stands.
 struct LinePlace {
     std::string file;
     std::size_t line = 0;
@@ -125,16 +123,9 @@ CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOpt
 
 std::string separator_name(char separator);
 
-/// Why a line cannot be cut into the fields of the layout.
-struct CsvFault {
-    enum class Kind : std::uint8_t { open_quote, count };
-    Kind kind = Kind::count;
-    std::string_view line = {};
-    std::size_t number = 0;  ///< how many fields there are
-};
-
-/// The same in words.
-Error csv_row_error(const CsvFault& fault, const CsvLayout& layout, const LinePlace& place);
+/// Refuses a line with `count` fields if the layout has not as many, and one with a quote that is not closed.
+void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t count, const CsvLayout& layout,
+               const LinePlace& place);
 
 /// What became of whole lines; the last of the file may lack its end.
 struct CsvPiece {

@@ -75,8 +75,7 @@ void parse_line(std::string_view line, bool whole, const CsvLayout& layout, std:
         if (axis == 2) height = field;
         at_cut = end == file_end;
     }
-    const auto fault = cutter.malformed() ? CsvFault::Kind::open_quote : CsvFault::Kind::count;
-    if (cutter.malformed() || i != fields) throw Exception(csv_row_error({fault, line, i}, layout, {}));
+    check_cut(cutter, line, i, layout, {});
     if (at_cut) throw Exception(base::unended_number({}, 0));  // 0.2 may be the beginning of 0.25
     if (is_off_plane(layout, point)) throw Exception(off_plane({}, 0, "", base::quoted(height)));
 }
@@ -105,21 +104,19 @@ std::string separator_name(char separator) {
     return separator == ',' ? "commas" : separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "blanks";
 }
 
-Error csv_row_error(const CsvFault& fault, const CsvLayout& layout, const LinePlace& place) {
-    if (fault.kind == CsvFault::Kind::open_quote)
-        return {"a quoted field is not closed",
-                place.file,
-                place.line,
-                "a closing quote, and then a separator or the end of the line",
-                base::quoted(fault.line),
-                "close the quote on the same line; double the quotes inside"};
+void check_cut(const FieldCutter& cutter, std::string_view line, std::size_t count, const CsvLayout& layout,
+               const LinePlace& place) {
+    if (cutter.malformed())
+        refuse_line(place.file, place.line, "a quoted field is not closed",
+                    "a closing quote, and then a separator or the end of the line", base::quoted(line),
+                    "close the quote on the same line; double the quotes inside");
     const std::size_t fields = layout.role_of.size();
-    return {std::string("too ") + (fault.number < fields ? "few" : "many") + " fields in a line",
-            place.file,
-            place.line,
+    if (count != fields)
+        refuse_line(
+            place.file, place.line, std::string("too ") + (count < fields ? "few" : "many") + " fields in a line",
             std::to_string(fields) + ", separated by " + separator_name(layout.separator) + ", as in the first line",
-            std::to_string(fault.number),
-            "give every line the same columns; put fields that hold a separator in double quotes"};
+            std::to_string(count),
+            "give every line the same columns; put fields that hold a separator in double quotes");
 }
 
 void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, CsvPiece& piece) {

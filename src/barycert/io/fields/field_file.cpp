@@ -39,7 +39,6 @@ CsvLayout settle(std::string_view line, const std::string& column, const LinePla
                 base::did_you_mean(column, cut.fields, "name a column of the first line, or say its place, from 1"));
 }
 
-/// Appends the values of the line.
 void take_line(std::string_view line, bool whole, const CsvLayout& layout, const LinePlace& place, Field& field) {
     FieldCutter cutter(line, layout.separator);
     std::size_t count = 0;
@@ -57,9 +56,7 @@ void take_line(std::string_view line, bool whole, const CsvLayout& layout, const
         field.data[before + static_cast<std::size_t>(component)] = *x;
         cut = !whole && text.data() + text.size() == line.data() + line.size();
     }
-    const auto fault = cutter.malformed() ? CsvFault::Kind::open_quote : CsvFault::Kind::count;
-    if (cutter.malformed() || count != layout.role_of.size())
-        throw Exception(csv_row_error({fault, line, count}, layout, place));
+    check_cut(cutter, line, count, layout, place);
     if (cut) throw Exception(base::unended_number(place.file, place.line));
 }
 
@@ -118,7 +115,6 @@ Field read_text(Field field, const std::string& path, std::string_view bytes) {
     return field;
 }
 
-/// The columns of the array that are the components.
 std::vector<std::size_t> components_of(const NpyTable& table, const Field& field, const std::string& path,
                                        const std::string& column) {
     std::vector<std::string> names;

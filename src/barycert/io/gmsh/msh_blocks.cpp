@@ -12,13 +12,11 @@
 // Parameters u, v, w of a node on its curve, surface or volume are passed over.
 
 #include "barycert/base/large_pages.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 
 namespace barycert::io {
 namespace {
 
-/// The header of a block of 4.x.
 struct BlockHeader {
     std::int64_t dimension = 0, entity = 0;
     std::int64_t kind = 0;  ///< of nodes: whether they have parameters; of elements: their type

@@ -1,7 +1,5 @@
-#include <map>
 #include <numeric>
 
-#include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/mesh/pulling.hpp"
@@ -53,7 +51,6 @@ std::string counted_types(const TypeCounts& counts, int low, int high) {
     return text;
 }
 
-/// The types of the cells.
 std::vector<const ElementType*> choose(const MshFile& file, const TypeCounts& counts) {
     int dimension = 0;
     std::vector<const ElementType*> kinds;  // of that dimension
@@ -89,7 +86,6 @@ bool take_node(auto& row, const TagIndex& nodes, Mesh::Index& node) {
 /// What stands before the nodes of an element.
 struct Head {
     std::int64_t tag = 0, physical = 0, entity = 0;
-    bool more = false;
 };
 
 bool take_head(auto& row, int version, const ElementBlock& block, Head& head) {
@@ -101,7 +97,6 @@ bool take_head(auto& row, int version, const ElementBlock& block, Head& head) {
     for (int i = 0; row.text && i < 2; ++i) {  // the type and the number of tags, which are known
         if (!row.integer(value, "a number")) return false;
     }
-    head.more = block.tags > 2;
     for (std::size_t k = 0; k < block.tags; ++k) {
         if (!row.integer(value, "a tag of an element")) return false;
         if (k == 0) head.physical = value;
@@ -117,6 +112,17 @@ struct Target {
     const TagIndex& nodes;
     MshCells& cells;
     std::size_t mids;
+
+    /// What stands before the nodes of cell i.
+    bool take_head_of(auto& row, const ElementBlock& block, std::size_t i) const {
+        Head head;
+        if (!take_head(row, file.version(), block, head)) return false;
+        cells.tags[i] = head.tag;
+        if (file.version() != 22) return true;
+        cells.physical[i] = static_cast<double>(head.physical);
+        cells.geometrical[i] = static_cast<double>(head.entity);
+        return true;
+    }
 };
 
 template <std::size_t Corners>
@@ -127,7 +133,6 @@ void read_chosen(const Target& to, std::span<const Run> runs) {
     Mesh::Index* const mid_nodes = to.cells.mesh.mid_nodes.data();
     double* const physical = to.cells.physical.data();
     double* const geometrical = to.cells.geometrical.data();
-    std::atomic<bool> more{false};
     parse_runs(to.file, "Elements", runs, [&, mids = to.mids](auto& row, const Run& run, std::size_t i) {
         const char* const start = row.at();
         // A row of small integers, of which so many stand before the corners.
@@ -147,14 +152,7 @@ void read_chosen(const Target& to, std::span<const Run> runs) {
         };
         if (mids == 0 && (version == 22 ? take_plain.template operator()<5>() : take_plain.template operator()<1>()))
             return true;
-        Head head;
-        if (!take_head(row, version, to.elements.blocks[run.id], head)) return false;
-        tags[i] = head.tag;
-        if (version == 22) {
-            physical[i] = static_cast<double>(head.physical);
-            geometrical[i] = static_cast<double>(head.entity);
-            if (head.more) more = true;
-        }
+        if (!to.take_head_of(row, to.elements.blocks[run.id], i)) return false;
         for (std::size_t k = 0; k < Corners; ++k) {
             if (!take_node(row, to.nodes, corners[i * Corners + k])) return false;
         }
@@ -163,7 +161,6 @@ void read_chosen(const Target& to, std::span<const Run> runs) {
         }
         return true;
     });
-    to.cells.partitioned = more;
 }
 
 /// Simplices of order 2 to 4, whose nodes are all kept: the place of each in VTK's order; empty of others.
@@ -204,18 +201,9 @@ void read_shapes(const Target& to, std::span<const Run> runs) {
     std::map<const ElementType*, std::vector<std::size_t>> kept;
     for (const Run& run : runs)
         kept.try_emplace(to.elements.blocks[run.id].type, kept_places(*to.elements.blocks[run.id].type));
-    const bool old = to.file.version() == 22;
-    std::atomic<bool> more{false};
     parse_runs(to.file, "Elements", runs, [&](auto& row, const Run& run, std::size_t i) {
         const ElementBlock& block = to.elements.blocks[run.id];
-        Head head;
-        if (!take_head(row, to.file.version(), block, head)) return false;
-        to.cells.tags[i] = head.tag;
-        if (old) {
-            to.cells.physical[i] = static_cast<double>(head.physical);
-            to.cells.geometrical[i] = static_cast<double>(head.entity);
-            if (head.more) more = true;
-        }
+        if (!to.take_head_of(row, block, i)) return false;
         const std::vector<std::size_t>& places = kept.at(block.type);
         const std::size_t corners = places.empty() ? mesh::shape_of(shapes.types[i]).corners : places.size();
         const auto end = static_cast<std::size_t>(shapes.ends[i]);
@@ -226,7 +214,6 @@ void read_shapes(const Target& to, std::span<const Run> runs) {
         }
         return true;
     });
-    to.cells.partitioned = more;
 }
 
 /// In 2.x Gmsh writes an element of several groups once for each, one after the other. All but the first go.
@@ -343,6 +330,7 @@ MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const 
         if (!taken) continue;
         runs.back().first = count;
         count += block.run.count;
+        cells.partitioned = cells.partitioned || block.tags > 2;
     }
     const auto corners = static_cast<std::size_t>(cells.mesh.dimension) + 1;
     const Target target{file, elements, nodes.index, cells, simplices ? type.nodes - corners : 0};
@@ -381,11 +369,7 @@ void note_cells(MshCells& cells, bool partitioned, const std::string& path) {
     if (!others.empty())
         left_out("elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
                  cells.apart);
-    if (cells.by_corners != 0)
-        cells.mesh.notes.push_back(
-            {Note::Kind::converted,
-             std::to_string(cells.by_corners) + " cells of a higher order: they are taken by their corners", path,
-             true});
+    note_by_corners(cells.by_corners, path, cells.mesh.notes);
     if (cells.repeated != 0)
         left_out(std::to_string(cells.repeated) +
                      " elements that repeat the one before them for a further physical group: gmsh:physical has the "

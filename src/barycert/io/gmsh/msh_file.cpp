@@ -5,7 +5,6 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
-#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -61,13 +60,6 @@ std::string word_at(const char* at, const char* end) {
     return at == stop ? "the end of the file" : base::quoted({at, static_cast<std::size_t>(stop - at)});
 }
 
-void MshFile::refuse(const char* at, std::string what, std::string expected, std::string found,
-                     std::string remedy) const {
-    const bool text = !binary_ || at < after_format_;
-    refuse_line(path_, text ? line_of(bytes_, at) : 0, std::move(what), std::move(expected), std::move(found),
-                std::move(remedy));
-}
-
 void MshFile::read_format() {
     const std::string convert_remedy = "convert it with " + gmsh_command(path_);
     const char* const save_remedy = "write the file again, in version 4.1";
@@ -91,8 +83,7 @@ void MshFile::read_format() {
                save_remedy);
     constexpr std::array<std::pair<std::string_view, int>, 7> versions{
         {{"2", 22}, {"2.0", 22}, {"2.1", 22}, {"2.2", 22}, {"4", 40}, {"4.0", 40}, {"4.1", 41}}};
-    const auto* const version =
-        std::find_if(versions.begin(), versions.end(), [&](const auto& v) { return v.first == words[0]; });
+    const auto* const version = std::ranges::find_if(versions, [&](const auto& v) { return v.first == words[0]; });
     if (version == versions.end())
         refuse(line, "unknown version of the format", "2.2 or 4.1", base::quoted(words[0]),
                words[0].starts_with("2.") || words[0].starts_with("3") ? convert_remedy : save_remedy);

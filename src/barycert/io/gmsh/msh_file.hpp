@@ -3,10 +3,7 @@
 /// Within the readers of .msh files an Error is thrown as an Exception, which read_guarded() makes a Result.
 #pragma once
 
-#include <span>
-
-#include "barycert/base/input_file.hpp"
-#include "barycert/result.hpp"
+#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 
@@ -84,9 +81,12 @@ public:
     /// The runs in parts that take a thread some hundred microseconds.
     std::vector<RunPart> cut(std::span<const Run> runs) const;
 
-    /// An Error about the place `at`, with its line where the file is text.
-    [[noreturn]] void refuse(const char* at, std::string what, std::string expected, std::string found,
-                             std::string remedy = {}) const;
+    /// As refuse_line(), of the place `at`, whose line is told where the file is text.
+    template <class... Parts>
+    [[noreturn]] void refuse(const char* at, Parts&&... parts) const {
+        const bool text = !binary_ || at < after_format_;
+        refuse_line(path_, text ? line_of(bytes_, at) : 0, std::forward<Parts>(parts)...);
+    }
 
 private:
     void read_format();

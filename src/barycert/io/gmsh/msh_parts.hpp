@@ -1,7 +1,6 @@
 /// What a .msh file of any version holds, in one form: nodes, elements in blocks, cells, groups, views.
 #pragma once
 
-#include "barycert/io.hpp"
 #include "barycert/io/gmsh/rows.hpp"
 
 namespace barycert::io {
@@ -136,7 +135,6 @@ struct MshView : GmshStep {
 /// All such sections, in the order of the file. Error: what the grammar does not have.
 std::vector<MshView> find_msh_views(const MshFile& file);
 
-/// What views are about.
 struct ViewTargets {
     const TagIndex& index;
     std::size_t count;  ///< of nodes or cells

@@ -2,7 +2,6 @@
 #include <set>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -141,8 +140,7 @@ void fill_from_entities(const MshFile& file, const MshElements& elements, const 
 
 /// 2.x: the same for what was read with each cell.
 void drop_what_says_nothing(MshCells& cells) {
-    if (std::all_of(cells.physical.begin(), cells.physical.end(), [](double tag) { return tag == 0; }))
-        cells.physical.clear();
+    if (std::ranges::all_of(cells.physical, [](double tag) { return tag == 0; })) cells.physical.clear();
     const std::vector<double>& tags = cells.geometrical;
     const bool any = std::any_of(tags.begin(), tags.end(), [&](double tag) {
         return says_something(static_cast<std::int64_t>(tag), static_cast<std::int64_t>(tags.front()));

@@ -12,10 +12,6 @@ Walk::Walk(const MshFile& file, const MshSection& section, bool text, const char
       at_(section.body.data()),
       end_(at_ + section.body.size()) {}
 
-void Walk::refuse(const std::string& what, std::string expected, std::string found, std::string remedy) const {
-    file_->refuse(at_, what + " in $" + std::string(name_), std::move(expected), std::move(found), std::move(remedy));
-}
-
 void Walk::refuse_word(std::string expected, std::string found) const {
     file_->refuse(at_, std::string(bad_) + " $" + std::string(name_), std::move(expected), std::move(found));
 }

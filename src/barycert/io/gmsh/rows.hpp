@@ -117,7 +117,7 @@ void parse_runs(const MshFile& file, std::string_view section, std::span<const R
     if (base::share_work(file.threads(), parts.size(), [&](std::size_t p) { return read(parts[p], false); })) return;
     // Again in their order: the first one is told, whatever the threads did.
     for (const RunPart& part : parts) read(part, true);
-    file.refuse(file.end(), "a row is refused once and not again", {}, {});
+    file.refuse(file.end(), "a row is refused once and not again");
 }
 
 /// A section from its beginning: headers number by number, rows passed over. What is not there is refused.
@@ -145,8 +145,10 @@ public:
     /// White space and nothing else is left.
     void need_end();
 
-    [[noreturn]] void refuse(const std::string& what, std::string expected, std::string found,
-                             std::string remedy = {}) const;
+    template <class... Parts>
+    [[noreturn]] void refuse(const std::string& what, Parts&&... parts) const {
+        file_->refuse(at_, what + " in $" + std::string(name_), std::forward<Parts>(parts)...);
+    }
     /// Refuses what stands here as a word that is no number.
     [[noreturn]] void refuse_word(std::string expected, std::string found) const;
     void move_to(const char* at) { at_ = at; }

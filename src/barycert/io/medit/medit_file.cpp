@@ -60,7 +60,6 @@ bool same_word(std::string_view word, std::string_view name) {
     return word.size() == name.size() && strncasecmp(word.data(), name.data(), name.size()) == 0;
 }
 
-/// nullptr if there is none for which that holds.
 template <class IsOne>
 const MeditKeyword* find_keyword(const IsOne& is_one) {
     const auto found = std::find_if(keywords().begin(), keywords().end(), is_one);
@@ -144,12 +143,6 @@ MeditFile::MeditFile(const std::string& path) : path_(path) {
     if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.remove_prefix(3);
     binary_ ? list_binary() : list_text();
     if (dimension_ == 0) refuse(bytes_.data(), "the dimension", "a keyword Dimension", "none", "write it again");
-}
-
-void MeditFile::refuse(const char* at, std::string what, std::string expected, std::string found,
-                       std::string remedy) const {
-    if (binary_) what += ", at byte " + std::to_string(at - bytes_.data());
-    refuse_line(path_, line_at(at), std::move(what), std::move(expected), std::move(found), std::move(remedy));
 }
 
 void MeditFile::refuse_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,

@@ -56,7 +56,6 @@ public:
     /// Error: fewer numbers or more, or others. Memory is bounded by a multiple of the file's size.
     MeditRows rows(const MeditSection& section, std::size_t reals_a_row, std::size_t integers_a_row) const;
 
-    /// Refuses a number of a row.
     [[noreturn]] void refuse_in(const MeditSection& section, const MeditRows& rows, std::size_t row, std::size_t column,
                                 std::string expected, std::string found, std::string remedy = {}) const;
 
@@ -71,8 +70,11 @@ private:
     std::size_t real_bytes() const { return version_ == 1 ? 4 : 8; }
     std::size_t integer_bytes() const { return version_ == 4 ? 8 : 4; }
     std::size_t line_at(const char* at) const { return binary_ ? 0 : line_of(bytes_, at); }
-    [[noreturn]] void refuse(const char* at, std::string what, std::string expected, std::string found,
-                             std::string remedy = {}) const;
+    template <class... Parts>
+    [[noreturn]] void refuse(const char* at, std::string what, Parts&&... parts) const {
+        if (binary_) what += ", at byte " + std::to_string(at - bytes_.data());
+        refuse_line(path_, line_at(at), std::move(what), std::forward<Parts>(parts)...);
+    }
 
     std::string path_;
     base::MappedFile data_;

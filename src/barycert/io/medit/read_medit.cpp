@@ -101,7 +101,6 @@ private:
         mesh_.notes.push_back({kind, std::move(text), file_.path(), important});
     }
 
-    /// Which section has the cells.
     void choose() {
         std::vector<const MeditSection*> found;
         for (const MeditSection& section : file_.sections()) {
@@ -199,9 +198,7 @@ private:
             shapes.nodes.insert(shapes.nodes.end(), own.corners.begin(), own.corners.end());
             all.references.insert(all.references.end(), own.references.begin(), own.references.end());
         }
-        if (by_corners != 0)
-            note(Note::Kind::converted,
-                 std::to_string(by_corners) + " cells of a higher order: they are taken by their corners", true);
+        note_by_corners(by_corners, file_.path(), mesh_.notes);
         return all;
     }
 

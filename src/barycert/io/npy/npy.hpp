@@ -79,7 +79,6 @@ struct NpyTable {
 /// The rows are read by blocks and not mapped: memory is bounded, and a file that shrinks meanwhile is told.
 class NpyFile {
 public:
-    /// Reads the header.
     explicit NpyFile(const std::string& path);
 
     const NpyHeader& header() const { return header_; }
@@ -102,7 +101,6 @@ public:
     /// text that is not of characters.
     void values(const NpyColumn& column, const std::string& what, Column& out);
 
-    /// The bytes of the array from `offset` on.
     void read(std::uint64_t offset, std::span<char> bytes) const;
 
 private:

@@ -7,7 +7,6 @@
 namespace barycert::io {
 namespace {
 
-/// Bytes read at a time, or a row.
 constexpr std::size_t bytes_at_once = std::size_t{1} << 18;
 
 /// Sign, 5 bits of exponent, 10 of fraction.

@@ -77,6 +77,32 @@ public:
         put(bytes);
     }
 
+    /// All numbers as numbers of type To, each changed by `change`, piece by piece.
+    template <class To, class From, class Change>
+    void write_changed(std::span<const From> all, Change change) {
+        constexpr std::size_t piece = std::size_t{1} << 16;
+        std::vector<To> out;
+        for (std::size_t first = 0; first < all.size(); first += out.size()) {
+            out.clear();
+            for (const From x : all.subspan(first, std::min(piece, all.size() - first)))
+                out.push_back(static_cast<To>(change(x)));
+            write(bytes_of(std::span<const To>(out)));
+        }
+    }
+
+    template <class Offset>
+    void write_pattern(std::span<const std::uint8_t> counts, std::span<const Mesh::Index> indices) {
+        const char* const type = sizeof(Offset) == 4 ? "<i4" : "<i8";
+        begin("indices", type);
+        write_changed<Offset>(indices, std::identity());
+        end({indices.size()});
+        begin("indptr", type);
+        Offset at = 0;
+        write(bytes_of(std::span<const Offset>(&at, 1)));
+        write_changed<Offset>(counts, [&at](std::uint8_t count) { return at = static_cast<Offset>(at + count); });
+        end({counts.size() + 1});
+    }
+
     /// `shape`: as many numbers as were written.
     void end(const std::vector<std::uint64_t>& shape) {
         Member& m = members_.back();
@@ -144,36 +170,6 @@ private:
     std::uint32_t numbers_ = 0;  ///< CRC-32 of the numbers of the array that was begun
 };
 
-namespace {
-
-/// All numbers as numbers of type To, each changed by `change`, piece by piece.
-template <class To, class From, class Change>
-void write_changed(std::span<const From> all, NpzWriter& file, Change change) {
-    constexpr std::size_t piece = std::size_t{1} << 16;
-    std::vector<To> out;
-    for (std::size_t first = 0; first < all.size(); first += out.size()) {
-        out.clear();
-        for (const From x : all.subspan(first, std::min(piece, all.size() - first)))
-            out.push_back(static_cast<To>(change(x)));
-        file.write(bytes_of(std::span<const To>(out)));
-    }
-}
-
-template <class Offset>
-void write_pattern(NpzWriter& file, std::span<const std::uint8_t> counts, std::span<const Mesh::Index> indices) {
-    const char* const type = sizeof(Offset) == 4 ? "<i4" : "<i8";
-    file.begin("indices", type);
-    write_changed<Offset>(indices, file, std::identity());
-    file.end({indices.size()});
-    file.begin("indptr", type);
-    Offset at = 0;
-    file.write(bytes_of(std::span<const Offset>(&at, 1)));
-    write_changed<Offset>(counts, file, [&at](std::uint8_t count) { return at = static_cast<Offset>(at + count); });
-    file.end({counts.size() + 1});
-}
-
-}  // namespace
-
 WeightsFile::WeightsFile(const std::string& path, std::uint64_t nodes)
     : file_(std::make_unique<NpzWriter>(path)), counts_(path), indices_(path), cells_(path), nodes_(nodes) {}
 
@@ -203,10 +199,9 @@ Status WeightsFile::commit() {
     const auto cells = cells_.values<Mesh::Index>();
     file_->end({indices.size()});
     const bool narrow = indices.size() <= 0x7fffffff;
-    narrow ? write_pattern<std::int32_t>(*file_, counts, indices)
-           : write_pattern<std::int64_t>(*file_, counts, indices);
+    narrow ? file_->write_pattern<std::int32_t>(counts, indices) : file_->write_pattern<std::int64_t>(counts, indices);
     file_->begin("cell", "<i8");
-    write_changed<std::int64_t>(cells, *file_, std::identity());
+    file_->write_changed<std::int64_t>(cells, std::identity());
     file_->end({cells.size()});
     const std::uint64_t shape[] = {cells.size(), nodes_};
     file_->begin("shape", "<i8");

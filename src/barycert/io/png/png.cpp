@@ -47,7 +47,6 @@ Status check(const std::string& path, const Slice& s) {
     return Done{};
 }
 
-/// From values to colours.
 struct Scale {
     double low = 0, high = 0;
 

@@ -17,7 +17,6 @@ public:
         : path_(path), rest_(text), end_(text.data() + text.size()), size_(size) {}
 
     const std::string& path() const { return path_; }
-    /// What has not been read.
     std::string_view rest() const { return rest_; }
 
     /// Goes to the next line that has words. False at the end of the file.

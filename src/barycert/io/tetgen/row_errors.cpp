@@ -1,15 +1,13 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
 
-[[noreturn]] void refuse_at(const TextTable& table, const char* at, std::string what, std::string expected,
-                            std::string found, std::string remedy) {
-    refuse_line(table.file, line_of(table.bytes, at), std::move(what), std::move(expected), std::move(found),
-                std::move(remedy));
+template <class... Parts>
+[[noreturn]] void refuse_at(const TextTable& table, const char* at, Parts&&... parts) {
+    refuse_line(table.file, line_of(table.bytes, at), std::forward<Parts>(parts)...);
 }
 
 std::string plural(std::size_t count, const std::string& name) {
@@ -29,9 +27,8 @@ std::string described_columns(const TextTable& table) {
 
 /// Digits, and nothing but digits and what else is allowed.
 bool looks_like_number(std::string_view text, std::string_view also) {
-    return std::any_of(text.begin(), text.end(), is_digit) && std::all_of(text.begin(), text.end(), [&](char c) {
-               return is_digit(c) || also.find(c) != std::string_view::npos;
-           });
+    return std::any_of(text.begin(), text.end(), is_digit) &&
+           std::ranges::all_of(text, [&](char c) { return is_digit(c) || also.find(c) != std::string_view::npos; });
 }
 
 std::string_view without_sign(std::string_view field) {
@@ -143,12 +140,6 @@ std::vector<std::string_view> fields_of_line(const TextTable& table, const char*
     std::vector<std::string_view> fields;
     cut_fields(line, " \t", ",", fields);
     return fields;
-}
-
-void refuse_header(const TextTable& table, std::string what, std::string expected, std::string found,
-                   std::string remedy) {
-    refuse_at(table, table.begin() + table.header_at, std::move(what), std::move(expected), std::move(found),
-              std::move(remedy));
 }
 
 void refuse_count(const TextTable& table, std::string_view field, const char* name) {

@@ -16,7 +16,6 @@
 #include <initializer_list>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/text_table.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -137,7 +136,7 @@ private:
         constexpr std::array names{"faces", "markers"};
         TextTable& table = faces_.emplace(open(".face", names));
         if (mesh_.dimension == 2)
-            refuse_header(table, "a mesh of triangles has no faces", {}, {},
+            refuse_header(table, "a mesh of triangles has no faces", "", "",
                           "remove the .face file or do not ask for faces");
         const std::int64_t markers = table.header_field(1, 0);
         if (markers > 1) refuse_meaning(table, "bad number of markers", "0 or 1", markers, {});

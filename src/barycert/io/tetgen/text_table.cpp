@@ -3,7 +3,6 @@
 #include "barycert/base/large_pages.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
-#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {

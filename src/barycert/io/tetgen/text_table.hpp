@@ -8,11 +8,8 @@
 /// read_guarded() makes a Result.
 #pragma once
 
-#include <span>
-
-#include "barycert/base/input_file.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
-#include "barycert/mesh.hpp"
 
 namespace barycert::io {
 
@@ -90,8 +87,11 @@ void parse_tables(std::span<TextTable* const> tables, int threads);
 /// The fields of the line that holds `at`, without its comment; an empty field where a comma has no neighbour.
 std::vector<std::string_view> fields_of_line(const TextTable& table, const char* at);
 
-[[noreturn]] void refuse_header(const TextTable& table, std::string what, std::string expected, std::string found,
-                                std::string remedy);
+/// As refuse_line(), of the header.
+template <class... Parts>
+[[noreturn]] void refuse_header(const TextTable& table, Parts&&... parts) {
+    refuse_line(table.file, line_of(table.bytes, table.begin() + table.header_at), std::forward<Parts>(parts)...);
+}
 
 /// Header field `field` is no count; `name` is what it counts.
 [[noreturn]] void refuse_count(const TextTable& table, std::string_view field, const char* name);

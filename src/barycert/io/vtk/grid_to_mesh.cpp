@@ -4,7 +4,6 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/mesh/pulling.hpp"
 #include "barycert/surface/facet_triangles.hpp"
 
@@ -249,10 +248,7 @@ void copy_shapes(const RawGrid& grid, const std::string& path, Mesh& mesh) {
         shapes.face_ends.push_back(static_cast<std::int64_t>(shapes.ring_ends.size()));
     }
     mesh.cell_numbers = std::move(kept);
-    if (by_corners != 0)
-        mesh.notes.push_back({Note::Kind::converted,
-                              std::to_string(by_corners) + " cells of a higher order: they are taken by their corners",
-                              path, true});
+    note_by_corners(by_corners, path, mesh.notes);
 }
 
 /// Makes doubles of integers, if these are exact: the field that they would be in a file of these cells alone.

@@ -1,7 +1,6 @@
 // VTK's legacy files: words and numbers of them, sections made of these.
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
@@ -60,7 +59,6 @@ public:
     std::string take_word() { return std::string(next_word(rest_)); }
     /// The next word in capitals, as which keywords are compared.
     std::string take_keyword() { return capitals(next_word(rest_)); }
-    /// Takes the next word if that is this keyword.
     bool take(std::string_view wanted) {
         std::string_view rest = rest_;
         const bool found = capitals(next_word(rest)) == wanted;
@@ -143,7 +141,6 @@ public:
         }
     }
 
-    /// An error at this place.
     [[noreturn]] void fail(std::string what, std::string expected, std::string found, std::string remedy = {}) const {
         file_.refuse(rest_.data(), std::move(what), std::move(expected), std::move(found), std::move(remedy));
     }

@@ -2,7 +2,6 @@
 
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/spool.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/vtk/out_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/consistency.hpp"

@@ -83,7 +83,6 @@ template <class Wide>
 struct WordReader {
     Wide min, max;
 
-    /// The number that a word writes.
     bool read(std::string_view word, Wide& value) const {
         if constexpr (std::is_same_v<Wide, double>) {
             const std::optional<double> number = base::parse_double(word);
@@ -216,9 +215,8 @@ NumberFault read_words(std::string_view& text, NumberType type, std::size_t coun
         }
         make_room(values, size - values.size());
         values.resize(size);
-        in_parallel(places.size(), [&](std::size_t i) {
-            std::copy(read[i].values.begin(), read[i].values.end(), values.data() + places[i]);
-        });
+        in_parallel(places.size(),
+                    [&](std::size_t i) { std::ranges::copy(read[i].values, values.data() + places[i]); });
     }
     return fault;
 }

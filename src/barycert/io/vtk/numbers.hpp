@@ -82,7 +82,6 @@ NumberFault read_text(std::string_view& text, NumberType type, std::size_t count
 /// Takes the next word off `text`; empty at the end.
 std::string_view next_word(std::string_view& text);
 
-/// Whether that is a word of the text.
 bool has_word(std::string_view text, std::string_view wanted);
 
 /// A count as XML attributes and headers give it: blanks around it, a plus before it. Nothing if it is none.

@@ -3,7 +3,6 @@
 #include <unordered_map>
 
 #include "barycert/base/random.hpp"
-#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 
@@ -57,12 +56,6 @@ const std::array<CellType, 256>& cell_types() {
         return all;
     }();
     return types;
-}
-
-void FileText::refuse(const char* at, std::string what, std::string expected, std::string found,
-                      std::string remedy) const {
-    refuse_line(path, has_lines ? line_of(bytes, at) : 0, std::move(what), std::move(expected), std::move(found),
-                std::move(remedy));
 }
 
 void FileText::check(NumberFault fault, const char* begin, const std::string& what, std::uint64_t count,

@@ -4,13 +4,11 @@
 
 #include <iterator>
 
-#include "barycert/io.hpp"
+#include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 
 namespace barycert::io {
-
-struct InSpace;
 
 /// VTK's types of cells that have a name here, by their numbers (vtkCellType.h).
 enum VtkCell : std::uint8_t {
@@ -122,7 +120,6 @@ inline bool is_time(std::string_view name) {
     return name == "TimeValue" || name == "TIME" || name == "CYCLE";
 }
 
-/// A remedy.
 inline constexpr const char* cut_off = "write the file again: it may be cut off";
 
 inline std::string in_quotes(std::string_view name) {
@@ -135,8 +132,11 @@ struct FileText {
     std::string path;
     bool has_lines = true;  ///< false: binary numbers hold line breaks by chance
 
-    [[noreturn]] void refuse(const char* at, std::string what, std::string expected, std::string found,
-                             std::string remedy = {}) const;
+    /// As refuse_line().
+    template <class... Parts>
+    [[noreturn]] void refuse(const char* at, Parts&&... parts) const {
+        refuse_line(path, has_lines ? line_of(bytes, at) : 0, std::forward<Parts>(parts)...);
+    }
     /// Throws what is wrong with the `count` numbers of `what`, which begin there; a number that is not exact is told
     /// in `inexact` instead, if that is given.
     void check(NumberFault fault, const char* begin, const std::string& what, std::uint64_t count,
@@ -190,7 +190,6 @@ void join_pieces(RawGrid& grid, const std::string& path);
 
 /// The first three lines of a file in the legacy format.
 void check_legacy_head(std::string_view bytes, const std::string& path);
-/// The whole file.
 RawGrid read_legacy(std::string_view bytes, const std::string& path, Part part);
 
 /// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages. `space`: as
@@ -208,7 +207,6 @@ std::vector<double> to_points(std::vector<double> points, int dimension, const s
 void take_fields(std::vector<RawArray>& arrays, const std::string& what, const std::string& path,
                  std::vector<Field>& fields, std::vector<Column>* labels, Notes& notes);
 
-/// A note where the coordinates were widened.
 void note_narrow_points(const RawGrid& grid, const std::string& path, Notes& notes);
 
 /// "a", "b" and 3 others.

@@ -4,14 +4,12 @@
 #include <set>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/xml.hpp"
 
 namespace barycert::io {
 namespace {
 
-/// A file of a collection.
 struct CollectionFile {
     std::string path;      ///< as it can be opened: relative ones are taken from the folder of the collection
     std::string block;     ///< its name, where it has one
@@ -197,19 +195,16 @@ std::vector<SeriesStep> steps_of(std::span<const CollectionFile> files) {
     return steps;
 }
 
-bool is_polygons(const std::string& path) {
-    return has_suffix(path, ".vtp") || has_suffix(path, ".pvtp");
-}
-
 bool is_structured(const std::string& path) {
-    return has_suffix(path, ".vti") || has_suffix(path, ".vtr") || has_suffix(path, ".vts");
+    return has_one_of(path, {".vti", ".vtr", ".vts"});
 }
 
 /// What blocks make the mesh: unstructured grids; where there are none, structured ones; else polygons.
 enum class Blocks : std::uint8_t { unstructured, structured, polygons };
 
 Blocks kind_of_block(const std::string& path) {
-    return is_polygons(path) ? Blocks::polygons : is_structured(path) ? Blocks::structured : Blocks::unstructured;
+    if (has_one_of(path, {".vtp", ".pvtp"})) return Blocks::polygons;
+    return is_structured(path) ? Blocks::structured : Blocks::unstructured;
 }
 
 /// Of the files, or those that they name.
@@ -226,8 +221,7 @@ Blocks blocks_of_mesh(std::span<const CollectionFile> files) {
 
 /// Kinds that are not read: pieces of structured grids, trees, hypertrees.
 bool is_unread(const std::string& path) {
-    constexpr std::string_view others = " .pvti .pvtr .pvts .vtt .vth ";
-    return others.find(' ' + std::filesystem::path(path).extension().string() + ' ') != std::string_view::npos;
+    return has_one_of(path, {".pvti", ".pvtr", ".pvts", ".vtt", ".vth"});
 }
 
 /// Of files that name files, each is read once. Errors are thrown as Exceptions.

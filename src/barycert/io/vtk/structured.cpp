@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {

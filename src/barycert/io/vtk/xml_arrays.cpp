@@ -5,7 +5,6 @@ namespace {
 
 constexpr int base64_space = -1, base64_padding = -2, base64_other = -3;
 
-/// What each character stands for.
 constexpr std::array<std::int8_t, 256> base64_values = [] {
     std::array<std::int8_t, 256> table{};
     table.fill(base64_other);
@@ -190,7 +189,6 @@ public:
         return packed_size_ > from_.left() ? "the data end before the last block does" : "";
     }
 
-    /// Bytes of all blocks, as the header has them.
     std::uint64_t size() const { return size_; }
 
     /// As read_binary of numbers.hpp, of exactly size() bytes. Blocks are unpacked on all threads, some at a time, so

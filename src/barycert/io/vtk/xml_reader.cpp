@@ -3,7 +3,6 @@
 #include <set>
 
 #include "barycert/base/text.hpp"
-#include "barycert/io/formats.hpp"
 
 namespace barycert::io {
 namespace {
@@ -32,7 +31,6 @@ bool is_structured(std::string_view type) {
     return type == "ImageData" || type == "RectilinearGrid" || type == "StructuredGrid";
 }
 
-/// Reads the pieces of a file one after the other.
 class XmlReader : XmlTree {
 public:
     XmlReader(XmlTree tree, Part part) : XmlTree(std::move(tree)), part_(part) { take_layout(); }
@@ -66,7 +64,9 @@ public:
                 }
             }
             if (part_ == Part::all && !structured) read_cells(element, grid.types.size(), piece);
-            if (part_ == Part::all) read_cell_arrays(element, piece);
+            const XmlElement* const of_cells = child(&element, "CellData");
+            if (part_ == Part::all && of_cells != nullptr)
+                read_arrays(*of_cells, piece.types.size(), piece.has_steps, piece.cell_arrays);
             append_piece(grid, std::move(piece), path);
         }
         return grid;
@@ -190,11 +190,6 @@ private:
         }
     }
 
-    void read_cell_arrays(const XmlElement& piece, RawGrid& grid) const {
-        if (const XmlElement* const data = child(&piece, "CellData"); data != nullptr)
-            read_arrays(*data, grid.types.size(), grid.has_steps, grid.cell_arrays);
-    }
-
     /// The cells of an element, behind those that there are. Those of no section of polygon data have types.
     void read_section(const XmlElement& piece, const char* name, std::size_t count, std::optional<Section> section,
                       RawGrid& grid) const {
@@ -231,7 +226,6 @@ private:
         std::vector<std::int64_t> ends, numbers;
     };
 
-    /// Faces of polyhedra.
     void read_faces(const XmlElement& piece, const XmlElement& element, const RawCells& cells, RawGrid& grid) const {
         const auto refuse = [&](std::size_t cell) {
             refuse_at(element, "the faces of cell " + std::to_string(cell) + " (from 0) of the piece",

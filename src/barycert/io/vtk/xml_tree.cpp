@@ -2,8 +2,6 @@
 
 #include <expat.h>
 
-#include <new>
-
 namespace barycert::io {
 namespace {
 
@@ -157,7 +155,7 @@ XmlTree parse_xml(std::string_view bytes, const std::string& path) {
         tree.refuse(place, "a document type in an XML file of VTK",
                     "none: entities that it defines could grow without bound", "<!DOCTYPE", "remove it");
     if (!whole && !parser.at_appended_data)
-        tree.refuse(place, "not a well-formed XML file", {}, XML_ErrorString(parser.fault()), cut_off);
+        tree.refuse(place, "not a well-formed XML file", "", XML_ErrorString(parser.fault()), cut_off);
     tree.elements = std::move(parser.elements);
     if (!parser.at_appended_data) return tree;
     const XmlElement& element = tree.elements.back();

@@ -18,11 +18,6 @@
 #define BARYCERT_SAMPLE_FILL_BOX_INL_HPP
 #endif
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "barycert/core/gradient-inl.hpp"
 #include "barycert/core/lane_loop-inl.hpp"
 #include "barycert/sample/grid/fill_lanes.hpp"

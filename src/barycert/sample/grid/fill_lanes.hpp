@@ -75,7 +75,6 @@ struct UndecidedPoint {
     bool certain;  ///< of the value
 };
 
-/// What the filter leaves open.
 struct UndecidedFill {
     std::vector<Span> spans;             ///< with points that may be in the cell or not
     std::vector<UndecidedPoint> points;  ///< where there is one value a point

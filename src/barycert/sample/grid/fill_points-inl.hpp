@@ -9,9 +9,6 @@
 #define BARYCERT_SAMPLE_FILL_POINTS_INL_HPP
 #endif
 
-#include <algorithm>
-#include <array>
-
 #include "barycert/index/records-inl.hpp"
 #include "barycert/sample/grid/fill_values-inl.hpp"
 
@@ -31,14 +28,12 @@ struct FillBlock {
     typename Values<d>::Block* values;  ///< by component
 };
 
-/// What is filled in from where.
 template <int d>
 struct Filling {
     const FillSource& source;
     const FillTarget& target;
     UndecidedFill& undecided;
 
-    /// The first point of the box of a cell.
     std::size_t first_of_box(const CellBlock<d>& cells, std::size_t l) const {
         return target.line_of(cells.first[1][l], d == 3 ? cells.first[d - 1][l] : 0) * target.columns +
                static_cast<std::size_t>(cells.first[0][l]);

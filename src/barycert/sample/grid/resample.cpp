@@ -30,7 +30,6 @@ SlabRange slabs_between(const Raster& raster, std::size_t axis, std::uint32_t de
     return {slab_of(std::max(from, 0.0)), slab_of(std::min(to, last_layer))};
 }
 
-/// How many parts of a size there are.
 std::size_t parts_of(std::size_t all, std::size_t size) {
     return (all + size - 1) / size;
 }

@@ -29,7 +29,11 @@ std::uint64_t fingerprint(const auto& mesh) {
 }
 
 sample::MapHeader header_of(const auto& mesh, bool all) {
-    return {mesh.dimension, all, 0, 0, mesh.point_count(), mesh.cell_count(), fingerprint(mesh)};
+    return {.dimension = static_cast<std::uint8_t>(mesh.dimension),
+            .all = static_cast<std::uint8_t>(all),
+            .nodes = mesh.point_count(),
+            .cells = mesh.cell_count(),
+            .fingerprint = fingerprint(mesh)};
 }
 
 /// Of a mesh some of whose cells are not taken as straight simplices also their nodes.
@@ -55,6 +59,11 @@ std::string words_of(std::uint16_t taken) {
     return words[taken & 3U];
 }
 
+Error map_error(const std::string& file, std::string what, std::string expected = {}, std::string found = {},
+                std::string remedy = {}) {
+    return {std::move(what), file, 0, std::move(expected), std::move(found), std::move(remedy)};
+}
+
 }  // namespace
 
 std::uint64_t mesh_fingerprint(const Mesh& mesh) {
@@ -78,14 +87,12 @@ struct MapWriterData {
     }
 
     Status check(const TableView& rows) {
-        const auto dimension = static_cast<std::size_t>(head.dimension);
-        const std::size_t count = rows.row_count();
+        const std::size_t dimension = head.dimension, count = rows.row_count();
         if (rows.points.size() != dimension * count || rows.features.size() != count)
-            return fail({.what = "the arrays of a map do not fit together",
-                         .file = name,
-                         .expected = std::to_string(dimension) + " coordinates, a cell and a feature a row",
-                         .found = std::to_string(rows.points.size()) + " coordinates, " + std::to_string(count) +
-                                  " cells, " + std::to_string(rows.features.size()) + " features"});
+            return fail(map_error(name, "the arrays of a map do not fit together",
+                                  std::to_string(dimension) + " coordinates, a cell and a feature a row",
+                                  std::to_string(rows.points.size()) + " coordinates, " + std::to_string(count) +
+                                      " cells, " + std::to_string(rows.features.size()) + " features"));
         for (std::size_t i = 0; i < count; ++i) {
             const double* const point = rows.points.data() + dimension * i;
             const auto feature = static_cast<unsigned>(rows.features[i]);
@@ -93,12 +100,10 @@ struct MapWriterData {
             if (fault == nullptr) continue;
             std::string found = "coordinates";
             for (std::size_t axis = 0; axis < dimension; ++axis) found += ' ' + base::shortest(point[axis]);
-            return fail(
-                {.what = "row " + std::to_string(head.rows + pending.row_count() + i) + " is not valid in a map",
-                 .file = name,
-                 .expected = fault,
-                 .found = found + ", cell " + std::to_string(rows.cells[i]) + ", feature " + std::to_string(feature),
-                 .remedy = "write results of a Locator on the same mesh"});
+            return fail(map_error(
+                name, "row " + std::to_string(head.rows + pending.row_count() + i) + " is not valid in a map", fault,
+                found + ", cell " + std::to_string(rows.cells[i]) + ", feature " + std::to_string(feature),
+                "write results of a Locator on the same mesh"));
         }
         return Done{};
     }
@@ -107,26 +112,18 @@ struct MapWriterData {
         const std::size_t size = map_block_size(head.dimension, pending.row_count());
         bytes.assign(size + map_checksum_size, '\0');
         char* at = bytes.data();
-        for (const double x : pending.points) at = put_little(at, std::bit_cast<std::uint64_t>(x));
-        for (const Mesh::Index cell : pending.cells) at = put_little(at, static_cast<std::uint32_t>(cell));
-        for (const Feature feature : pending.features) at = put_little(at, static_cast<std::uint8_t>(feature));
+        const auto put = [&](const auto& numbers) {
+            const auto own = std::as_bytes(std::span(numbers));
+            at = std::copy_n(reinterpret_cast<const char*>(own.data()), own.size(), at);
+        };
+        put(pending.points);
+        put(pending.cells);
+        put(pending.features);
         checksum = map_checksum({bytes.data(), size}, checksum);
-        put_little(bytes.data() + size, checksum);
+        std::memcpy(bytes.data() + size, &checksum, sizeof checksum);
         file.write({bytes.data(), bytes.size()});
         head.rows += pending.row_count();
         clear_map_rows(pending);
-    }
-
-    std::array<char, map_header_size> header() const {
-        std::array<char, map_header_size> all{};
-        char* at = std::copy(map_magic.begin(), map_magic.end(), all.data());
-        at = put_little(at, map_version);
-        at = put_little(at, static_cast<std::uint8_t>(head.dimension));
-        at = put_little(at, static_cast<std::uint8_t>(head.all));
-        at = put_little(at, head.taken);
-        for (const std::uint64_t x : {head.rows, head.nodes, head.cells, head.fingerprint}) at = put_little(at, x);
-        put_little(at, map_checksum({all.data(), map_header_size - map_checksum_size}, 0));
-        return all;
     }
 
     std::string name;
@@ -144,11 +141,8 @@ struct MapReaderData {
     MapReaderData(std::string path, base::InputFile input) : name(std::move(path)), file(std::move(input)) {}
 
     Error damage(std::string what, std::string expected, std::string found) const {
-        return {.what = std::move(what),
-                .file = name,
-                .expected = std::move(expected),
-                .found = std::move(found),
-                .remedy = "create the map again, or copy it again"};
+        return map_error(name, std::move(what), std::move(expected), std::move(found),
+                         "create the map again, or copy it again");
     }
 
     /// `count` bytes from `from` on, into `bytes`.
@@ -165,35 +159,21 @@ struct MapReaderData {
         if (Status filled = fill(0, begin); !filled) return filled;
         const std::size_t known = std::min(begin, map_magic.size());
         if (size == 0 || std::string_view(bytes.data(), known) != map_magic.substr(0, known))
-            return Error{.what = "not a map",
-                         .file = name,
-                         .expected = "a file written by barycert as a map",
-                         .found = size == 0 ? "an empty file" : "other bytes at its beginning",
-                         .remedy = "name a map; the mesh and the points are other files"};
+            return map_error(name, "not a map", "a file written by barycert as a map",
+                             size == 0 ? "an empty file" : "other bytes at its beginning",
+                             "name a map; the mesh and the points are other files");
         if (size < map_header_size)
             return damage("the map is cut off", "a header of " + std::to_string(map_header_size) + " bytes",
                           std::to_string(size));
-        const char* const at = bytes.data();
+        std::memcpy(&head, bytes.data(), sizeof head);
         // First, for the rest of the header may mean something else in another version.
-        if (const auto version = get_little<std::uint32_t>(at + 8); version != map_version)
-            return Error{.what = "a map of another version",
-                         .file = name,
-                         .expected = "version " + std::to_string(map_version),
-                         .found = "version " + std::to_string(version),
-                         .remedy = "create the map again with this version, or read it with the version that wrote it"};
-        constexpr std::size_t before = map_header_size - map_checksum_size;
-        const bool whole = map_checksum({at, before}, 0) == get_little<std::uint64_t>(at + before);
-        const auto dimension = static_cast<unsigned char>(at[12]), all = static_cast<unsigned char>(at[13]);
-        if (!whole || (dimension != 2 && dimension != 3) || all > 1 || get_little<std::uint16_t>(at + 14) > 3)
+        if (head.version != map_version)
+            return map_error(name, "a map of another version", "version " + std::to_string(map_version),
+                             "version " + std::to_string(head.version),
+                             "create the map again with this version, or read it with the version that wrote it");
+        if (head.checksum != head.right_checksum() || (head.dimension != 2 && head.dimension != 3) || head.all > 1 ||
+            head.taken > 3)
             return damage("the header of the map is damaged", "the bytes that were written", "others");
-        const auto word = [&](std::size_t i) { return get_little<std::uint64_t>(at + 16 + 8 * i); };
-        head = {static_cast<int>(dimension),
-                all == 1,
-                get_little<std::uint16_t>(at + 14),
-                word(0),
-                word(1),
-                word(2),
-                word(3)};
         // A row takes more than a byte: no product below can overflow.
         const std::uint64_t blocks = head.rows / map_block_rows, rest = head.rows % map_block_rows;
         std::uint64_t expected = map_header_size;
@@ -215,22 +195,19 @@ struct MapReaderData {
     Status check(const MapHeader& is, const char* cells) const {
         const bool alike = head.dimension == is.dimension && head.nodes == is.nodes && head.cells == is.cells;
         if (alike && head.taken != is.taken)
-            return Error{.what = "the map was made of cells taken otherwise",
-                         .file = name,
-                         .expected = words_of(is.taken),
-                         .found = words_of(head.taken),
-                         .remedy = "take them as the map does (interpolation, curved cells), or create the map again"};
+            return map_error(name, "the map was made of cells taken otherwise", words_of(is.taken),
+                             words_of(head.taken),
+                             "take them as the map does (interpolation, curved cells), or create the map again");
         if (alike && head.fingerprint == is.fingerprint) return Done{};
         const auto size_of = [](std::uint64_t nodes, std::uint64_t count, const char* word) {
             return "one of " + std::to_string(nodes) + " nodes and " + std::to_string(count) + ' ' + word;
         };
-        return Error{
-            .what = "the map was made for another mesh",
-            .file = name,
-            // In space they may be tetrahedra or triangles: the file does not tell.
-            .expected = size_of(head.nodes, head.cells, head.dimension == 2 ? "triangles" : "cells"),
-            .found = alike ? "one of that size with other coordinates or cells" : size_of(is.nodes, is.cells, cells),
-            .remedy = "name the mesh of the map, or create the map again for this mesh"};
+        // In space they may be tetrahedra or triangles: the file does not tell.
+        return map_error(
+            name, "the map was made for another mesh",
+            size_of(head.nodes, head.cells, head.dimension == 2 ? "triangles" : "cells"),
+            alike ? "one of that size with other coordinates or cells" : size_of(is.nodes, is.cells, cells),
+            "name the mesh of the map, or create the map again for this mesh");
     }
 
     Status next_block() {
@@ -238,7 +215,7 @@ struct MapReaderData {
         const std::size_t length = map_block_size(head.dimension, count);
         if (Status filled = fill(offset, length + map_checksum_size); !filled) return filled;
         const std::uint64_t found = map_checksum({bytes.data(), length}, checksum);
-        if (found != get_little<std::uint64_t>(bytes.data() + length))
+        if (found != map_word(bytes.data() + length))
             return damage("rows " + std::to_string(row) + " to " + std::to_string(row + count - 1) + " are damaged",
                           "the bytes that were written", "others");
         if (Status decoded = decode(count); !decoded) return decoded;
@@ -250,19 +227,14 @@ struct MapReaderData {
     }
 
     Status decode(std::size_t count) {
-        const auto dimension = static_cast<std::size_t>(head.dimension);
+        const std::size_t dimension = head.dimension;
         const char* at = bytes.data();
         block.points.resize(count * dimension);
         block.cells.resize(count);
         block.features.resize(count);
-        for (double& x : block.points) {
-            x = std::bit_cast<double>(get_little<std::uint64_t>(at));
-            at += 8;
-        }
-        for (Mesh::Index& cell : block.cells) {
-            cell = static_cast<Mesh::Index>(get_little<std::uint32_t>(at));
-            at += 4;
-        }
+        std::memcpy(block.points.data(), at, 8 * dimension * count);
+        std::memcpy(block.cells.data(), at += 8 * dimension * count, 4 * count);
+        at += 4 * count;
         for (std::size_t i = 0; i < count; ++i) {
             const auto feature = static_cast<unsigned char>(at[i]);
             const char* const fault =
@@ -294,12 +266,10 @@ Result<MapWriter> MapWriter::begin(const std::string& path, const sample::MapHea
     auto data = std::make_unique<sample::MapWriterData>(path, head);
     if (Status opened = data->file.status(); !opened) return opened.error();
     if (!data->file.can_replace())
-        return Error{.what = "cannot write a map to a pipe or device",
-                     .file = path,
-                     .expected = "a regular file: the number of rows is written into its header at the end",
-                     .remedy = "name a regular file"};
-    const std::array<char, sample::map_header_size> no_header{};  // a file without its end must not pass for a map
-    data->file.write({no_header.data(), no_header.size()});
+        return map_error(path, "cannot write a map to a pipe or device",
+                         "a regular file: the number of rows is written into its header at the end", {},
+                         "name a regular file");
+    data->file.write(head.bytes());
     return MapWriter(std::move(data));
 }
 Result<MapWriter> MapWriter::open(const std::string& path, const Mesh& mesh, bool all, const BuildOptions& located) {
@@ -316,8 +286,7 @@ Status MapWriter::write(const TableView& rows) {
     sample::MapWriterData& to = *data_;
     if (!to.error.what.empty()) return to.error;
     if (to.done)
-        return to.fail(
-            {.what = "rows after the end of a map", .file = to.name, .remedy = "write them before commit()"});
+        return to.fail(map_error(to.name, "rows after the end of a map", {}, {}, "write them before commit()"));
     if (Status fits = to.check(rows); !fits) return fits;
     for (std::size_t row = 0; row < rows.row_count();) {
         const std::size_t room = sample::map_block_rows - to.pending.row_count();
@@ -335,8 +304,9 @@ Status MapWriter::commit() {
     if (!to.error.what.empty()) return to.error;
     if (to.done) return Done{};
     if (to.pending.row_count() != 0) to.put_block();
-    const auto header = to.header();
-    to.file.replace(0, {header.data(), header.size()});
+    sample::map_magic.copy(to.head.magic.data(), sample::map_magic.size());
+    to.head.checksum = to.head.right_checksum();
+    to.file.replace(0, to.head.bytes());
     if (Status committed = to.file.commit(); !committed) return to.fail(committed.error());
     to.done = true;
     return Done{};
@@ -368,7 +338,7 @@ int MapReader::dimension() const {
     return data_->head.dimension;
 }
 bool MapReader::all() const {
-    return data_->head.all;
+    return data_->head.all != 0;
 }
 std::uint64_t MapReader::rows() const {
     return data_->head.rows;

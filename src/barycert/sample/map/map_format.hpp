@@ -1,50 +1,52 @@
 /// The parts of a map file that its writer and its reader share. See map.hpp.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "barycert/base/random.hpp"
 #include "barycert/table.hpp"
 
 namespace barycert::sample {
 
+static_assert(std::endian::native == std::endian::little, "maps are written as numbers stand in memory");
+
 inline constexpr std::string_view map_magic = "\x89\x42\x43\x4D\r\n\x1A\n";
 inline constexpr std::uint32_t map_version = 1;
-inline constexpr std::size_t map_header_size = 56;
 inline constexpr std::size_t map_checksum_size = 8;
 inline constexpr std::size_t map_block_rows = 8192;
-
-/// Returns where the next number goes.
-template <class T>
-char* put_little(char* at, T value) {
-    for (std::size_t i = 0; i < sizeof(T); ++i) *at++ = static_cast<char>(static_cast<unsigned char>(value >> 8 * i));
-    return at;
-}
-
-template <class T>
-T get_little(const char* at) {
-    T value = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i)
-        value = static_cast<T>(value | static_cast<T>(static_cast<unsigned char>(at[i])) << 8 * i);
-    return value;
-}
 
 constexpr std::uint64_t map_step(std::uint64_t h, std::uint64_t word) {
     return base::mix64((h ^ word) + 0x9e3779b97f4a7c15ULL);
 }
 
+inline std::uint64_t map_word(const char* at) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, at, sizeof word);
+    return word;
+}
+
 /// Precondition: the size is a multiple of 8.
 inline std::uint64_t map_checksum(std::string_view bytes, std::uint64_t h) {
-    for (std::size_t i = 0; i < bytes.size(); i += 8) h = map_step(h, get_little<std::uint64_t>(bytes.data() + i));
+    for (std::size_t i = 0; i < bytes.size(); i += 8) h = map_step(h, map_word(bytes.data() + i));
     return h;
 }
 
+/// As it stands in the file.
 struct MapHeader {
-    int dimension = 3;
-    bool all = false;
+    std::array<char, 8> magic{};  ///< none in a file without its end, which must not pass for a map
+    std::uint32_t version = map_version;
+    std::uint8_t dimension = 3, all = 0;
     std::uint16_t taken = 0;  ///< how cells are: 1, multilinear; 2, curved
     std::uint64_t rows = 0, nodes = 0, cells = 0, fingerprint = 0;
+    std::uint64_t checksum = 0;  ///< of what is before
+
+    std::string_view bytes() const { return {reinterpret_cast<const char*>(this), sizeof *this}; }
+    std::uint64_t right_checksum() const { return map_checksum(bytes().substr(0, sizeof *this - sizeof checksum), 0); }
 };
+inline constexpr std::size_t map_header_size = sizeof(MapHeader);
+static_assert(map_header_size == 56);
 
 /// Bytes of a block of so many rows, without its checksum: a multiple of 8.
 constexpr std::size_t map_block_size(int dimension, std::size_t rows) {

@@ -107,12 +107,6 @@ Result<FieldChoice> number_named(const Mesh& mesh, const std::string& name) {
         .remedy = "choose one of them"};
 }
 
-std::size_t steps_of_whole_mesh(const FieldChoice& choice) {
-    const auto last = std::find_if(choice.steps.rbegin(), choice.steps.rend(),
-                                   [](const QuantityStep& step) { return step.kind == Kind::mean; });
-    return static_cast<std::size_t>(choice.steps.rend() - last);
-}
-
 // u = 2^-53, n components, m the largest magnitude, scaled so that 2^-500 <= m <= 2^500. That is exact: where m is
 // scaled down, what a small component loses is below 2^-1074, while m > 2^-100.
 //

@@ -1,9 +1,7 @@
 #include "barycert/sample/quantity/quantities.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/core/numerators-inl.hpp"

@@ -30,7 +30,6 @@ inline const std::string& name_of(const FieldChoice& choice) {
     return choice.name.empty() ? choice.field->name : choice.name;
 }
 
-/// What the steps of a choice give.
 struct QuantityShape {
     bool of_cells = false;
     std::size_t components = 1;
@@ -65,9 +64,6 @@ Status make_all_fields(const Mesh& mesh, std::vector<FieldChoice>& choices, std:
 
 /// What `name` means, if it is one number a node or cell. Error: several numbers, or no such field.
 Result<FieldChoice> number_named(const Mesh& mesh, const std::string& name);
-
-/// How many steps there are up to the last mean: those that need the whole mesh.
-std::size_t steps_of_whole_mesh(const FieldChoice& choice);
 
 /// sqrt(sum v_i^2), within 0.51 units in the last place of the exact length where that is not subnormal, else within
 /// 0.76 (its unit may be twice that of the sum's root); infinite where that exceeds the doubles. NaN if a component is
