@@ -126,6 +126,8 @@ void MappedCells::find_sides() {
 
 Feature MappedCells::held(std::size_t shape, const double* point, Feature in_parts) const {
     if (sign_[shape] == 0 || warped_[shape] == 0) return in_parts;
+    // The rings of a wedge are seen from outside where its Jacobian is negative, those of others where it is positive.
+    const auto outward = static_cast<Sign>(mesh_.shapes.types[shape] == 13 ? -sign_[shape] : sign_[shape]);
     bool in_some = false, out = false;
     Feature on = Feature::interior;
     for_sides(shape, [&](const std::array<Mesh::Index, 4>& ring, unsigned bit) {
@@ -133,7 +135,7 @@ Feature MappedCells::held(std::size_t shape, const double* point, Feature in_par
         const InSide in = look({at(ring[0]), at(ring[1]), at(ring[2]), at(ring[3])}, point);
         if (!in.holds) return;
         in_some = true;
-        const Sign inner = in.inner * static_cast<Sign>(sign_[shape]);
+        const Sign inner = in.inner * outward;
         out = inner == Sign::negative;
         if (inner != Sign::zero) return;
         const int count = std::popcount(in.zeros);
