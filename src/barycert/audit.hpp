@@ -531,6 +531,24 @@ struct CaseJob {
 };
 Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kernels);
 
+// Rules that answer cases of their own. A tally has what a rule answers to the cases of a family.
+
+template <class Rule, class Tally>
+struct RuleResult {
+    Rule rule;
+    std::vector<Tally> families;
+    Tally total;  ///< indices of cases mean nothing here
+};
+
+template <class Rule, class Tally>
+struct RuleAudit {
+    std::uint64_t seed = 1, count = 10000;                    ///< cases of each family, and shape
+    int threads = 0;                                          ///< 0: one per core
+    std::function<void(const AuditProgress&)> progress = {};  ///< called from one thread at a time
+    std::vector<Rule> rules = {};                             ///< empty: all
+    std::vector<RuleResult<Rule, Tally>> results = {};        ///< in the order of the rules
+};
+
 // Rules on triangles in space: how far a point is from a triangle, whether it is inside a closed surface, whether two
 // triangles meet. Rules that are in use are held against CGAL's exact answers, on cases where such code is known to
 // fail; barycert's own stand among them.
@@ -588,18 +606,7 @@ struct SurfaceTally {
     void merge(const SurfaceTally& other);
 };
 
-struct SurfaceResult {
-    SurfaceRule rule;
-    std::vector<SurfaceTally> families;
-    SurfaceTally total;  ///< indices of cases mean nothing here
-};
-
-struct SurfaceAudit {
-    std::uint64_t seed = 1, count = 10000;                    ///< cases of each family
-    int threads = 0;                                          ///< 0: one per core
-    std::function<void(const AuditProgress&)> progress = {};  ///< called from one thread at a time
-    std::vector<SurfaceResult> results = {};                  ///< in the order of the rules
-};
+using SurfaceAudit = RuleAudit<SurfaceRule, SurfaceTally>;
 
 /// Fills `results`, the same for any number of threads, which it sets.
 void audit_surfaces(SurfaceAudit& audit);
@@ -669,21 +676,9 @@ struct InverseTally {
     void merge(const InverseTally& other);
 };
 
-struct InverseResult {
-    InverseRule rule;
-    std::vector<InverseTally> families;
-    InverseTally total;  ///< indices of cases mean nothing here
-};
+using InverseAudit = RuleAudit<InverseRule, InverseTally>;
 
-struct InverseAudit {
-    std::uint64_t seed = 1, count = 10000;                    ///< cases of each family and type
-    int threads = 0;                                          ///< 0: one per core
-    std::function<void(const AuditProgress&)> progress = {};  ///< called from one thread at a time
-    std::vector<InverseRule> rules = inverse_rules();         ///< or others
-    std::vector<InverseResult> results = {};                  ///< in the order of the rules
-};
-
-/// Fills `results`, the same for any number of threads, which it sets.
+/// Likewise.
 void audit_inverses(InverseAudit& audit);
 
 }  // namespace barycert

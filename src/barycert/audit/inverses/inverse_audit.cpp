@@ -1,7 +1,7 @@
 // Inverse maps held against barycert's own, which are proved case by case.
 
 #include "barycert/audit/inverses/reference.hpp"
-#include "barycert/audit/tallies.hpp"
+#include "barycert/audit/rules.hpp"
 #include "barycert/base/ulp.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh/pulling.hpp"
@@ -42,14 +42,10 @@ ExactInverse exact_inverse(const InverseCase& c) {
         fields[4 * i + 3] = c.values[i];
     }
     std::array<double, 4> out{};
-    const auto node = [&](std::size_t i) { return std::equal(c.point.begin(), c.point.end(), &c.nodes[d * i]); };
-    std::size_t at = 0;
-    while (at < of.nodes && !(feature == Feature::vertex && node(at))) ++at;
-    if (at < of.nodes) {
-        std::copy_n(&fields[4 * at], 4, out.begin());
-    } else if (iso::evaluate(of, places_of(c), c.point.data(), ~std::uint64_t{0}, fields.data(), 4, out.data())
-                   .certainty != iso::Certainty::proved) {
-        out.fill(std::numeric_limits<double>::quiet_NaN());
+    const auto found = iso::evaluate(of, places_of(c), c.point.data(), ~std::uint64_t{0}, fields.data(), 4, out.data());
+    if (found.certainty != iso::Certainty::proved) out.fill(std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < of.nodes; ++i) {  // at the apex of a pyramid the Jacobian is 0
+        if (std::equal(c.point.begin(), c.point.end(), &c.nodes[d * i])) std::copy_n(&fields[4 * i], 4, out.begin());
     }
     std::copy_n(out.begin(), 3, exact.x.begin());
     exact.value = out[3];
@@ -97,32 +93,19 @@ void InverseTally::merge(const InverseTally& other) {
 
 void audit_inverses(InverseAudit& audit) {
     const ExactEnvironment environment;
+    if (audit.rules.empty()) audit.rules = inverse_rules();
     const std::vector<InverseFamily>& families = inverse_families();
-    std::vector<std::uint8_t> types;
-    for (const InverseRule& rule : audit.rules) {
-        if (std::ranges::find(types, rule.type) == types.end()) types.push_back(rule.type);
-    }
-    const auto judge = [&](std::size_t group, std::uint64_t i, std::vector<InverseTally>& found) {
+    constexpr std::array<std::uint8_t, 4> types{9, 12, 13, 14};
+    const auto fits = [&](std::size_t group, const InverseRule& rule) {
+        return rule.type == types[group / families.size()];
+    };
+    audit_rules(audit, families, types.size(), fits, [&](std::size_t group, std::uint64_t i, const auto& each) {
         const std::uint8_t type = types[group / families.size()];
         const InverseCase c = make_inverse_case(families[group % families.size()], type, audit.seed, i);
         const ExactInverse exact = exact_inverse(c);
-        for (std::size_t r = 0; exact.region != Region::degenerate && r < found.size(); ++r) {
-            if (audit.rules[r].type == type) found[r].add(audit.rules[r].answer(c), exact, c, i);
-        }
-    };
-    const auto name = [&](std::size_t group) { return families[group % families.size()].name; };
-    const auto tallies =
-        tallies_of<InverseTally>(audit, types.size() * families.size(), audit.rules.size(), name, judge);
-    audit.results.clear();
-    for (std::size_t r = 0; r < audit.rules.size(); ++r) {
-        InverseResult& result = audit.results.emplace_back(InverseResult{audit.rules[r], {}, {}});
-        for (std::size_t group = 0; group < tallies.size(); ++group) {
-            if (types[group / families.size()] != result.rule.type) continue;
-            result.families.push_back(tallies[group][r]);
-            result.families.back().family = group % families.size();
-            result.total.merge(tallies[group][r]);
-        }
-    }
+        if (exact.region == Region::degenerate) return;
+        each([&](const InverseRule& rule, InverseTally& tally) { tally.add(rule.answer(c), exact, c, i); });
+    });
 }
 
 }  // namespace barycert

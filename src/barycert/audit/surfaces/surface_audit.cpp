@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "barycert/audit/tallies.hpp"
+#include "barycert/audit/rules.hpp"
 #include "barycert/base/ulp.hpp"
 
 namespace barycert {
@@ -51,28 +51,16 @@ void SurfaceTally::merge(const SurfaceTally& other) {
 
 void audit_surfaces(SurfaceAudit& audit) {
     const ExactEnvironment environment;
-    const std::vector<SurfaceRule>& rules = surface_rules();
+    if (audit.rules.empty()) audit.rules = surface_rules();
     const std::vector<SurfaceFamily>& families = surface_families();
-    const auto judge = [&](std::size_t f, std::uint64_t i, std::vector<SurfaceTally>& found) {
+    const auto fits = [&](std::size_t f, const SurfaceRule& rule) { return rule.question == families[f].question; };
+    audit::audit_rules(audit, families, 1, fits, [&](std::size_t f, std::uint64_t i, const auto& each) {
         const SurfaceCase c = make_surface_case(families[f], audit.seed, i);
         const std::optional<double> exact = exact_answer(families[f].question, c);
-        for (std::size_t r = 0; exact && r < rules.size(); ++r) {
-            if (rules[r].question == families[f].question)
-                found[r].add(families[f].question, rules[r].answer(c), *exact, i);
-        }
-    };
-    const auto name = [&](std::size_t f) { return families[f].name; };
-    auto tallies = audit::tallies_of<SurfaceTally>(audit, families.size(), rules.size(), name, judge);
-    audit.results.clear();
-    for (std::size_t r = 0; r < rules.size(); ++r) {
-        SurfaceResult& result = audit.results.emplace_back(SurfaceResult{rules[r], {}, {}});
-        for (std::size_t f = 0; f < families.size(); ++f) {
-            if (families[f].question != rules[r].question) continue;
-            tallies[f][r].family = f;
-            result.total.merge(tallies[f][r]);
-            result.families.push_back(tallies[f][r]);
-        }
-    }
+        if (!exact) return;
+        each(
+            [&](const SurfaceRule& rule, SurfaceTally& tally) { tally.add(rule.question, rule.answer(c), *exact, i); });
+    });
 }
 
 }  // namespace barycert

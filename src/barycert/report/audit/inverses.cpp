@@ -13,7 +13,7 @@ void tell_rules(Document& d, const InverseAudit& audit) {
     for (const char* head : {"no\nanswer %", "in as\nout %", "on as\nout %", "out as\nin %", "values:\nulps, 50 %",
                              "ulps,\nworst", "of range,\nworst", "x: ulps,\n50 %", "ulps,\nworst"})
         table.columns.push_back(right(head, 7));
-    for (const InverseResult& r : audit.results) {
+    for (const auto& r : audit.results) {
         const InverseTally& t = r.total;
         const auto& [interior, boundary, outside] = t.told;
         const auto sum = [](const auto& row) { return row[0] + row[1] + row[2]; };
@@ -45,13 +45,13 @@ Json case_json(const InverseRule& rule, const InverseFamily& family, std::uint64
 }
 
 Json tally_json(const InverseTally& t) {
-    Json j = record("cases", t.cases, "wrong_cases", t.wrong_cases());
+    Json j = record(MEMBERS(t, cases), "wrong_cases", t.wrong_cases());
     for (std::size_t i = 0; i < 3; ++i)
         put(j, name(all_regions[i]),
             record("inside", t.told[i][0], "outside", t.told[i][1], "no_answer", t.told[i][2]));
-    put(j, "median_value_ulps", magnitude(reached(t.value_ulps, 0.5, t.value_ulp)), "worst_value_ulps",
-        magnitude(t.value_ulp.value), "worst_value_error", magnitude(t.errors.worst.value), "median_x_ulps",
-        magnitude(reached(t.x_ulps, 0.5, t.x_ulp)), "worst_x_ulps", magnitude(t.x_ulp.value));
+    put(j, "measured", t.errors.total(), "median_value_ulps", magnitude(reached(t.value_ulps, 0.5, t.value_ulp)),
+        "worst_value_ulps", magnitude(t.value_ulp.value), "worst_value_error", magnitude(t.errors.worst.value),
+        "median_x_ulps", magnitude(reached(t.x_ulps, 0.5, t.x_ulp)), "worst_x_ulps", magnitude(t.x_ulp.value));
     return j;
 }
 

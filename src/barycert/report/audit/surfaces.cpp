@@ -21,7 +21,7 @@ void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion quest
         table.columns.push_back(right(inside ? "in as\nout %" : "meeting\nas apart %", 10));
         table.columns.push_back(left("worst family", 20, 2));
     }
-    for (const SurfaceResult& r : audit.results) {
+    for (const auto& r : audit.results) {
         if (r.rule.question != question) continue;
         const SurfaceTally& t = r.total;
         Row row{{r.rule.name, brief_count(t.cases), share_cell({t.wrong_cases(), t.cases}, true)}};
