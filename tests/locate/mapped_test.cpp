@@ -156,7 +156,8 @@ TEST(MappedCells, L1V1CellsWithCurvedSides) {
             Sampler::build(mesh, {}, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
         EXPECT_EQ(sampler.locator().unmapped_cells(), 0U);
         std::vector<double> points;
-        for (int i = 0; i < 3 * 1500; ++i) points.push_back(std::uniform_real_distribution(-0.2, 4.2)(random));
+        for (int i = 0; i < 3 * (type == 12 ? 1500 : 900); ++i)
+            points.push_back(std::uniform_real_distribution(-0.2, 4.2)(random));
         const Table rows = sampler.sample(points).value();
         const Table linear = Sampler::build(mesh).value().sample(points).value();
         EXPECT_EQ(rows.counts.unproved, 0U);
@@ -192,8 +193,8 @@ TEST(MappedCells, L1V1CellsWithCurvedSides) {
             ASSERT_NEAR(rows.values[i], static_cast<double>(value), 1e-15);
             ASSERT_EQ(rows.features[i], Feature::interior);
         }
-        EXPECT_GT(inside, type == 14 ? 300U : 1000U);
-        EXPECT_GT(moved, 10U);  // others than those of the parts
+        EXPECT_GT(inside, type == 12 ? 1000U : type == 13 ? 600U : 150U);
+        EXPECT_GT(moved, type == 14 ? 0U : 10U);  // others than those of the parts
     }
 }
 

@@ -100,7 +100,7 @@ const std::vector<InverseRule>& inverse_rules() {
                       *const rounds =
                           "at the boundary rounding decides; 10 steps are too few at corners that are nearly flat";
     static const std::vector<InverseRule> all{
-        rule("hexahedron.newton-1e-3", 12, loose, "vtkHexahedron before VTK 9", early,
+        rule("hexahedron.newton-1e-3", 12, loose, "vtkHexahedron in older versions", early,
              {.moved = 1e-3, .beyond = 1e-3, .floored = true}),
         rule("hexahedron.newton-1e-5", 12, "the same until 1e-5, and inside within 1e-6", "vtkHexahedron", early,
              {.moved = 1e-5, .beyond = 1e-6, .floored = true}),
