@@ -7,10 +7,10 @@
 #include <string>
 
 #include <vtkHexahedron.h>
-#include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPyramid.h>
 #include <vtkQuad.h>
+#include <vtkSmartPointer.h>
 #include <vtkWedge.h>
 
 #include "barycert/audit.hpp"
@@ -64,7 +64,7 @@ TEST(InverseMaps, RulesAnswerAsVtksCells) {
         }
     }
     EXPECT_EQ(rules, cells.size());
-    EXPECT_TRUE(told[-1] > 100 && told[0] > 1000 && told[1] > 5000);
+    EXPECT_TRUE(told[-1] > 500 && told[0] > 500 && told[1] > 5000) << told[-1] << ' ' << told[0] << ' ' << told[1];
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ ExactInverse exact_inverse(const InverseCase& c) {
         Locator::build(mesh, {.prove = Prove::never, .interpolation = CellInterpolation::multilinear, .threads = 1})
             .value();
     if (locator.unmapped_cells() != 0) return {};
-    const Feature feature = locator.locate(c.point.data()).value().feature;
+    const Feature feature = locator.locate(c.point, 1).value().features.front();
     ExactInverse exact{.region = feature == Feature::interior  ? Region::interior
                                  : feature == Feature::outside ? Region::outside
                                                                : Region::boundary};

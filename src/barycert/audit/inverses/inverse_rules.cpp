@@ -22,11 +22,16 @@ double distance(const double* a, const double* b) {
     return std::sqrt(dot(v, v));
 }
 
-/// The longest distance of two nodes.
+/// The longest diagonal of a hexahedron; the longest edge of a wedge or pyramid.
 double size_of(const InverseCase& c) {
     double most = 0;
-    for (std::size_t i = 0; i < c.nodes.size(); i += 3) {
-        for (std::size_t j = 0; j < i; j += 3) most = std::max(most, distance(&c.nodes[i], &c.nodes[j]));
+    for (std::size_t i = 0; i < c.values.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const bool meant = c.type == 12   ? i == (j + 2) % 4 + 4
+                               : c.type == 13 ? i % 3 == j % 3 || i / 3 == j / 3
+                                              : i == 4 || i % 2 != j % 2;
+            if (meant) most = std::max(most, distance(&c.nodes[3 * i], &c.nodes[3 * j]));
+        }
     }
     return most;
 }
