@@ -101,40 +101,44 @@ bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<cons
     return finite;
 }
 
-/// Owners and features of points, by those in parts of cells, on the threads of the calling arena; counts features
-/// anew.
-inline void settle_mapped(const LocatorData& data, std::span<const double> points, std::span<Mesh::Index> cells,
-                          std::span<Feature> features, LocationCounts& counts) {
-    const std::size_t d = data.index.dimension();
-    const LocationCounts found = base::parallel_reduce(
-        cells.size(), std::size_t{1} << 12, LocationCounts(),
-        [&](std::size_t first, std::size_t last, LocationCounts& part) {
-            const auto set = [&](std::size_t i, const Location& own) {
-                cells[i] = own.cell;
-                features[i] = own.feature;
-                part.add(own.feature);
-            };
-            const auto settle = [&](std::size_t i) { set(i, data.settle(&points[d * i], {cells[i], features[i]})); };
-            const auto use = [&](const MappedCells::Batch& batch, std::size_t lane, bool inside) {
-                const std::size_t i = batch.rows[lane];
-                if (!inside) return settle(i);
-                set(i, {data.mapped->first_part_of(cells[i]), Feature::interior});
-            };
-            MappedLanes lanes(*data.mapped, {}, 0, use);
-            for (std::size_t i = first; i < last; ++i) {
-                if (!base::all_finite(points.subspan(d * i, d))) {
-                    set(i, {});
-                } else if (features[i] != Feature::interior || !lanes.push(cells[i], features[i], &points[d * i], i)) {
-                    settle(i);
-                }
-            }
-            lanes.flush();
-        },
-        [](LocationCounts& all, const LocationCounts& part) { all.add(part); });
-    const auto [tests, ways] = std::pair(counts.tests, counts.ways);
+/// Owners and features of points, by those in parts of cells: to[number of a record].
+class MappedOwners {
+public:
+    MappedOwners(const LocatorData& data, Location* to)
+        : data_(data), to_(to), lanes_(*data.mapped, {}, 0, Use{this}) {}
+
+    void push(const PointRecord& point, const Location& in_parts, const Place* owner, std::size_t count) {
+        data_.fetch_maps(owner, count);
+        if (!lanes_.push(in_parts, point, false)) settle(point, in_parts);
+    }
+    void flush() { lanes_.flush(); }
+
+private:
+    struct Use {
+        MappedOwners* owners;
+        void operator()(const MappedCells::Batch& batch, std::size_t lane, bool inside, bool) const {
+            if (!inside) return owners->settle(batch.record(lane), batch.at[lane]);
+            owners->to_[batch.numbers[lane]] = {owners->data_.mapped->first_part_of(batch.at[lane].cell),
+                                                Feature::interior};
+        }
+    };
+    void settle(const PointRecord& point, const Location& in_parts) {
+        const bool finite = base::all_finite({point.at.data(), data_.index.dimension()});
+        to_[point.number] = finite ? data_.settle(point.at.data(), in_parts) : Location{};
+    }
+
+    const LocatorData& data_;
+    Location* to_;
+    MappedLanes<Use> lanes_;
+};
+
+/// Features are those of `features`, not of parts of cells.
+inline void count_anew(std::span<const Feature> features, LocationCounts& counts) {
+    LocationCounts found;
+    for (const Feature feature : features) found.add(feature);
+    found.tests = counts.tests;
+    found.ways = counts.ways;
     counts = found;
-    counts.tests = tests;
-    counts.ways = ways;
 }
 
 }  // namespace barycert::locate

@@ -106,24 +106,32 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
     struct Worker {
         const locate::CellIndex& index;
         std::unique_ptr<std::vector<Location>> found;
+        std::unique_ptr<locate::MappedOwners> mapped;
 
         void operator()(const locate::PointRecord* records, std::size_t n, const locate::Place* owner,
                         const Feature* feature) {
             Location* const to = found->data() + records->number;
-            for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t i = 0; i < n; ++i) {
                 to[i] = {owner[i] < 0 ? -1 : index.original[static_cast<std::size_t>(owner[i])], feature[i]};
+                if (mapped) mapped->push(records[i], to[i], owner + i, n - i);
+            }
         }
     };
     const auto make = [&](std::size_t, std::size_t size) {
-        Worker worker{data_->index, data_->locations.take()};
+        Worker worker{data_->index, data_->locations.take(), nullptr};
         worker.found->resize(std::max(worker.found->size(), size + 1));
+        if (data_->mapped) worker.mapped = std::make_unique<locate::MappedOwners>(*data_, worker.found->data());
         return worker;
     };  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): a unique_ptr owns it
     const auto write = [&](std::size_t first, const locate::SortedPoints& sorted, Worker& worker) {
         Location* const found = worker.found->data();
-        found[sorted.size()] = {};  // of those left out
+        const std::size_t last = sorted.size();
+        found[last] = {};  // of those left out
+        if (worker.mapped) worker.mapped->flush();
         sorted.for_each_in_callers_order([&](std::size_t place) { __builtin_prefetch(found + place); },
                                          [&](std::size_t i, std::size_t place) {
+                                             if (place == last && worker.mapped)
+                                                 worker.mapped->push(sorted.record(i, last), {}, nullptr, 0);
                                              cells[first + i] = found[place].cell;
                                              features[first + i] = found[place].feature;
                                          });
@@ -132,7 +140,7 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
     bool finite = true;
     base::in_arena(threads, data_->index.cell_count() + cells.size(), [&] {
         finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write);
-        if (data_->mapped) locate::settle_mapped(*data_, points, cells, features, all);
+        if (data_->mapped) locate::count_anew(features, all);
     });
     if (!finite) {
         if (nonfinite == NonfinitePoints::error) return locate::check_finite(points, data_->index.dimension());

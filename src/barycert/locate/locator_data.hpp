@@ -54,6 +54,14 @@ struct LocatorData {
 
     /// Its location, by that in straight simplices or parts of cells. Precondition: mapped.
     Location settle(const double* point, Location in_parts) const;
+    /// Asks memory for what is read of maps of the owners that follow the first.
+    void fetch_maps(const Place* owner, std::size_t count) const {
+        constexpr std::size_t apart = 8;
+        for (std::size_t step = 0, ahead = MappedCells::fetch_steps * apart; ahead != 0; ++step, ahead -= apart) {
+            if (ahead < count && owner[ahead] >= 0)
+                mapped->fetch(index.original[static_cast<std::size_t>(owner[ahead])], step);
+        }
+    }
     mutable CellIndex index;  ///< links of its cells are set by prove(), and read by those who found proved()
 
     /// Up to 12 MiB a thread: the system would have to clear as much for every block of points.

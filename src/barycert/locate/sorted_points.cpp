@@ -35,12 +35,7 @@ bool SortedPoints::sort(const CellIndex& index, const Occupancy* occupancy, std:
 }
 
 void SortedPoints::copy(std::size_t first, std::size_t count, PointRecord* to) const {
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t place = first + i;
-        const double* const from = point(order_[place].number);
-        to[i].at = {from[0], from[1], d_ == 3 ? from[d_ - 1] : 0};
-        to[i].number = static_cast<std::uint32_t>(place);
-    }
+    for (std::size_t i = 0; i < count; ++i) to[i] = record(order_[first + i].number, first + i);
 }
 
 }  // namespace barycert::locate

@@ -18,6 +18,10 @@ public:
     std::size_t left_out() const { return count_ - size_; }
     /// Point i in the order of the caller.
     const double* point(std::size_t i) const { return points_.data() + d_ * i; }
+    PointRecord record(std::size_t i, std::size_t number) const {
+        const double* const from = point(i);
+        return {{from[0], from[1], d_ == 3 ? from[d_ - 1] : 0}, static_cast<std::uint32_t>(number)};
+    }
     struct Entry {
         std::uint32_t number;  ///< in the order of the caller
         std::uint32_t bin;

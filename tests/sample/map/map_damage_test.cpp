@@ -171,7 +171,9 @@ TEST(MapDamage, HeadersThatLie) {
     map.all = 2;
     EXPECT_EQ(what(map), "the header of the map is damaged");
     map = good;
-    map.zero = 1;
+    map.taken = 1;
+    EXPECT_EQ(what(map), "the map was made of cells taken otherwise");
+    map.taken = 4;
     EXPECT_EQ(what(map), "the header of the map is damaged");
     map = good;
     map.dimension = 4;

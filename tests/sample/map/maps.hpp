@@ -72,7 +72,7 @@ struct PlainMap {
         "BCM\r\n\x1A\n";
     std::uint32_t version = 1;
     std::uint8_t dimension = 3, all = 0;
-    std::uint16_t zero = 0;
+    std::uint16_t taken = 0;
     std::uint64_t row_count = 0, nodes = 0, cell_count = 0, fingerprint = 0;
     std::vector<double> points;
     std::vector<std::int32_t> cells;
@@ -95,7 +95,7 @@ struct PlainMap {
         add(text, version);
         add(text, dimension);
         add(text, all);
-        add(text, zero);
+        add(text, taken);
         add(text, row_count);
         add(text, nodes);
         add(text, cell_count);

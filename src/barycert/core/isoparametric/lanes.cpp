@@ -126,7 +126,7 @@ HWY_INLINE Mask in_range(D tag, V size) {
     return hn::And(hn::Ge(size, hn::Set(tag, 0x1p-300)), hn::Le(size, hn::Set(tag, 0x1p300)));
 }
 
-void evaluate_some(const LaneCases& cases, std::size_t first, std::uint64_t& certain_bits) {
+void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& proved) {
     const D tag;
     constexpr double u = 0x1p-53;
     const V one = hn::Set(tag, 1), zero = hn::Zero(tag), more = hn::Set(tag, 1 + 0x1p-40);
@@ -192,13 +192,13 @@ void evaluate_some(const LaneCases& cases, std::size_t first, std::uint64_t& cer
     certain = hn::And(certain, hn::And(hn::Lt(m, hn::Set(tag, 0.25)), hn::Le(radius, hn::Set(tag, 0x1p-20))));
     certain = hn::And(certain, hn::Le(y_size, hn::Set(tag, 0x1p330)));
     const V error = (hn::Set(tag, 2) * by * m + off + hn::Set(tag, 5 * u * u)) * more;
+    Mask inside = certain;
     for (int k = 0; k < 3; ++k) {
         from[k] = from[k] - d[k];
-        if (cases.components != 0) continue;
         V room = from[k].high;  // each sum is off by less than 2 u
         if (k == 2 || !cases.wedge) room = hn::Min(room, one - room);
         if (k == 1 && cases.wedge) room = hn::Min(room, one - from[0].high - from[1].high);
-        certain = hn::And(certain, hn::Gt(room, hn::Set(tag, 3) * error + hn::Set(tag, 8 * u)));
+        inside = hn::And(inside, hn::Gt(room, hn::Set(tag, 3) * error + hn::Set(tag, 8 * u)));
     }
     functions(tag, cases.wedge, unit, from, n);
     for (std::size_t c = 0; c < cases.components; ++c) {
@@ -216,16 +216,21 @@ void evaluate_some(const LaneCases& cases, std::size_t first, std::uint64_t& cer
         const V rounded = core::HWY_NAMESPACE::rounded_if_certain<D>(value.high, value.low, bound, certain) + zero;
         hn::StoreU(rounded, tag, cases.out + c * max_lanes + first);
     }
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, certain, bits);
-    for (std::size_t i = 0; i < hn::Lanes(tag); ++i)
-        certain_bits |= static_cast<std::uint64_t>(bits[i / 8] >> i % 8 & 1U) << (first + i);
+    const auto bits_of = [&](Mask mask) HWY_ATTR {
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(tag, mask, bits);
+        const std::uint32_t all = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
+        const std::size_t count = std::min(hn::Lanes(tag), cases.count - first);
+        return (all & ((std::uint32_t{1} << count) - 1)) << first;
+    };
+    proved.inside |= bits_of(inside);
+    proved.values |= bits_of(certain);
 }
 
-std::uint32_t evaluate_all(const LaneCases& cases) {
-    std::uint64_t certain = 0;
-    for (std::size_t first = 0; first < cases.count; first += hn::Lanes(D())) evaluate_some(cases, first, certain);
-    return static_cast<std::uint32_t>(certain & ((std::uint64_t{1} << cases.count) - 1));
+LanesProved evaluate_all(const LaneCases& cases) {
+    LanesProved proved;
+    for (std::size_t first = 0; first < cases.count; first += hn::Lanes(D())) evaluate_some(cases, first, proved);
+    return proved;
 }
 
 }  // namespace barycert::core::isoparametric::HWY_NAMESPACE
@@ -236,7 +241,7 @@ namespace barycert::core::isoparametric {
 
 HWY_EXPORT(evaluate_all);
 
-std::uint32_t evaluate_lanes(const LaneCases& cases) {
+LanesProved evaluate_lanes(const LaneCases& cases) {
     return HWY_DYNAMIC_DISPATCH(evaluate_all)(cases);
 }
 

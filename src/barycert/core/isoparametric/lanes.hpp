@@ -16,13 +16,17 @@ struct LaneCases {
     const double* places = nullptr;  ///< 24 rows: x, y, z of each corner
     const double* point = nullptr;   ///< 3 rows
     const double* values = nullptr;  ///< 8 rows a component
-    std::size_t components = 0;      ///< 0: whether the point is inside
-    double* out = nullptr;           ///< a row a component
+    std::size_t components = 0;
+    double* out = nullptr;  ///< a row a component
 };
 
-/// Sets values, each rounded once; returns a bit for each case of which all are proved to be. Without components, for
-/// each whose point is proved to be inside the cell, on none of its sides. Preconditions: as of evaluate(), but then
-/// the point may be anywhere; values are finite.
-std::uint32_t evaluate_lanes(const LaneCases& cases);
+/// A bit for each case.
+struct LanesProved {
+    std::uint32_t inside = 0;  ///< the point is inside the cell, on none of its sides
+    std::uint32_t values = 0;  ///< all values, if the point is in the cell
+};
+
+/// Sets values, each rounded once. Preconditions: as of evaluate(), but the point may be anywhere; values are finite.
+LanesProved evaluate_lanes(const LaneCases& cases);
 
 }  // namespace barycert::core::isoparametric

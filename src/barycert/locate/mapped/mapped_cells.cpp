@@ -22,10 +22,7 @@ std::unique_ptr<MappedCells> MappedCells::make(const Mesh& mesh, bool products, 
 
 MappedCells::MappedCells(const Mesh& mesh, bool products, bool curves)
     : mesh_(mesh), maps_(mesh, products, curves), products_(products), curves_(curves) {
-    if (has_shapes()) {
-        whole_ = mesh::whole_of_parts(mesh);
-        warped_.assign(mesh.shapes.count(), 0);
-    }
+    if (has_shapes()) whole_ = mesh::whole_of_parts(mesh);
     sign_.assign(mesh.whole_count(), 0);
     std::atomic<std::uint64_t> unproved = 0, of_products = 0;
     base::parallel_for_each(whole_count(), 1024, [&](std::size_t whole) {
@@ -35,10 +32,6 @@ MappedCells::MappedCells(const Mesh& mesh, bool products, bool curves)
         if (sign_[whole] == 0) return static_cast<void>(unproved.fetch_add(1, std::memory_order_relaxed));
         if (reference->is_simplex()) return;
         of_products.fetch_add(1, std::memory_order_relaxed);
-        for_sides(whole, [&](const std::array<Mesh::Index, 4>& ring, unsigned bit) {
-            const Sign turned = orient3d(at(ring[0]), at(ring[1]), at(ring[2]), at(ring[3]));
-            if (turned != Sign::zero) warped_[whole] = static_cast<std::uint8_t>(warped_[whole] | bit);
-        });
     });
     unproved_ = unproved;
     products_ = of_products != 0;
@@ -48,8 +41,8 @@ MappedCells::MappedCells(const Mesh& mesh, bool products, bool curves)
 }
 
 std::size_t MappedCells::bytes() const {
-    return whole_.size() * sizeof(Mesh::Index) + 2 * sign_.size() +
-           sides_.size() * (sizeof(Side) + 2 * sizeof(index::Box)) +
+    return whole_.size() * sizeof(Mesh::Index) + sign_.size() +
+           warped_.size() * (sizeof(Warped) + 2 * sizeof(index::Box)) +
            curved_.size() * (sizeof(Mesh::Index) + 2 * sizeof(index::Box));
 }
 
@@ -155,41 +148,24 @@ WeightSigns MappedCells::in_part(Mesh::Index cell, const double* point) const {
     return weight_signs(d == 2 ? Simplex::triangle : Simplex::tetrahedron, vertices.data(), point);
 }
 
-Feature MappedCells::in_parts(std::size_t whole, const double* point) const {
-    for (auto cell = first_part(whole); cell < mesh_.shapes.parts[whole + 1]; ++cell) {
-        const WeightSigns signs = in_part(cell, point);
-        if (signs.contains())
-            return mesh::feature_of_whole(mesh_.shapes.inside[static_cast<std::size_t>(cell)],
-                                          signs.bits() >> 4U & 0xfU, mesh_.dimension);
-    }
-    return Feature::outside;
-}
-
 Location MappedCells::owner(const double* point, Location in_parts, const AllInParts& all_in_parts) const {
-    const bool mapped = is_mapped(in_parts.cell);
-    const std::size_t own = mapped ? whole(in_parts.cell) : 0;
-    const bool curved = mapped && maps_.reference(own)->is_simplex();
-    // Inside a cell and one of its parts, it is in none of the cells across its sides: no others could hold it, too.
-    if (mapped && !curved && in_parts.feature == Feature::interior &&
-        held(own, point, in_parts.feature) == in_parts.feature)
-        return {first_part(own), Feature::interior};
-    bool near = false;
-    const index::Box box = index::box_of(mesh_.dimension, &point, 1);
-    const auto some = [&](std::uint32_t) { return near = true, false; };
-    if (tree_ != nullptr) tree_->for_each(box, some);
+    const std::vector<AtSides> sides = at_sides(point);
+    bool near = !sides.empty();
     if (curved_tree_ != nullptr && !near) {
         // Inside a curved cell, and not on its sides, it is nowhere else.
-        if (curved) {
+        if (const std::size_t own = is_mapped(in_parts.cell) ? whole(in_parts.cell) : 0;
+            is_mapped(in_parts.cell) && maps_.reference(own)->is_simplex()) {
             const iso::InSimplex in = in_curved(own, point);
             if (in.inside && in.zeros == 0 && in.proved) return {first_part(own), Feature::interior};
             near = true;
         }
-        if (!near) curved_tree_->for_each(box, some);
+        const index::Box box = index::box_of(mesh_.dimension, &point, 1);
+        if (!near) curved_tree_->for_each(box, [&](std::uint32_t) { return near = true, false; });
     }
     if (near) {
         std::vector<Location> all;
         all_in_parts(all);
-        all_owners(point, all);
+        settle_all(point, sides, all);
         // In a gap between a cell with a map and one without the parts decide.
         const bool gap = all.empty() && in_parts.cell >= 0 && unproved_ != 0;
         if (!all.empty()) return all.front();
@@ -202,28 +178,27 @@ Location MappedCells::owner(const double* point, Location in_parts, const AllInP
     return in_parts;
 }
 
-void MappedCells::all_owners(const double* point, std::vector<Location>& all) const {
-    std::vector<std::size_t> wholes;
-    for (const Location& own : all) wholes.push_back(whole(own.cell));
-    const index::Box box = index::box_of(mesh_.dimension, &point, 1);
-    if (tree_ != nullptr) {
-        tree_->for_each(box, [&](std::uint32_t i) {
-            for (const Mesh::Index cell : sides_[i].cells) {
-                if (cell >= 0) wholes.push_back(static_cast<std::size_t>(cell));
-            }
-            return true;
-        });
-    }
-    std::ranges::sort(wholes);
-    wholes.erase(std::unique(wholes.begin(), wholes.end()), wholes.end());
+void MappedCells::settle_all(const double* point, const std::vector<AtSides>& sides, std::vector<Location>& all) const {
     std::vector<Location> found;
-    for (const std::size_t own : wholes) {
-        if (sign_[own] != 0 && maps_.reference(own)->is_simplex()) continue;
-        const auto known = std::ranges::find_if(all, [&](const Location& l) { return whole(l.cell) == own; });
-        const Feature parts = known != all.end() ? known->feature : in_parts(own, point);
-        const Feature feature = held(own, point, parts);
-        const bool kept = sign_[own] == 0 && known != all.end();
-        if (feature != Feature::outside) found.push_back({kept ? known->cell : first_part(own), feature});
+    for (const AtSides& at : sides) {
+        if (at.outside) continue;
+        const auto in_parts = std::ranges::find(all, at.whole, [&](const Location& l) { return whole(l.cell); });
+        // On a side that is flat, perhaps.
+        const bool asked = at.feature == Feature::interior && in_parts != all.end() && in_parts->feature != at.feature;
+        const int held_by = asked ? std::popcount(active_nodes(at.whole, point)) : 0;
+        const Feature flat = held_by > 4    ? Feature::interior
+                             : held_by > 2  ? Feature::face
+                             : held_by == 2 ? Feature::edge
+                                            : Feature::vertex;
+        found.push_back({first_part(at.whole), asked ? flat : at.feature});
+    }
+    for (const Location& own : all) {
+        const std::size_t of = whole(own.cell);
+        if (sign_[of] == 0) {
+            found.push_back(own);
+        } else if (!maps_.reference(of)->is_simplex() && std::ranges::find(sides, of, &AtSides::whole) == sides.end()) {
+            found.push_back({first_part(of), own.feature});
+        }
     }
     add_curved(point, found);
     std::ranges::sort(found, {}, &Location::cell);
@@ -273,17 +248,35 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
     return iso::evaluate(*reference, maps_.places(whole(cell)), point, active, scratch.data(), components, out);
 }
 
-bool MappedCells::add(Mesh::Index cell, Feature feature, const double* point, const std::vector<const Field*>& fields,
+void MappedCells::fetch(Mesh::Index cell, std::size_t step) const {
+    if (!has_shapes()) return;
+    if (step == 0) return __builtin_prefetch(&whole_[static_cast<std::size_t>(cell)]);
+    const std::size_t own = whole(cell);
+    if (step == 1) {
+        __builtin_prefetch(&sign_[own]);
+        __builtin_prefetch(&mesh_.shapes.types[own]);
+        __builtin_prefetch(&mesh_.shapes.ends[own == 0 ? 0 : own - 1]);
+    } else if (step == 2) {
+        __builtin_prefetch(shape_nodes(own));
+        __builtin_prefetch(shape_nodes(own) + 7);
+    } else if (mesh_.shapes.types[own] <= 14) {
+        for (const Mesh::Index* node = shape_nodes(own); node != shape_nodes(own + 1); ++node)
+            __builtin_prefetch(at(*node));
+    }
+}
+
+bool MappedCells::add(const Location& at, const PointRecord& point, const std::vector<const Field*>& fields,
                       bool wedges, Batch& to) const {
-    constexpr std::array<std::array<std::uint8_t, 8>, 3> corners{
-        {{0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 0, 3, 4, 5, 3}, {0, 1, 2, 3, 4, 4, 4, 4}}};
-    if (!is_mapped(cell) || !has_shapes() || feature == Feature::vertex) return false;
-    const std::uint8_t type = mesh_.shapes.types[whole(cell)];
+    /// Of voxels, hexahedra, wedges and pyramids.
+    constexpr std::array<std::array<std::uint8_t, 8>, 4> corners{
+        {{0, 1, 3, 2, 4, 5, 7, 6}, {0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 0, 3, 4, 5, 3}, {0, 1, 2, 3, 4, 4, 4, 4}}};
+    if (!has_shapes() || !is_mapped(at.cell) || at.feature == Feature::vertex) return false;
+    const std::size_t own = whole(at.cell);
+    const std::uint8_t type = mesh_.shapes.types[own];
     if (type < 11 || type > 14 || (type == 13) != wedges) return false;
-    const mesh::CellMaps::Nodes nodes = maps_.nodes(whole(cell));
-    const auto& corner = corners[type == 13 ? 1 : type == 14 ? 2 : 0];
+    const Mesh::Index* const nodes = shape_nodes(own);
     for (std::size_t i = 0; i < 8; ++i) {
-        const auto node = static_cast<std::size_t>(nodes.at[corner[i]]);
+        const auto node = static_cast<std::size_t>(nodes[corners[type - 11U][i]]);
         for (std::size_t k = 0; k < 3; ++k) to.places[(3 * i + k) * Batch::max + to.count] = mesh_.points[3 * node + k];
         std::size_t c = i;
         for (const Field* const field : fields) {
@@ -295,8 +288,9 @@ bool MappedCells::add(Mesh::Index cell, Feature feature, const double* point, co
             }
         }
     }
-    for (std::size_t k = 0; k < 3; ++k) to.point[k * Batch::max + to.count] = point[k];
-    to.cells[to.count++] = cell;
+    for (std::size_t k = 0; k < 3; ++k) to.point[k * Batch::max + to.count] = point.at[k];
+    to.numbers[to.count] = point.number;
+    to.at[to.count++] = at;
     return true;
 }
 

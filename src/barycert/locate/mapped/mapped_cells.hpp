@@ -22,6 +22,7 @@
 #include "barycert/base/random.hpp"
 #include "barycert/core/isoparametric/lanes.hpp"
 #include "barycert/index/box_tree.hpp"
+#include "barycert/locate/lanes.hpp"
 #include "barycert/locate/lazy.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/mesh/cell_maps.hpp"
@@ -53,7 +54,9 @@ public:
     /// The owner of a point, by what its location is in parts of cells; the first part stands for a mapped cell.
     Location owner(const double* point, Location in_parts, const AllInParts& all_in_parts) const;
     /// Likewise of all cells that hold it, ascending; `in_parts` has one entry a cell, and none outside.
-    void all_owners(const double* point, std::vector<Location>& in_parts) const;
+    void all_owners(const double* point, std::vector<Location>& in_parts) const {
+        settle_all(point, at_sides(point), in_parts);
+    }
 
     Mesh::Index first_part_of(Mesh::Index cell) const { return first_part(whole(cell)); }
     /// The part of a mapped cell that holds the point, or the first.
@@ -70,21 +73,38 @@ public:
         std::size_t count = 0;
         std::array<double, 24 * max> places{};
         std::array<double, 3 * max> point{};
-        std::vector<double> values, out;  ///< 8 rows, and one, a component
-        std::array<std::size_t, max> rows{};
-        std::array<Mesh::Index, max> cells{};
+        std::vector<double> values, out;           ///< 8 rows, and one, a component
+        std::array<std::uint32_t, max> numbers{};  ///< of the points' records
+        std::array<Location, max> at{};
+        std::array<bool, max> settled{};  ///< of MappedLanes::push()
+
+        PointRecord record(std::size_t lane) const {
+            PointRecord out{};
+            for (std::size_t k = 0; k < 3; ++k) out.at[k] = point[k * max + lane];
+            out.number = numbers[lane];
+            return out;
+        }
     };
+    /// Asks memory for what add() will read of a cell, in calls some points apart: with step 0 first, with 3 last.
+    void fetch(Mesh::Index cell, std::size_t step) const;
+    static constexpr std::size_t fetch_steps = 4;
     /// Adds a case; false for other cells than hexahedra, voxels, pyramids and (`wedges`) wedges, at a vertex, and
     /// where a value is not finite.
-    bool add(Mesh::Index cell, Feature feature, const double* point, const std::vector<const Field*>& fields,
-             bool wedges, Batch& to) const;
+    bool add(const Location& at, const PointRecord& point, const std::vector<const Field*>& fields, bool wedges,
+             Batch& to) const;
     /// Nodes of a mapped cell, and its shape functions at the point, each rounded once; none if they are not found.
     mesh::CellMaps::Nodes weights(Mesh::Index cell, const double* point, double* out) const;
 
 private:
-    struct Side {
-        std::array<Mesh::Index, 4> nodes{};
-        std::array<Mesh::Index, 2> cells{-1, -1};  ///< whole ones
+    struct Warped {
+        Mesh::Index whole;
+        std::uint8_t sides;  ///< a bit for each that is not flat
+    };
+    /// What the sides of a cell that is mapped say of a point, if it is in the tetrahedron of one that is warped.
+    struct AtSides {
+        std::size_t whole;
+        bool outside;
+        Feature feature;
     };
     using PointBits = std::array<std::uint64_t, 3>;
     struct HashOfBits {
@@ -103,6 +123,9 @@ private:
     Mesh::Index first_part(std::size_t whole) const {
         return has_shapes() ? mesh_.shapes.parts[whole] : static_cast<Mesh::Index>(whole);
     }
+    const Mesh::Index* shape_nodes(std::size_t whole) const {
+        return mesh_.shapes.nodes.data() + (whole == 0 ? 0 : mesh_.shapes.ends[whole - 1]);
+    }
     const double* at(Mesh::Index node) const {
         return &mesh_.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh_.dimension)];
     }
@@ -115,23 +138,22 @@ private:
     core::isoparametric::InSimplex in_curved(std::size_t whole, const double* point) const;
     void add_curved(const double* point, std::vector<Location>& found) const;
 
-    /// use(ring of nodes, bit of the side) for each side of four nodes.
-    void for_sides(std::size_t whole,
-                   const std::function<void(const std::array<Mesh::Index, 4>&, unsigned)>& use) const;
+    /// use(places of its nodes, bit of the side) for each side of four nodes.
+    template <class Use>
+    void for_sides(std::size_t whole, Use use) const;
     void find_sides();
-    /// Whether a cell holds the point, and where; in_parts: what its parts say.
-    Feature held(std::size_t whole, const double* point, Feature in_parts) const;
+    std::vector<AtSides> at_sides(const double* point) const;
+    /// As all_owners().
+    void settle_all(const double* point, const std::vector<AtSides>& sides, std::vector<Location>& all) const;
     WeightSigns in_part(Mesh::Index cell, const double* point) const;
-    Feature in_parts(std::size_t whole, const double* point) const;
     std::uint64_t active_nodes(std::size_t whole, const double* point) const;
 
     const Mesh& mesh_;
     mesh::CellMaps maps_;
     bool products_, curves_;
-    std::vector<Mesh::Index> whole_;    ///< shape of each cell
-    std::vector<std::int8_t> sign_;     ///< of each Jacobian; 0: no map
-    std::vector<std::uint8_t> warped_;  ///< a bit for each side that is not flat
-    std::vector<Side> sides_;           ///< those of products that are not flat
+    std::vector<Mesh::Index> whole_;  ///< shape of each cell
+    std::vector<std::int8_t> sign_;   ///< of each Jacobian; 0: no map
+    std::vector<Warped> warped_;      ///< products with such sides
     std::unique_ptr<index::BoxTree> tree_;
     std::vector<Mesh::Index> curved_;  ///< wholes
     std::unique_ptr<index::BoxTree> curved_tree_;
@@ -139,7 +161,7 @@ private:
     std::uint64_t unproved_ = 0;
 };
 
-/// Cases on lanes: use(batch, lane, proved) for each, when some are together.
+/// Cases on lanes: use(batch, lane, inside, proved) for each, when some are together.
 template <class Use>
 class MappedLanes {
 public:
@@ -150,11 +172,12 @@ public:
             batch.out.resize(Batch::max * components);
         }
     }
-    /// False, and nothing done, for what is no such case.
-    bool push(Mesh::Index cell, Feature feature, const double* point, std::size_t row) {
+    /// False, and nothing done, for what is no such case. `settled`: that is its owner, not only that of a part.
+    bool push(const Location& at, const PointRecord& point, bool settled) {
+        if (!settled && at.feature != Feature::interior) return false;
         for (Batch& batch : batches_) {
-            if (!cells_.add(cell, feature, point, fields_, &batch == &batches_[1], batch)) continue;
-            batch.rows[batch.count - 1] = row;
+            batch.settled[batch.count] = settled;
+            if (!cells_.add(at, point, fields_, &batch == &batches_[1], batch)) continue;
             if (batch.count == Batch::max) flush(batch);
             return true;
         }
@@ -168,10 +191,11 @@ private:
     using Batch = MappedCells::Batch;
     void flush(Batch& batch) {
         const std::size_t count = std::exchange(batch.count, 0);
-        const std::uint32_t proved =
+        const core::isoparametric::LanesProved proved =
             core::isoparametric::evaluate_lanes({count, &batch == &batches_[1], batch.places.data(), batch.point.data(),
                                                  batch.values.data(), batch.out.size() / Batch::max, batch.out.data()});
-        for (std::size_t i = 0; i < count; ++i) use_(batch, i, (proved >> i & 1U) != 0);
+        for (std::size_t i = 0; i < count; ++i)
+            use_(batch, i, (proved.inside >> i & 1U) != 0, (proved.values >> i & 1U) != 0);
     }
 
     const MappedCells& cells_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "barycert/base/arena.hpp"
 #include "barycert/core/isoparametric/ball.hpp"
 #include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/mesh/pulling.hpp"
@@ -70,79 +71,66 @@ const std::vector<std::vector<Mesh::Index>>& faces_of(std::uint8_t type) {
 
 }  // namespace
 
-void MappedCells::for_sides(std::size_t shape,
-                            const std::function<void(const std::array<Mesh::Index, 4>&, unsigned)>& use) const {
-    if (mesh_.dimension == 2) return;
-    const mesh::CellMaps::Nodes nodes = maps_.nodes(shape);
+template <class Use>
+void MappedCells::for_sides(std::size_t shape, Use use) const {
+    const Mesh::Index* const nodes = shape_nodes(shape);
     unsigned bit = 1;
-    for (const auto& corners : faces_of(mesh_.shapes.types[shape])) {
-        if (corners.size() != 4) continue;
-        std::array<Mesh::Index, 4> ring{};
-        std::ranges::transform(corners, ring.begin(),
-                               [&](Mesh::Index c) { return nodes.at[static_cast<std::size_t>(c)]; });
-        use(ring, bit);
+    for (const std::vector<Mesh::Index>& ring : mesh::rings_of(mesh_.shapes.types[shape])) {
+        if (ring.size() != 4) continue;
+        use(std::array{at(nodes[ring[0]]), at(nodes[ring[1]]), at(nodes[ring[2]]), at(nodes[ring[3]])}, bit);
         bit <<= 1U;
     }
 }
 
 void MappedCells::find_sides() {
-    struct Found {
-        std::array<Mesh::Index, 4> key;
-        Side side;
-    };
-    std::vector<Found> all;
-    for (std::size_t shape = 0; shape < whole_count(); ++shape) {
-        // Whoever is across a side may own points of its tetrahedron, mapped or not.
-        if (mesh_.shapes.types[shape] > 14 || mesh_.dimension == 2) continue;
-        for_sides(shape, [&](const std::array<Mesh::Index, 4>& ring, unsigned bit) {
-            if (sign_[shape] != 0 && (warped_[shape] & bit) == 0) return;
-            Found found{ring, {ring, {static_cast<Mesh::Index>(shape), -1}}};
-            std::ranges::sort(found.key);
-            all.push_back(found);
+    if (mesh_.dimension == 2) return;
+    std::vector<std::uint8_t> warped(whole_count(), 0);
+    base::parallel_for_each(whole_count(), 1024, [&](std::size_t shape) {
+        if (sign_[shape] == 0 || maps_.reference(shape)->is_simplex()) return;
+        for_sides(shape, [&](const std::array<const double*, 4>& n, unsigned bit) {
+            if (orient3d(n[0], n[1], n[2], n[3]) != Sign::zero)
+                warped[shape] = static_cast<std::uint8_t>(warped[shape] | bit);
         });
-    }
-    std::ranges::stable_sort(all, {}, &Found::key);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const bool again = i > 0 && all[i].key == all[i - 1].key;
-        if (again && sides_.back().cells[1] < 0) {
-            sides_.back().cells[1] = all[i].side.cells[0];
-        } else {
-            sides_.push_back(all[i].side);
-        }
-    }
-    std::erase_if(sides_, [&](const Side& side) {
-        return std::ranges::none_of(side.cells,
-                                    [&](Mesh::Index s) { return s >= 0 && sign_[static_cast<std::size_t>(s)] != 0; });
     });
-    if (sides_.empty()) return;
-    std::vector<index::Box> boxes;
-    for (const Side& side : sides_) {
-        std::array<const double*, 4> p{};
-        std::ranges::transform(side.nodes, p.begin(), [&](Mesh::Index node) { return at(node); });
-        boxes.push_back(index::box_of(3, p.data(), 4));
+    for (std::size_t shape = 0; shape < whole_count(); ++shape) {
+        if (warped[shape] != 0) warped_.push_back({static_cast<Mesh::Index>(shape), warped[shape]});
     }
+    if (warped_.empty()) return;
+    std::vector<index::Box> boxes(warped_.size());
+    base::parallel_for_each(boxes.size(), 1024, [&](std::size_t i) {
+        std::array<const double*, 8> corners{};
+        const auto shape = static_cast<std::size_t>(warped_[i].whole);
+        const auto count = static_cast<std::size_t>(mesh_.shapes.ends[shape]) -
+                           static_cast<std::size_t>(shape_nodes(shape) - mesh_.shapes.nodes.data());
+        for (std::size_t c = 0; c < count; ++c) corners[c] = at(shape_nodes(shape)[c]);
+        boxes[i] = index::box_of(3, corners.data(), static_cast<int>(count));
+    });
     tree_ = std::make_unique<index::BoxTree>(std::move(boxes));
 }
 
-Feature MappedCells::held(std::size_t shape, const double* point, Feature in_parts) const {
-    if (sign_[shape] == 0 || warped_[shape] == 0) return in_parts;
-    // The rings of a wedge are seen from outside where its Jacobian is negative, those of others where it is positive.
-    const auto outward = static_cast<Sign>(mesh_.shapes.types[shape] == 13 ? -sign_[shape] : sign_[shape]);
-    bool in_some = false, out = false;
-    Feature on = Feature::interior;
-    for_sides(shape, [&](const std::array<Mesh::Index, 4>& ring, unsigned bit) {
-        if ((warped_[shape] & bit) == 0 || out) return;
-        const InSide in = look({at(ring[0]), at(ring[1]), at(ring[2]), at(ring[3])}, point);
-        if (!in.holds) return;
-        in_some = true;
-        const Sign inner = in.inner * outward;
-        out = inner == Sign::negative;
-        if (inner != Sign::zero) return;
-        const int count = std::popcount(in.zeros);
-        on = std::max(on, count == 3 ? Feature::vertex : count == 2 ? Feature::edge : Feature::face);
+std::vector<MappedCells::AtSides> MappedCells::at_sides(const double* point) const {
+    std::vector<AtSides> all;
+    if (tree_ == nullptr) return all;
+    tree_->for_each(index::box_of(3, &point, 1), [&](std::uint32_t i) {
+        const auto shape = static_cast<std::size_t>(warped_[i].whole);
+        // The rings of a wedge are seen from outside where its Jacobian is negative, of others where it is positive.
+        const auto outward = static_cast<Sign>(mesh_.shapes.types[shape] == 13 ? -sign_[shape] : sign_[shape]);
+        bool some = false, outside = false;
+        Feature on = Feature::interior;
+        for_sides(shape, [&](const std::array<const double*, 4>& n, unsigned bit) {
+            if (outside || (warped_[i].sides & bit) == 0) return;
+            const InSide in = look(n, point);
+            if (!in.holds) return;
+            some = true;
+            outside = in.inner * outward == Sign::negative;
+            if (in.inner != Sign::zero) return;
+            const int zeros = std::popcount(in.zeros);
+            on = std::max(on, zeros == 3 ? Feature::vertex : zeros == 2 ? Feature::edge : Feature::face);
+        });
+        if (some) all.push_back({shape, outside, on});
+        return true;
     });
-    if (out) return Feature::outside;
-    return in_some ? on : in_parts;
+    return all;
 }
 
 /// Those of each face that holds the point.

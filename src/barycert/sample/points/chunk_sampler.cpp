@@ -155,8 +155,82 @@ void set_rest_of_row(const SamplerData& data, Rounding rounding, Mesh::Index cel
     }
 }
 
-void ChunkSampler::operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
-                              const Feature* feature) {
+ChunkSampler::ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows, bool in_parts)
+    : data_(data), options_(options), rows_(rows), in_parts_(in_parts) {
+    if (data.located().mapped)
+        lanes_.emplace(*data.located().mapped, data.point_fields, data.point_components, UseLane{this});
+}
+
+void ChunkSampler::push(const locate::PointRecord& point, locate::Place owner, Feature feature) {
+    if (!lanes_) return push_straight(point, owner, feature);
+    const Location at{owner < 0 ? -1 : data_.index().original[static_cast<std::size_t>(owner)], feature};
+    if (!in_parts_) return settled(point, at);
+    if (!lanes_->push(at, point, false)) settled(point, settle(point, at));
+    // Not while lanes call back.
+    while (!not_here_.empty()) {
+        const auto [record, in_parts] = not_here_.back();
+        not_here_.pop_back();
+        settled(record, settle(record, in_parts));
+    }
+}
+
+void ChunkSampler::flush() {
+    if (lanes_) {
+        lanes_->flush();
+        for (const auto& [record, in_parts] : std::exchange(not_here_, {})) settled(record, settle(record, in_parts));
+        lanes_->flush();
+    }
+    flush_straight();
+}
+
+Location ChunkSampler::settle(const locate::PointRecord& point, const Location& in_parts) const {
+    const bool finite = base::all_finite({point.at.data(), data_.index().dimension()});
+    return finite ? data_.located().settle(point.at.data(), in_parts) : Location{};
+}
+
+void ChunkSampler::UseLane::operator()(const locate::MappedCells::Batch& batch, std::size_t lane, bool inside,
+                                       bool proved) const {
+    const locate::PointRecord point = batch.record(lane);
+    Location at = batch.at[lane];
+    if (!batch.settled[lane]) {
+        if (!inside) return static_cast<void>(sampler->not_here_.emplace_back(point, at));
+        at.cell = sampler->data_.located().mapped->first_part_of(at.cell);
+    }
+    if (!proved) return sampler->settled(point, at, false);
+    sampler->set_row(point, at, &batch.out[lane], batch.max);
+    sampler->counts_.values.add(Tier::double_double);
+}
+
+void ChunkSampler::settled(const locate::PointRecord& point, const Location& at, bool on_lanes) {
+    const locate::MappedCells& mapped = *data_.located().mapped;
+    Mesh::Index straight = at.cell;
+    if (mapped.evaluates(at.cell, point.at.data())) {
+        using core::isoparametric::Certainty;
+        if (data_.point_components == 0) return set_row(point, at, nullptr, 1);
+        if (on_lanes && lanes_->push(at, point, true)) return;
+        values_.resize(std::max(values_.size(), data_.point_components));
+        const auto found =
+            mapped.evaluate(at.cell, at.feature, point.at.data(), data_.point_fields, scratch_, values_.data());
+        if (found.certainty != Certainty::proved) ++counts_.unproved;
+        if (found.certainty != Certainty::not_found) {
+            counts_.values.add(found.tier);
+            return set_row(point, at, values_.data(), 1);
+        }
+        straight = mapped.part_at(at.cell, point.at.data());
+    }
+    push_straight(point, straight < 0 ? -1 : data_.located().places()[static_cast<std::size_t>(straight)], at.feature);
+}
+
+void ChunkSampler::set_row(const locate::PointRecord& point, const Location& at, const double* values,
+                           std::size_t stride) {
+    rows_.cells[point.number] = at.cell;
+    rows_.features[point.number] = at.feature;
+    for (std::size_t c = 0; c < data_.point_components; ++c) row(point)[c] = values[stride * c];
+    if (data_.has_rest()) set_rest_of_row(data_, options_.rounding, at.cell, point.at.data(), row(point));
+}
+
+void ChunkSampler::straight(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
+                            const Feature* feature) {
     const locate::CellIndex& index = data_.index();
     std::size_t inside = 0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -32,24 +32,23 @@ void set_rest_of_row(const SamplerData& data, Rounding rounding, Mesh::Index cel
 /// Not shared between threads.
 class ChunkSampler {
 public:
-    ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows)
-        : data_(data), options_(options), rows_(rows) {}
+    /// `in_parts`: owners are those in parts of cells, or as if all were straight.
+    ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows, bool in_parts = true);
 
-    /// Precondition: points with an owner are finite; owners are places of cells, or -1 outside.
+    /// Precondition: points with an owner are finite; owners are places of cells, or -1 outside. Where cells have maps,
+    /// rows are complete after flush().
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
-                    const Feature* feature);
+                    const Feature* feature) {
+        if (!lanes_) return straight(points, count, owner, feature);
+        for (std::size_t i = 0; i < count; ++i) {
+            data_.located().fetch_maps(owner + i, count - i);
+            push(points[i], owner[i], feature[i]);
+        }
+    }
 
     /// The same for one point after the other, some of them at a time: the last ones at flush().
-    void push(const locate::PointRecord& point, locate::Place owner, Feature feature) {
-        pending_.points[pending_.count] = point;
-        pending_.owners[pending_.count] = owner;
-        pending_.features[pending_.count] = feature;
-        if (++pending_.count == locate::chunk_size) flush();
-    }
-    void flush() {
-        (*this)(pending_.points.data(), pending_.count, pending_.owners.data(), pending_.features.data());
-        pending_.count = 0;
-    }
+    void push(const locate::PointRecord& point, locate::Place owner, Feature feature);
+    void flush();
 
     /// Sets the values of `count` points outside of one number, under a policy that does not look at the point.
     void leave_out(std::uint64_t count, std::uint32_t number);
@@ -59,6 +58,27 @@ public:
     std::optional<std::uint32_t> refused() const { return refused_; }
 
 private:
+    void push_straight(const locate::PointRecord& point, locate::Place owner, Feature feature) {
+        pending_.points[pending_.count] = point;
+        pending_.owners[pending_.count] = owner;
+        pending_.features[pending_.count] = feature;
+        if (++pending_.count == locate::chunk_size) flush_straight();
+    }
+    void flush_straight() {
+        straight(pending_.points.data(), std::exchange(pending_.count, 0), pending_.owners.data(),
+                 pending_.features.data());
+    }
+    void straight(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
+                  const Feature* feature);
+    /// A point whose owner is known, by the map of the cell if it has one.
+    void settled(const locate::PointRecord& point, const Location& at, bool on_lanes = true);
+    /// The owner of a point by that in parts of cells.
+    Location settle(const locate::PointRecord& point, const Location& in_parts) const;
+    void set_row(const locate::PointRecord& point, const Location& at, const double* values, std::size_t stride);
+    struct UseLane {
+        ChunkSampler* sampler;
+        void operator()(const locate::MappedCells::Batch& batch, std::size_t lane, bool inside, bool proved) const;
+    };
     /// Sets the values of a point outside, and its distance if the policy gives some; or returns the nearest cell,
     /// whose function is to be evaluated there.
     locate::Place outside(const locate::PointRecord& point);
@@ -83,6 +103,11 @@ private:
     std::array<std::uint32_t, locate::chunk_size> undecided_;
     std::vector<Mesh::Index> cells_;
     std::vector<double> points_, values_;
+
+    bool in_parts_;
+    std::optional<locate::MappedLanes<UseLane>> lanes_;               ///< where cells have maps
+    std::vector<std::pair<locate::PointRecord, Location>> not_here_;  ///< not proved to be in the cell of the part
+    locate::MappedCells::Scratch scratch_;
 };
 
 }  // namespace barycert::sample

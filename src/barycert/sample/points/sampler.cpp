@@ -36,12 +36,15 @@ public:
 
     /// The rows, and what was counted. Once, in the end.
     SampleCounts write(const locate::SortedPoints& sorted, std::size_t first, Table& out) {
+        sampler_->flush();
         const std::size_t last = sorted.size(), left_out = sorted.left_out();
-        if (left_out != 0) {
+        // Points left out one by one: by their distances, or in a cell that bulges out of its part.
+        const bool alone = !out.distances.empty() || data_.located().mapped != nullptr;
+        if (left_out != 0 && !alone) {
             rows_->cells[last] = -1;
             rows_->features[last] = Feature::outside;
             std::fill_n(values(last), data_.width, 0);
-            if (out.distances.empty()) sampler_->leave_out(left_out, static_cast<std::uint32_t>(last));
+            sampler_->leave_out(left_out, static_cast<std::uint32_t>(last));
         }
         const auto ahead = [&](std::size_t place) {
             __builtin_prefetch(&rows_->cells[place]);
@@ -49,23 +52,17 @@ public:
             __builtin_prefetch(values(place));
         };
         sorted.for_each_in_callers_order(ahead, [&](std::size_t i, std::size_t place) {
+            if (place == last && alone) {  // the row of all points left out serves for one after the other
+                if (!out.distances.empty()) rows_->distances[last] = 0;
+                sampler_->push(sorted.record(i, last), -1, Feature::outside);
+                sampler_->flush();
+            }
             const double* const from = values(place) + data_.hidden;
             out.cells[first + i] = rows_->cells[place];
             out.features[first + i] = rows_->features[place];
             for (std::size_t c = 0; c < columns_; ++c) out.values[columns_ * (first + i) + c] = from[c];
+            if (!out.distances.empty()) out.distances[first + i] = rows_->distances[place];
         });
-        const auto set_distance = [&](std::size_t i, std::size_t place) {
-            if (place == last) {  // the row of all points left out serves for one after the other
-                locate::PointRecord point{};
-                point.number = static_cast<std::uint32_t>(last);
-                std::copy_n(sorted.point(i), data_.index().dimension(), point.at.begin());
-                sampler_->push(point, -1, Feature::outside);
-                sampler_->flush();
-                std::copy_n(values(last) + data_.hidden, columns_, out.values.data() + columns_ * (first + i));
-            }
-            out.distances[first + i] = rows_->distances[place];
-        };
-        if (!out.distances.empty()) sorted.for_each_in_callers_order([](std::size_t) {}, set_distance);
         data_.rows.put(std::move(rows_));
         return sampler_->counts();
     }
@@ -193,20 +190,6 @@ void resize(const SamplerData& data, const SampleOptions& options, std::size_t r
     out.distances.assign(gives_distances(options.outside) ? rows : 0, 0);
 }
 
-/// The row of a point in a cell with a map; false, and nothing set, if the map was not inverted.
-bool sample_mapped(const SamplerData& data, Rounding rounding, Mesh::Index cell, Feature feature, const double* point,
-                   locate::MappedCells::Scratch& scratch, double* row, SampleCounts& counts) {
-    using core::isoparametric::Certainty;
-    if (data.point_components != 0) {
-        const auto found = data.located().mapped->evaluate(cell, feature, point, data.point_fields, scratch, row);
-        if (found.certainty != Certainty::proved) ++counts.unproved;
-        if (found.certainty == Certainty::not_found) return false;
-        counts.values.add(found.tier);
-    }
-    if (data.has_rest()) set_rest_of_row(data, rounding, cell, point, row);
-    return true;
-}
-
 /// What the policies say of the rows: an Error, or NaN where a point is not finite. `finite`: all points are.
 Status apply_policies(std::span<const double> points, bool finite, const SampleOptions& options,
                       std::size_t first_point, Table& out) {
@@ -283,17 +266,6 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     if (Status status = locate::check_size(points, data_->index().dimension()); !status) return status;
     sample::resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
-    if (data_->located().mapped) {
-        LocationCounts found;
-        if (!base::all_finite(points) && options.nonfinite_points == NonfinitePoints::error)
-            return locate::check_finite(points, data_->index().dimension(), first_point);
-        Status done =
-            data_->locator->locate(points, out.cells, out.features, &found, options.threads, options.nonfinite_points);
-        if (done) done = evaluate(points, options, out, first_point);
-        out.counts.locations = found;
-        if (!done) out.counts = {};
-        return done;
-    }
     bool finite = true;
     base::in_arena(options.threads, data_->index().cell_count() + out.cells.size(), [&] {
         const std::size_t count = out.cells.size(), block = locate::block_of(count, data_->index().cell_count());
@@ -306,6 +278,7 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
             locate::for_chunks(data_->located(), data_->node_values().first, points, out.counts.locations, make, keep);
         for (const SampleCounts& part : counts) out.counts.add(part);
     });
+    if (data_->located().mapped) locate::count_anew(out.features, out.counts.locations);
     Status status = sample::apply_policies(points, finite, options, first_point, out);
     if (!status) out.counts = {};
     return status;
@@ -334,35 +307,12 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
     sample::resize(*data_, options, count, out);
     const std::vector<locate::Place>& places = data_->located().places();
     const locate::CellIndex& index = data_->index();
-    const locate::MappedCells* const mapped = data_->located().mapped.get();
     out.values.resize(data_->width * count);
     const sample::BlockRows rows{out.cells.data(), out.features.data(), out.values.data(),
                                  out.distances.empty() ? nullptr : out.distances.data()};
     constexpr std::size_t grain = std::size_t{1} << 13;
     const auto evaluate_rows = [&](std::size_t first, std::size_t last, SampleCounts& counts) {
-        sample::ChunkSampler sampler(*data_, options, rows);
-        locate::MappedCells::Scratch scratch;
-        SampleCounts of_maps;
-        const auto alone = [&](std::size_t row) {
-            if (sample::sample_mapped(*data_, options.rounding, cells[row], features[row], &points[d * row], scratch,
-                                      rows.values + data_->width * row, of_maps))
-                return;
-            const Mesh::Index part = mapped->part_at(cells[row], &points[d * row]);
-            locate::PointRecord record{};
-            std::copy_n(&points[d * row], d, record.at.begin());
-            record.number = static_cast<std::uint32_t>(row);
-            sampler.push(record, places[static_cast<std::size_t>(part)], features[row]);
-        };
-        const std::size_t components = data_->point_components;
-        const auto set_row = [&](const locate::MappedCells::Batch& batch, std::size_t lane, bool proved) {
-            if (!proved) return alone(batch.rows[lane]);
-            double* const row = rows.values + data_->width * batch.rows[lane];
-            for (std::size_t c = 0; c < components; ++c) row[c] = batch.out[c * batch.max + lane];
-            if (data_->has_rest()) sample::set_rest_of_row(*data_, options.rounding, batch.cells[lane], nullptr, row);
-            of_maps.values.add(Tier::double_double);
-        };
-        std::optional<locate::MappedLanes<decltype(set_row)>> lanes;
-        if (mapped != nullptr) lanes.emplace(*mapped, data_->point_fields, components, set_row);
+        sample::ChunkSampler sampler(*data_, options, rows, false);
         for (std::size_t row = first; row < last; ++row) {
             locate::PointRecord record{};
             std::copy_n(&points[d * row], d, record.at.begin());
@@ -373,16 +323,10 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                 __builtin_prefetch(&places[static_cast<std::size_t>(cells[row + ahead])]);
             const locate::Place owner = cells[row] < 0 ? -1 : places[static_cast<std::size_t>(cells[row])];
             if (owner >= 0) __builtin_prefetch(&index.cells[static_cast<std::size_t>(owner)]);
-            if (mapped == nullptr || !mapped->evaluates(cells[row], record.at.data())) {
-                sampler.push(record, owner, features[row]);
-            } else if (components == 0 || !lanes->push(cells[row], features[row], record.at.data(), row)) {
-                alone(row);
-            }
+            sampler.push(record, owner, features[row]);
         }
-        if (lanes) lanes->flush();
         sampler.flush();
         counts = sampler.counts();
-        counts.add(of_maps);
     };
     const SampleCounts counts = base::in_arena(options.threads, count, [&] {
         return base::parallel_reduce(count, grain, SampleCounts{}, evaluate_rows,
