@@ -6,6 +6,7 @@
 #include <random>
 
 #include "barycert/core/isoparametric/inverse.hpp"
+#include "barycert/core/isoparametric/lanes.hpp"
 
 namespace barycert::core::isoparametric {
 namespace {
@@ -197,6 +198,82 @@ TEST_P(CurvedSimplices, HullsHoldTheCell) {
                 ASSERT_TRUE(box[axis] <= p[axis] && p[axis] <= box[3 + axis]);
         }
     }
+}
+
+// Many at a time: nearly all inside are proved, none outside is, and values are those of Newton's method. Some nodes
+// are amid two corners, exactly: there the value is that of the cell by numbers of any precision.
+TEST_P(CurvedSimplices, V1LanesAreRoundedOnce) {
+    if (GetParam().nodes != 10 || d() != 3) return;
+    constexpr std::array<std::array<std::size_t, 2>, 6> ends{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+    std::size_t inside = 0, proved_inside = 0, proved_values = 0;
+    for (int round = 0; round < 150; ++round) {
+        std::array<double, 30 * max_lanes> rows{};
+        std::array<double, 18 * max_lanes> others{};
+        std::array<double, 3 * max_lanes> points{};
+        std::array<double, 20 * max_lanes> values{};
+        std::array<double, 2 * max_lanes> out{};
+        std::vector<CurvedSimplex> cells;
+        std::vector<Places> places;
+        std::vector<std::array<double, 4>> at;
+        const std::size_t count = 1 + random() % max_lanes;
+        while (cells.size() < count) {
+            CurvedSimplex c = cell(0.06, round % 4 == 0 ? 100 : 0);
+            if (proved_orientation(c.reference, c.places()) != 1) continue;
+            auto l = coordinates();
+            if (round % 3 == 0) {  // near a facet, on either side
+                const double by = std::ldexp(1.0, -static_cast<int>(random() % 50)), rest = 1 - l[3];
+                for (double& x : l) x *= (1 + by) / rest;
+                l[3] = round % 2 == 0 ? -by : by;
+                l[0] = 1 - l[1] - l[2] - l[3];
+            }
+            at.push_back(l);
+            cells.push_back(std::move(c));
+        }
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            CurvedSimplex& c = cells[lane];
+            Places& p = places.emplace_back(c.places());
+            for (std::size_t e = 0; e < 6 && round % 2 == 1; e += 2) {
+                p.at[4 + e] = c.at[ends[e][0]].data();
+                p.other[4 + e] = c.at[ends[e][1]].data();
+            }
+            const auto image = c.image<double>(at[lane]);
+            for (std::size_t k = 0; k < 3; ++k) points[k * max_lanes + lane] = image[k];
+            for (std::size_t i = 0; i < 10; ++i) {
+                const double* const other = p.other[i] == nullptr ? p.at[i] : p.other[i];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    rows[(3 * i + k) * max_lanes + lane] = p.at[i][k];
+                    if (i >= 4) others[(3 * (i - 4) + k) * max_lanes + lane] = other[k];
+                }
+                values[i * max_lanes + lane] = c.values[i];
+                values[(10 + i) * max_lanes + lane] = -3 * c.values[i];
+            }
+        }
+        const LanesProved proved = evaluate_lanes(
+            {count, LaneElement::tetrahedron, rows.data(), others.data(), points.data(), values.data(), 2, out.data()});
+        ASSERT_EQ((proved.inside | proved.values) >> count, 0U);
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            const CurvedSimplex& c = cells[lane];
+            const std::array<double, 4> p{points[lane], points[max_lanes + lane], points[2 * max_lanes + lane], 0};
+            const InSimplex in = locate_in_simplex(c.reference, places[lane], p.data(), 0, {});
+            inside += in.inside && in.zeros == 0 ? 1 : 0;
+            if ((proved.inside >> lane & 1U) != 0) {
+                ASSERT_TRUE(in.inside && in.zeros == 0) << round;
+                ++proved_inside;
+            }
+            if ((proved.values >> lane & 1U) == 0 || !in.inside) continue;
+            ++proved_values;
+            double value = 0;
+            evaluate(c.reference, places[lane], p.data(), ~0ULL, c.values.data(), 1, &value);
+            ASSERT_EQ(out[lane], value) << round;
+            ASSERT_EQ(out[max_lanes + lane] == 0, value == 0);
+            if (round % 2 == 0) {
+                ASSERT_EQ(value, value_by_newton(c, p, at[lane])) << round;
+            }
+        }
+    }
+    EXPECT_GT(inside, 500U);
+    EXPECT_GT(proved_inside, inside * 8 / 10) << "of " << inside;
+    EXPECT_GT(proved_values, inside * 95 / 100) << "of " << inside;
 }
 
 INSTANTIATE_TEST_SUITE_P(kinds, CurvedSimplices,

@@ -234,7 +234,9 @@ TEST_P(Isoparametric, V1LanesAreRoundedOnce) {
             }
         }
         const std::uint32_t bits =
-            evaluate_lanes({count, GetParam() == 13, places.data(), points.data(), values.data(), 2, out.data()}).values;
+            evaluate_lanes({count, GetParam() == 13 ? LaneElement::wedge : LaneElement::hexahedron, places.data(),
+                            nullptr, points.data(), values.data(), 2, out.data()})
+                .values;
         ASSERT_EQ(bits >> count, 0U);
         for (std::size_t lane = 0; lane < count; ++lane) {
             ++cases;

@@ -1,4 +1,4 @@
-/// Values in hexahedra, wedges and pyramids, many at a time.
+/// Values in hexahedra, wedges, pyramids and tetrahedra of order 2, many at a time.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,22 @@ namespace barycert::core::isoparametric {
 
 inline constexpr std::size_t max_lanes = 16;
 
-/// Cases of one element, as corners of hexahedra: a pyramid has its apex four times, a wedge nodes 0 1 2 0 3 4 5 3.
-/// Number j of a row belongs to case j; rows have max_lanes numbers, all of which are set.
+/// Of hexahedra, and pyramids with their apex four times; of wedges, with nodes 0 1 2 0 3 4 5 3; of tetrahedra with ten
+/// nodes as VTK numbers them.
+enum class LaneElement : std::uint8_t { hexahedron, wedge, tetrahedron };
+
+constexpr std::size_t lane_nodes(LaneElement element) {
+    return element == LaneElement::tetrahedron ? 10 : 8;
+}
+
+/// Cases of one element. Number j of a row belongs to case j; rows have max_lanes numbers, all of which are set.
 struct LaneCases {
     std::size_t count = 0;  ///< at most max_lanes
-    bool wedge = false;
-    const double* places = nullptr;  ///< 24 rows: x, y, z of each corner
+    LaneElement element = LaneElement::hexahedron;
+    const double* places = nullptr;  ///< 3 rows a node: x, y, z
+    const double* others = nullptr;  ///< of nodes 4 to 9 of tetrahedra likewise: each is amid its place and that one
     const double* point = nullptr;   ///< 3 rows
-    const double* values = nullptr;  ///< 8 rows a component
+    const double* values = nullptr;  ///< a row a node, a component after the other
     std::size_t components = 0;
     double* out = nullptr;  ///< a row a component
 };

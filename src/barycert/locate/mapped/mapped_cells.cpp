@@ -151,8 +151,9 @@ WeightSigns MappedCells::in_part(Mesh::Index cell, const double* point) const {
 Location MappedCells::owner(const double* point, Location in_parts, const AllInParts& all_in_parts) const {
     const std::vector<AtSides> sides = at_sides(point);
     bool near = !sides.empty();
-    if (curved_tree_ != nullptr && !near) {
-        // Inside a curved cell, and not on its sides, it is nowhere else.
+    // Inside a straight cell, or a curved one, and not on its sides, it is nowhere else.
+    const bool straight = in_parts.feature == Feature::interior && maps_.reference(whole(in_parts.cell)) == nullptr;
+    if (curved_tree_ != nullptr && !near && !straight) {
         if (const std::size_t own = is_mapped(in_parts.cell) ? whole(in_parts.cell) : 0;
             is_mapped(in_parts.cell) && maps_.reference(own)->is_simplex()) {
             const iso::InSimplex in = in_curved(own, point);
@@ -266,23 +267,42 @@ void MappedCells::fetch(Mesh::Index cell, std::size_t step) const {
 }
 
 bool MappedCells::add(const Location& at, const PointRecord& point, const std::vector<const Field*>& fields,
-                      bool wedges, Batch& to) const {
+                      Batch& to) const {
     /// Of voxels, hexahedra, wedges and pyramids.
     constexpr std::array<std::array<std::uint8_t, 8>, 4> corners{
         {{0, 1, 3, 2, 4, 5, 7, 6}, {0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 0, 3, 4, 5, 3}, {0, 1, 2, 3, 4, 4, 4, 4}}};
-    if (!has_shapes() || !is_mapped(at.cell) || at.feature == Feature::vertex) return false;
-    const std::size_t own = whole(at.cell);
-    const std::uint8_t type = mesh_.shapes.types[own];
-    if (type < 11 || type > 14 || (type == 13) != wedges) return false;
-    const Mesh::Index* const nodes = shape_nodes(own);
-    for (std::size_t i = 0; i < 8; ++i) {
-        const auto node = static_cast<std::size_t>(nodes[corners[type - 11U][i]]);
-        for (std::size_t k = 0; k < 3; ++k) to.places[(3 * i + k) * Batch::max + to.count] = mesh_.points[3 * node + k];
+    using iso::LaneElement;
+    if (!is_mapped(at.cell) || at.feature == Feature::vertex) return false;
+    const std::size_t own = whole(at.cell), count = lane_nodes(to.element);
+    const bool curved = to.element == LaneElement::tetrahedron;
+    std::array<Mesh::Index, 10> nodes{};
+    if (curved) {
+        const iso::Reference& reference = *maps_.reference(own);
+        if (reference.element != iso::Element::tetrahedron || reference.nodes != count) return false;
+        std::copy_n(has_shapes() ? shape_nodes(own) : &mesh_.cells[4 * own], has_shapes() ? 10 : 4, nodes.begin());
+        if (!has_shapes()) std::copy_n(&mesh_.mid_nodes[6 * own], 6, nodes.begin() + 4);
+    } else {
+        const std::uint8_t type = has_shapes() ? mesh_.shapes.types[own] : std::uint8_t{0};
+        if (type < 11 || type > 14 || (type == 13) != (to.element == LaneElement::wedge)) return false;
+        for (std::size_t i = 0; i < count; ++i) nodes[i] = shape_nodes(own)[corners[type - 11U][i]];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const double *place = this->at(nodes[i]), *other = place;
+        if (curved && std::equal(place, place + 3, point.at.begin())) return false;
+        if (curved && i >= 4 && !has_shapes() && (maps_.curved_edges(own) >> (i - 4) & 1U) == 0) {
+            const auto& edge = mesh::edges_of(3)[i - 4];
+            place = this->at(nodes[edge[0]]);
+            other = this->at(nodes[edge[1]]);
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            to.places[(3 * i + k) * Batch::max + to.count] = place[k];
+            if (curved && i >= 4) to.others[(3 * (i - 4) + k) * Batch::max + to.count] = other[k];
+        }
         std::size_t c = i;
         for (const Field* const field : fields) {
             const auto width = static_cast<std::size_t>(field->components);
-            for (std::size_t w = 0; w < width; ++w, c += 8) {
-                const double x = field->data[node * width + w];
+            for (std::size_t w = 0; w < width; ++w, c += count) {
+                const double x = field->data[static_cast<std::size_t>(nodes[i]) * width + w];
                 if (!std::isfinite(x)) return false;
                 to.values[c * Batch::max + to.count] = x;
             }

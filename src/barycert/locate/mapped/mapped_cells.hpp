@@ -70,10 +70,12 @@ public:
     /// Cases for core/isoparametric/lanes.hpp.
     struct Batch {
         static constexpr std::size_t max = core::isoparametric::max_lanes;
+        core::isoparametric::LaneElement element{};
         std::size_t count = 0;
-        std::array<double, 24 * max> places{};
+        std::array<double, 30 * max> places{};
+        std::array<double, 18 * max> others{};
         std::array<double, 3 * max> point{};
-        std::vector<double> values, out;           ///< 8 rows, and one, a component
+        std::vector<double> values, out;
         std::array<std::uint32_t, max> numbers{};  ///< of the points' records
         std::array<Location, max> at{};
         std::array<bool, max> settled{};  ///< of MappedLanes::push()
@@ -88,10 +90,8 @@ public:
     /// Asks memory for what add() will read of a cell, in calls some points apart: with step 0 first, with 3 last.
     void fetch(Mesh::Index cell, std::size_t step) const;
     static constexpr std::size_t fetch_steps = 4;
-    /// Adds a case; false for other cells than hexahedra, voxels, pyramids and (`wedges`) wedges, at a vertex, and
-    /// where a value is not finite.
-    bool add(const Location& at, const PointRecord& point, const std::vector<const Field*>& fields, bool wedges,
-             Batch& to) const;
+    /// Adds a case; false for cells of other elements, at a node, and where a value is not finite.
+    bool add(const Location& at, const PointRecord& point, const std::vector<const Field*>& fields, Batch& to) const;
     /// Nodes of a mapped cell, and its shape functions at the point, each rounded once; none if they are not found.
     mesh::CellMaps::Nodes weights(Mesh::Index cell, const double* point, double* out) const;
 
@@ -167,17 +167,21 @@ class MappedLanes {
 public:
     MappedLanes(const MappedCells& cells, std::vector<const Field*> fields, std::size_t components, Use use)
         : cells_(cells), fields_(std::move(fields)), use_(std::move(use)) {
-        for (Batch& batch : batches_) {
-            batch.values.assign(8 * Batch::max * components, 0);
-            batch.out.resize(Batch::max * components);
+        for (std::size_t i = 0; i < batches_.size(); ++i) {
+            batches_[i].element = static_cast<core::isoparametric::LaneElement>(i);
+            batches_[i].values.assign(core::isoparametric::lane_nodes(batches_[i].element) * Batch::max * components,
+                                      0);
+            batches_[i].out.resize(Batch::max * components);
         }
     }
     /// False, and nothing done, for what is no such case. `settled`: that is its owner, not only that of a part.
     bool push(const Location& at, const PointRecord& point, bool settled) {
-        if (!settled && at.feature != Feature::interior) return false;
         for (Batch& batch : batches_) {
             batch.settled[batch.count] = settled;
-            if (!cells_.add(at, point, fields_, &batch == &batches_[1], batch)) continue;
+            // On a side, or what would be one if the cell were straight.
+            const bool curved = batch.element == core::isoparametric::LaneElement::tetrahedron;
+            if (at.feature != Feature::interior && settled == curved) continue;
+            if (!cells_.add(at, point, fields_, batch)) continue;
             if (batch.count == Batch::max) flush(batch);
             return true;
         }
@@ -191,9 +195,9 @@ private:
     using Batch = MappedCells::Batch;
     void flush(Batch& batch) {
         const std::size_t count = std::exchange(batch.count, 0);
-        const core::isoparametric::LanesProved proved =
-            core::isoparametric::evaluate_lanes({count, &batch == &batches_[1], batch.places.data(), batch.point.data(),
-                                                 batch.values.data(), batch.out.size() / Batch::max, batch.out.data()});
+        const core::isoparametric::LanesProved proved = core::isoparametric::evaluate_lanes(
+            {count, batch.element, batch.places.data(), batch.others.data(), batch.point.data(), batch.values.data(),
+             batch.out.size() / Batch::max, batch.out.data()});
         for (std::size_t i = 0; i < count; ++i)
             use_(batch, i, (proved.inside >> i & 1U) != 0, (proved.values >> i & 1U) != 0);
     }
@@ -201,7 +205,7 @@ private:
     const MappedCells& cells_;
     std::vector<const Field*> fields_;
     Use use_;
-    std::array<Batch, 2> batches_;  ///< of wedges the second
+    std::array<Batch, 3> batches_;  ///< by element
 };
 
 }  // namespace barycert::locate

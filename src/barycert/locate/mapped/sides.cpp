@@ -113,7 +113,8 @@ std::vector<MappedCells::AtSides> MappedCells::at_sides(const double* point) con
     if (tree_ == nullptr) return all;
     tree_->for_each(index::box_of(3, &point, 1), [&](std::uint32_t i) {
         const auto shape = static_cast<std::size_t>(warped_[i].whole);
-        // The rings of a wedge are seen from outside where its Jacobian is negative, of others where it is positive.
+        // The rings of a wedge are seen from outside where its Jacobian is negative, those of others where it is
+        // positive.
         const auto outward = static_cast<Sign>(mesh_.shapes.types[shape] == 13 ? -sign_[shape] : sign_[shape]);
         bool some = false, outside = false;
         Feature on = Feature::interior;

@@ -194,7 +194,7 @@ void ChunkSampler::UseLane::operator()(const locate::MappedCells::Batch& batch, 
     Location at = batch.at[lane];
     if (!batch.settled[lane]) {
         if (!inside) return static_cast<void>(sampler->not_here_.emplace_back(point, at));
-        at.cell = sampler->data_.located().mapped->first_part_of(at.cell);
+        at = {sampler->data_.located().mapped->first_part_of(at.cell), Feature::interior};
     }
     if (!proved) return sampler->settled(point, at, false);
     sampler->set_row(point, at, &batch.out[lane], batch.max);
