@@ -142,6 +142,11 @@ std::string surfaces_text(const SurfaceAudit& audit, const TerminalStyle& style)
 std::string surfaces_json(const SurfaceAudit& audit);
 std::string surfaces_html(const SurfaceAudit& audit);
 
+/// The same of inverse maps, in one table.
+std::string inverses_text(const InverseAudit& audit, const TerminalStyle& style);
+std::string inverses_json(const InverseAudit& audit);
+std::string inverses_html(const InverseAudit& audit);
+
 // Gaps and overlaps between the cells of a mesh.
 
 /// A table: a row a kernel and rule; below it the first witnesses of the kernels.

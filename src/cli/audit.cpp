@@ -11,7 +11,7 @@ namespace {
 struct AuditArguments : Arguments<AuditJob> {
     std::vector<std::string> meshes, others;
     std::vector<Threshold> rules;
-    bool mutants = false, surfaces = false, wide = false;
+    bool mutants = false, surfaces = false, inverses = false, wide = false;
     const CLI::App* app = nullptr;
 };
 
@@ -30,6 +30,11 @@ void check_files(const AuditArguments& a) {
 
 /// What other options say is of kernels, their cases and reports on them.
 void check_alone(const AuditArguments& a) {
+    for (const std::string& name : a.job.kernels.names) {
+        const std::string shape = name.substr(0, name.find('.')) + ".";
+        if (std::ranges::any_of(inverse_rules(), [&](const InverseRule& r) { return r.name.starts_with(shape); }))
+            throw Exception({.what = "no kernel of simplices", .found = name, .remedy = "--inverse-maps audits those"});
+    }
     const auto check = [&](const char* mode, const char* audited, std::initializer_list<std::string_view> fits) {
         const std::string other = given_option(*a.app, fits, true);
         if (!other.empty())
@@ -43,6 +48,9 @@ void check_alone(const AuditArguments& a) {
     if (a.surfaces)
         check("--surfaces", "rules on triangles in space, on cases of their own",
               {"--surfaces", "--count", "--seed", "--threads", "--json", "--html", "--quiet"});
+    if (a.inverses)
+        check("--inverse-maps", "Newton's method on cells, on cases of its own",
+              {"--inverse-maps", "--count", "--seed", "--threads", "--json", "--html", "--quiet"});
 }
 
 std::function<void(const AuditProgress&)> progress_of(AuditArguments& a) {
@@ -53,16 +61,17 @@ std::function<void(const AuditProgress&)> progress_of(AuditArguments& a) {
     };
 }
 
-/// Rules on triangles in space.
-int run_surfaces(AuditArguments& a) {
+/// Rules on cases of their own.
+template <class Audit>
+int run_rules(AuditArguments& a, void (*run)(Audit&), std::string (*text)(const Audit&, const TerminalStyle&),
+              std::string (*json)(const Audit&), std::string (*html)(const Audit&)) {
     a.reports.check({});
     const AuditOptions& o = a.job.options;
-    SurfaceAudit audit{.seed = o.seed, .count = o.count, .threads = o.threads, .progress = progress_of(a)};
-    audit_surfaces(audit);
-    return a.reports.end(Result<SurfaceAudit>(std::move(audit)), [](const SurfaceAudit& done) {
-        return Told{
-            .files = {{"--json", [&] { return surfaces_json(done); }}, {"--html", [&] { return surfaces_html(done); }}},
-            .text = [&](bool colour) { return surfaces_text(done, {.colour = colour}); }};
+    Audit audit{.seed = o.seed, .count = o.count, .threads = o.threads, .progress = progress_of(a)};
+    run(audit);
+    return a.reports.end(Result<Audit>(std::move(audit)), [&](const Audit& done) {
+        return Told{.files = {{"--json", [&] { return json(done); }}, {"--html", [&] { return html(done); }}},
+                    .text = [&](bool colour) { return text(done, {.colour = colour}); }};
     });
 }
 
@@ -106,7 +115,8 @@ Told told_of(const AuditArguments& a, const PreparedAudit& prepared, const Audit
 
 int run_audit(AuditArguments& a) {
     check_alone(a);
-    if (a.surfaces) return run_surfaces(a);
+    if (a.surfaces) return run_rules(a, audit_surfaces, surfaces_text, surfaces_json, surfaces_html);
+    if (a.inverses) return run_rules(a, audit_inverses, inverses_text, inverses_json, inverses_html);
     const auto meshes = meshes_or_own(a.meshes);
     if (meshes) a.job.meshes = *meshes;
     check_files(a);
@@ -187,6 +197,10 @@ void add_audit(const Options& program) {
     o.flag("--surfaces", a.surfaces,
            "Audit rules on triangles in space instead: the distance of a point, inside or outside of a closed surface, "
            "whether two triangles meet; with --count, --seed, --threads, --json, --html and --quiet alone");
+    o.flag(
+        "--inverse-maps", a.inverses,
+        "Audit Newton's method for the inverse maps of hexahedra, wedges, pyramids and quadrilaterals instead, as it "
+        "is in use; with the same options");
     o.flag("--wide", a.wide, "Print all counts, the families and a witness of each kernel: 160 columns");
     o.flag("--no-check", job.check, "Do not check whether the meshes are partitions (see `barycert check`)", false);
     a.reports.quiet(o, "Print no table and no progress");

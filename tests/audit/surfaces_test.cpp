@@ -20,7 +20,7 @@ SurfaceAudit audited(std::uint64_t count, std::uint64_t seed, int threads = 0) {
 }
 
 const SurfaceTally& tally(const SurfaceAudit& audit, const std::string& rule, const std::string& family) {
-    for (const SurfaceResult& r : audit.results) {
+    for (const auto& r : audit.results) {
         for (const SurfaceTally& t : r.families) {
             if (r.rule.name == rule && surface_families()[t.family].name == family) return t;
         }
@@ -33,7 +33,7 @@ const SurfaceTally& tally(const SurfaceAudit& audit, const std::string& rule, co
 TEST(Surfaces, OwnRulesAgreeWithTheOracleToTheLastBit) {
     const SurfaceAudit audit = audited(400, 7);
     int exact = 0;
-    for (const SurfaceResult& r : audit.results) {
+    for (const auto& r : audit.results) {
         if (!r.rule.name.ends_with(".exact")) continue;
         ++exact;
         EXPECT_EQ(r.total.wrong_cases(), 0) << r.rule.name;
@@ -68,7 +68,7 @@ TEST(Surfaces, OthersFailWhereTheirWordsSay) {
     EXPECT_GT(tally(audit, "meet.edges-through", "meet.one-plane").false_no, 100);
     EXPECT_GT(wrong("meet.separating-axes", "meet.touching"), 20);
     EXPECT_EQ(wrong("meet.separating-axes", "meet.lattice"), 0) << "small integers: no rounding";
-    for (const SurfaceResult& r : audit.results) {
+    for (const auto& r : audit.results) {
         if (r.rule.name.ends_with(".exact")) continue;
         EXPECT_GT(r.total.wrong_cases(), 0) << r.rule.name;
     }
@@ -86,7 +86,7 @@ TEST(Surfaces, ThreadsChangeNothing) {
 TEST(Surfaces, WrongCasesAreMadeAgain) {
     const SurfaceAudit audit = audited(300, 1);
     int shown = 0;
-    for (const SurfaceResult& r : audit.results) {
+    for (const auto& r : audit.results) {
         for (const SurfaceTally& t : r.families) {
             if (t.wrong.value < 0) continue;
             const SurfaceFamily& family = surface_families()[t.family];

@@ -181,5 +181,23 @@ TEST(Surfaces, RulesAreAuditedAloneAndAlike) {
     }
 }
 
+TEST(InverseMaps, RulesAreAuditedAloneAndAlike) {
+    const Scratch scratch;
+    const std::string json = scratch.path("i.json"), html = scratch.path("i.html");
+    const Ended r = run({"audit", "--inverse-maps", "--count", "20", "--seed", "4", "--json", json, "--html", html});
+    EXPECT_EQ(r.code, 0) << r.err;
+    EXPECT_TRUE(contains(r.out, "9 of 9 rules give wrong answers")) << r.out;
+    EXPECT_TRUE(contains(r.out, "seed 4, 20 cases a family")) << r.out;
+    EXPECT_TRUE(contains(read_file(html), "hexahedron.newton-1e-3"));
+    EXPECT_TRUE(contains(read_file(json), "\"flat-corner\""));
+    const Ended both = run({"audit", "--inverse-maps", "--surfaces"});
+    EXPECT_EQ(both.code, 2);
+    EXPECT_TRUE(contains(both.err, "--surfaces and --inverse-maps")) << both.err;
+    // Who asks for them as kernels is told where they are.
+    const Ended kernel = run({"audit", "--kernel", "hexahedron.*"});
+    EXPECT_EQ(kernel.code, 2);
+    EXPECT_TRUE(contains(kernel.err, "--inverse-maps")) << kernel.err;
+}
+
 }  // namespace
 }  // namespace barycert::cli_test

@@ -610,6 +610,21 @@ TEST(EveryEnvironment, SurfacesInSpace) {
             out.add(oracle_side(c.triangles, c.point.data()));
         }
     });
+    expect_same_everywhere("audit of inverse maps", [&](Answers& out) {
+        InverseAudit audit{.count = 6, .threads = 2};
+        audit_inverses(audit);
+        out.add(std::string_view(inverses_json(audit)));
+        out.add(std::string_view(inverses_text(audit, {})));
+        out.add(std::string_view(inverses_html(audit)));
+        const InverseCase c = make_inverse_case(inverse_families()[1], 12, 1, 1);
+        out.add_all(c.nodes);
+        const ExactInverse exact = exact_inverse(c);
+        out.add_all(exact.x);
+        out.add(exact.value);
+        InverseTally tally;
+        tally.add({true, true, {0.1, 0.2, 0.3}, 0.4}, exact, c, 0);
+        out.add(tally.value_ulp.value);
+    });
 }
 
 TEST(EveryEnvironment, Audit) {

@@ -120,7 +120,7 @@ void search_reports(Schema& schema) {
     schema.check("Mutants", Json::parse(mutants_json(score)), "mutants");
 }
 
-/// Drift, texels and surfaces, with something of everything.
+/// Drift, texels, surfaces and inverse maps, with something of everything.
 void raster_reports(Schema& schema) {
     DriftOptions options;
     options.kernels = kernels_matching("triangle.signed-area");
@@ -130,6 +130,9 @@ void raster_reports(Schema& schema) {
     SurfaceAudit surfaces{.count = 40};
     audit_surfaces(surfaces);
     schema.check("Surfaces", Json::parse(surfaces_json(surfaces)), "surfaces");
+    InverseAudit inverses{.count = 40};
+    audit_inverses(inverses);
+    schema.check("Inverses", Json::parse(inverses_json(inverses)), "inverses");
 }
 
 /// Gaps on a mesh, and an audit of a kernel in a process of its own, as far as that has members of its own.

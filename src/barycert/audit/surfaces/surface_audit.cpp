@@ -1,16 +1,13 @@
 // The rules on triangles in space, held against the oracle.
 
 #include <cmath>
-#include <mutex>
 
-#include "barycert/audit/asking.hpp"
+#include "barycert/audit/rules.hpp"
 #include "barycert/base/ulp.hpp"
 
 namespace barycert {
 
 namespace {
-
-constexpr std::uint64_t block = 256;  ///< cases that a thread takes at once
 
 /// What is right; nothing where either answer is.
 std::optional<double> exact_answer(SurfaceQuestion question, const SurfaceCase& c) {
@@ -54,42 +51,16 @@ void SurfaceTally::merge(const SurfaceTally& other) {
 
 void audit_surfaces(SurfaceAudit& audit) {
     const ExactEnvironment environment;
-    audit.threads = base::threads_for(audit.threads);
-    const std::vector<SurfaceRule>& rules = surface_rules();
+    if (audit.rules.empty()) audit.rules = surface_rules();
     const std::vector<SurfaceFamily>& families = surface_families();
-    const std::size_t blocks = static_cast<std::size_t>((audit.count + block - 1) / block);
-    // A tally for each family and rule of its question; threads merge into them, in any order.
-    std::vector<std::vector<SurfaceTally>> tallies(families.size(), std::vector<SurfaceTally>(rules.size()));
-    std::mutex merging;
-    std::uint64_t done = 0;
-    audit::on_threads(audit.threads, families.size() * blocks, [&](std::size_t work) {
-        const std::size_t f = work / blocks;
-        const SurfaceFamily& family = families[f];
-        std::vector<SurfaceTally> found(rules.size());
-        const std::uint64_t first = work % blocks * block;
-        for (std::uint64_t i = first; i < std::min(first + block, audit.count); ++i) {
-            const SurfaceCase c = make_surface_case(family, audit.seed, i);
-            const std::optional<double> exact = exact_answer(family.question, c);
-            if (!exact) continue;
-            for (std::size_t r = 0; r < rules.size(); ++r) {
-                if (rules[r].question == family.question) found[r].add(family.question, rules[r].answer(c), *exact, i);
-            }
-        }
-        const std::lock_guard lock(merging);
-        for (std::size_t r = 0; r < rules.size(); ++r) tallies[f][r].merge(found[r]);
-        done += std::min(block, audit.count - first);
-        if (audit.progress) audit.progress({done, families.size() * audit.count, family.name});
+    const auto fits = [&](std::size_t f, const SurfaceRule& rule) { return rule.question == families[f].question; };
+    audit::audit_rules(audit, families, 1, fits, [&](std::size_t f, std::uint64_t i, const auto& each) {
+        const SurfaceCase c = make_surface_case(families[f], audit.seed, i);
+        const std::optional<double> exact = exact_answer(families[f].question, c);
+        if (!exact) return;
+        each(
+            [&](const SurfaceRule& rule, SurfaceTally& tally) { tally.add(rule.question, rule.answer(c), *exact, i); });
     });
-    audit.results.clear();
-    for (std::size_t r = 0; r < rules.size(); ++r) {
-        SurfaceResult& result = audit.results.emplace_back(SurfaceResult{rules[r], {}, {}});
-        for (std::size_t f = 0; f < families.size(); ++f) {
-            if (families[f].question != rules[r].question) continue;
-            tallies[f][r].family = f;
-            result.total.merge(tallies[f][r]);
-            result.families.push_back(tallies[f][r]);
-        }
-    }
 }
 
 }  // namespace barycert

@@ -1,21 +1,12 @@
 // Rules on triangles in space, held against exact answers.
 
-#include "barycert/report/audit/audit_words.hpp"
+#include "barycert/report/audit/rules.hpp"
 
 namespace barycert {
 
 using namespace report;
 
 namespace {
-
-double share_of_wrong(const SurfaceTally* t) {
-    return t->cases == 0 ? 0 : static_cast<double>(t->wrong_cases()) / static_cast<double>(t->cases);
-}
-
-/// 99.9th percentile: the edge of a bin, at most the worst; -1 if there are no errors to measure.
-double p999(const SurfaceTally& t) {
-    return std::min(t.ulps.quantile(0.999), t.worst.value);
-}
 
 void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion question) {
     const bool distance = question == SurfaceQuestion::distance;
@@ -30,7 +21,7 @@ void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion quest
         table.columns.push_back(right(inside ? "in as\nout %" : "meeting\nas apart %", 10));
         table.columns.push_back(left("worst family", 20, 2));
     }
-    for (const SurfaceResult& r : audit.results) {
+    for (const auto& r : audit.results) {
         if (r.rule.question != question) continue;
         const SurfaceTally& t = r.total;
         Row row{{r.rule.name, brief_count(t.cases), share_cell({t.wrong_cases(), t.cases}, true)}};
@@ -38,11 +29,10 @@ void tell_question(Document& d, const SurfaceAudit& audit, SurfaceQuestion quest
         row.cells.push_back(share_cell({t.false_yes, t.cases - t.yes}));
         row.cells.push_back(share_cell({t.false_no, t.yes}));
         if (distance) {
-            row.cells.push_back(number_cell(p999(t)));
+            row.cells.push_back(number_cell(reached(t.ulps, 0.999, t.worst)));
             row.cells.push_back(number_cell(t.worst.value));
         } else {
-            const auto worst =
-                std::ranges::max_element(r.families, {}, [](const SurfaceTally& f) { return share_of_wrong(&f); });
+            const auto worst = std::ranges::max_element(r.families, {}, share_of_wrong<SurfaceTally>);
             row.cells.emplace_back(t.wrong_cases() == 0
                                        ? ""
                                        : fmt::format("{}, {} %", surface_families()[worst->family].name,
@@ -66,61 +56,26 @@ Json case_json(const SurfaceRule& rule, const SurfaceFamily& family, std::uint64
 }
 
 Document surfaces_document(const SurfaceAudit& audit) {
-    Document d;
-    d.title = d.heading = "Rules on triangles in space";
-    d.indent = 1;
-    d.script = true;
-    const auto wrong = std::ranges::count_if(audit.results, [](const auto& r) { return r.total.wrong_cases() != 0; });
-    d.add(Headline{.tone = wrong == 0 ? Tone::good : Tone::bad,
-                   .text = fmt::format("{} of {} rules give wrong answers", wrong, audit.results.size())});
+    Document tables;
     for (const auto q : {SurfaceQuestion::distance, SurfaceQuestion::inside, SurfaceQuestion::meet})
-        tell_question(d, audit, q);
-    d.notes({"wrong: answers that are not finite, 0 for a point off the triangle or not 0 for one on it; yes for no or",
-             "no for yes. ulps: errors of distances in units in the last place of the exact one. Points exactly on a",
-             "closed surface are left out: either answer is right there."});
-    d.section("The rules");
-    for (const SurfaceResult& r : audit.results) {
-        Item item{.title = r.rule.name, .text = ": " + r.rule.formula};
-        item.lines.push_back({"source: " + r.rule.source});
-        item.lines.push_back({"fails: " + r.rule.fails});
-        std::vector<const SurfaceTally*> families;
-        for (const SurfaceTally& t : r.families) {
-            if (t.wrong_cases() != 0) families.push_back(&t);
-        }
-        std::ranges::stable_sort(families, std::greater(), share_of_wrong);
-        for (const SurfaceTally* t : families)
-            item.lines.push_back(
-                {fmt::format("wrong in {} % of {}, first in case {}", percent({t->wrong_cases(), t->cases}),
-                             surface_families()[t->family].name, t->wrong.index)});
-        if (families.empty()) item.lines.push_back({"no finding"});
-        d.add(std::move(item));
-    }
-    d.section("The families");
-    for (const SurfaceFamily& f : surface_families()) d.name(f.name, f.tests);
-    d.say(fmt::format("seed {}, {} cases a family, {} threads; {}", audit.seed, audit.count, audit.threads,
-                      environment_line(measure_environment())),
-          Tone::soft);
+        tell_question(tables, audit, q);
+    tables.notes(
+        {"wrong: answers that are not finite, 0 for a point off the triangle or not 0 for one on it; yes for no or",
+         "no for yes. ulps: errors of distances in units in the last place of the exact one. Points exactly on a",
+         "closed surface are left out: either answer is right there."});
+    const auto rule = [](const SurfaceRule& r) { return record(MEMBERS(r, name, question, formula, source, fails)); };
     const auto tally = [](const SurfaceTally& t) {
         Json j = record(MEMBERS(t, cases, yes, false_yes, false_no, not_finite), "wrong_cases", t.wrong_cases());
-        if (t.worst.value >= 0) put(j, "worst_ulps", t.worst.value, "p999_ulps", p999(t));
+        if (t.worst.value >= 0) put(j, "worst_ulps", t.worst.value, "p999_ulps", reached(t.ulps, 0.999, t.worst));
         return j;
     };
-    d.data =
-        record("schema", audit_schema, "environment", measure_environment(), MEMBERS(audit, seed, count, threads),
-               "rules", list(audit.results, [&](const SurfaceResult& r) {
-                   return record(MEMBERS(r.rule, name, question, formula, source, fails), "total", tally(r.total),
-                                 "families", list(r.families, [&](const SurfaceTally& t) {
-                                     const SurfaceFamily& family = surface_families()[t.family];
-                                     Json j = record("family", family.name);
-                                     j.update(tally(t));
-                                     if (t.wrong.value > 0)
-                                         put(j, "first_wrong", case_json(r.rule, family, audit.seed, t.wrong.index));
-                                     if (t.worst.value > 0)
-                                         put(j, "worst", case_json(r.rule, family, audit.seed, t.worst.index));
-                                     return j;
-                                 }));
-               }));
-    return d;
+    const auto cases = [&](const SurfaceRule& r, const SurfaceTally& t, Json& j) {
+        const SurfaceFamily& family = surface_families()[t.family];
+        if (t.wrong.value > 0) put(j, "first_wrong", case_json(r, family, audit.seed, t.wrong.index));
+        if (t.worst.value > 0) put(j, "worst", case_json(r, family, audit.seed, t.worst.index));
+    };
+    return rules_document("Rules on triangles in space", audit, surface_families(), std::move(tables), rule, tally,
+                          cases);
 }
 
 }  // namespace
