@@ -53,6 +53,10 @@ void add_cell_array(vtkDataSet& output, std::string_view name, Of&& of) {
     output.GetCellData()->AddArray(array);
 }
 
+vtkIdType id_of(const std::vector<Mesh::Index>& numbers, Mesh::Index cell) {
+    return numbers.empty() ? cell : numbers[static_cast<std::size_t>(cell)];
+}
+
 template <std::size_t n, class IdOf>
 void append_used(std::string& text, const char* one, const char* more, const std::array<Mesh::Index, n>& all,
                  IdOf&& id_of) {
@@ -65,11 +69,11 @@ void append_used(std::string& text, const char* one, const char* more, const std
 }
 
 // "cells 3 17, points 4 5 6; ...".
-std::string places_of(const Defect& defect, const ExactIndex& index) {
+std::string places_of(const Defect& defect, const std::vector<Mesh::Index>& numbers) {
     std::string all;
     for (const DefectPlace& place : defect.places) {
         std::string text;
-        append_used(text, "cell", "cells", place.cells, [&](Mesh::Index cell) { return index.id(cell); });
+        append_used(text, "cell", "cells", place.cells, [&](Mesh::Index cell) { return id_of(numbers, cell); });
         append_used(text, "point", "points", place.nodes, [](Mesh::Index node) { return vtkIdType{node}; });
         const bool hangs = defect.kind == DefectKind::hanging_node || defect.kind == DefectKind::near_hanging ||
                            defect.kind == DefectKind::node_on_facet;
@@ -82,23 +86,31 @@ std::string places_of(const Defect& defect, const ExactIndex& index) {
     return all;
 }
 
-// Measures and defects of cells as cell arrays of the data set, of which one may be several triangles of a surface.
-void add_measures(const CheckReport& report, const ExactIndex& index, vtkDataSet& output) {
+// Of two parts of a cell.
+double joined(std::string_view measure, double a, double b) {
+    if (measure == "orientation") return a == b ? a : 0;
+    if (measure == "volume") return a + b;
+    return measure == "min_angle" ? std::min(a, b) : std::max(a, b);
+}
+
+// Measures and defects of cells as cell arrays of the data set, of which one may be several of the mesh or surface.
+void add_measures(const CheckReport& report, const std::vector<Mesh::Index>& numbers, vtkDataSet& output) {
     std::vector<DefectSet> defects(static_cast<std::size_t>(output.GetNumberOfCells()), 0);
-    std::vector<std::int64_t> cell_of(defects.size(), -1);  // of the mesh, for each of the data set
     DefectSet found = 0;
     for (std::size_t i = 0; i < report.measures.defects.size(); ++i) {
-        const auto id = static_cast<std::size_t>(index.id(static_cast<Mesh::Index>(i)));
-        cell_of[id] = static_cast<std::int64_t>(i);
-        defects[id] |= report.measures.defects[i];
+        defects[static_cast<std::size_t>(id_of(numbers, static_cast<Mesh::Index>(i)))] |= report.measures.defects[i];
         found |= report.measures.defects[i];
     }
     for (const Field& field : report.surface ? std::vector<Field>() : measure_fields(report.measures)) {
+        std::vector<std::optional<double>> all(defects.size());
+        for (std::size_t i = 0; i < field.data.size(); ++i) {
+            std::optional<double>& own = all[static_cast<std::size_t>(id_of(numbers, static_cast<Mesh::Index>(i)))];
+            own = own ? joined(field.name, *own, field.data[i]) : field.data[i];
+        }
         const bool whole = field.name == "orientation" || field.name == "problems";
         const auto value = [&](std::size_t id) {
-            return cell_of[id] >= 0 ? field.data[static_cast<std::size_t>(cell_of[id])]
-                   : whole          ? 0
-                                    : std::numeric_limits<double>::quiet_NaN();
+            return field.name == "problems" ? static_cast<double>(defects[id])
+                                            : all[id].value_or(whole ? 0 : std::numeric_limits<double>::quiet_NaN());
         };
         if (field.name == "orientation")
             add_cell_array<vtkSignedCharArray>(output, field.name, value);
@@ -119,7 +131,7 @@ void add_measures(const CheckReport& report, const ExactIndex& index, vtkDataSet
 }
 
 // A row a defect.
-void fill_defects(const std::vector<Defect>& all, const ExactIndex& index, vtkTable& table) {
+void fill_defects(const std::vector<Defect>& all, const std::vector<Mesh::Index>& numbers, vtkTable& table) {
     using D = const Defect&;
     table.AddColumn(array_of<vtkStringArray>("defect", all, [](D d) { return std::string(defect_text(d.kind).name); }));
     table.AddColumn(array_of<vtkTypeInt64Array>("count", all, [](D d) { return vtkTypeInt64(d.count); }));
@@ -128,11 +140,12 @@ void fill_defects(const std::vector<Defect>& all, const ExactIndex& index, vtkTa
     table.AddColumn(
         array_of<vtkStringArray>("meaning", all, [](D d) { return std::string(defect_text(d.kind).text); }));
     table.AddColumn(array_of<vtkStringArray>("remedy", all, [](D d) { return std::string(d.remedy()); }));
-    table.AddColumn(array_of<vtkStringArray>("places", all, [&](D d) { return places_of(d, index); }));
+    table.AddColumn(array_of<vtkStringArray>("places", all, [&](D d) { return places_of(d, numbers); }));
 }
 
 // A vertex for each pair of cells that meet where they must not.
-void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index, vtkPolyData& points) {
+void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index,
+                   const std::vector<Mesh::Index>& numbers, vtkPolyData& points) {
     vtkNew<vtkPoints> places;
     places->SetDataTypeToDouble();
     vtkNew<vtkCellArray> vertices;
@@ -146,32 +159,24 @@ void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index,
     points.SetVerts(vertices);
     using Contact = const CellContact&;
     vtkPointData& data = *points.GetPointData();
-    data.AddArray(array_of<vtkIdTypeArray>("cell_a", all, [&](Contact c) { return index.id(c.cells[0]); }));
-    data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return index.id(c.cells[1]); }));
+    data.AddArray(array_of<vtkIdTypeArray>("cell_a", all, [&](Contact c) { return id_of(numbers, c.cells[0]); }));
+    data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return id_of(numbers, c.cells[1]); }));
     data.AddArray(array_of<vtkUnsignedCharArray>("overlap", all, [](Contact c) { return c.overlap; }));
     data.AddArray(array_of<vtkUnsignedCharArray>("exact", all, [](Contact c) { return c.common.exact; }));
 }
 
-// A mesh, a surface, or polygons; or why it is none.
-std::string read(vtkDataSet& data, ExactIndex& index, Plc& plc) {
-    std::string reason = in_vtk::read_simplices(data, index, {}, in_vtk::Sides::straight);
-    int dimension = -1;
-    if (reason.empty() || !in_vtk::cell_dimension(data, dimension, in_vtk::Sides::any).empty() || dimension != 2)
-        return reason;
-    index = {};
-    return in_vtk::read_polygons(data, index, plc);
-}
-
-// The report's text names cells by their ids. Polygons are facets of a PLC, as `barycert check` takes those of files:
-// they may be at fault themselves. The ids become those of the triangles that they are cut into, and of what cannot be.
-CheckReport check(ExactIndex& index, const Plc& plc, const CheckOptions& options) {
-    const std::vector<Mesh::Index> numbers(index.ids.begin(), index.ids.end());
-    const bool polygons = !plc.facets.empty();
-    if (!polygons && !index.in_space()) {
-        index.mesh.cell_numbers = numbers;
+// The report's text names cells by their ids, which `numbers` has for each of the mesh, surface, or PLC. Polygons in
+// space are facets of a PLC, as `barycert check` takes those of files: they may be at fault themselves. The ids become
+// those of the triangles that they are cut into, and of what cannot be.
+CheckReport check(vtkDataSet& data, ExactIndex& index, std::vector<Mesh::Index>& numbers, const CheckOptions& options) {
+    if (!index.in_space()) {
+        numbers = index.mesh.cell_numbers;
         return check_mesh(index.mesh, options);
     }
-    index.surface.facets = numbers;
+    Plc plc;
+    numbers = in_vtk::read_polygons(data, plc);
+    const bool polygons = !plc.facets.empty();
+    if (!polygons) numbers = index.surface.facets;
     CheckReport report = polygons ? check_plc(plc, options) : check_surface(index.surface, options);
     std::vector<Mesh::Index> distinct = numbers, ids;
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
@@ -182,8 +187,8 @@ CheckReport check(ExactIndex& index, const Plc& plc, const CheckOptions& options
     report.cell_numbers = ids;
     std::set_difference(distinct.begin(), distinct.end(), report.cell_numbers.begin(), report.cell_numbers.end(),
                         std::back_inserter(ids));
-    index.ids.assign(ids.begin(), ids.end());
-    report.measures.defects.resize(ids.size(), defect_bit(DefectKind::bad_facet));
+    numbers = std::move(ids);
+    report.measures.defects.resize(numbers.size(), defect_bit(DefectKind::bad_facet));
     return report;
 }
 
@@ -242,13 +247,12 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
         return 0;
     }
     ExactIndex index;
-    Plc plc;
-    if (const std::string reason = read(*input, index, plc); !reason.empty()) {
-        vtkErrorMacro("this data set cannot be checked: " << reason
-                                                          << "; expected tetrahedra, or triangles and polygons");
+    if (const std::string reason = in_vtk::read_cells(*input, index); !reason.empty()) {
+        vtkErrorMacro("this data set cannot be checked: " << reason);
         return 0;
     }
-    const CheckReport report = check(index, plc,
+    std::vector<Mesh::Index> numbers;
+    const CheckReport report = check(*input, index, numbers,
                                      {.delaunay = Delaunay != 0,
                                       .examples = static_cast<std::size_t>(Examples),
                                       .contacts = static_cast<std::size_t>(Contacts)});
@@ -256,10 +260,11 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     if (report.surface && Delaunay != 0) vtkWarningMacro("a surface is not tested whether it is Delaunay");
 
     output->ShallowCopy(input);
-    add_measures(report, index, *output);
+    add_measures(report, numbers, *output);
     output->GetCellData()->SetActiveScalars("problems");
     const Mesh none;
     const std::string text = check_text(report, report.surface ? none : std::as_const(index.mesh), "input", {});
+    for (const std::string& note : index.told()) vtkWarningMacro("" << note);
     for (const Note& note : report.notes) vtkWarningMacro("" << message(note));
     if (report.curved.cells != 0) vtkWarningMacro("" << message(report.curved));
     // The verdict stands below what is told of curved cells, which takes two lines.
@@ -273,7 +278,7 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     vtkFieldData& told = *output->GetFieldData();
     told.AddArray(lines);
     told.AddArray(array_of<vtkUnsignedCharArray>("certified", std::array{Certified}, std::identity()));
-    fill_defects(report.defects, index, *defects);
-    fill_contacts(report.contacts, index, *points);
+    fill_defects(report.defects, numbers, *defects);
+    fill_contacts(report.contacts, index, numbers, *points);
     return 1;
 }

@@ -104,18 +104,6 @@ Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove p
     return Locator::build(mesh, build_options(job, threads, prove)).value();
 }
 
-Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& path) {
-    const std::uint64_t unmapped = locator.unmapped_cells();
-    if (asked == CellInterpolation::multilinear && locator.interpolation() == CellInterpolation::linear)
-        return {{Note::Kind::guessed, "no cell is a hexahedron or the like: multilinear interpolation is linear here",
-                 path, true}};
-    if (unmapped == 0) return {};
-    return {{Note::Kind::guessed,
-             std::to_string(unmapped) +
-                 " cells are taken as straight or by their parts: it is not proved that their maps are injective",
-             path, true}};
-}
-
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more) {
     std::vector<base::NamedFile> inputs = base::named_files("the mesh", mesh_files(job.mesh));
     add_fields_to(inputs, job.field_files);

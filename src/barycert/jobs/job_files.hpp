@@ -91,8 +91,6 @@ Mesh open_mesh_with_fields(const MeshJob& job, int threads, MeshReport& report);
 /// What a report says of the mesh.
 void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& report);
 
-/// Where cells are straight or linear though their maps are asked for.
-Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& path);
 /// What finds points in the mesh.
 BuildOptions build_options(const MeshJob& job, int threads, Prove prove = Prove::at_once);
 Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove = Prove::at_once);

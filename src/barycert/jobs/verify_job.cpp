@@ -109,7 +109,7 @@ private:
         Stopwatch watch;
         locator_ = jobs::build_locator(job_, mesh_, job_.options.threads);
         report_.curved.mapped = locator_->has_curved_cells();
-        const Notes notes = jobs::notes_of_maps(*locator_, job_.cell_interpolation, job_.mesh);
+        const Notes notes = notes_of_maps(*locator_, job_.cell_interpolation, job_.mesh);
         report_.notes.insert(report_.notes.end(), notes.begin(), notes.end());
         sampler_ = Sampler::build(*locator_, columns_.fields).value();
         report_.certified = locator_->certified();
