@@ -29,7 +29,6 @@ struct ExactIndex : pieces::IndexedPiece {
 
     bool in_space() const { return !surface.points.empty(); }
     bool exact() const { return reason.empty(); }
-    bool has_cells() const { return locator || on_surface; }
     vtkIdType id(Mesh::Index cell) const { return in_space() ? surface.facet(cell) : mesh.cell_number(cell); }
     /// What users are told of how cells are taken, a line each.
     std::vector<std::string> told() const;

@@ -1,6 +1,4 @@
 // From VTK's cells to a mesh of simplices, or a surface.
-#include <numeric>
-
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
@@ -98,31 +96,13 @@ void note(ExactIndex& index, std::size_t count, const char* what) {
     if (count != 0) index.notes.push_back({Note::Kind::converted, std::to_string(count) + what, {}, true});
 }
 
-// Appends a cell to the mesh, or says why it cannot be. Sets `by_corners` if it has others, which are left out.
-std::string add_cell(Cells& cells, Mesh::Index cell, std::size_t points, const pieces::Shape& shape, Mesh& mesh,
-                     std::vector<Mesh::Index>& nodes, bool& by_corners) {
-    cells.nodes(cell, nodes);
-    const mesh::CellType& type = cells.type(cell);
-    const auto some = [&](const std::vector<Mesh::Index>& all) {
-        return std::any_of(all.begin(), all.end(),
-                           [&](Mesh::Index node) { return node < 0 || static_cast<std::size_t>(node) >= points; });
-    };
-    const bool few = nodes.size() < std::max<std::size_t>(mesh::shape_of(type.linear).corners, 3);
-    if (type.nodes != 0 ? nodes.size() != type.nodes : few || mesh::corners_of(type, nodes).size() < 3)
-        return name_of(cell) + " has " + std::to_string(nodes.size()) + " nodes";
-    const std::size_t rings = mesh.shapes.rings.size();
-    if (!shape.mixed) {
-        const auto mid = nodes.begin() + static_cast<std::ptrdiff_t>(mesh.corners());
-        mesh.cells.insert(mesh.cells.end(), nodes.begin(), mid);
-        mesh.mid_nodes.insert(mesh.mid_nodes.end(), mid, nodes.end());
-    } else {
-        by_corners = !mesh::add_shape(mesh, cells.number(cell), nodes);
-        if (type.linear == mesh::vtk_polyhedron) cells.faces(cell, mesh.shapes);
-    }
-    // Of tetrahedra alone who indexes or checks them tells.
-    if (!shape.mixed && mesh.dimension == 3) return {};
-    nodes.insert(nodes.end(), mesh.shapes.rings.begin() + static_cast<std::ptrdiff_t>(rings), mesh.shapes.rings.end());
-    return some(nodes) ? name_of(cell) + " has a vertex that is no point" : std::string();
+// Why the nodes of a cell are not those of its type, or none of so many points (0: they may be any); empty if they are.
+std::string fault_of_nodes(const mesh::CellType& type, const std::vector<Mesh::Index>& nodes, std::size_t points) {
+    const std::size_t least = std::max<std::size_t>(mesh::shape_of(type.linear).corners, 3);
+    const bool few = nodes.size() < least || mesh::corners_of(type, nodes).size() < least;
+    if (type.nodes != 0 ? nodes.size() != type.nodes : few) return " has " + std::to_string(nodes.size()) + " nodes";
+    const auto is_point = [&](Mesh::Index node) { return points == 0 || static_cast<std::size_t>(node) < points; };
+    return std::all_of(nodes.begin(), nodes.end(), is_point) ? "" : " has a vertex that is no point";
 }
 
 // Polygons that lie in no plane across an axis.
@@ -252,20 +232,31 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index) {
     Mesh& mesh = index.mesh;
     mesh.dimension = shape.dimension;
     mesh.points = points_of(data);
+    Mesh::Shapes& shapes = mesh.shapes;
+    const std::size_t points = mesh.points.size() / 3;
+    // Of tetrahedra alone who indexes or checks them tells what is no node.
+    const bool any_node = !shape.mixed && shape.dimension == 3;
     std::size_t by_corners = 0;
     std::vector<Mesh::Index> nodes;
     for (const Mesh::Index cell : kept) {
-        bool less = false;
-        std::string reason = add_cell(cells, cell, mesh.points.size() / 3, shape, mesh, nodes, less);
-        if (!reason.empty()) return reason;
-        by_corners += less ? 1 : 0;
+        cells.nodes(cell, nodes);
+        if (std::string fault = fault_of_nodes(cells.type(cell), nodes, any_node ? 0 : points); !fault.empty())
+            return name_of(cell) + fault;
+        if (shape.mixed) {
+            by_corners += mesh::add_shape(mesh, cells.number(cell), nodes) ? 0 : 1;
+            if (cells.number(cell) == mesh::vtk_polyhedron) cells.faces(cell, shapes);
+        } else {
+            const auto mid = nodes.begin() + static_cast<std::ptrdiff_t>(mesh.corners());
+            mesh.cells.insert(mesh.cells.end(), nodes.begin(), mid);
+            mesh.mid_nodes.insert(mesh.mid_nodes.end(), mid, nodes.end());
+        }
     }
-    Mesh::Shapes& shapes = mesh.shapes;
+    for (const Mesh::Index node : shapes.rings)
+        if (node < 0 || static_cast<std::size_t>(node) >= points) return "a face has a vertex that is no point";
     if (!shapes.face_ends.empty()) shapes.face_ends.resize(shapes.count(), shapes.face_ends.back());
     if (!mesh.mid_nodes.empty()) mesh.mid_edge_order = MidEdgeOrder::vtk;
-    std::vector<Mesh::Index> all(static_cast<std::size_t>(data.GetNumberOfCells()));
-    std::iota(all.begin(), all.end(), 0);
-    if (kept != all) mesh.cell_numbers = kept;
+    const bool whole = static_cast<vtkIdType>(kept.size()) == data.GetNumberOfCells();
+    if (!whole || !std::is_sorted(kept.begin(), kept.end())) mesh.cell_numbers = kept;
     if (shape.dimension == 2 && !index.flatten(shape.normal))
         return alone ? make_surface(cells, kept, index) : "its polygons do not lie in one plane across an axis";
     if (!shape.mixed) return {};

@@ -164,11 +164,12 @@ static void set_parametric(const double* weights, std::size_t count, double* pco
     for (std::size_t i = 0; i < 3; ++i) pcoords[i] = i + 1 < count ? weights[i + 1] : 0;
 }
 
-// The weights of x in a cell of any kind. Its place there is found by VTK, in double and by the cell's own map: that is
-// what VTK's functions of a cell take.
+// The weights of x in a cell of any kind, and its place there: of simplices the mean of the places of their nodes, by
+// the weights; in others VTK finds it, in double and by the cell's own map, for VTK's functions of a cell take it so.
 static void set_place(const in_vtk::ExactIndex& index, const pieces::Closest& found, const double* x, vtkCell& cell,
                       double* pcoords, int& sub_id, double* weights) {
-    const bool simplex = cell.GetCellType() == VTK_TETRA || cell.GetCellType() == VTK_TRIANGLE;
+    const auto type = static_cast<std::uint8_t>(cell.GetCellType());
+    const bool simplex = type == VTK_TETRA || type == VTK_TRIANGLE || mesh::is_curved_simplex(type);
     std::array<double, 3> closest{};
     double distance = 0;
     if (simplex || cell.EvaluatePosition(found.point.data(), closest.data(), sub_id, pcoords, distance, weights) < 0) {
@@ -176,7 +177,9 @@ static void set_place(const in_vtk::ExactIndex& index, const pieces::Closest& fo
         std::fill_n(pcoords, 3, 0.0);
     }
     index.weights_of_nodes(found.cell, x, found.inside, *cell.PointIds, weights);
-    if (simplex) set_parametric(weights, static_cast<std::size_t>(cell.GetNumberOfPoints()), pcoords);
+    const double* const places = simplex ? cell.GetParametricCoords() : nullptr;
+    for (vtkIdType i = 0; places != nullptr && i < 3 * cell.GetNumberOfPoints(); ++i)
+        pcoords[i % 3] += weights[i / 3] * places[i];
 }
 
 // The cell that the caller gave, or one made, with what the data set has of that id.

@@ -5,7 +5,7 @@
  * FindCell returns the lowest id of all cells that contain the point exactly: neither the order of points nor the
  * number of threads nor a tolerance matters, and a point of the mesh is always found. Weights are those of all nodes of
  * the cell, in its order, each the exact one rounded once. Parametric coordinates of tetrahedra and triangles are
- * weights; of other cells those of their own EvaluatePosition, in double, with the subId.
+ * those of their nodes by these weights; of other cells those of their own EvaluatePosition, in double, with the subId.
  *
  * Data sets: any vtkDataSet. Cells are those that fill space; if there are none, the polygons: a mesh if they lie in
  * one plane across an axis, else a surface in space. Cells that are no simplices are cut into such, each cell and face

@@ -128,12 +128,14 @@ Feature MappedCells::held(std::size_t shape, const double* point, Feature in_par
     if (sign_[shape] == 0 || warped_[shape] == 0) return in_parts;
     bool in_some = false, out = false;
     Feature on = Feature::interior;
+    // VTK's wedges have a negative Jacobian where their rings are seen from outside, all others a positive one.
+    const Sign turned = static_cast<Sign>(mesh_.shapes.types[shape] == 13 ? -sign_[shape] : sign_[shape]);
     for_sides(shape, [&](const std::array<Mesh::Index, 4>& ring, unsigned bit) {
         if ((warped_[shape] & bit) == 0 || out) return;
         const InSide in = look({at(ring[0]), at(ring[1]), at(ring[2]), at(ring[3])}, point);
         if (!in.holds) return;
         in_some = true;
-        const Sign inner = in.inner * static_cast<Sign>(sign_[shape]);
+        const Sign inner = in.inner * turned;
         out = inner == Sign::negative;
         if (inner != Sign::zero) return;
         const int count = std::popcount(in.zeros);
