@@ -183,7 +183,6 @@ private:
                 if (std::string fault = fault_of_global_ids(cells, source_->GetNumberOfCells(), "cell"); !fault.empty())
                     return Error{.what = "the source cannot be probed by several processes: " + fault};
             }
-            if (facts_.dimension == 2) facts_.polygons = box_of_polygons(*source_);
             count_ = static_cast<std::size_t>(input_->GetNumberOfPoints());
             return Done{};
         });
@@ -200,7 +199,7 @@ private:
         return exchange_.everywhere([&]() -> Status {
             index_ = exact_index(*source_, shape_);
             if (!index_->exact()) return not_exact(index_->reason);
-            report_.told = index_->told();
+            report_.notes = index_->notes;
             if (exchange_.size() > 1 && shape_.by_numbers && index_->locator) numbers_ = global_ids(*source_, *index_);
             vtkDataArray* const scalars = source_->GetPointData()->GetScalars();
             if (settings_.categorical && index_->locator &&

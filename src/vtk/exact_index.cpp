@@ -112,18 +112,12 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Sh
     return index;
 }
 
-std::vector<std::string> ExactIndex::told() const {
-    std::vector<std::string> all;
-    const auto tell = [&](const Notes& some) {
-        for (const Note& note : some) all.push_back(message(note));
-    };
-    tell(notes);
-    if (locator) tell(notes_of_maps(*locator, shape.interpolation, {}));
-    return all;
-}
-
 Status ExactIndex::build() {
-    if (!in_space()) return IndexedPiece::build(shape);
+    if (!in_space()) {
+        Status built = IndexedPiece::build(shape);
+        if (built) std::ranges::move(notes_of_maps(*locator, shape.interpolation, {}), std::back_inserter(notes));
+        return built;
+    }
     Result<SurfaceLocator> made = SurfaceLocator::build(surface);
     if (!made) return made.error();
     on_surface.emplace(std::move(*made));

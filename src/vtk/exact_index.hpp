@@ -22,7 +22,7 @@ namespace barycert::in_vtk {
 struct ExactIndex : pieces::IndexedPiece {
     pieces::Shape shape;         ///< what the data set is taken for
     std::string reason;          ///< why points cannot be located exactly in the data set; empty if they can
-    Notes notes;                 ///< of cells that are not taken whole
+    Notes notes;                 ///< of cells that are not taken as they are, or as they were asked for
     bool cells_are_cut = false;  ///< into simplices, or their nodes stand in another order than VTK's
     Surface surface;             ///< without points: there is none
     std::optional<SurfaceLocator> on_surface;
@@ -30,8 +30,6 @@ struct ExactIndex : pieces::IndexedPiece {
     bool in_space() const { return !surface.points.empty(); }
     bool exact() const { return reason.empty(); }
     vtkIdType id(Mesh::Index cell) const { return in_space() ? surface.facet(cell) : mesh.cell_number(cell); }
-    /// What users are told of how cells are taken, a line each.
-    std::vector<std::string> told() const;
 
     // As those of IndexedPiece, and of a surface.
     Status build();
@@ -70,11 +68,8 @@ std::vector<std::int64_t> global_ids(vtkDataSet& data, const ExactIndex& index);
 
 // From VTK's cells to a mesh of simplices.
 
-/// Sets all but the box, or returns why the data set has no mesh: a clause.
+/// What there is, or why it is no mesh: a clause.
 std::string look_at_cells(vtkDataSet& data, pieces::PieceFacts& facts);
-
-/// Of the nodes of its polygons, ghost cells left out.
-pieces::Box box_of_polygons(vtkDataSet& data);
 
 /// Sets mesh, normal, plane, axes and notes of an index of that shape, or returns why the data set has no mesh. Of
 /// polygons that are no piece of a mesh it may be a surface.

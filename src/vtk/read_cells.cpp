@@ -29,14 +29,13 @@ public:
     std::uint8_t number(vtkIdType cell) const { return static_cast<std::uint8_t>(data_.GetCellType(cell)); }
     const mesh::CellType& type(vtkIdType cell) const { return mesh::cell_types()[number(cell)]; }
 
+    bool is_ghost(vtkIdType cell) const { return ghosts_ != nullptr && (ghosts_->GetValue(cell) & ghost_mask) != 0; }
+
     /// Those of that dimension that are no ghosts.
     std::vector<Mesh::Index> kept(int dimension) const {
-        vtkUnsignedCharArray* const ghosts = data_.GetCellGhostArray();
         std::vector<Mesh::Index> all;
-        for (vtkIdType i = 0; i < data_.GetNumberOfCells(); ++i) {
-            const bool ghost = ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0;
-            if (!ghost && type(i).dimension() == dimension) all.push_back(static_cast<Mesh::Index>(i));
-        }
+        for (vtkIdType i = 0; i < data_.GetNumberOfCells(); ++i)
+            if (!is_ghost(i) && type(i).dimension() == dimension) all.push_back(static_cast<Mesh::Index>(i));
         return all;
     }
     void nodes(vtkIdType cell, std::vector<Mesh::Index>& out) {
@@ -72,11 +71,11 @@ private:
     vtkDataSet& data_;
     vtkUnstructuredGrid* grid_ = vtkUnstructuredGrid::SafeDownCast(&data_);
     vtkPolyData* surface_ = vtkPolyData::SafeDownCast(&data_);
+    vtkUnsignedCharArray* ghosts_ = data_.GetCellGhostArray();
     vtkNew<vtkIdList> some_;
 };
 
 std::vector<double> points_of(vtkDataSet& data) {
-    if (auto* const set = vtkPointSet::SafeDownCast(&data)) return doubles_of(*set->GetPoints()->GetData());
     std::vector<double> points(3 * static_cast<std::size_t>(data.GetNumberOfPoints()));
     for (std::size_t i = 0; i < points.size(); i += 3) data.GetPoint(static_cast<vtkIdType>(i / 3), &points[i]);
     return points;
@@ -169,12 +168,13 @@ std::vector<std::int64_t> global_ids(vtkDataSet& data, const ExactIndex& index) 
 
 std::string look_at_cells(vtkDataSet& data, pieces::PieceFacts& facts) {
     facts = {};
-    const Cells cells(data);
+    Cells cells(data);
     if (!cells.built()) return "VTK cannot build its cells";
     const vtkIdType count = data.GetNumberOfCells(), most = std::numeric_limits<Mesh::Index>::max();
     if (count > most || data.GetNumberOfPoints() > most) return "it has more than 2147483647 points or cells";
     if (data.GetNumberOfPoints() == 0) return {};
     bool cut = false;
+    std::vector<Mesh::Index> nodes;
     for (vtkIdType i = 0; i < count; ++i) {
         const mesh::CellType& type = cells.type(i);
         const int number = cells.number(i);
@@ -187,28 +187,21 @@ std::string look_at_cells(vtkDataSet& data, pieces::PieceFacts& facts) {
         }
         facts.low_type = std::min(facts.low_type, number);
         facts.high_type = std::max(facts.high_type, number);
+        if (facts.dimension == 2 && !cells.is_ghost(i)) {
+            cells.nodes(i, nodes);
+            // A node that is not there makes no bounds: who reads the cells tells of it.
+            std::erase_if(nodes, [&](Mesh::Index node) { return node < 0 || node >= data.GetNumberOfPoints(); });
+            for (const Mesh::Index node : nodes) {
+                std::array<double, 3> x{};
+                data.GetPoint(node, x.data());
+                facts.polygons.add({x, x});
+            }
+        }
         cut = cut || mesh::shape_of(type.linear).corners != static_cast<std::size_t>(type.dimension()) + 1;
     }
     facts.numbered = data.GetCellData()->GetGlobalIds() != nullptr;
     facts.nodes_numbered = !cut || data.GetPointData()->GetGlobalIds() != nullptr;
     return {};
-}
-
-pieces::Box box_of_polygons(vtkDataSet& data) {
-    pieces::Box all = pieces::empty_box;
-    Cells cells(data);
-    std::vector<Mesh::Index> nodes;
-    for (const Mesh::Index cell : cells.kept(2)) {
-        cells.nodes(cell, nodes);
-        for (const Mesh::Index node : nodes) {
-            // A node that is not there makes no bounds: who reads the cells tells of it.
-            if (node < 0 || node >= data.GetNumberOfPoints()) continue;
-            std::array<double, 3> x{};
-            data.GetPoint(node, x.data());
-            all.add({x, x});
-        }
-    }
-    return all;
 }
 
 std::string read_cells(vtkDataSet& data, ExactIndex& index) {

@@ -53,32 +53,27 @@ void add_cell_array(vtkDataSet& output, std::string_view name, Of&& of) {
     output.GetCellData()->AddArray(array);
 }
 
-vtkIdType id_of(const std::vector<Mesh::Index>& numbers, Mesh::Index cell) {
-    return numbers.empty() ? cell : numbers[static_cast<std::size_t>(cell)];
-}
-
-template <std::size_t n, class IdOf>
-void append_used(std::string& text, const char* one, const char* more, const std::array<Mesh::Index, n>& all,
-                 IdOf&& id_of) {
+template <std::size_t n>
+void append_used(std::string& text, const char* one, const char* more, const std::array<Mesh::Index, n>& all) {
     const auto count = std::count_if(all.begin(), all.end(), [](Mesh::Index i) { return i >= 0; });
     if (count == 0) return;
     if (!text.empty() && text.back() != ' ') text += ", ";
     text += count == 1 ? one : more;
     for (const Mesh::Index i : all)
-        if (i >= 0) text += ' ' + std::to_string(id_of(i));
+        if (i >= 0) text += ' ' + std::to_string(i);
 }
 
 // "cells 3 17, points 4 5 6; ...".
-std::string places_of(const Defect& defect, const std::vector<Mesh::Index>& numbers) {
+std::string places_of(const Defect& defect, const CheckReport& report) {
     std::string all;
     for (const DefectPlace& place : defect.places) {
         std::string text;
-        append_used(text, "cell", "cells", place.cells, [&](Mesh::Index cell) { return id_of(numbers, cell); });
-        append_used(text, "point", "points", place.nodes, [](Mesh::Index node) { return vtkIdType{node}; });
+        append_used(text, "cell", "cells", report.cell_number(place.cells));
+        append_used(text, "point", "points", place.nodes);
         const bool hangs = defect.kind == DefectKind::hanging_node || defect.kind == DefectKind::near_hanging ||
                            defect.kind == DefectKind::node_on_facet;
         const char* const word = hangs ? "on" : "and";
-        append_used(text, word, word, place.other_nodes, [](Mesh::Index node) { return vtkIdType{node}; });
+        append_used(text, word, word, place.other_nodes);
         if (*place.detail != '\0') text += std::string(" (") + place.detail + ")";
         if (!all.empty()) all += "; ";
         all += text;
@@ -94,17 +89,20 @@ double joined(std::string_view measure, double a, double b) {
 }
 
 // Measures and defects of cells as cell arrays of the data set, of which one may be several of the mesh or surface.
-void add_measures(const CheckReport& report, const std::vector<Mesh::Index>& numbers, vtkDataSet& output) {
+void add_measures(const CheckReport& report, vtkDataSet& output) {
     std::vector<DefectSet> defects(static_cast<std::size_t>(output.GetNumberOfCells()), 0);
+    const auto id_of = [&](std::size_t i) {
+        return static_cast<std::size_t>(report.cell_number(static_cast<std::int64_t>(i)));
+    };
     DefectSet found = 0;
     for (std::size_t i = 0; i < report.measures.defects.size(); ++i) {
-        defects[static_cast<std::size_t>(id_of(numbers, static_cast<Mesh::Index>(i)))] |= report.measures.defects[i];
+        defects[id_of(i)] |= report.measures.defects[i];
         found |= report.measures.defects[i];
     }
     for (const Field& field : report.surface ? std::vector<Field>() : measure_fields(report.measures)) {
         std::vector<std::optional<double>> all(defects.size());
         for (std::size_t i = 0; i < field.data.size(); ++i) {
-            std::optional<double>& own = all[static_cast<std::size_t>(id_of(numbers, static_cast<Mesh::Index>(i)))];
+            std::optional<double>& own = all[id_of(i)];
             own = own ? joined(field.name, *own, field.data[i]) : field.data[i];
         }
         const bool whole = field.name == "orientation" || field.name == "problems";
@@ -131,8 +129,9 @@ void add_measures(const CheckReport& report, const std::vector<Mesh::Index>& num
 }
 
 // A row a defect.
-void fill_defects(const std::vector<Defect>& all, const std::vector<Mesh::Index>& numbers, vtkTable& table) {
+void fill_defects(const CheckReport& report, vtkTable& table) {
     using D = const Defect&;
+    const std::vector<Defect>& all = report.defects;
     table.AddColumn(array_of<vtkStringArray>("defect", all, [](D d) { return std::string(defect_text(d.kind).name); }));
     table.AddColumn(array_of<vtkTypeInt64Array>("count", all, [](D d) { return vtkTypeInt64(d.count); }));
     table.AddColumn(array_of<vtkUnsignedCharArray>("at_least", all, [](D d) { return d.at_least; }));
@@ -140,12 +139,12 @@ void fill_defects(const std::vector<Defect>& all, const std::vector<Mesh::Index>
     table.AddColumn(
         array_of<vtkStringArray>("meaning", all, [](D d) { return std::string(defect_text(d.kind).text); }));
     table.AddColumn(array_of<vtkStringArray>("remedy", all, [](D d) { return std::string(d.remedy()); }));
-    table.AddColumn(array_of<vtkStringArray>("places", all, [&](D d) { return places_of(d, numbers); }));
+    table.AddColumn(array_of<vtkStringArray>("places", all, [&](D d) { return places_of(d, report); }));
 }
 
 // A vertex for each pair of cells that meet where they must not.
-void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index,
-                   const std::vector<Mesh::Index>& numbers, vtkPolyData& points) {
+void fill_contacts(const CheckReport& report, const ExactIndex& index, vtkPolyData& points) {
+    const std::vector<CellContact>& all = report.contacts;
     vtkNew<vtkPoints> places;
     places->SetDataTypeToDouble();
     vtkNew<vtkCellArray> vertices;
@@ -159,36 +158,31 @@ void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index,
     points.SetVerts(vertices);
     using Contact = const CellContact&;
     vtkPointData& data = *points.GetPointData();
-    data.AddArray(array_of<vtkIdTypeArray>("cell_a", all, [&](Contact c) { return id_of(numbers, c.cells[0]); }));
-    data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return id_of(numbers, c.cells[1]); }));
+    data.AddArray(array_of<vtkIdTypeArray>("cell_a", all, [&](Contact c) { return report.cell_number(c.cells)[0]; }));
+    data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return report.cell_number(c.cells)[1]; }));
     data.AddArray(array_of<vtkUnsignedCharArray>("overlap", all, [](Contact c) { return c.overlap; }));
     data.AddArray(array_of<vtkUnsignedCharArray>("exact", all, [](Contact c) { return c.common.exact; }));
 }
 
-// The report's text names cells by their ids, which `numbers` has for each of the mesh, surface, or PLC. Polygons in
-// space are facets of a PLC, as `barycert check` takes those of files: they may be at fault themselves. The ids become
-// those of the triangles that they are cut into, and of what cannot be.
-CheckReport check(vtkDataSet& data, ExactIndex& index, std::vector<Mesh::Index>& numbers, const CheckOptions& options) {
-    if (!index.in_space()) {
-        numbers = index.mesh.cell_numbers;
-        return check_mesh(index.mesh, options);
-    }
+// The report names cells by their ids. Polygons in space are facets of a PLC, as `barycert check` takes those of files:
+// they may be at fault themselves. Its numbers are those of the triangles that they are cut into, and of what cannot
+// be.
+CheckReport check(vtkDataSet& data, const ExactIndex& index, const CheckOptions& options) {
+    if (!index.in_space()) return check_mesh(index.mesh, options);
     Plc plc;
-    numbers = in_vtk::read_polygons(data, plc);
+    std::vector<Mesh::Index> numbers = in_vtk::read_polygons(data, plc), ids;
     const bool polygons = !plc.facets.empty();
     if (!polygons) numbers = index.surface.facets;
     CheckReport report = polygons ? check_plc(plc, options) : check_surface(index.surface, options);
-    std::vector<Mesh::Index> distinct = numbers, ids;
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    if (!distinct.empty()) report.surface->facets = distinct.size();
-    if (!polygons) return report;
-    for (std::size_t i = 0; i < report.cells; ++i)
+    for (std::size_t i = 0; polygons && i < report.cells; ++i)
         ids.push_back(numbers[static_cast<std::size_t>(report.cell_number(static_cast<std::int64_t>(i)))]);
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    if (!numbers.empty()) report.surface->facets = numbers.size();
+    if (!polygons) return report;
     report.cell_numbers = ids;
-    std::set_difference(distinct.begin(), distinct.end(), report.cell_numbers.begin(), report.cell_numbers.end(),
-                        std::back_inserter(ids));
-    numbers = std::move(ids);
-    report.measures.defects.resize(numbers.size(), defect_bit(DefectKind::bad_facet));
+    std::set_difference(numbers.begin(), numbers.end(), ids.begin(), ids.end(),
+                        std::back_inserter(report.cell_numbers));
+    report.measures.defects.resize(report.cell_numbers.size(), defect_bit(DefectKind::bad_facet));
     return report;
 }
 
@@ -251,8 +245,7 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
         vtkErrorMacro("this data set cannot be checked: " << reason);
         return 0;
     }
-    std::vector<Mesh::Index> numbers;
-    const CheckReport report = check(*input, index, numbers,
+    const CheckReport report = check(*input, index,
                                      {.delaunay = Delaunay != 0,
                                       .examples = static_cast<std::size_t>(Examples),
                                       .contacts = static_cast<std::size_t>(Contacts)});
@@ -260,12 +253,12 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     if (report.surface && Delaunay != 0) vtkWarningMacro("a surface is not tested whether it is Delaunay");
 
     output->ShallowCopy(input);
-    add_measures(report, numbers, *output);
+    add_measures(report, *output);
     output->GetCellData()->SetActiveScalars("problems");
     const Mesh none;
     const std::string text = check_text(report, report.surface ? none : std::as_const(index.mesh), "input", {});
-    for (const std::string& note : index.told()) vtkWarningMacro("" << note);
-    for (const Note& note : report.notes) vtkWarningMacro("" << message(note));
+    for (const Notes& notes : {index.notes, report.notes})
+        for (const Note& note : notes) vtkWarningMacro("" << message(note));
     if (report.curved.cells != 0) vtkWarningMacro("" << message(report.curved));
     // The verdict stands below what is told of curved cells, which takes two lines.
     std::size_t verdict = 0;
@@ -278,7 +271,7 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     vtkFieldData& told = *output->GetFieldData();
     told.AddArray(lines);
     told.AddArray(array_of<vtkUnsignedCharArray>("certified", std::array{Certified}, std::identity()));
-    fill_defects(report.defects, numbers, *defects);
-    fill_contacts(report.contacts, index, numbers, *points);
+    fill_defects(report, *defects);
+    fill_contacts(report, index, *points);
     return 1;
 }

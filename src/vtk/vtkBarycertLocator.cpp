@@ -83,7 +83,7 @@ void vtkBarycertLocator::BuildLocator() {
         internals_->index = std::move(index);
         if (!internals_->index->exact())
             vtkErrorMacro("points cannot be located exactly in this data set: " << internals_->index->reason);
-        for (const std::string& note : internals_->index->told()) vtkWarningMacro("" << note);
+        for (const Note& note : internals_->index->notes) vtkWarningMacro("" << message(note));
     } else if (internals_->other) {
         internals_->other->BuildLocator();
     }
@@ -164,20 +164,21 @@ static void set_parametric(const double* weights, std::size_t count, double* pco
     for (std::size_t i = 0; i < 3; ++i) pcoords[i] = i + 1 < count ? weights[i + 1] : 0;
 }
 
-// The weights of x in a cell of any kind, and its place there: of simplices the mean of the places of their nodes, by
-// the weights; in others VTK finds it, in double and by the cell's own map, for VTK's functions of a cell take it so.
+// The weights of x in a cell of any kind, and its place there. VTK finds that, in double and by the cell's own map, for
+// its functions of a cell take it so; of simplices, and where VTK fails, it is the mean of the places of the nodes.
 static void set_place(const in_vtk::ExactIndex& index, const pieces::Closest& found, const double* x, vtkCell& cell,
                       double* pcoords, int& sub_id, double* weights) {
     const auto type = static_cast<std::uint8_t>(cell.GetCellType());
-    const bool simplex = type == VTK_TETRA || type == VTK_TRIANGLE || mesh::is_curved_simplex(type);
     std::array<double, 3> closest{};
     double distance = 0;
-    if (simplex || cell.EvaluatePosition(found.point.data(), closest.data(), sub_id, pcoords, distance, weights) < 0) {
-        sub_id = 0;
-        std::fill_n(pcoords, 3, 0.0);
-    }
+    const bool by_vtk =
+        type != VTK_TETRA && type != VTK_TRIANGLE && !mesh::is_curved_simplex(type) &&
+        cell.EvaluatePosition(found.point.data(), closest.data(), sub_id, pcoords, distance, weights) >= 0;
     index.weights_of_nodes(found.cell, x, found.inside, *cell.PointIds, weights);
-    const double* const places = simplex ? cell.GetParametricCoords() : nullptr;
+    if (by_vtk) return;
+    sub_id = 0;
+    std::fill_n(pcoords, 3, 0.0);
+    const double* const places = cell.GetParametricCoords();
     for (vtkIdType i = 0; places != nullptr && i < 3 * cell.GetNumberOfPoints(); ++i)
         pcoords[i % 3] += weights[i / 3] * places[i];
 }
@@ -230,8 +231,7 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
 
 void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint[3], vtkIdType& cellId, int& subId,
                                           double& dist2) {
-    vtkNew<vtkGenericCell> cell;
-    FindClosestPoint(x, closestPoint, cell, cellId, subId, dist2);
+    FindClosestPoint(x, closestPoint, nullptr, cellId, subId, dist2);
 }
 
 void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint[3], vtkGenericCell* cell,
@@ -244,8 +244,8 @@ void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint
 
 vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
                                                            vtkIdType& cellId, int& subId, double& dist2) {
-    vtkNew<vtkGenericCell> cell;
-    return FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2);
+    int inside = 0;
+    return FindClosestPointWithinRadius(x, radius, closestPoint, nullptr, cellId, subId, dist2, inside);
 }
 
 vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],

@@ -127,7 +127,7 @@ bool vtkBarycertProbe::Sample(const in_vtk::ExactIndex& index, vtkDataSet* input
     in_vtk::ProbeArrays arrays(index, *source, *output, CategoricalData != 0, MaskName());
     arrays.allocate(count, OutsideValue());
     WarnOfInexact(arrays.inexact());
-    for (const std::string& note : index.told()) vtkWarningMacro("" << note);
+    for (const Note& note : index.notes) vtkWarningMacro("" << message(note));
     if (index.mesh.cells.empty() || count == 0) return true;
 
     SampleOptions options;

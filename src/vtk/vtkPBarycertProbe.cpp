@@ -257,7 +257,7 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
         return 0;
     }
     WarnOfInexact(report.inexact);
-    for (const std::string& note : report.told) vtkWarningMacro("" << note);
+    for (const Note& note : report.notes) vtkWarningMacro("" << message(note));
     if (report.numbered_by_ranks && exchange.rank() == 0)
         vtkWarningMacro(
             "the cells of some source have no global ids: they are numbered by process, and owners of points on seams "

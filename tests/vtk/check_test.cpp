@@ -287,9 +287,9 @@ TEST(Check, TakesCellsOfAllTypes) {
         volume += own;
     }
     EXPECT_NEAR(volume, 32, 1e-12);
-    // A cell with its node on the other side is named by its id.
+    // A cell whose node lies beyond the opposite side is named by its id.
     Messages messages;
-    grid->GetPoints()->SetPoint(0, 3, 3, 3);
+    grid->GetPoints()->SetPoint(0, 1.5, 0.5, 0.5);
     grid->GetPoints()->Modified();
     grid->Modified();
     check->Update();

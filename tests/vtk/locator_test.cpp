@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -117,6 +118,23 @@ TEST(Closest, IsTheLowestCellAndTheExactPoint) {
     locator->FindClosestPoint(in_face, closest, id, sub_id, dist2);
     EXPECT_EQ(dist2, 1);
     EXPECT_EQ(std::vector<double>(closest, closest + 3), (std::vector<double>{0.25, 0, 0.25}));
+}
+
+// Also on faces, edges and vertices, where the lowest cell is the owner.
+TEST(Closest, OfAPointInTheMeshIsThePointInItsOwner) {
+    const auto grid = two_cells();
+    const auto locator = locator_of(grid);
+    vtkNew<vtkGenericCell> cell;
+    for (std::array<double, 3> x : {std::array{0.25, 0.25, 0.5}, {0.5, 0.5, 0.0}, {1.0, 1.0, 1.0}, {0.25, 0.25, 0.0}}) {
+        double closest[3], dist2 = -1;
+        vtkIdType id = -1;
+        int sub_id = -1, inside = -1;
+        EXPECT_EQ(locator->FindClosestPointWithinRadius(x.data(), 1, closest, cell, id, sub_id, dist2, inside), 1);
+        EXPECT_EQ(inside, 1);
+        EXPECT_EQ(dist2, 0);
+        EXPECT_EQ(id, locator->FindCell(x.data()));
+        EXPECT_EQ(std::vector<double>(closest, closest + 3), std::vector<double>(x.begin(), x.end()));
+    }
 }
 
 TEST(Closest, IsThatInThePlaneOfTriangles) {

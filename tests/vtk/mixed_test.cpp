@@ -107,6 +107,7 @@ std::vector<double> in_mesh(const Mesh& mesh, const double* x) {
 int expect_as_sampled(vtkDataSet* data, Setting setting, std::size_t count) {
     const Mesh mesh = read_back(data);
     const Sampler sampler = Sampler::build(mesh, {"f"}, setting.options()).value();
+    EXPECT_EQ(sampler.locator().unmapped_cells(), 0U);
     const std::vector<double> points = places_around(data, count);
     const auto probe = probed(data, points, setting);
     EXPECT_TRUE(probe->GetExact());
@@ -140,7 +141,7 @@ int expect_as_sampled(vtkDataSet* data, Setting setting, std::size_t count) {
         EXPECT_EQ(locator->FindCell(x), in ? owner : -1);
         const vtkIdType found = locator->FindCell(x, 0, cell, sub_id, pcoords, weights.data());
         EXPECT_EQ(found, in ? owner : -1);
-        if (!in || found != owner || ::testing::Test::HasFailure()) continue;
+        if (!in || found != owner) continue;
         ++inside;
         row.points = in_mesh(mesh, x);
         const NodeWeights expected = node_weights(sampler.locator(), row.view()).value();
@@ -149,15 +150,19 @@ int expect_as_sampled(vtkDataSet* data, Setting setting, std::size_t count) {
         for (std::size_t k = 0; k < expected.nodes.size(); ++k)
             dense[static_cast<std::size_t>(cell->PointIds->IsId(expected.nodes[k]))] = expected.weights[k];
         EXPECT_EQ(weights, dense);
-        // Where the cell's own map has the point; VTK stops where a step is below 0.001. Of strips VTK's own two
-        // functions do not fit together.
+        // Where the cell's own map has the point; VTK stops where a step is below 0.001. In prisms of five and six
+        // sides its Newton's method may fail, and of strips its own two functions do not fit together.
         std::vector<double> own(weights.size());
         double back[3];
         cell->EvaluateLocation(sub_id, pcoords, back, own.data());
-        if (cell->GetCellType() == VTK_POLYHEDRON || cell->GetCellType() == VTK_TRIANGLE_STRIP) continue;
-        for (int a = 0; a < 3; ++a) EXPECT_NEAR(back[a], x[a], 1e-4 * (1 + std::abs(x[a]))) << cell->GetCellType();
-        const bool multilinear = setting.interpolation == vtkBarycertLocator::MULTILINEAR &&
-                                 cell->GetCellType() >= VTK_PIXEL && cell->GetCellType() <= VTK_PYRAMID;
+        const int type = cell->GetCellType();
+        if (type == VTK_POLYHEDRON || type == VTK_TRIANGLE_STRIP || type == VTK_PENTAGONAL_PRISM ||
+            type == VTK_HEXAGONAL_PRISM)
+            continue;
+        if (setting.curved == vtkBarycertProbe::STRAIGHT && cell->IsLinear() == 0) continue;
+        for (int a = 0; a < 3; ++a) EXPECT_NEAR(back[a], x[a], 2e-3 * (1 + std::abs(x[a]))) << type;
+        const bool multilinear =
+            setting.interpolation == vtkBarycertLocator::MULTILINEAR && type >= VTK_PIXEL && type <= VTK_PYRAMID;
         if (!multilinear) continue;
         for (std::size_t k = 0; k < static_cast<std::size_t>(cell->GetNumberOfPoints()); ++k)
             EXPECT_NEAR(own[k], weights[k], 1e-3) << cell->GetCellType();
@@ -212,7 +217,7 @@ TEST(Mixed, CellsOfHigherOrderAreSampled) {
             source->Update();
             vtkNew<vtkUnstructuredGrid> grid;
             grid->DeepCopy(source->GetOutput());
-            move_points(grid, by, source->GetCellDimension());
+            move_points(grid, by / order, source->GetCellDimension());
             expect_as_sampled(grid, 100, 30);
         }
     }
@@ -229,7 +234,7 @@ TEST(Mixed, GridsOfSeveralTypesAreSampled) {
     source->SetBlocksDimensions(2, 1, 1);
     source->Update();
     vtkNew<vtkUnstructuredGrid> grid;
-    grid->DeepCopy(source->GetOutput());
+    grid->CopyStructure(source->GetOutput());
     move_points(grid, 0.02);
     const vtkIdType far = grid->GetNumberOfPoints();
     for (const auto& x : {std::array{4, 0, 0}, {5, 0, 0}, {4, 1, 0}, {4, 0, 1}})
@@ -468,7 +473,7 @@ TEST(Mixed, PointsBesideCurvedCellsGoToTheNearest) {
         vtkIdType id = -1;
         int sub_id = 0, in = 0;
         EXPECT_EQ(locator->FindClosestPointWithinRadius(inside, 1, closest, cell, id, sub_id, dist2, in), 1);
-        EXPECT_EQ(in, 1);
+        EXPECT_EQ(in, 1) << interpolation << " " << id << " " << inside[0] << " " << inside[1] << " " << inside[2];
         EXPECT_EQ(dist2, 0);
         EXPECT_EQ(locator->FindClosestPointWithinRadius(x, 1, closest, cell, id, sub_id, dist2, in), 1);
         EXPECT_EQ(in, 0);

@@ -272,30 +272,24 @@ Closest IndexedPiece::closest(const double* x, double limit) const {
     Closest found;
     if (!locator || !all_finite({x, 3})) return found;
     std::array<double, 3> point{};
-    const bool flat = mesh.dimension == 2;
     const bool in_plane = project(x, point.data());
-    if (mapped()) {
-        place(point.data(), found.point.data());
-        found.cell = owner(found.point.data());
-        found.distance = in_plane ? 0 : std::abs(x[normal] - plane);
-        found.inside = in_plane;
-        if (found.cell >= 0 && found.distance <= limit) return found;
-        found = {};
-    }
+    const double off_plane = in_plane ? 0 : held(x[normal]) - plane;
+    place(point.data(), found.point.data());
+    found.cell = owner(found.point.data());
+    found.distance = std::abs(off_plane);
+    found.inside = in_plane;
+    if (found.cell >= 0 && straight()) found.weights = weights(found.cell, point.data());
+    if (found.cell >= 0) return found.distance <= limit ? found : Closest();
+    const bool flat = mesh.dimension == 2;
     const Result<Nearest> nearest =
         locator->nearest(point.data(), flat ? std::numeric_limits<double>::infinity() : limit);
-    if (!nearest || nearest->cell < 0) return found;
-    const double distance = in_plane ? nearest->distance : std::hypot(nearest->distance, held(x[normal]) - plane);
-    if (!(distance <= limit)) return found;
+    if (!nearest || nearest->cell < 0) return {};
     found.cell = nearest->cell;
-    found.distance = distance;
-    if (nearest->nodes[0] >= 0) {
-        project_on(*this, *nearest, x, found);
-        return found;
-    }
-    found.inside = in_plane && !mapped();
-    found.weights = weights(found.cell, point.data());
-    place(point.data(), found.point.data());
+    found.distance = std::hypot(nearest->distance, off_plane);
+    found.inside = false;
+    if (!(found.distance <= limit)) return {};
+    // Of what is in a cell's simplex and not in the cell, it is the point itself.
+    if (nearest->nodes[0] >= 0) project_on(*this, *nearest, x, found);
     return found;
 }
 
