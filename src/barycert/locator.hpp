@@ -165,4 +165,7 @@ private:
     std::unique_ptr<locate::LocatorData> data_;
 };
 
+/// Where cells are straight or linear though their maps are asked for. `file`: what the user calls the mesh.
+Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& file);
+
 }  // namespace barycert

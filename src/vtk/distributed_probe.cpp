@@ -147,6 +147,7 @@ public:
                                                                }});
         if (Status done = distribution.ask(); !done) return done;
         report_.numbered_by_ranks = distribution.ranks_with_cells() > 1 && !shape_.by_numbers;
+        report_.cut_by_ranks = distribution.ranks_with_cells() > 1 && !shape_.nodes_by_numbers;
         report_.points_sent = distribution.points_sent();
         report_.points_received = distribution.points_received();
         if (Status done = sample(distribution); !done) return done;
@@ -176,13 +177,12 @@ private:
         Status read = exchange_.everywhere([&]() -> Status {
             if (!ready) return ready;
             if (source_ == nullptr) source_ = vtkSmartPointer<vtkUnstructuredGrid>::New();
-            if (std::string fault = cell_dimension(*source_, facts_.dimension); !fault.empty()) return not_exact(fault);
-            facts_.numbered = source_->GetCellData()->GetGlobalIds() != nullptr;
+            if (std::string fault = look_at_cells(*source_, facts_); !fault.empty()) return not_exact(fault);
             if (facts_.dimension >= 2 && facts_.numbered) {
-                if (std::string fault = fault_of_global_ids(*source_); !fault.empty())
+                vtkCellData& cells = *source_->GetCellData();
+                if (std::string fault = fault_of_global_ids(cells, source_->GetNumberOfCells(), "cell"); !fault.empty())
                     return Error{.what = "the source cannot be probed by several processes: " + fault};
             }
-            if (facts_.dimension == 2) facts_.triangles = box_of_triangles(*source_);
             count_ = static_cast<std::size_t>(input_->GetNumberOfPoints());
             return Done{};
         });
@@ -190,17 +190,17 @@ private:
         const Result<pieces::Shape> shape = agree_on_shape(exchange_, facts_);
         if (!shape) return not_exact(shape.error().what);
         shape_ = *shape;
+        shape_.interpolation = settings_.cells.interpolation;
+        shape_.curved = settings_.cells.curved;
         return Done{};
     }
 
     Status index_piece() {
         return exchange_.everywhere([&]() -> Status {
-            pieces::Shape shape = shape_;
-            // Nothing is sorted where there is nothing to sort.
-            if (facts_.dimension != shape_.dimension) shape.by_numbers = false;
-            index_ = exact_index(*source_, shape);
+            index_ = exact_index(*source_, shape_);
             if (!index_->exact()) return not_exact(index_->reason);
-            if (exchange_.size() > 1 && shape.by_numbers && index_->locator) numbers_ = global_ids(*source_, *index_);
+            report_.notes = index_->notes;
+            if (exchange_.size() > 1 && shape_.by_numbers && index_->locator) numbers_ = global_ids(*source_, *index_);
             vtkDataArray* const scalars = source_->GetPointData()->GetScalars();
             if (settings_.categorical && index_->locator &&
                 (scalars == nullptr || scalars->GetNumberOfComponents() != 1))

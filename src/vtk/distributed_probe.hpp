@@ -9,7 +9,7 @@
 #include <vtkMultiProcessController.h>
 #include <vtkSmartPointer.h>
 
-#include "barycert/pieces/exchange.hpp"
+#include "barycert/pieces/piece.hpp"
 
 class vtkDataSet;
 
@@ -49,6 +49,7 @@ struct ProbeSettings {
     bool categorical = false;
     double outside = 0;
     std::string mask;
+    pieces::Shape cells = {};  ///< interpolation and curved
 };
 
 /// What a rank learns besides.
@@ -57,6 +58,8 @@ struct ProbeReport {
     std::vector<std::string> inexact;  ///< arrays of integers that become doubles first
     /// More than one rank has cells, and these have no numbers but those that follow from the ranks.
     bool numbered_by_ranks = false;
+    bool cut_by_ranks = false;  ///< likewise of nodes, by which cells are cut
+    Notes notes;                ///< of how cells are taken
     std::uint64_t points_sent = 0, points_received = 0;
 };
 

@@ -5,22 +5,13 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkCell.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkCellTypes.h>
-#include <vtkDataArray.h>
 #include <vtkDataSet.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkTypeInt64Array.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkUnstructuredGrid.h>
 
 #include "barycert/environment.hpp"
-#include "barycert/weights.hpp"
+#include "barycert/sampler.hpp"
 
 namespace barycert::in_vtk {
 namespace {
@@ -59,8 +50,10 @@ void forget(void* data) {
 }
 
 bool same_cells(const ExactIndex& a, const ExactIndex& b) {
-    return a.normal == b.normal && a.plane == b.plane && a.reason == b.reason && a.mesh.cells == b.mesh.cells &&
-           a.ids == b.ids && a.mesh.points == b.mesh.points && a.surface.points == b.surface.points;
+    return a.shape == b.shape && a.normal == b.normal && a.plane == b.plane && a.reason == b.reason &&
+           a.mesh.cells == b.mesh.cells && a.mesh.mid_nodes == b.mesh.mid_nodes && a.mesh.shapes == b.mesh.shapes &&
+           a.mesh.cell_numbers == b.mesh.cell_numbers && a.mesh.points == b.mesh.points &&
+           a.surface.points == b.surface.points && a.surface.facets == b.surface.facets;
 }
 
 void remember(vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time,
@@ -83,92 +76,7 @@ void remember(vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time,
     data.AddObserver(vtkCommand::DeleteEvent, command);
 }
 
-std::vector<std::int64_t> all_global_ids(vtkDataSet& data) {
-    vtkNew<vtkTypeInt64Array> ids;
-    ids->DeepCopy(data.GetCellData()->GetGlobalIds());
-    return {ids->GetPointer(0), ids->GetPointer(ids->GetNumberOfValues())};
-}
-
-void order_by_global_ids(vtkDataSet& data, ExactIndex& index) {
-    const std::vector<Mesh::Index> order = index.sort_cells(global_ids(data, index));
-    std::vector<vtkIdType> ids;
-    ids.reserve(order.size());
-    for (const Mesh::Index cell : order) ids.push_back(index.id(cell));
-    if (!ids.empty()) index.ids = std::move(ids);
-}
-
-constexpr unsigned char ghost_mask =
-    vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::HIDDENCELL;
-
-bool is_quadratic(int type) {
-    return type == VTK_QUADRATIC_TRIANGLE || type == VTK_QUADRATIC_TETRA;
-}
-
-// Dimension of cells that may stand beside simplices and are left out there: 0 to 2; 3 tetrahedra; -1 all others.
-int plain_dimension(int type, Sides sides) {
-    if (type == VTK_EMPTY_CELL || type == VTK_VERTEX || type == VTK_POLY_VERTEX) return 0;
-    if (type == VTK_LINE || type == VTK_POLY_LINE) return 1;
-    if (is_quadratic(type) && sides != Sides::none) return type == VTK_QUADRATIC_TRIANGLE ? 2 : 3;
-    if (sides == Sides::any &&
-        (type == VTK_TRIANGLE_STRIP || type == VTK_POLYGON || type == VTK_PIXEL || type == VTK_QUAD))
-        return 2;
-    return type == VTK_TRIANGLE ? 2 : type == VTK_TETRA ? 3 : -1;
-}
-
-// A data set of cells, whichever of the two it is.
-struct Cells {
-    explicit Cells(vtkDataSet& all, Sides of = Sides::none) : data(all), sides(of) {
-        if (surface != nullptr && surface->NeedToBuildCells()) surface->BuildCells();
-    }
-    vtkPoints* points() const { return grid != nullptr ? grid->GetPoints() : surface->GetPoints(); }
-    /// Calls `take(cell, size, nodes)` for each cell of that dimension that is no ghost.
-    template <class Take>
-    void each(int dimension, Take&& take) const {
-        vtkUnsignedCharArray* const ghosts = data.GetCellGhostArray();
-        for (vtkIdType i = 0; i < count; ++i) {
-            if (plain_dimension(data.GetCellType(i), sides) != dimension) continue;
-            if (ghosts != nullptr && (ghosts->GetValue(i) & ghost_mask) != 0) continue;
-            vtkIdType size = 0;
-            const vtkIdType* nodes = nullptr;
-            if (grid != nullptr)
-                grid->GetCellPoints(i, size, nodes);
-            else
-                surface->GetCellPoints(i, size, nodes);
-            take(i, size, nodes);
-        }
-    }
-
-    vtkDataSet& data;
-    Sides sides;
-    vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(&data);
-    vtkPolyData* surface = vtkPolyData::SafeDownCast(&data);
-    vtkIdType count = data.GetNumberOfCells();
-};
-
 }  // namespace
-
-std::string fault_of_global_ids(vtkDataSet& data) {
-    vtkDataArray& array = *data.GetCellData()->GetGlobalIds();
-    const int type = array.GetDataType();
-    if (type == VTK_DOUBLE || type == VTK_FLOAT || type == VTK_BIT)
-        return std::string("the global ids of its cells are a ") + array.GetClassName();
-    if (array.GetNumberOfComponents() != 1) return "the global ids of its cells have more than one component";
-    if (array.GetNumberOfTuples() != data.GetNumberOfCells())
-        return "it has " + std::to_string(data.GetNumberOfCells()) + " cells and " +
-               std::to_string(array.GetNumberOfTuples()) + " global ids of cells";
-    const std::vector<std::int64_t> ids = all_global_ids(data);
-    const bool is_unsigned = array.GetDataTypeMin() == 0;
-    const bool fits = !is_unsigned || std::none_of(ids.begin(), ids.end(), [](std::int64_t id) { return id < 0; });
-    return fits ? std::string() : "a global id of a cell exceeds 9223372036854775807";
-}
-
-std::vector<std::int64_t> global_ids(vtkDataSet& data, const ExactIndex& index) {
-    std::vector<std::int64_t> of_data = all_global_ids(data);
-    if (index.ids.empty()) return of_data;
-    std::vector<std::int64_t> of_mesh(index.ids.size());
-    for (std::size_t i = 0; i < of_mesh.size(); ++i) of_mesh[i] = of_data[static_cast<std::size_t>(index.ids[i])];
-    return of_mesh;
-}
 
 void forget_index(const vtkDataSet& data) {
     const std::lock_guard lock(cache().access);
@@ -188,8 +96,8 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Sh
     if (std::shared_ptr<const ExactIndex> found = find(same)) return found;
 
     auto made = std::make_shared<ExactIndex>();
-    made->reason = read_simplices(data, *made, shape);
-    if (shape.by_numbers && made->reason.empty()) order_by_global_ids(data, *made);
+    made->shape = shape;
+    made->reason = read_cells(data, *made);
     std::shared_ptr<const ExactIndex> index = made;
     if (made->reason.empty() && !made->mesh.cells.empty()) {
         // One that was made for the same cells: of a shallow copy, or before point data changed.
@@ -205,7 +113,11 @@ std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Sh
 }
 
 Status ExactIndex::build() {
-    if (!in_space()) return IndexedPiece::build();
+    if (!in_space()) {
+        Status built = IndexedPiece::build(shape);
+        if (built) std::ranges::move(notes_of_maps(*locator, shape.interpolation, {}), std::back_inserter(notes));
+        return built;
+    }
     Result<SurfaceLocator> made = SurfaceLocator::build(surface);
     if (!made) return made.error();
     on_surface.emplace(std::move(*made));
@@ -258,129 +170,26 @@ std::array<double, 4> ExactIndex::weights(Mesh::Index cell, const double* point,
     return its ? its->weights : std::array<double, 4>{};
 }
 
-std::vector<double> doubles_of(vtkDataArray& array) {
-    std::vector<double> all(static_cast<std::size_t>(array.GetNumberOfValues()));
-    if (all.empty()) return all;
-    vtkNew<vtkDoubleArray> doubles;
-    doubles->SetNumberOfComponents(array.GetNumberOfComponents());
-    doubles->SetArray(all.data(), array.GetNumberOfValues(), 1);
-    doubles->InsertTuples(0, array.GetNumberOfTuples(), 0, &array);
-    return all;
-}
-
-std::string cell_dimension(vtkDataSet& data, int& dimension, Sides sides) {
-    dimension = -1;
-    const Cells cells(data);
-    if (cells.grid == nullptr && cells.surface == nullptr)
-        return std::string("a ") + data.GetClassName() + " has no simplices";
-    if (cells.surface != nullptr && cells.surface->NeedToBuildCells()) return "VTK cannot build its cells";
-    constexpr vtkIdType most = std::numeric_limits<Mesh::Index>::max();
-    if (cells.count > most || data.GetNumberOfPoints() > most) return "it has more than 2147483647 points or cells";
-    if (cells.points() == nullptr) return {};
-    for (vtkIdType i = 0; i < cells.count; ++i) {
-        const int type = data.GetCellType(i), its = plain_dimension(type, sides);
-        if (its < 0) return "cell " + std::to_string(i) + " is a " + vtkCellTypes::GetClassNameFromTypeId(type);
-        dimension = std::max(dimension, its);
+void ExactIndex::weights_of_nodes(Mesh::Index cell, const double* x, bool inside, vtkIdList& nodes, double* out) const {
+    std::array<double, 3> point{};
+    project(x, point.data());
+    NodeWeights its;
+    if (in_space() || straight()) {
+        const std::array<double, 4> all =
+            inside ? weights(cell, point.data()) : closest(x, std::numeric_limits<double>::infinity()).weights;
+        const Mesh::Index* const corners = mesh.cells.data() + mesh.corners() * static_cast<std::size_t>(cell);
+        its.nodes.assign(corners, corners + mesh.corners());
+        its.weights.assign(all.begin(), all.end());
+    } else {
+        Table row;
+        row.points.assign(point.begin(), point.begin() + mesh.dimension);
+        row.cells = {inside ? cell : -1};
+        if (Result<NodeWeights> all = node_weights(*locator, row.view(), {.kind = Outside::nearest}))
+            its = std::move(*all);
     }
-    return {};
-}
-
-std::string read_simplices(vtkDataSet& data, ExactIndex& index, const pieces::Shape& shape, Sides sides) {
-    int dimension = -1;
-    if (std::string reason = cell_dimension(data, dimension, sides); !reason.empty()) return reason;
-    if (dimension < 0) return {};
-    if (shape.dimension > 0) dimension = shape.dimension;
-    if (dimension < 2) return "it has neither tetrahedra nor triangles";
-
-    const Cells cells(data, sides);
-    Mesh& mesh = index.mesh;
-    mesh.dimension = dimension;
-    const vtkIdType corners = dimension + 1, nodes_of_quadratic = corners * (corners + 1) / 2;
-    mesh.cells.reserve(static_cast<std::size_t>(corners * cells.count));
-    std::vector<vtkIdType> ids;
-    ids.reserve(static_cast<std::size_t>(cells.count));
-    std::string reason;
-    cells.each(dimension, [&](vtkIdType cell, vtkIdType size, const vtkIdType* nodes) {
-        const bool quadratic = is_quadratic(data.GetCellType(cell));
-        if (size != (quadratic ? nodes_of_quadratic : corners) && reason.empty())
-            reason =
-                "cell " + std::to_string(cell) + " has " + std::to_string(size) + (quadratic ? " nodes" : " vertices");
-        if (!reason.empty()) return;
-        for (vtkIdType k = 0; k < size; ++k)
-            (k < corners ? mesh.cells : mesh.mid_nodes).push_back(static_cast<Mesh::Index>(nodes[k]));
-        ids.push_back(cell);
-    });
-    if (!reason.empty() || ids.empty()) return reason;
-    if (!mesh.mid_nodes.empty()) {
-        const auto mid_nodes = static_cast<std::size_t>(nodes_of_quadratic - corners);
-        if (mesh.mid_nodes.size() != mid_nodes * ids.size()) return "it has linear cells beside quadratic ones";
-        mesh.mid_edge_order = MidEdgeOrder::vtk;
-    }
-    if (static_cast<vtkIdType>(ids.size()) != cells.count) index.ids = std::move(ids);
-    mesh.points = doubles_of(*cells.points()->GetData());
-    if (dimension == 3) return {};
-    const auto [low, high] = std::minmax_element(mesh.cells.begin(), mesh.cells.end());
-    if (*low < 0 || *high >= data.GetNumberOfPoints()) return "a vertex of a triangle is no point";
-    if (index.flatten(shape.normal)) return {};
-    if (shape.dimension != 0) return "its triangles do not lie in one plane across an axis";
-    if (!mesh.mid_nodes.empty())
-        index.surface.notes.push_back(
-            {Note::Kind::converted, "triangles of second order: they are taken by their corners", {}, true});
-    index.surface.points = std::exchange(mesh.points, {});
-    index.surface.cells = mesh.cells;
-    mesh.mid_nodes.clear();
-    return {};
-}
-
-std::string read_polygons(vtkDataSet& data, ExactIndex& index, Plc& plc) {
-    const Cells cells(data, Sides::any);
-    std::string reason;
-    bool triangles = true;
-    const auto add = [&](vtkIdType cell, std::vector<Mesh::Index> ring) {
-        triangles = triangles && ring.size() == 3;
-        plc.facets.emplace_back().polygons.push_back(std::move(ring));
-        index.ids.push_back(cell);
-    };
-    cells.each(2, [&](vtkIdType cell, vtkIdType size, const vtkIdType* nodes) {
-        const int type = data.GetCellType(cell);
-        const bool few = size < 3 || (type == VTK_TRIANGLE && size > 3);
-        const auto is_point = [&](vtkIdType node) { return node >= 0 && node < data.GetNumberOfPoints(); };
-        if (few || !std::all_of(nodes, nodes + size, is_point))
-            reason = "cell " + std::to_string(cell) + " has " +
-                     (few ? std::to_string(size) + " vertices" : "a vertex that is no point");
-        if (!reason.empty()) return;
-        std::vector<Mesh::Index> ring(nodes, nodes + (is_quadratic(type) ? 3 : size));
-        if (type == VTK_PIXEL) std::swap(ring[2], ring.back());
-        if (type != VTK_TRIANGLE_STRIP) return add(cell, std::move(ring));
-        // Every other triangle is turned.
-        for (std::size_t i = 0; i + 2 < ring.size(); ++i)
-            add(cell, {ring[i + i % 2], ring[i + 1 - i % 2], ring[i + 2]});
-    });
-    if (!reason.empty() || plc.facets.empty()) return reason;
-    plc.points = doubles_of(*cells.points()->GetData());
-    if (!triangles) return pieces::all_finite(plc.points) ? "" : "it has polygons, and a coordinate that is not finite";
-    index.surface.points = std::move(plc.points);
-    for (const PlcFacet& facet : plc.facets)
-        index.surface.cells.insert(index.surface.cells.end(), facet.polygons[0].begin(), facet.polygons[0].end());
-    plc = {};
-    return {};
-}
-
-pieces::Box box_of_triangles(vtkDataSet& data) {
-    pieces::Box all = pieces::empty_box;
-    const Cells cells(data);
-    vtkPoints* const points = cells.points();
-    if (points == nullptr) return all;
-    cells.each(2, [&](vtkIdType, vtkIdType size, const vtkIdType* nodes) {
-        for (vtkIdType k = 0; k < size; ++k) {
-            // A node that is not there makes no bounds: who reads the cells tells of it.
-            if (nodes[k] < 0 || nodes[k] >= points->GetNumberOfPoints()) continue;
-            std::array<double, 3> x{};
-            points->GetPoint(nodes[k], x.data());
-            all.add({x, x});
-        }
-    });
-    return all;
+    std::fill_n(out, nodes.GetNumberOfIds(), 0.0);
+    for (std::size_t i = 0; i < its.nodes.size(); ++i)
+        if (const vtkIdType at = nodes.IsId(its.nodes[i]); at >= 0) out[at] = its.weights[i];
 }
 
 }  // namespace barycert::in_vtk

@@ -289,7 +289,8 @@ void ProbeArrays::write(const TableView& rows, const vtkIdType* ids, vtkIdType f
 // The sign of the exact value less a threshold, where rounding twice could make a difference.
 Sign ProbeArrays::side(const Sampled& array, int component, const Row& row, const PlaceOfRow& place,
                        double threshold) const {
-    if (!row.inside) return Sign::zero;  // a value at the nearest point, which is rounded itself
+    // A value at the nearest point, which is rounded itself; or one that is not linear.
+    if (!row.inside || !index_.straight()) return Sign::zero;
     const Field& field = fields_[array.field];
     const Mesh& mesh = index_.mesh;
     std::array<double, 3> point{};
@@ -319,19 +320,17 @@ void ProbeArrays::write_values(const Sampled& array, const TableView& rows, std:
 // What depends on the weights of the vertices alone.
 void ProbeArrays::write_nodes(const PlaceOfRow& place) const {
     if (nearest_.empty() && mixed_.empty()) return;
-    const std::size_t n = index_.mesh.corners();
     vtkNew<vtkIdList> nodes;
-    nodes->SetNumberOfIds(static_cast<vtkIdType>(n));
+    std::vector<double> weights;
     for (const Row& row : rows_) {
         std::array<double, 3> point{}, x{};
         place(row.row, point.data());
         index_.place(point.data(), x.data());
-        std::array<double, 4> weights = row.inside
-                                            ? index_.weights(row.cell, point.data())
-                                            : index_.closest(x.data(), std::numeric_limits<double>::infinity()).weights;
-        for (std::size_t k = 0; k < n; ++k)
-            nodes->SetId(static_cast<vtkIdType>(k), index_.mesh.cells[n * static_cast<std::size_t>(row.cell) + k]);
-        const auto greatest = std::max_element(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(n));
+        nodes->Reset();
+        for (const Mesh::Index node : index_.nodes_of(index_.whole_of(row.cell))) nodes->InsertNextId(node);
+        weights.resize(static_cast<std::size_t>(nodes->GetNumberOfIds()));
+        index_.weights_of_nodes(row.cell, x.data(), row.inside, *nodes, weights.data());
+        const auto greatest = std::max_element(weights.begin(), weights.end());
         const vtkIdType node = nodes->GetId(greatest - weights.begin());
         for (const Copied& array : nearest_) array.to->SetTuple(row.point, node, array.from);
         for (const Copied& array : mixed_) array.to->InterpolateTuple(row.point, nodes, array.from, weights.data());

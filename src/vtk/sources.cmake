@@ -1,6 +1,6 @@
 # The classes of this folder and what they stand on, for VTK's own library and for ParaView's plug-in.
 set(barycert_vtk_classes vtkBarycertCheck vtkBarycertLocator vtkBarycertProbe vtkBarycertTetGenReader)
-set(barycert_vtk_parts exact_index.cpp probe_arrays.cpp)
+set(barycert_vtk_parts exact_index.cpp probe_arrays.cpp read_cells.cpp)
 list(TRANSFORM barycert_vtk_classes APPEND .h OUTPUT_VARIABLE barycert_vtk_headers)
 list(TRANSFORM barycert_vtk_classes APPEND .cpp OUTPUT_VARIABLE barycert_vtk_sources)
 list(APPEND barycert_vtk_sources ${barycert_vtk_parts})

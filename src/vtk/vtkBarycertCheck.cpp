@@ -53,28 +53,27 @@ void add_cell_array(vtkDataSet& output, std::string_view name, Of&& of) {
     output.GetCellData()->AddArray(array);
 }
 
-template <std::size_t n, class IdOf>
-void append_used(std::string& text, const char* one, const char* more, const std::array<Mesh::Index, n>& all,
-                 IdOf&& id_of) {
+template <std::size_t n>
+void append_used(std::string& text, const char* one, const char* more, const std::array<Mesh::Index, n>& all) {
     const auto count = std::count_if(all.begin(), all.end(), [](Mesh::Index i) { return i >= 0; });
     if (count == 0) return;
     if (!text.empty() && text.back() != ' ') text += ", ";
     text += count == 1 ? one : more;
     for (const Mesh::Index i : all)
-        if (i >= 0) text += ' ' + std::to_string(id_of(i));
+        if (i >= 0) text += ' ' + std::to_string(i);
 }
 
 // "cells 3 17, points 4 5 6; ...".
-std::string places_of(const Defect& defect, const ExactIndex& index) {
+std::string places_of(const Defect& defect, const CheckReport& report) {
     std::string all;
     for (const DefectPlace& place : defect.places) {
         std::string text;
-        append_used(text, "cell", "cells", place.cells, [&](Mesh::Index cell) { return index.id(cell); });
-        append_used(text, "point", "points", place.nodes, [](Mesh::Index node) { return vtkIdType{node}; });
+        append_used(text, "cell", "cells", report.cell_number(place.cells));
+        append_used(text, "point", "points", place.nodes);
         const bool hangs = defect.kind == DefectKind::hanging_node || defect.kind == DefectKind::near_hanging ||
                            defect.kind == DefectKind::node_on_facet;
         const char* const word = hangs ? "on" : "and";
-        append_used(text, word, word, place.other_nodes, [](Mesh::Index node) { return vtkIdType{node}; });
+        append_used(text, word, word, place.other_nodes);
         if (*place.detail != '\0') text += std::string(" (") + place.detail + ")";
         if (!all.empty()) all += "; ";
         all += text;
@@ -82,23 +81,34 @@ std::string places_of(const Defect& defect, const ExactIndex& index) {
     return all;
 }
 
-// Measures and defects of cells as cell arrays of the data set, of which one may be several triangles of a surface.
-void add_measures(const CheckReport& report, const ExactIndex& index, vtkDataSet& output) {
+// Of two parts of a cell.
+double joined(std::string_view measure, double a, double b) {
+    if (measure == "orientation") return a == b ? a : 0;
+    if (measure == "volume") return a + b;
+    return measure == "min_angle" ? std::min(a, b) : std::max(a, b);
+}
+
+// Measures and defects of cells as cell arrays of the data set, of which one may be several of the mesh or surface.
+void add_measures(const CheckReport& report, vtkDataSet& output) {
     std::vector<DefectSet> defects(static_cast<std::size_t>(output.GetNumberOfCells()), 0);
-    std::vector<std::int64_t> cell_of(defects.size(), -1);  // of the mesh, for each of the data set
+    const auto id_of = [&](std::size_t i) {
+        return static_cast<std::size_t>(report.cell_number(static_cast<std::int64_t>(i)));
+    };
     DefectSet found = 0;
     for (std::size_t i = 0; i < report.measures.defects.size(); ++i) {
-        const auto id = static_cast<std::size_t>(index.id(static_cast<Mesh::Index>(i)));
-        cell_of[id] = static_cast<std::int64_t>(i);
-        defects[id] |= report.measures.defects[i];
+        defects[id_of(i)] |= report.measures.defects[i];
         found |= report.measures.defects[i];
     }
     for (const Field& field : report.surface ? std::vector<Field>() : measure_fields(report.measures)) {
+        std::vector<std::optional<double>> all(defects.size());
+        for (std::size_t i = 0; i < field.data.size(); ++i) {
+            std::optional<double>& own = all[id_of(i)];
+            own = own ? joined(field.name, *own, field.data[i]) : field.data[i];
+        }
         const bool whole = field.name == "orientation" || field.name == "problems";
         const auto value = [&](std::size_t id) {
-            return cell_of[id] >= 0 ? field.data[static_cast<std::size_t>(cell_of[id])]
-                   : whole          ? 0
-                                    : std::numeric_limits<double>::quiet_NaN();
+            return field.name == "problems" ? static_cast<double>(defects[id])
+                                            : all[id].value_or(whole ? 0 : std::numeric_limits<double>::quiet_NaN());
         };
         if (field.name == "orientation")
             add_cell_array<vtkSignedCharArray>(output, field.name, value);
@@ -119,8 +129,9 @@ void add_measures(const CheckReport& report, const ExactIndex& index, vtkDataSet
 }
 
 // A row a defect.
-void fill_defects(const std::vector<Defect>& all, const ExactIndex& index, vtkTable& table) {
+void fill_defects(const CheckReport& report, vtkTable& table) {
     using D = const Defect&;
+    const std::vector<Defect>& all = report.defects;
     table.AddColumn(array_of<vtkStringArray>("defect", all, [](D d) { return std::string(defect_text(d.kind).name); }));
     table.AddColumn(array_of<vtkTypeInt64Array>("count", all, [](D d) { return vtkTypeInt64(d.count); }));
     table.AddColumn(array_of<vtkUnsignedCharArray>("at_least", all, [](D d) { return d.at_least; }));
@@ -128,11 +139,12 @@ void fill_defects(const std::vector<Defect>& all, const ExactIndex& index, vtkTa
     table.AddColumn(
         array_of<vtkStringArray>("meaning", all, [](D d) { return std::string(defect_text(d.kind).text); }));
     table.AddColumn(array_of<vtkStringArray>("remedy", all, [](D d) { return std::string(d.remedy()); }));
-    table.AddColumn(array_of<vtkStringArray>("places", all, [&](D d) { return places_of(d, index); }));
+    table.AddColumn(array_of<vtkStringArray>("places", all, [&](D d) { return places_of(d, report); }));
 }
 
 // A vertex for each pair of cells that meet where they must not.
-void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index, vtkPolyData& points) {
+void fill_contacts(const CheckReport& report, const ExactIndex& index, vtkPolyData& points) {
+    const std::vector<CellContact>& all = report.contacts;
     vtkNew<vtkPoints> places;
     places->SetDataTypeToDouble();
     vtkNew<vtkCellArray> vertices;
@@ -146,44 +158,31 @@ void fill_contacts(const std::vector<CellContact>& all, const ExactIndex& index,
     points.SetVerts(vertices);
     using Contact = const CellContact&;
     vtkPointData& data = *points.GetPointData();
-    data.AddArray(array_of<vtkIdTypeArray>("cell_a", all, [&](Contact c) { return index.id(c.cells[0]); }));
-    data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return index.id(c.cells[1]); }));
+    data.AddArray(array_of<vtkIdTypeArray>("cell_a", all, [&](Contact c) { return report.cell_number(c.cells)[0]; }));
+    data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return report.cell_number(c.cells)[1]; }));
     data.AddArray(array_of<vtkUnsignedCharArray>("overlap", all, [](Contact c) { return c.overlap; }));
     data.AddArray(array_of<vtkUnsignedCharArray>("exact", all, [](Contact c) { return c.common.exact; }));
 }
 
-// A mesh, a surface, or polygons; or why it is none.
-std::string read(vtkDataSet& data, ExactIndex& index, Plc& plc) {
-    std::string reason = in_vtk::read_simplices(data, index, {}, in_vtk::Sides::straight);
-    int dimension = -1;
-    if (reason.empty() || !in_vtk::cell_dimension(data, dimension, in_vtk::Sides::any).empty() || dimension != 2)
-        return reason;
-    index = {};
-    return in_vtk::read_polygons(data, index, plc);
-}
-
-// The report's text names cells by their ids. Polygons are facets of a PLC, as `barycert check` takes those of files:
-// they may be at fault themselves. The ids become those of the triangles that they are cut into, and of what cannot be.
-CheckReport check(ExactIndex& index, const Plc& plc, const CheckOptions& options) {
-    const std::vector<Mesh::Index> numbers(index.ids.begin(), index.ids.end());
+// The report names cells by their ids. Polygons in space are facets of a PLC, as `barycert check` takes those of files:
+// they may be at fault themselves. Its numbers are those of the triangles that they are cut into, and of what cannot
+// be.
+CheckReport check(vtkDataSet& data, const ExactIndex& index, const CheckOptions& options) {
+    if (!index.in_space()) return check_mesh(index.mesh, options);
+    Plc plc;
+    std::vector<Mesh::Index> numbers = in_vtk::read_polygons(data, plc), ids;
     const bool polygons = !plc.facets.empty();
-    if (!polygons && !index.in_space()) {
-        index.mesh.cell_numbers = numbers;
-        return check_mesh(index.mesh, options);
-    }
-    index.surface.facets = numbers;
+    if (!polygons) numbers = index.surface.facets;
     CheckReport report = polygons ? check_plc(plc, options) : check_surface(index.surface, options);
-    std::vector<Mesh::Index> distinct = numbers, ids;
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    if (!distinct.empty()) report.surface->facets = distinct.size();
-    if (!polygons) return report;
-    for (std::size_t i = 0; i < report.cells; ++i)
+    for (std::size_t i = 0; polygons && i < report.cells; ++i)
         ids.push_back(numbers[static_cast<std::size_t>(report.cell_number(static_cast<std::int64_t>(i)))]);
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    if (!numbers.empty()) report.surface->facets = numbers.size();
+    if (!polygons) return report;
     report.cell_numbers = ids;
-    std::set_difference(distinct.begin(), distinct.end(), report.cell_numbers.begin(), report.cell_numbers.end(),
-                        std::back_inserter(ids));
-    index.ids.assign(ids.begin(), ids.end());
-    report.measures.defects.resize(ids.size(), defect_bit(DefectKind::bad_facet));
+    std::set_difference(numbers.begin(), numbers.end(), ids.begin(), ids.end(),
+                        std::back_inserter(report.cell_numbers));
+    report.measures.defects.resize(report.cell_numbers.size(), defect_bit(DefectKind::bad_facet));
     return report;
 }
 
@@ -242,13 +241,11 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
         return 0;
     }
     ExactIndex index;
-    Plc plc;
-    if (const std::string reason = read(*input, index, plc); !reason.empty()) {
-        vtkErrorMacro("this data set cannot be checked: " << reason
-                                                          << "; expected tetrahedra, or triangles and polygons");
+    if (const std::string reason = in_vtk::read_cells(*input, index); !reason.empty()) {
+        vtkErrorMacro("this data set cannot be checked: " << reason);
         return 0;
     }
-    const CheckReport report = check(index, plc,
+    const CheckReport report = check(*input, index,
                                      {.delaunay = Delaunay != 0,
                                       .examples = static_cast<std::size_t>(Examples),
                                       .contacts = static_cast<std::size_t>(Contacts)});
@@ -256,11 +253,12 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     if (report.surface && Delaunay != 0) vtkWarningMacro("a surface is not tested whether it is Delaunay");
 
     output->ShallowCopy(input);
-    add_measures(report, index, *output);
+    add_measures(report, *output);
     output->GetCellData()->SetActiveScalars("problems");
     const Mesh none;
     const std::string text = check_text(report, report.surface ? none : std::as_const(index.mesh), "input", {});
-    for (const Note& note : report.notes) vtkWarningMacro("" << message(note));
+    for (const Notes& notes : {index.notes, report.notes})
+        for (const Note& note : notes) vtkWarningMacro("" << message(note));
     if (report.curved.cells != 0) vtkWarningMacro("" << message(report.curved));
     // The verdict stands below what is told of curved cells, which takes two lines.
     std::size_t verdict = 0;
@@ -273,7 +271,7 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     vtkFieldData& told = *output->GetFieldData();
     told.AddArray(lines);
     told.AddArray(array_of<vtkUnsignedCharArray>("certified", std::array{Certified}, std::identity()));
-    fill_defects(report.defects, index, *defects);
-    fill_contacts(report.contacts, index, *points);
+    fill_defects(report, *defects);
+    fill_contacts(report, index, *points);
     return 1;
 }

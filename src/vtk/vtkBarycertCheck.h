@@ -2,15 +2,17 @@
  * @class   vtkBarycertCheck
  * @brief   proves that cells partition their domain, or that a surface is closed and meets itself nowhere
  *
- * Input: a vtkUnstructuredGrid or vtkPolyData of tetrahedra, or of triangles in one plane across an axis; or a surface:
- * other triangles, strips of them, and polygons, which are checked as facets of a PLC. Quadratic ones are taken with
- * straight sides; cells of a lower dimension, empty cells and ghost cells (vtkGhostType: duplicate, refined, hidden)
- * are left out. Any other data set is an error. Signs, volumes, contacts and the certificate are exact.
+ * Input: a mesh as vtkBarycertLocator takes it, whose cells are checked by the simplices that they are cut into; or a
+ * surface: triangles and strips that lie in no plane across an axis, or with other polygons, which are checked as
+ * facets of a PLC. Cells of a higher order are taken with straight sides; cells of a lower dimension, empty cells and
+ * ghost cells (vtkGhostType: duplicate, refined, hidden) are left out. A data set with cells whose corners are not
+ * known is an error. Signs, volumes, contacts and the certificate are exact.
  *
  * Output 0: the input with cell arrays
  * - orientation (exact sign of the volume), volume (signed, correctly rounded; of triangles the area), condition,
  *   radius_edge, aspect, min_angle, max_angle (of dihedral angles, in degrees), as `barycert check` has them; NaN, and
- *   orientation 0, in cells that are left out;
+ *   orientation 0, in cells that are left out. Of a cell that is cut: the sum of the parts' volumes, the worst of
+ *   other measures, and orientation 0 if parts are turned both ways;
  * - problems: bits of the defects that the cell is part of, in the order of check.hpp (the active scalars); and for
  *   each kind of defect that some cell is part of an array of its name (degenerate_cell, same_side, ...): 1 or 0.
  *   Of a surface there are these alone, and problems has 64 bits;

@@ -2,9 +2,11 @@
 
 #include <atomic>
 #include <mutex>
+#include <set>
 #include <tuple>
 
 #include <vtkBox.h>
+#include <vtkCellType.h>
 #include <vtkDataSet.h>
 #include <vtkGarbageCollector.h>
 #include <vtkGenericCell.h>
@@ -43,6 +45,8 @@ vtkBarycertLocator::~vtkBarycertLocator() = default;
 vtkObjectBase* vtkBarycertLocator::NewInstanceInternal() const {
     vtkBarycertLocator* const made = New();
     made->Tolerant = Tolerant;
+    made->Interpolation = Interpolation;
+    made->CurvedCells = CurvedCells;
     return made;
 }
 
@@ -55,7 +59,9 @@ void vtkBarycertLocator::ReportReferences(vtkGarbageCollector* collector) {
 void vtkBarycertLocator::PrintSelf(ostream& os, vtkIndent indent) {
     Superclass::PrintSelf(os, indent);
     const in_vtk::ExactIndex* const index = internals_->built;
-    os << indent << "Tolerant: " << (Tolerant ? "On" : "Off") << "\n";
+    os << indent << "Tolerant: " << (Tolerant ? "On" : "Off") << "\n"
+       << indent << "Interpolation: " << Interpolation << "\n"
+       << indent << "CurvedCells: " << CurvedCells << "\n";
     const char* const exact = index == nullptr ? "(not built)" : index->exact() ? "yes" : index->reason.c_str();
     os << indent << "Exact: " << exact << "\n";
 }
@@ -70,13 +76,14 @@ void vtkBarycertLocator::BuildLocator() {
         vtkErrorMacro("there is no data set to build from");
         return;
     }
-    std::shared_ptr<const in_vtk::ExactIndex> index = in_vtk::exact_index(*DataSet);
+    std::shared_ptr<const in_vtk::ExactIndex> index =
+        in_vtk::exact_index(*DataSet, in_vtk::shape_of(Interpolation, CurvedCells));
     if (index != internals_->index) {
         internals_->clear();
         internals_->index = std::move(index);
         if (!internals_->index->exact())
-            vtkWarningMacro(
-                "not exact in this data set, a vtkStaticCellLocator answers: " << internals_->index->reason);
+            vtkErrorMacro("points cannot be located exactly in this data set: " << internals_->index->reason);
+        for (const Note& note : internals_->index->notes) vtkWarningMacro("" << message(note));
     } else if (internals_->other) {
         internals_->other->BuildLocator();
     }
@@ -102,6 +109,8 @@ void vtkBarycertLocator::ShallowCopy(vtkAbstractCellLocator* other) {
     }
     SetDataSet(from->DataSet);
     Tolerant = from->Tolerant;
+    Interpolation = from->Interpolation;
+    CurvedCells = from->CurvedCells;
     CacheCellBounds = from->CacheCellBounds;
     Tolerance = from->Tolerance;
     internals_->clear();
@@ -124,7 +133,7 @@ const in_vtk::ExactIndex* vtkBarycertLocator::ExactOne() {
     return index != nullptr && index->exact() ? index : nullptr;
 }
 
-// VTK's locator, for what barycert does not answer. Null if there is no data set, or nothing in it.
+// VTK's locator, for lines, planes and boxes. Null if there is no data set, or nothing in it.
 vtkStaticCellLocator* vtkBarycertLocator::Other() {
     if (Ready() == nullptr || DataSet->GetNumberOfCells() == 0) return nullptr;
     if (vtkStaticCellLocator* const other = internals_->other_built) return other;
@@ -151,19 +160,41 @@ std::string vtkBarycertLocator::GetReason() {
 }
 
 // As vtkTetra and vtkTriangle have them: all weights but the first.
-static void set_parametric(const std::array<double, 4>& weights, int count, double* pcoords, double* out) {
-    for (int i = 0; i < 3; ++i) pcoords[i] = i + 1 < count ? weights[static_cast<std::size_t>(i) + 1] : 0;
-    std::copy_n(weights.begin(), count, out);
+static void set_parametric(const double* weights, std::size_t count, double* pcoords) {
+    for (std::size_t i = 0; i < 3; ++i) pcoords[i] = i + 1 < count ? weights[i + 1] : 0;
+}
+
+// The weights of x in a cell of any kind, and its place there. VTK finds that, in double and by the cell's own map, for
+// its functions of a cell take it so; of simplices, and where VTK fails, it is the mean of the places of the nodes.
+static void set_place(const in_vtk::ExactIndex& index, const pieces::Closest& found, const double* x, vtkCell& cell,
+                      double* pcoords, int& sub_id, double* weights) {
+    const auto type = static_cast<std::uint8_t>(cell.GetCellType());
+    std::array<double, 3> closest{};
+    double distance = 0;
+    const bool by_vtk =
+        type != VTK_TETRA && type != VTK_TRIANGLE && !mesh::is_curved_simplex(type) &&
+        cell.EvaluatePosition(found.point.data(), closest.data(), sub_id, pcoords, distance, weights) >= 0;
+    index.weights_of_nodes(found.cell, x, found.inside, *cell.PointIds, weights);
+    if (by_vtk) return;
+    sub_id = 0;
+    std::fill_n(pcoords, 3, 0.0);
+    const double* const places = cell.GetParametricCoords();
+    for (vtkIdType i = 0; places != nullptr && i < 3 * cell.GetNumberOfPoints(); ++i)
+        pcoords[i % 3] += weights[i / 3] * places[i];
+}
+
+// The cell that the caller gave, or one made, with what the data set has of that id.
+vtkGenericCell* vtkBarycertLocator::Fetched(vtkIdType id, vtkGenericCell* cell, vtkSmartPointer<vtkGenericCell>& made) {
+    if (cell == nullptr) made = vtkSmartPointer<vtkGenericCell>::New();
+    if (cell == nullptr) cell = made;
+    DataSet->GetCell(id, cell);
+    return cell;
 }
 
 vtkIdType vtkBarycertLocator::FindCell(double x[3]) {
     const ExactEnvironment environment;
-    if (const in_vtk::ExactIndex* const index = ExactOne()) return index->id(index->owner(x));
-    if (DataSet == nullptr) return -1;
-    vtkNew<vtkGenericCell> cell;
-    std::array<double, 3> pcoords{};
-    std::vector<double> weights(static_cast<std::size_t>(DataSet->GetMaxCellSize()));
-    return FindCell(x, 0, cell, pcoords.data(), weights.data());
+    const in_vtk::ExactIndex* const index = ExactOne();
+    return index != nullptr ? index->id(index->owner(x)) : -1;
 }
 
 vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell* cell, double pcoords[3],
@@ -177,41 +208,34 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     const ExactEnvironment environment;
     subId = 0;
     const in_vtk::ExactIndex* const index = ExactOne();
-    if (index == nullptr) {
-        vtkStaticCellLocator* const other = Other();
-        return other != nullptr ? other->FindCell(x, tol2, cell, pcoords, weights) : -1;
+    if (index == nullptr) return -1;
+    pieces::Closest found{.cell = index->owner(x), .inside = true, .point = {x[0], x[1], x[2]}};
+    if (found.cell < 0 && Tolerant && tol2 > 0) {
+        found = index->closest(x, std::sqrt(pieces::held(tol2)));
+        found.inside = false;
     }
-    Mesh::Index found = index->owner(x);
-    std::array<double, 4> its{};
-    const bool outside = found < 0;
-    if (outside && Tolerant && tol2 > 0) {
-        const pieces::Closest nearest = index->closest(x, std::sqrt(pieces::held(tol2)));
-        found = nearest.cell;
-        its = nearest.weights;
+    if (found.cell < 0) return -1;
+    const vtkIdType id = index->id(found.cell);
+    vtkSmartPointer<vtkGenericCell> made;
+    cell = Fetched(id, cell, made);
+    if (index->cells_are_cut || !index->straight()) {
+        set_place(*index, found, x, *cell, pcoords, subId, weights);
+        return id;
     }
-    if (found < 0) return -1;
-    const vtkIdType id = index->id(found);
-    if (cell != nullptr) DataSet->GetCell(id, cell);
-    if (std::array<double, 3> point{}; !outside && index->project(x, point.data()))
-        its = index->weights(found, point.data(), cell);
-    set_parametric(its, static_cast<int>(index->mesh.corners()), pcoords, weights);
+    std::array<double, 3> point{};
+    if (found.inside && index->project(x, point.data())) found.weights = index->weights(found.cell, point.data(), cell);
+    std::copy_n(found.weights.begin(), index->mesh.corners(), weights);
+    set_parametric(weights, index->mesh.corners(), pcoords);
     return id;
 }
 
 void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint[3], vtkIdType& cellId, int& subId,
                                           double& dist2) {
-    vtkNew<vtkGenericCell> cell;
-    FindClosestPoint(x, closestPoint, cell, cellId, subId, dist2);
+    FindClosestPoint(x, closestPoint, nullptr, cellId, subId, dist2);
 }
 
 void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint[3], vtkGenericCell* cell,
                                           vtkIdType& cellId, int& subId, double& dist2) {
-    cellId = -1;
-    if (ExactOne() == nullptr) {
-        if (vtkStaticCellLocator* const other = Other())
-            other->FindClosestPoint(x, closestPoint, cell, cellId, subId, dist2);
-        return;
-    }
     int inside = 0;
     double point[3] = {x[0], x[1], x[2]};
     FindClosestPointWithinRadius(point, std::numeric_limits<double>::infinity(), closestPoint, cell, cellId, subId,
@@ -220,8 +244,8 @@ void vtkBarycertLocator::FindClosestPoint(const double x[3], double closestPoint
 
 vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
                                                            vtkIdType& cellId, int& subId, double& dist2) {
-    vtkNew<vtkGenericCell> cell;
-    return FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2);
+    int inside = 0;
+    return FindClosestPointWithinRadius(x, radius, closestPoint, nullptr, cellId, subId, dist2, inside);
 }
 
 vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double radius, double closestPoint[3],
@@ -229,11 +253,7 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
                                                            double& dist2, int& inside) {
     cellId = -1;
     const in_vtk::ExactIndex* const index = ExactOne();
-    if (index == nullptr) {
-        vtkStaticCellLocator* const other = Other();
-        if (other == nullptr) return 0;
-        return other->FindClosestPointWithinRadius(x, radius, closestPoint, cell, cellId, subId, dist2, inside);
-    }
+    if (index == nullptr) return 0;
     const ExactEnvironment environment;
     const pieces::Closest found = index->closest(x, radius);
     if (found.cell < 0) return 0;
@@ -254,6 +274,8 @@ const in_vtk::ExactIndex* vtkBarycertLocator::Hits(const double* p1, const doubl
         hits = std::move(*found);
     else
         vtkErrorMacro("cannot intersect with this line: " << found.error().message());
+    std::set<vtkIdType> met;  // a polygon has several triangles
+    std::erase_if(hits, [&](const SurfaceHit& hit) { return !met.insert(index->id(hit.triangle)).second; });
     return index;
 }
 
@@ -271,10 +293,12 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
         t = hits.front().parameter;
         subId = 0;
         cellId = index->id(hits.front().triangle);
-        if (cell != nullptr) DataSet->GetCell(cellId, cell);
         std::copy_n(point_at(p1, p2, t).begin(), 3, x);
-        std::array<double, 3> weights{};
-        set_parametric(index->weights(hits.front().triangle, x, cell), 3, pcoords, weights.data());
+        vtkSmartPointer<vtkGenericCell> made;
+        cell = Fetched(cellId, cell, made);
+        std::vector<double> weights(static_cast<std::size_t>(cell->GetNumberOfPoints()));
+        const pieces::Closest at{.cell = hits.front().triangle, .inside = true, .point = {x[0], x[1], x[2]}};
+        set_place(*index, at, x, *cell, pcoords, subId, weights.data());
         return 1;
     }
     vtkStaticCellLocator* const other = Other();

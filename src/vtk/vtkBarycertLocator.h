@@ -1,22 +1,26 @@
 /**
  * @class   vtkBarycertLocator
- * @brief   exact point location for tetrahedra, triangles and surfaces
+ * @brief   exact point location in meshes of any cells, and on surfaces
  *
  * FindCell returns the lowest id of all cells that contain the point exactly: neither the order of points nor the
- * number of threads nor a tolerance matters, and a point of the mesh is always found. Parametric coordinates and
- * weights are the exact ones rounded once, in the order of the cell's vertices.
+ * number of threads nor a tolerance matters, and a point of the mesh is always found. Weights are those of all nodes of
+ * the cell, in its order, each the exact one rounded once. Parametric coordinates of tetrahedra and triangles are
+ * those of their nodes by these weights; of other cells those of their own EvaluatePosition, in double, with the subId.
  *
- * Data sets: vtkUnstructuredGrid or vtkPolyData. Cells are the linear tetrahedra; if there are none, the triangles: a
- * mesh if they lie in one plane across an axis, else a surface in space. Cells of a lower dimension, empty cells and
- * ghost cells (vtkGhostType: duplicate, refined, hidden) are no cells to FindCell and FindClosestPoint, nor triangles
- * of zero area. Any other data set goes, after a warning that says why, to a vtkStaticCellLocator: GetExact() is false
- * then.
+ * Data sets: any vtkDataSet. Cells are those that fill space; if there are none, the polygons: a mesh if they lie in
+ * one plane across an axis, else a surface in space. Cells that are no simplices are cut into such, each cell and face
+ * from its node of lowest number (Interpolation); of order 2 to 4 simplices are curved (CurvedCells), other cells are
+ * taken by their corners, after a warning. Cells of a lower dimension, empty cells and ghost cells (vtkGhostType:
+ * duplicate, refined, hidden) are no cells to FindCell and FindClosestPoint, nor triangles of zero area. A data set
+ * with cells whose corners are not known (convex point sets, parametric ones), or with points that are not finite, is
+ * an error, and nothing is found: GetExact() is false then.
  *
  * FindClosestPoint and its variants are exact as well: the cell is the lowest of those nearest, and `inside` is 1 if
- * the point lies in it. So is IntersectWithLine on a surface, unless Tolerant: it has no tolerance, and gives what the
- * closed segment meets, in exact order, ties by cell; t is rounded once, and point and parametric coordinates are
- * computed from it. FindCellsWithinBounds, FindCellsAlongLine, FindCellsAlongPlane, GenerateRepresentation and all
- * other IntersectWithLine are those of vtkStaticCellLocator on all cells of the data set.
+ * the point lies in it. Outside of curved and multilinear cells what is nearest is that of their simplices. So is
+ * IntersectWithLine on a surface, unless Tolerant: it has no tolerance, and gives what the closed segment meets, in
+ * exact order, ties by cell; t is rounded once, and point and parametric coordinates are computed from it.
+ * FindCellsWithinBounds, FindCellsAlongLine, FindCellsAlongPlane, GenerateRepresentation and all other
+ * IntersectWithLine are those of vtkStaticCellLocator on all cells of the data set.
  *
  * Indexes are kept by data set and time of modification until the data set is deleted. So the instances that filters
  * make of a prototype for every execution build nothing twice. Instances have the settings of their prototype.
@@ -34,6 +38,7 @@
 #include <vector>
 
 #include <vtkAbstractCellLocator.h>
+#include <vtkSmartPointer.h>
 
 class vtkStaticCellLocator;
 
@@ -58,9 +63,22 @@ public:
     vtkGetMacro(Tolerant, bool);
     vtkBooleanMacro(Tolerant, bool);
 
-    /// Whether this class answers itself; else a vtkStaticCellLocator does. Builds the locator if that was not done.
+    /// Of hexahedra, voxels, wedges, pyramids, quadrilaterals and pixels. PULLING (the default): their functions are
+    /// linear on the simplices that they are cut into, and weights are 0 at the nodes of all but the one that holds the
+    /// point. MULTILINEAR: they have their own isoparametric functions, and the sides that these give them.
+    enum { PULLING = 0, MULTILINEAR = 1 };
+    vtkSetClampMacro(Interpolation, int, PULLING, MULTILINEAR);
+    vtkGetMacro(Interpolation, int);
+
+    /// Triangles and tetrahedra of a higher order: as their maps have them (the default), with straight sides, or an
+    /// error.
+    enum { ISOPARAMETRIC = 0, STRAIGHT = 1, REFUSE = 2 };
+    vtkSetClampMacro(CurvedCells, int, ISOPARAMETRIC, REFUSE);
+    vtkGetMacro(CurvedCells, int);
+
+    /// Whether points can be located in the data set. Builds the locator if that was not done.
     bool GetExact();
-    /// Why it does not, or an empty string.
+    /// Why they cannot, or an empty string.
     std::string GetReason();
 
     vtkIdType FindCell(double x[3]) override;
@@ -118,11 +136,13 @@ private:
     const barycert::in_vtk::ExactIndex* Ready();
     const barycert::in_vtk::ExactIndex* ExactOne();
     vtkStaticCellLocator* Other();
+    vtkGenericCell* Fetched(vtkIdType id, vtkGenericCell* cell, vtkSmartPointer<vtkGenericCell>& made);
     const barycert::in_vtk::ExactIndex* Hits(const double* p1, const double* p2,
                                              std::vector<barycert::SurfaceHit>& hits);
 
     std::unique_ptr<Internals> internals_;
     bool Tolerant = false;
+    int Interpolation = PULLING, CurvedCells = ISOPARAMETRIC;
 };
 
 #endif

@@ -9,8 +9,6 @@
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
-#include <vtkProbeFilter.h>
-#include <vtkStaticCellLocator.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "barycert/environment.hpp"
@@ -40,6 +38,8 @@ void vtkBarycertProbe::PrintSelf(ostream& os, vtkIndent indent) {
                                                      {"OutsideIsNaN", OutsideIsNaN}};
     for (const auto& [name, on] : settings) os << indent << name << ": " << (on ? "On" : "Off") << "\n";
     os << indent << "Tolerance: " << Tolerance << "\n"
+       << indent << "Interpolation: " << Interpolation << "\n"
+       << indent << "CurvedCells: " << CurvedCells << "\n"
        << indent << "ValidPointMaskArrayName: " << MaskName() << "\n"
        << indent << "ValidPoints: " << ValidPoints->GetNumberOfTuples() << "\n"
        << indent << "Exact: " << (Exact ? "yes" : "no") << "\n";
@@ -106,15 +106,11 @@ int vtkBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** inputs
         vtkErrorMacro("CategoricalData takes point scalars of one component, of the source");
         return 0;
     }
-    const std::shared_ptr<const in_vtk::ExactIndex> index = in_vtk::exact_index(*source);
+    const std::shared_ptr<const in_vtk::ExactIndex> index =
+        in_vtk::exact_index(*source, in_vtk::shape_of(Interpolation, CurvedCells));
     Exact = index->exact();
-    if (!Exact) {
-        vtkWarningMacro(
-            "not exact with this source, a vtkProbeFilter with a vtkStaticCellLocator answers: " << index->reason);
-        AskVTK(input, source, output);
-    } else if (!Sample(*index, input, source, output)) {
-        return 0;
-    }
+    if (!Exact) vtkErrorMacro("this source cannot be probed exactly: " << index->reason);
+    if (!Exact || !Sample(*index, input, source, output)) return 0;
     PassArrays(input, output);
     return 1;
 }
@@ -131,6 +127,7 @@ bool vtkBarycertProbe::Sample(const in_vtk::ExactIndex& index, vtkDataSet* input
     in_vtk::ProbeArrays arrays(index, *source, *output, CategoricalData != 0, MaskName());
     arrays.allocate(count, OutsideValue());
     WarnOfInexact(arrays.inexact());
+    for (const Note& note : index.notes) vtkWarningMacro("" << message(note));
     if (index.mesh.cells.empty() || count == 0) return true;
 
     SampleOptions options;
@@ -171,21 +168,6 @@ void vtkBarycertProbe::ListValidPoints(vtkCharArray& mask) {
     ValidPoints->Allocate(std::count(valid, valid + count, 1));
     for (vtkIdType i = 0; i < count; ++i)
         if (valid[i] != 0) ValidPoints->InsertNextValue(i);
-}
-
-void vtkBarycertProbe::AskVTK(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output) {
-    vtkNew<vtkProbeFilter> probe;
-    vtkNew<vtkStaticCellLocator> locator;
-    probe->SetInputData(input);
-    probe->SetSourceData(source);
-    probe->SetCellLocatorPrototype(locator);
-    probe->SetCategoricalData(CategoricalData);
-    probe->SetValidPointMaskArrayName(ValidPointMaskArrayName);
-    probe->SetComputeTolerance(ComputeTolerance);
-    probe->SetTolerance(Tolerance);
-    probe->Update();
-    output->GetPointData()->ShallowCopy(probe->GetOutput()->GetPointData());
-    ValidPoints->DeepCopy(probe->GetValidPoints());
 }
 
 void vtkBarycertProbe::PassArrays(vtkDataSet* input, vtkDataSet* output) {

@@ -2,22 +2,23 @@
  * @class   vtkBarycertProbe
  * @brief   vtkProbeFilter with exact owners and correctly rounded values
  *
- * Input: where (any vtkDataSet; its points). Source: the mesh, a vtkUnstructuredGrid or vtkPolyData as
- * vtkBarycertLocator takes it. Output: the structure of the input with the arrays of vtkProbeFilter: each point array
- * of the source, each of its cell arrays that has another name, and the mask of valid points.
+ * Input: where (any vtkDataSet; its points). Source: the mesh, any vtkDataSet as vtkBarycertLocator takes it. Output:
+ * the structure of the input with the arrays of vtkProbeFilter: each point array of the source, each of its cell arrays
+ * that has another name, and the mask of valid points.
  *
  * - The owner of a point is the lowest id of all cells that contain it exactly, ghost cells (vtkGhostType: duplicate,
  *   refined, hidden) left out. It does not depend on threads or on the kind of the input.
  * - A value of a point array is the exact interpolation in the owner, rounded once to the type of the array: real
- * numbers to nearest, ties to even; integers to nearest, halves away from zero, as VTK rounds. It is NaN (integers: 0)
- * where a value of a vertex is not finite. 64-bit integers beyond 2^53 become doubles first, after a warning. Arrays
+ * numbers to nearest, ties to even; integers to nearest, halves away from zero, as VTK rounds. Where it is not linear
+ * (Interpolation, CurvedCells), floats and integers are made of the rounded double. It is NaN (integers: 0) where a
+ * value of a vertex is not finite. 64-bit integers beyond 2^53 become doubles first, after a warning. Arrays
  * that are not numeric are mixed by VTK.
  * - A cell array has the tuple of the owner.
  * - On a surface in space, only points on it are inside.
  * - Points outside have mask 0 and zeros, or NaN in arrays of real numbers (OutsideIsNaN).
  *
- * Other sources go to a vtkProbeFilter with a vtkStaticCellLocator, after a warning that says why: GetExact() is false
- * then. Works on all threads of the machine; the result does not depend on their number.
+ * A source that the locator does not take is an error, and GetExact() is false then. Works on all threads of the
+ * machine; the result does not depend on their number.
  */
 #ifndef vtkBarycertProbe_h
 #define vtkBarycertProbe_h
@@ -86,6 +87,14 @@ public:
     vtkSetClampMacro(Tolerance, double, 0.0, VTK_DOUBLE_MAX);
     vtkGetMacro(Tolerance, double);
 
+    /// How cells are taken, as in vtkBarycertLocator.
+    enum { PULLING = 0, MULTILINEAR = 1 };
+    vtkSetClampMacro(Interpolation, int, PULLING, MULTILINEAR);
+    vtkGetMacro(Interpolation, int);
+    enum { ISOPARAMETRIC = 0, STRAIGHT = 1, REFUSE = 2 };
+    vtkSetClampMacro(CurvedCells, int, ISOPARAMETRIC, REFUSE);
+    vtkGetMacro(CurvedCells, int);
+
     /// Whether arrays of real numbers have NaN, not 0, where points are not valid. Off by default.
     vtkSetMacro(OutsideIsNaN, bool);
     vtkBooleanMacro(OutsideIsNaN, bool);
@@ -114,12 +123,12 @@ protected:
 
 private:
     bool Sample(const barycert::in_vtk::ExactIndex& index, vtkDataSet* input, vtkDataSet* source, vtkDataSet* output);
-    void AskVTK(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output);
 
     vtkTypeBool CategoricalData = 0, SpatialMatch = 0;
     vtkTypeBool PassCellArrays = 0, PassPointArrays = 0, PassFieldArrays = 1;
     bool ComputeTolerance = true, OutsideIsNaN = false;
     double Tolerance = 0;
+    int Interpolation = PULLING, CurvedCells = ISOPARAMETRIC;
     char* ValidPointMaskArrayName = nullptr;
     vtkNew<vtkIdTypeArray> ValidPoints;
 };

@@ -18,6 +18,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "vtk/distributed_probe.hpp"
+#include "vtk/exact_index.hpp"
 
 using namespace barycert;
 
@@ -237,9 +238,12 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
     in_vtk::Processes processes(Controller);
     pieces::Exchange exchange(processes);
     in_vtk::ProbeReport report;
-    const Status done = in_vtk::probe_pieces(
-        exchange, {.categorical = GetCategoricalData() != 0, .outside = OutsideValue(), .mask = MaskName()}, ready,
-        input, source, output, report);
+    const Status done = in_vtk::probe_pieces(exchange,
+                                             {.categorical = GetCategoricalData() != 0,
+                                              .outside = OutsideValue(),
+                                              .mask = MaskName(),
+                                              .cells = in_vtk::shape_of(GetInterpolation(), GetCurvedCells())},
+                                             ready, input, source, output, report);
     PointsSent = static_cast<vtkIdType>(report.points_sent);
     PointsReceived = static_cast<vtkIdType>(report.points_received);
     BytesSent = static_cast<vtkIdType>(exchange.sent());
@@ -253,10 +257,15 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
         return 0;
     }
     WarnOfInexact(report.inexact);
+    for (const Note& note : report.notes) vtkWarningMacro("" << message(note));
     if (report.numbered_by_ranks && exchange.rank() == 0)
         vtkWarningMacro(
             "the cells of some source have no global ids: they are numbered by process, and owners of points on seams "
             "depend on how the mesh is cut");
+    if (report.cut_by_ranks && exchange.rank() == 0)
+        vtkWarningMacro(
+            "the points of some source have no global ids: cells are cut as each process numbers their nodes, and "
+            "values in them depend on how the mesh is cut");
     ListValidPoints(*report.mask);
     PassArrays(input, output);
     return 1;

@@ -12,6 +12,9 @@
  * - Global ids are those of the sources' cells (vtkCellData::GetGlobalIds, integers). If cells of some process have
  * none, the cells are numbered by process and then as they come, ghost cells left out, after a warning on process 0:
  * then owners on seams depend on the pieces.
+ * - Cells that are cut into simplices are cut by the global ids of their points (vtkPointData::GetGlobalIds). If the
+ * points of some process have none, by their order there, after a warning on process 0: then values in such cells, and
+ * owners of points between sides that are not flat, depend on the pieces.
  * - Ghost cells are left out: the process where they are no ghosts answers for them.
  * - All sources that have cells have the same arrays.
  *
@@ -19,7 +22,7 @@
  * that fails, no memory) is an error on all, with the same text and the rank: the output is empty, GetErrorCode() is
  * not zero, and none of them waits.
  *
- * Unlike vtkBarycertProbe it has no tolerance, and asks no other class where it is not exact. Composite data sets are
+ * Unlike vtkBarycertProbe it has no tolerance. Composite data sets are
  * an error: VTK would execute the filter once a block, on each process another number of times.
  */
 #ifndef vtkPBarycertProbe_h

@@ -59,7 +59,7 @@ struct Other {
 TEST(MeshFormat, FilesThatAreNotRead) {
     const std::string hdf5 = "\x89HDF\r\n\x1a\n and more";
     const std::vector<Other> others{
-        {"a.cgns", hdf5, "a CGNS file", "pvpython"},
+        {"a.cgns", hdf5, "a CGNS file", "SaveData(sys.argv[2], MergeBlocks(OpenDataFile(sys.argv[1])))'"},
         {"a.h5", hdf5, "an HDF5 file", ".xdmf"},
         {"a.msh", hdf5, "an HDF5 file", ".xdmf"},
         {"a.unv", "    -1\n  2411\n", "a universal file of I-deas", "gmsh "},

@@ -80,9 +80,9 @@ TEST(Faults, OfCells) {
     expect_fault(
         [](vtkUnstructuredGrid* grid) {
             const vtkIdType nodes[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-            grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes);
+            grid->InsertNextCell(VTK_CONVEX_POINT_SET, 8, nodes);
         },
-        " is a vtkHexahedron");
+        " is a vtkConvexPointSet");
 }
 
 TEST(Faults, OfNodes) {

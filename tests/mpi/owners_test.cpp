@@ -16,6 +16,7 @@
 #include "locate/points.hpp"
 #include "mpi/pieces.hpp"
 #include "vtk/grids.hpp"
+#include "vtk/mixed_grids.hpp"
 #include "vtkPBarycertProbe.h"
 
 namespace barycert::testing {
@@ -171,6 +172,50 @@ TEST(Owners, AreTheSameInEveryEnvironment) {
             });
         }
     }
+}
+
+// Cells of several types, of which ranks have some: cut by the global ids of points, or as their maps have them.
+TEST(Owners, OfMixedCellsAreThoseOfTheWhole) {
+    const auto whole = with_arrays(mixed_block(5, 0.125, false));
+    vtkNew<vtkIdTypeArray> numbers;
+    numbers->SetName("node");
+    for (vtkIdType i = 0; i < whole->GetNumberOfPoints(); ++i) numbers->InsertNextValue(2 * i - 7);
+    whole->GetPointData()->SetGlobalIds(numbers);
+    base::Random random(8);
+    std::vector<double> points;
+    for (int i = 0; i < 3000; ++i)
+        for (const double high : {5.0, 5.0, 2.0}) points.push_back(random.uniform(-0.125, high + 0.125));
+    for (vtkIdType i = 0; i < whole->GetNumberOfPoints(); ++i)
+        points.insert(points.end(), whole->GetPoint(i), whole->GetPoint(i) + 3);
+    const auto mine = points_of(share_of(points, rank(), ranks()));
+    for (const int interpolation : {vtkBarycertProbe::PULLING, vtkBarycertProbe::MULTILINEAR}) {
+        const auto run = [&](auto probe, vtkDataSet* source) {
+            probe->SetSourceData(source);
+            probe->SetInputData(mine);
+            probe->SetInterpolation(interpolation);
+            probe->Update();
+            return probe;
+        };
+        const auto judge = run(vtkSmartPointer<vtkBarycertProbe>::New(), whole);
+        EXPECT_GT(judge->GetValidPoints()->GetNumberOfTuples(), mine->GetNumberOfPoints() / 2);
+        for (const Cut cut : all_cuts) {
+            for (const bool ghosts : {false, true}) {
+                SCOPED_TRACE(std::string(name(cut)) + (ghosts ? ", ghosts" : ""));
+                Messages messages;
+                const auto piece = piece_of(whole, ranks_of_cells(whole, cut), rank(), ghosts, random);
+                const auto ours = run(vtkSmartPointer<vtkPBarycertProbe>::New(), piece);
+                expect_same(ours->GetOutput()->GetPointData(), judge->GetOutput()->GetPointData());
+                EXPECT_EQ(messages.count("global ids"), 0) << messages.all();
+            }
+        }
+    }
+    // Without the ids of points values may differ, and it is told.
+    Messages messages;
+    const auto piece = piece_of(whole, ranks_of_cells(whole, Cut::slabs), rank(), false, random);
+    piece->GetPointData()->SetGlobalIds(nullptr);
+    EXPECT_TRUE(probed<vtkPBarycertProbe>(piece, mine)->GetExact());
+    EXPECT_EQ(messages.count("the points of some source have no global ids"), rank() == 0 && ranks() > 1 ? 1 : 0)
+        << messages.all();
 }
 
 // Cells in slabs of their order, without ids: numbers by rank are those of the whole.

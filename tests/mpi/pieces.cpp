@@ -171,7 +171,10 @@ vtkSmartPointer<vtkUnstructuredGrid> piece_of(vtkUnstructuredGrid* whole, const 
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> with_arrays(const Mesh& mesh, double plane) {
-    const auto grid = grid_of(mesh, plane);
+    return with_arrays(grid_of(mesh, plane));
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> with_arrays(vtkSmartPointer<vtkUnstructuredGrid> grid) {
     base::Random random(11);
     vtkNew<vtkDoubleArray> vectors;
     vectors->SetName("v");

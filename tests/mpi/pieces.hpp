@@ -40,6 +40,7 @@ vtkSmartPointer<vtkUnstructuredGrid> piece_of(vtkUnstructuredGrid* whole, const 
 /// The mesh with point arrays of several types, and cell arrays: numbers beyond doubles, global ids of the cells that
 /// ascend with gaps.
 vtkSmartPointer<vtkUnstructuredGrid> with_arrays(const Mesh& mesh, double plane = 0);
+vtkSmartPointer<vtkUnstructuredGrid> with_arrays(vtkSmartPointer<vtkUnstructuredGrid> grid);
 
 /// A mesh and points, the same on all ranks, and what each has of them.
 struct Job {

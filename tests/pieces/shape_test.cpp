@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "barycert/pieces/piece.hpp"
+#include "mesh/shaped_mesh.hpp"
 #include "pieces/threads.hpp"
 
 namespace barycert::testing {
@@ -36,7 +37,7 @@ TEST(Shapes, HaveTheHighestDimensionOfAnyPiece) {
     EXPECT_EQ(shape.dimension, 3);
     EXPECT_EQ(agreed({{}, {}}, shape), "");
     EXPECT_EQ(shape.dimension, 0);
-    EXPECT_EQ(agreed({{.dimension = 1}, {.dimension = 0}, {}}, shape), "it has neither tetrahedra nor triangles");
+    EXPECT_EQ(agreed({{.dimension = 1}, {.dimension = 0}, {}}, shape), "it has no cells but points and lines");
 }
 
 TEST(Shapes, AreByNumbersIfAllThatCountHaveNumbers) {
@@ -50,13 +51,34 @@ TEST(Shapes, AreByNumbersIfAllThatCountHaveNumbers) {
     EXPECT_TRUE(shape.by_numbers);
 }
 
+TEST(Shapes, AreMixedIfTypesDifferAnywhere) {
+    const auto of = [](int low, int high, int dimension = 3, bool numbered = true) {
+        return PieceFacts{.dimension = dimension, .low_type = low, .high_type = high, .nodes_numbered = numbered};
+    };
+    Shape shape;
+    agreed({of(10, 10), {}, of(10, 10)}, shape);
+    EXPECT_FALSE(shape.mixed);
+    EXPECT_TRUE(shape.nodes_by_numbers);
+    agreed({of(24, 24), of(24, 24)}, shape);
+    EXPECT_FALSE(shape.mixed);
+    agreed({of(12, 12), of(12, 12)}, shape);
+    EXPECT_TRUE(shape.mixed);
+    agreed({of(10, 10), of(24, 24)}, shape);
+    EXPECT_TRUE(shape.mixed);
+    agreed({of(10, 10), of(5, 9, 2, false)}, shape);
+    EXPECT_FALSE(shape.mixed);
+    EXPECT_TRUE(shape.nodes_by_numbers);
+    agreed({of(10, 10), of(10, 12, 3, false)}, shape);
+    EXPECT_TRUE(shape.mixed);
+    EXPECT_FALSE(shape.nodes_by_numbers);
+}
+
 TEST(Shapes, OfTrianglesLieAcrossOneAxis) {
     Shape shape;
     const Box low{{0, 1, 0}, {1, 1, 1}}, high{{5, 1, -3}, {6, 1, 1}}, off{{0, 2, 0}, {1, 2, 1}};
     EXPECT_EQ(agreed({{2, false, low}, {}, {2, false, high}}, shape), "");
     EXPECT_EQ(shape.normal, 1);
-    EXPECT_EQ(agreed({{2, false, low}, {2, false, off}}, shape),
-              "its triangles do not lie in one plane across an axis");
+    EXPECT_EQ(agreed({{2, false, low}, {2, false, off}}, shape), "its polygons do not lie in one plane across an axis");
     EXPECT_EQ(agreed({{.dimension = 2}, {.dimension = 2}}, shape), "");  // ghosts alone
     EXPECT_EQ(shape.normal, -1);
 }
@@ -88,12 +110,47 @@ TEST(Pieces, OfTrianglesAreFlatInTheirPlane) {
     EXPECT_EQ(box.high, (std::array<double, 3>{4, -3, 2}));
 }
 
-TEST(Pieces, AreSortedByNumbers) {
-    Piece piece = triangles(0);
-    ASSERT_TRUE(piece.flatten(-1));
-    EXPECT_TRUE(piece.sort_cells({3, 3}).empty());
-    EXPECT_EQ(piece.sort_cells({7, -5}), (std::vector<Mesh::Index>{1, 0}));
-    EXPECT_EQ(piece.mesh.cells, (std::vector<Mesh::Index>{2, 3, 4, 1, 2, 3}));
+// Whatever the order of nodes in a piece, their numbers tell which diagonal a side is cut along.
+TEST(Pieces, AreCutByTheNumbersOfNodes) {
+    const auto cut = [](const std::vector<Mesh::Index>& nodes, const std::vector<std::int64_t>& numbers) {
+        Piece piece;
+        piece.mesh.dimension = 2;
+        piece.mesh.points = {0, 0, 1, 0, 1, 1, 0, 1};
+        test::add_shape(piece.mesh, 9, nodes);
+        EXPECT_FALSE(piece.cut(numbers).has_value());
+        EXPECT_EQ(piece.mesh.shapes.nodes, nodes);
+        EXPECT_EQ(piece.mesh.cell_numbers, (std::vector<Mesh::Index>{0, 0}));
+        return piece.mesh.cells;
+    };
+    EXPECT_EQ(cut({0, 1, 2, 3}, {}), (std::vector<Mesh::Index>{0, 1, 2, 0, 2, 3}));
+    EXPECT_EQ(cut({0, 1, 2, 3}, {9, 8, 70, 60}), (std::vector<Mesh::Index>{1, 2, 3, 1, 3, 0}));
+    EXPECT_EQ(cut({0, 1, 2, 3}, {9, 60, -8, 60}), (std::vector<Mesh::Index>{2, 3, 0, 2, 0, 1}));
+}
+
+// Boxes have curved cells whole: at the middle of this one's longest side.
+TEST(Pieces, HaveBoxesOfWholeCells) {
+    Piece piece;
+    piece.mesh.dimension = 2;
+    piece.mesh.points = {0, 0, 2, 0, 0, 2, 1, 0, 2, 2, 0, 1};
+    piece.mesh.cells = {0, 1, 2};
+    piece.mesh.mid_nodes = {3, 4, 5};
+    EXPECT_EQ(piece.nodes_of(0), (std::vector<Mesh::Index>{0, 1, 2, 3, 4, 5}));
+    // The side goes through (2, 2): along x up to 2.25, where its derivative 4 (1 - 2 t) x - ... is zero.
+    const Box box = piece.box_of(0);
+    EXPECT_GE(box.high[0], 2.25);
+    EXPECT_GE(box.high[1], 2.25);
+    EXPECT_LE(box.low[0], 0);
+    EXPECT_EQ(box.low[2], 0);
+    // A quadrilateral, by its nodes, of which both parts are asked.
+    Piece quad;
+    quad.mesh.dimension = 2;
+    quad.mesh.points = {0, 0, 1, 0, 1, 1, 0, 1};
+    test::add_shape(quad.mesh, 9, {0, 1, 2, 3});
+    ASSERT_FALSE(quad.cut({}).has_value());
+    EXPECT_EQ(quad.whole_of(0), 0U);
+    EXPECT_EQ(quad.whole_of(1), 0U);
+    EXPECT_EQ(quad.nodes_of(0), (std::vector<Mesh::Index>{0, 1, 2, 3}));
+    EXPECT_EQ(quad.box_of(0).high, (std::array<double, 3>{1, 1, 0}));
 }
 
 }  // namespace

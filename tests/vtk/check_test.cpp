@@ -24,6 +24,7 @@
 #include "check/judge.hpp"
 #include "check/meshes.hpp"
 #include "vtk/grids.hpp"
+#include "vtk/mixed_grids.hpp"
 #include "vtkBarycertCheck.h"
 
 namespace barycert::testing {
@@ -249,7 +250,9 @@ TEST(Check, TakesCellsOfSecondOrder) {
     Messages messages;
     grid->Modified();
     check->Update();
-    EXPECT_EQ(messages.count("linear cells beside quadratic ones"), 1) << messages.all();
+    // A linear one beside them doubles a cell.
+    EXPECT_FALSE(check->GetCertified());
+    EXPECT_NE(row_of(check->GetDefects(), "duplicate_cell"), -1);
 }
 
 TEST(Check, TestsDelaunayIfAsked) {
@@ -268,23 +271,53 @@ TEST(Check, TestsDelaunayIfAsked) {
     EXPECT_NE(report().find("elaunay"), std::string::npos);
 }
 
-TEST(Check, RefusesWhatIsNoMeshOfSimplices) {
+TEST(Check, TakesCellsOfAllTypes) {
+    const auto grid = mixed_block(4, 0.0, true);
+    vtkNew<vtkBarycertCheck> check;
+    check->SetInputData(grid);
+    check->Update();
+    EXPECT_TRUE(check->GetCertified());
+    vtkDataSet* const out = check->GetOutput();
+    double volume = 0;
+    for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
+        EXPECT_EQ(cell_array(out, "orientation")->GetTuple1(i), 1) << i;
+        const int type = grid->GetCellType(i);
+        const double own = type == VTK_WEDGE ? 0.5 : type == VTK_PYRAMID ? 1.0 / 6 : 1;
+        EXPECT_NEAR(cell_array(out, "volume")->GetTuple1(i), own, 1e-14) << i;
+        volume += own;
+    }
+    EXPECT_NEAR(volume, 32, 1e-12);
+    // A cell whose node lies beyond the opposite side is named by its id.
+    Messages messages;
+    grid->GetPoints()->SetPoint(0, 1.5, 0.5, 0.5);
+    grid->GetPoints()->Modified();
+    grid->Modified();
+    check->Update();
+    EXPECT_FALSE(check->GetCertified());
+    const vtkIdType row = row_of(check->GetDefects(), "folded_cell");
+    ASSERT_GE(row, 0);
+    EXPECT_EQ(text(check->GetDefects(), row, "places").find("cell 0"), 0U) << text(check->GetDefects(), row, "places");
+    EXPECT_EQ(cell_array(out, "folded_cell")->GetTuple1(0), 1);
+    EXPECT_EQ(cell_array(out, "orientation")->GetTuple1(0), 0);
+}
+
+TEST(Check, RefusesCellsWithoutKnownCorners) {
     Messages messages;
     vtkNew<vtkBarycertCheck> check;
     vtkNew<vtkUnstructuredGrid> grid;
     grid->SetPoints(grid_of(box(3, {1, 1, 1}))->GetPoints());
     const vtkIdType nodes[8] = {0, 1, 3, 2, 4, 5, 7, 6};
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes);
+    grid->InsertNextCell(VTK_CONVEX_POINT_SET, 8, nodes);
     check->SetInputData(grid);
     check->Update();
-    EXPECT_EQ(messages.count("cell 0 is a vtkHexahedron; expected tetrahedra"), 1) << messages.all();
-    // Polygons beside cells that fill space are no surface.
+    EXPECT_EQ(messages.count("cannot be checked: cell 0 is a vtkConvexPointSet"), 1) << messages.all();
+    // Polygons beside cells that fill space are left out.
     grid->Reset();
     grid->InsertNextCell(VTK_TETRA, 4, nodes);
     grid->InsertNextCell(VTK_QUAD, 4, nodes);
     grid->Modified();
     check->Update();
-    EXPECT_EQ(messages.count("cell 1 is a vtkQuad"), 1) << messages.all();
+    EXPECT_TRUE(std::isnan(cell_array(check->GetOutput(), "volume")->GetTuple1(1)));
 }
 
 TEST(Check, OfNothingIsCertified) {

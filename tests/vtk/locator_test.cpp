@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -15,12 +16,10 @@
 #include <vtkFloatArray.h>
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
-#include <vtkImageData.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkSphereSource.h>
 #include <vtkWeakPointer.h>
 
 #include "check/meshes.hpp"
@@ -119,6 +118,23 @@ TEST(Closest, IsTheLowestCellAndTheExactPoint) {
     locator->FindClosestPoint(in_face, closest, id, sub_id, dist2);
     EXPECT_EQ(dist2, 1);
     EXPECT_EQ(std::vector<double>(closest, closest + 3), (std::vector<double>{0.25, 0, 0.25}));
+}
+
+// Also on faces, edges and vertices, where the lowest cell is the owner.
+TEST(Closest, OfAPointInTheMeshIsThePointInItsOwner) {
+    const auto grid = two_cells();
+    const auto locator = locator_of(grid);
+    vtkNew<vtkGenericCell> cell;
+    for (std::array<double, 3> x : {std::array{0.25, 0.25, 0.5}, {0.5, 0.5, 0.0}, {1.0, 1.0, 1.0}, {0.25, 0.25, 0.0}}) {
+        double closest[3], dist2 = -1;
+        vtkIdType id = -1;
+        int sub_id = -1, inside = -1;
+        EXPECT_EQ(locator->FindClosestPointWithinRadius(x.data(), 1, closest, cell, id, sub_id, dist2, inside), 1);
+        EXPECT_EQ(inside, 1);
+        EXPECT_EQ(dist2, 0);
+        EXPECT_EQ(id, locator->FindCell(x.data()));
+        EXPECT_EQ(std::vector<double>(closest, closest + 3), std::vector<double>(x.begin(), x.end()));
+    }
 }
 
 TEST(Closest, IsThatInThePlaneOfTriangles) {
@@ -357,52 +373,32 @@ TEST(DataSets, OfFloatsAreTakenAsTheyAre) {
     EXPECT_EQ(locator->FindCell(beyond), -1);
 }
 
-// What a vtkStaticCellLocator answers, and the reason.
-void expect_other(vtkDataSet* data, double* inside, const std::string& reason) {
-    Messages messages;
-    const auto locator = locator_of(data);
-    locator->BuildLocator();
-    EXPECT_FALSE(locator->GetExact());
-    EXPECT_NE(locator->GetReason().find(reason), std::string::npos) << locator->GetReason();
-    EXPECT_EQ(messages.count("not exact"), 1) << messages.all();
-    EXPECT_GE(locator->FindCell(inside), 0);
-    vtkNew<vtkGenericCell> cell;
-    double pcoords[3], weights[8], closest[3], dist2 = 0;
-    int sub_id = 0, within = 0;
-    vtkIdType id = -1;
-    EXPECT_GE(locator->FindCell(inside, 1e-6, cell, pcoords, weights), 0);
-    locator->FindClosestPoint(inside, closest, id, sub_id, dist2);
-    EXPECT_GE(id, 0);
-    EXPECT_EQ(locator->FindClosestPointWithinRadius(inside, 1, closest, cell, id, sub_id, dist2, within), 1);
-}
-
-TEST(DataSets, OfOtherCellsGoToVtk) {
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(3, 3, 3);
-    double middle[3] = {0.5, 0.5, 0.5};
-    expect_other(image, middle, "vtkImageData");
-
-    const auto grid = two_cells();
-    vtkNew<vtkUnstructuredGrid> wedge;
-    vtkNew<vtkPoints> points;
-    for (const auto& x : {std::array{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}})
-        points->InsertNextPoint(x[0], x[1], x[2]);
-    wedge->SetPoints(points);
-    const vtkIdType nodes[6] = {0, 1, 2, 3, 4, 5};
-    wedge->InsertNextCell(VTK_WEDGE, 6, nodes);
-    double in_wedge[3] = {0.25, 0.25, 0.5};
-    expect_other(wedge, in_wedge, "vtkWedge");
-
-    vtkNew<vtkSphereSource> sphere;
-    sphere->LatLongTessellationOn();
-    sphere->Update();
-    double pole[3] = {0, 0, 0.5};
-    expect_other(sphere->GetOutput(), pole, "vtkQuad");
-
+// What cannot be located exactly is an error that says why, and nothing is found.
+TEST(DataSets, ThatCannotBeTakenAreErrors) {
     const auto bad = two_cells();
     bad->GetPoints()->SetPoint(4, 1, 1, std::numeric_limits<double>::infinity());
-    Messages messages;
-    EXPECT_FALSE(locator_of(bad)->GetExact());
+    vtkNew<vtkUnstructuredGrid> line;
+    line->SetPoints(two_cells()->GetPoints());
+    const vtkIdType nodes[2] = {0, 1};
+    line->InsertNextCell(VTK_LINE, 2, nodes);
+    for (const auto& [data, reason] : {std::pair<vtkDataSet*, const char*>(bad, "a coordinate is not finite"),
+                                       {line, "it has no cells but points and lines"}}) {
+        Messages messages;
+        const auto locator = locator_of(data);
+        locator->BuildLocator();
+        EXPECT_FALSE(locator->GetExact());
+        EXPECT_NE(locator->GetReason().find(reason), std::string::npos) << locator->GetReason();
+        EXPECT_EQ(messages.count("points cannot be located exactly in this data set"), 1) << messages.all();
+        vtkNew<vtkGenericCell> cell;
+        double inside[3] = {0.1, 0.1, 0.1}, pcoords[3], weights[8], closest[3], dist2 = 0;
+        int sub_id = 0, within = 0;
+        vtkIdType id = 0;
+        EXPECT_EQ(locator->FindCell(inside), -1);
+        EXPECT_EQ(locator->FindCell(inside, 1e-6, cell, pcoords, weights), -1);
+        locator->FindClosestPoint(inside, closest, id, sub_id, dist2);
+        EXPECT_EQ(id, -1);
+        EXPECT_EQ(locator->FindClosestPointWithinRadius(inside, 1, closest, cell, id, sub_id, dist2, within), 0);
+    }
 }
 
 TEST(DataSets, WithoutCellsHaveNothing) {

@@ -1,4 +1,4 @@
-// Settings of vtkBarycertProbe, what it asks of the pipeline, and sources that go to VTK, beside vtkProbeFilter.
+// Settings of vtkBarycertProbe, and what it asks of the pipeline, beside vtkProbeFilter.
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <vtkCellData.h>
-#include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -20,7 +19,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkProbeFilter.h>
-#include <vtkStaticCellLocator.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGridAlgorithm.h>
 
@@ -268,50 +266,6 @@ TEST(ProbeSettings, HaveTheTimesOfTheSource) {
     vtkInformation* const out = probe->GetOutputInformation(0);
     EXPECT_EQ(out->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 2);
     EXPECT_EQ(out->Length(vtkStreamingDemandDrivenPipeline::TIME_RANGE()), 2);
-}
-
-// A wedge is no simplex: vtkProbeFilter with a vtkStaticCellLocator answers, with the settings and in the same words.
-TEST(ProbeSettings, GoToVtkWithOtherCells) {
-    vtkNew<vtkUnstructuredGrid> wedge;
-    vtkNew<vtkPoints> corners;
-    for (const auto& x : {std::array{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}})
-        corners->InsertNextPoint(x[0], x[1], x[2]);
-    wedge->SetPoints(corners);
-    const vtkIdType nodes[6] = {0, 1, 2, 3, 4, 5};
-    wedge->InsertNextCell(VTK_WEDGE, 6, nodes);
-    give(wedge->GetPointData(), "n", 6);
-    wedge->GetPointData()->SetActiveScalars("n");
-    const auto input = points_of({0.25, 0.25, 0.25, 0.6, 0.6, 0.5, 9, 9, 9});
-    give(input->GetPointData(), "own", 3);
-    for (const bool categories : {false, true}) {
-        vtkNew<vtkProbeFilter> theirs;
-        vtkNew<vtkStaticCellLocator> locator;
-        theirs->SetCellLocatorPrototype(locator);
-        vtkNew<vtkBarycertProbe> ours;
-        const auto run = [&](auto* probe) {
-            probe->SetSourceData(wedge);
-            probe->SetInputData(input);
-            probe->SetCategoricalData(categories);
-            probe->SetComputeTolerance(false);
-            probe->SetTolerance(0.5);
-            probe->SetValidPointMaskArrayName("valid");
-            probe->PassPointArraysOn();
-            probe->Update();
-        };
-        run(theirs.Get());
-        Messages messages;
-        run(ours.Get());
-        EXPECT_FALSE(ours->GetExact());
-        EXPECT_EQ(messages.count("vtkWedge"), 1) << messages.all();
-        vtkPointData* const a = theirs->GetOutput()->GetPointData();
-        vtkPointData* const b = ours->GetOutput()->GetPointData();
-        ASSERT_EQ(names_in(b), names_in(a));
-        for (int k = 0; k < a->GetNumberOfArrays(); ++k)
-            for (vtkIdType i = 0; i < 3; ++i)
-                EXPECT_EQ(b->GetArray(k)->GetTuple1(i), a->GetArray(k)->GetTuple1(i)) << a->GetArrayName(k);
-        ASSERT_EQ(ours->GetValidPoints()->GetNumberOfTuples(), theirs->GetValidPoints()->GetNumberOfTuples());
-        EXPECT_EQ(ours->GetValidPoints()->GetValue(0), 0);
-    }
 }
 
 }  // namespace

@@ -249,7 +249,7 @@ TEST(SurfaceCheck, OfBadInputSaysSo) {
         grid->InsertNextCell(type, size, nodes + (size == 2 ? 1 : 0));
         return CheckedSurface(grid).said;
     };
-    EXPECT_NE(said(VTK_POLYGON, 2).find("cell 0 has 2 vertices"), std::string::npos);
+    EXPECT_NE(said(VTK_POLYGON, 2).find("cell 0 has 2 nodes"), std::string::npos);
     EXPECT_NE(said(VTK_POLYGON, 4).find("cell 0 has a vertex that is no point"), std::string::npos);
     EXPECT_NE(said(VTK_TRIANGLE, 3).find("cell 0 has a vertex that is no point"), std::string::npos);
     EXPECT_NE(CheckedSurface(polygons_of(corners_of_cube, {{0, 1, 2, 3}, {4, 5}})).said.find("VTK cannot build"),

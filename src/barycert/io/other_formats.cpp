@@ -99,11 +99,11 @@ std::string unpacked_name(const std::string& path) {
     return path.substr(0, path.rfind('/') + 1) + "plain-" + path.substr(path.rfind('/') + 1);
 }
 
-/// ParaView's Python, which cuts any data set, in blocks or not, into simplices.
-std::string paraview_command(const std::string& in, const std::string& stem) {
-    return "`pvpython -c 'import sys; from paraview.simple import *; SaveData(sys.argv[2], "
-           "Tetrahedralize(MergeBlocks(OpenDataFile(sys.argv[1]))))' " +
-           shell_word(in) + " " + shell_word(stem + "-simplices.vtu") + "`";
+/// ParaView's Python, which makes one grid of any data set, in blocks or not.
+std::string paraview_command(const std::string& in, const std::string& out,
+                             const std::string& grid = "MergeBlocks(OpenDataFile(sys.argv[1]))") {
+    return "`pvpython -c 'import sys; from paraview.simple import *; SaveData(sys.argv[2], " + grid + ")' " +
+           shell_word(in) + " " + shell_word(out) + "`";
 }
 
 /// ParaView tells formats by their suffixes; a case of OpenFOAM has an empty file to name it.
@@ -111,13 +111,14 @@ std::string by_paraview(const std::string& path) {
     const std::string stem = stem_of(path);
     if (std::error_code ignored; std::filesystem::is_directory(path, ignored)) {
         const std::string foam = path + "/case.foam";
-        return "convert it with `touch " + shell_word(foam) + "` and " + paraview_command(foam, path + "/case");
+        return "convert it with `touch " + shell_word(foam) + "` and " +
+               paraview_command(foam, path + "/case-grid.vtu");
     }
     if (has_suffix(path, ".vtkhdf"))
         return "convert it with `cp " + shell_word(path) + " " + shell_word(stem + ".hdf") + "` and " +
-               paraview_command(stem + ".hdf", stem);
+               paraview_command(stem + ".hdf", stem + "-grid.vtu");
     for (const char* const known : {".cgns", ".cas", ".foam", ".openfoam"}) {
-        if (has_suffix(path, known)) return "convert it with " + paraview_command(path, stem);
+        if (has_suffix(path, known)) return "convert it with " + paraview_command(path, stem + "-grid.vtu");
     }
     return "name the folder of the case";
 }
@@ -189,7 +190,8 @@ std::string gmsh_command(const std::string& path) {
 }
 
 std::string to_simplices(const std::string& path) {
-    return "cut them into simplices with " + paraview_command(path, stem_of(path));
+    return "cut them into simplices with " + paraview_command(path, stem_of(path) + "-simplices.vtu",
+                                                              "Tetrahedralize(MergeBlocks(OpenDataFile(sys.argv[1])))");
 }
 
 bool in_plane(std::span<const double> points, double z) {

@@ -113,15 +113,7 @@ void tell_once(Notes notes, MeshReport& report) {
 
 void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report) {
     report.curved.mapped = locator.has_curved_cells();
-    const auto tell = [&](std::string text) {
-        tell_once({{Note::Kind::guessed, std::move(text), job.mesh, true}}, report);
-    };
-    if (job.cell_interpolation == CellInterpolation::multilinear &&
-        locator.interpolation() == CellInterpolation::linear)
-        tell("no cell is a hexahedron or the like: multilinear interpolation is linear here");
-    else if (const std::uint64_t unmapped = locator.unmapped_cells(); unmapped != 0)
-        tell(std::to_string(unmapped) +
-             " cells are taken as straight or by their parts: it is not proved that their maps are injective");
+    tell_once(notes_of_maps(locator, job.cell_interpolation, job.mesh), report);
 }
 
 std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<base::NamedFile>& more) {

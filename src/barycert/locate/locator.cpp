@@ -89,6 +89,18 @@ std::uint64_t Locator::unmapped_cells() const {
     return data_->mapped ? data_->mapped->unproved() : 0;
 }
 
+Notes notes_of_maps(const Locator& locator, CellInterpolation asked, const std::string& file) {
+    const std::uint64_t unmapped = locator.unmapped_cells();
+    if (asked == CellInterpolation::multilinear && locator.interpolation() == CellInterpolation::linear)
+        return {{Note::Kind::guessed, "no cell is a hexahedron or the like: multilinear interpolation is linear here",
+                 file, true}};
+    if (unmapped == 0) return {};
+    return {{Note::Kind::guessed,
+             std::to_string(unmapped) +
+                 " cells are taken as straight or by their parts: it is not proved that their maps are injective",
+             file, true}};
+}
+
 std::size_t Locator::bytes() const {
     return data_->bytes();
 }

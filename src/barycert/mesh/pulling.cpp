@@ -1,6 +1,7 @@
 #include "barycert/mesh/pulling.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 #include "barycert/base/arena.hpp"
@@ -336,6 +337,21 @@ std::vector<Index> whole_of_parts(const Mesh& mesh) {
     for (std::size_t i = 0; i < mesh.shapes.count(); ++i)
         wholes.resize(static_cast<std::size_t>(mesh.shapes.parts[i + 1]), static_cast<Index>(i));
     return wholes;
+}
+
+std::optional<std::size_t> cut_into_simplices(Mesh& mesh) {
+    std::vector<Index> numbers = std::move(mesh.cell_numbers);
+    if (numbers.empty()) {
+        numbers.resize(mesh.shapes.count());
+        std::iota(numbers.begin(), numbers.end(), 0);
+    }
+    const std::optional<std::size_t> open = pull(mesh);
+    const std::vector<Index> of_part = whole_of_parts(mesh);
+    mesh.cell_numbers.clear();
+    append_rows_of(numbers, 1, of_part, mesh.cell_numbers);
+    for (Field& field : mesh.cell_fields) field = rows_of(field, of_part);
+    for (Column& labels : mesh.cell_labels) labels = labels_at(labels, of_part);
+    return open;
 }
 
 Mesh rows_of_wholes(const Mesh& mesh) {

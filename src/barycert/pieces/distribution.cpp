@@ -43,7 +43,7 @@ Status Distribution::gather() {
     Status read = exchange_.everywhere([&] {
         mine.cell_count = static_cast<double>(piece_.mesh.cell_count());
         mine.point_count = static_cast<double>(points_.count);
-        for (std::size_t i = 0; i < piece_.mesh.cell_count(); ++i) mine.cells.add(piece_.box_of(i));
+        for (std::size_t i = 0; i < piece_.mesh.whole_count(); ++i) mine.cells.add(piece_.box_of(i));
         for (std::size_t i = 0; i < points_.count; ++i) mine.points.add(box_at(i));
         parts_.resize(static_cast<std::size_t>(exchange_.size()));
     });
@@ -83,7 +83,7 @@ Status Distribution::refine() {
             if (asks_much(other, rank)) {
                 if (mine.empty()) {
                     mine = cover(
-                        of(rank).cells, piece_.mesh.cell_count(), [&](std::size_t i) { return piece_.box_of(i); },
+                        of(rank).cells, piece_.mesh.whole_count(), [&](std::size_t i) { return piece_.box_of(i); },
                         fine);
                     mine.resize(fine, empty_box);
                 }

@@ -2,9 +2,11 @@
 
 #include <numeric>
 
+#include "barycert/core/isoparametric/inverse.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/locate/near_feature.hpp"
+#include "barycert/mesh/pulling.hpp"
 
 namespace barycert::pieces {
 namespace {
@@ -101,13 +103,47 @@ std::vector<Box> cover(const Box& around, std::size_t count, const std::function
     return all;
 }
 
-Box Piece::box_of(std::size_t cell) const {
-    Box box = empty_box;
-    for (std::size_t k = 0; k < mesh.corners(); ++k) {
-        std::array<double, 3> x{};
-        place(node(mesh.cells[mesh.corners() * cell + k]), x.data());
-        box.add({x, x});
+std::size_t Piece::whole_of(Mesh::Index cell) const {
+    const std::vector<Mesh::Index>& parts = mesh.shapes.parts;
+    if (parts.empty()) return static_cast<std::size_t>(cell);
+    return static_cast<std::size_t>(std::upper_bound(parts.begin(), parts.end(), cell) - parts.begin()) - 1;
+}
+
+std::vector<Mesh::Index> Piece::nodes_of(std::size_t whole) const {
+    std::vector<Mesh::Index> nodes;
+    const auto add = [&](const std::vector<Mesh::Index>& all, std::size_t begin, std::size_t end) {
+        nodes.insert(nodes.end(), all.data() + begin, all.data() + end);
+    };
+    const std::size_t corners = mesh.corners();
+    if (const Mesh::Shapes& shapes = mesh.shapes; shapes.count() != 0) {
+        add(shapes.nodes, whole == 0 ? 0 : static_cast<std::size_t>(shapes.ends[whole - 1]),
+            static_cast<std::size_t>(shapes.ends[whole]));
+    } else {
+        add(mesh.cells, corners * whole, corners * (whole + 1));
+        const std::size_t mids = mesh.mid_nodes.size() / mesh.cell_count();
+        add(mesh.mid_nodes, mids * whole, mids * (whole + 1));
     }
+    return nodes;
+}
+
+Box Piece::box_of(std::size_t whole) const {
+    namespace iso = core::isoparametric;
+    Box box = empty_box;
+    const auto add = [&](const double* point) {
+        std::array<double, 3> x{};
+        place(point, x.data());
+        box.add({x, x});
+    };
+    const std::vector<Mesh::Index> nodes = nodes_of(whole);
+    for (const Mesh::Index i : nodes) add(node(i));
+    const bool simplex = mesh.shapes.count() == 0 || mesh::is_curved_simplex(mesh.shapes.types[whole]);
+    const iso::Reference* const reference = iso::simplex_reference(mesh.dimension, nodes.size());
+    if (!simplex || reference == nullptr) return box;
+    iso::Places places;
+    std::transform(nodes.begin(), nodes.end(), places.at.begin(), [&](Mesh::Index i) { return node(i); });
+    const std::array<double, 6> hull = iso::hull_box(*reference, places);
+    add(hull.data());
+    add(hull.data() + 3);
     return box;
 }
 
@@ -118,8 +154,12 @@ bool Piece::flatten(int of) {
         const auto at = [&](Mesh::Index node) {
             return points[3 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
         };
-        const double its = at(mesh.cells.front());
-        if (!std::all_of(mesh.cells.begin(), mesh.cells.end(), [&](Mesh::Index n) { return at(n) == its; })) continue;
+        const double its = at(mesh.shapes.nodes.empty() ? mesh.cells.front() : mesh.shapes.nodes.front());
+        const std::array<const std::vector<Mesh::Index>*, 3> all{&mesh.cells, &mesh.mid_nodes, &mesh.shapes.nodes};
+        if (!std::all_of(all.begin(), all.end(), [&](const auto* nodes) {
+                return std::all_of(nodes->begin(), nodes->end(), [&](Mesh::Index n) { return at(n) == its; });
+            }))
+            continue;
         normal = axis;
         plane = its;
         axes = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2, axis};
@@ -134,49 +174,66 @@ bool Piece::flatten(int of) {
     return false;
 }
 
-std::vector<Mesh::Index> Piece::sort_cells(const std::vector<std::int64_t>& numbers) {
-    if (std::is_sorted(numbers.begin(), numbers.end())) return {};
-    std::vector<Mesh::Index> order(numbers.size());
+std::optional<std::size_t> Piece::cut(const std::vector<std::int64_t>& numbers) {
+    std::vector<Mesh::Index> order(numbers.size()), rank(numbers.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](Mesh::Index a, Mesh::Index b) {
         return numbers[static_cast<std::size_t>(a)] < numbers[static_cast<std::size_t>(b)];
     });
-    const auto corners = static_cast<std::ptrdiff_t>(mesh.corners());
-    std::vector<Mesh::Index> cells;
-    cells.reserve(mesh.cells.size());
-    for (const Mesh::Index cell : order) {
-        const auto from = mesh.cells.begin() + corners * cell;
-        cells.insert(cells.end(), from, from + corners);
-    }
-    mesh.cells = std::move(cells);
-    return order;
+    for (std::size_t i = 0; i < order.size(); ++i)
+        rank[static_cast<std::size_t>(order[i])] = static_cast<Mesh::Index>(i);
+    const auto renumber = [&](const std::vector<Mesh::Index>& to) {
+        for (std::vector<Mesh::Index>* const nodes : {&mesh.cells, &mesh.shapes.nodes, &mesh.shapes.rings}) {
+            for (Mesh::Index& node : *nodes) node = to.empty() ? node : to[static_cast<std::size_t>(node)];
+        }
+    };
+    renumber(rank);
+    const std::optional<std::size_t> open = mesh::cut_into_simplices(mesh);
+    renumber(order);
+    return open;
 }
 
 Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine) {
     // Greatest is least with the other sign.
-    const auto lacks_numbers = [&](int d) { return mine.dimension == d && !mine.numbered ? -1.0 : 0.0; };
-    const auto& [low, high] = mine.triangles;
-    std::array<double, 9> facts{static_cast<double>(-mine.dimension), lacks_numbers(2), lacks_numbers(3)};
+    const auto of = [&](int d, double its, double none) { return mine.dimension == d ? its : none; };
+    const auto& [low, high] = mine.polygons;
+    std::array<double, 15> facts{static_cast<double>(-mine.dimension)};
     for (std::size_t a = 0; a < 3; ++a) {
-        facts[3 + a] = low[a];
-        facts[6 + a] = -high[a];
+        facts[1 + a] = low[a];
+        facts[4 + a] = -high[a];
+    }
+    for (const int d : {2, 3}) {
+        double* const its = &facts[static_cast<std::size_t>(4 * d - 1)];
+        its[0] = of(d, mine.numbered ? 0 : -1, 0);
+        its[1] = of(d, mine.nodes_numbered ? 0 : -1, 0);
+        its[2] = of(d, mine.low_type, 255);
+        its[3] = of(d, -mine.high_type, 0);
     }
     exchange.least(facts);
     const int highest = -static_cast<int>(facts[0]);
-    if (highest == 0 || highest == 1) return Error{.what = "it has neither tetrahedra nor triangles"};
-    Shape shape{.dimension = std::max(highest, 0),
-                .by_numbers = highest < 0 || facts[static_cast<std::size_t>(highest) - 1] == 0};
-    const bool ghosts_alone = facts[3] > -facts[6];
+    if (highest == 0 || highest == 1) return Error{.what = only_lower};
+    Shape shape{.dimension = std::max(highest, 0), .by_numbers = true};
+    if (highest < 0) return shape;
+    const double* const its = &facts[static_cast<std::size_t>(4 * highest - 1)];
+    shape.by_numbers = its[0] == 0;
+    shape.nodes_by_numbers = its[1] == 0;
+    shape.mixed = PieceFacts::mixed(static_cast<int>(its[2]), -static_cast<int>(its[3]));
+    const bool ghosts_alone = facts[1] > -facts[4];
     if (highest != 2 || ghosts_alone) return shape;
     for (std::size_t a = 0; a < 3; ++a)
-        if (facts[3 + a] == -facts[6 + a]) shape.normal = static_cast<int>(a);
-    if (shape.normal < 0) return Error{.what = "its triangles do not lie in one plane across an axis"};
+        if (facts[1 + a] == -facts[4 + a]) shape.normal = static_cast<int>(a);
+    if (shape.normal < 0) return Error{.what = "its polygons do not lie in one plane across an axis"};
     return shape;
 }
 
-Status IndexedPiece::build() {
-    Result<Locator> made = Locator::build(mesh, {.prove = Prove::when_it_pays});
+Status IndexedPiece::build(const Shape& shape) {
+    if (const Result<CurvedCells> curved = measure_curved(mesh, {}, shape.curved); !curved) return curved.error();
+    Result<Locator> made = Locator::build(mesh, {.prove = Prove::when_it_pays,
+                                                 .interpolation = shape.interpolation,
+                                                 .straight_sides = shape.curved == Curved::straight});
     if (!made) return made.error();
+    if (shape.curved == Curved::refuse && made->has_curved_cells())
+        return Error{.what = "cells of a higher order, which may be curved, stand beside others"};
     locator = std::move(*made);
     some_cells = size_of_some_cells(mesh);
     return Done{};
@@ -215,22 +272,24 @@ Closest IndexedPiece::closest(const double* x, double limit) const {
     Closest found;
     if (!locator || !all_finite({x, 3})) return found;
     std::array<double, 3> point{};
-    const bool flat = mesh.dimension == 2;
     const bool in_plane = project(x, point.data());
+    const double off_plane = in_plane ? 0 : held(x[normal]) - plane;
+    place(point.data(), found.point.data());
+    found.cell = owner(found.point.data());
+    found.distance = std::abs(off_plane);
+    found.inside = in_plane;
+    if (found.cell >= 0 && straight()) found.weights = weights(found.cell, point.data());
+    if (found.cell >= 0) return found.distance <= limit ? found : Closest();
+    const bool flat = mesh.dimension == 2;
     const Result<Nearest> nearest =
         locator->nearest(point.data(), flat ? std::numeric_limits<double>::infinity() : limit);
-    if (!nearest || nearest->cell < 0) return found;
-    const double distance = in_plane ? nearest->distance : std::hypot(nearest->distance, held(x[normal]) - plane);
-    if (!(distance <= limit)) return found;
+    if (!nearest || nearest->cell < 0) return {};
     found.cell = nearest->cell;
-    found.distance = distance;
-    if (nearest->nodes[0] >= 0) {
-        project_on(*this, *nearest, x, found);
-        return found;
-    }
-    found.inside = in_plane;
-    found.weights = weights(found.cell, point.data());
-    place(point.data(), found.point.data());
+    found.distance = std::hypot(nearest->distance, off_plane);
+    found.inside = false;
+    if (!(found.distance <= limit)) return {};
+    // Of what is in a cell's simplex and not in the cell, it is the point itself.
+    if (nearest->nodes[0] >= 0) project_on(*this, *nearest, x, found);
     return found;
 }
 

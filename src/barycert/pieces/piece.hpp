@@ -6,6 +6,7 @@
 #include "barycert/index/box_tree.hpp"
 #include "barycert/locator.hpp"
 #include "barycert/pieces/exchange.hpp"
+#include "barycert/surface/facet_triangles.hpp"
 
 namespace barycert::pieces {
 
@@ -23,10 +24,10 @@ inline bool empty(const Box& box) {
 std::vector<Box> cover(const Box& around, std::size_t count, const std::function<Box(std::size_t)>& box_at,
                        std::size_t most);
 
-/// Tetrahedra, or triangles in a plane across an axis.
+/// Cells that fill space, or polygons in a plane across an axis; cut into simplices, unless they are such.
 struct Piece {
     Mesh mesh;                         ///< of dimension 2 where triangles lie in a plane across an axis
-    int normal = -1;                   ///< of the plane of triangles: axis 0, 1 or 2; -1: tetrahedra
+    int normal = -1;                   ///< of the plane of polygons: axis 0, 1 or 2; -1: cells fill space
     double plane = 0;                  ///< its coordinate on that axis
     std::array<int, 3> axes{0, 1, 2};  ///< axis of space of each axis of the mesh
 
@@ -44,14 +45,16 @@ struct Piece {
     const double* node(Mesh::Index i) const {
         return mesh.points.data() + static_cast<std::size_t>(mesh.dimension) * static_cast<std::size_t>(i);
     }
-    Box box_of(std::size_t cell) const;
+    /// Cells as users know them: the whole one of a part, its nodes in VTK's order, and a box that it lies in.
+    std::size_t whole_of(Mesh::Index cell) const;
+    std::vector<Mesh::Index> nodes_of(std::size_t whole) const;
+    Box box_of(std::size_t whole) const;
 
-    /// Leaves two of three coordinates of triangles in one plane: across the axis `of`, or any if it is -1. False if
+    /// Leaves two of three coordinates of polygons in one plane: across the axis `of`, or any if it is -1. False if
     /// they do not lie in such a plane.
     bool flatten(int of);
-    /// Sorts the cells of the mesh by these numbers, one each; cells of the same number keep their order. Returns where
-    /// each was; nothing if they were sorted before.
-    std::vector<Mesh::Index> sort_cells(const std::vector<std::int64_t>& numbers);
+    /// Makes cells of the mesh's shapes (mesh/pulling.hpp), by these numbers of nodes; empty: as they come.
+    std::optional<std::size_t> cut(const std::vector<std::int64_t>& numbers);
 };
 
 struct Closest {
@@ -59,7 +62,20 @@ struct Closest {
     double distance = 0;
     bool inside = false;  ///< the point lies in the cell
     std::array<double, 3> point{};
-    std::array<double, 4> weights{};  ///< of the nearest point in the cell, in the order of its vertices
+    std::array<double, 4> weights{};  ///< of the nearest point in a straight cell, in the order of its vertices
+};
+
+/// What a data set is to be taken for, if it is a piece of a mesh: the pieces of one mesh are taken alike.
+struct Shape {
+    int dimension = 0;              ///< of the cells that count; 0: the highest of its own
+    int normal = -1;                ///< polygons: the axis across which their plane lies; -1: any
+    bool mixed = false;             ///< cells are of several types, or of one that is cut
+    bool by_numbers = false;        ///< the mesh's cells are in the order of their numbers in the whole mesh
+    bool nodes_by_numbers = false;  ///< cells are cut by the numbers of nodes in the whole mesh
+    CellInterpolation interpolation = CellInterpolation::linear;
+    Curved curved = Curved::isoparametric;
+
+    friend bool operator==(const Shape&, const Shape&) = default;
 };
 
 /// Stays where it is, for the locator refers to its mesh.
@@ -67,35 +83,45 @@ struct IndexedPiece : Piece {
     std::optional<Locator> locator;
     double some_cells = 0;  ///< some cell sizes: the cell of a point so near is worth a look
 
-    /// Makes the locator. Requires cells.
-    Status build();
+    /// Makes the locator. Requires cells. Error: they are curved, and such cells are refused.
+    Status build(const Shape& shape);
+    /// Whether all cells are the simplices of their corners, with linear functions.
+    bool straight() const { return !mapped() && mesh.mid_nodes.empty(); }
 
     Simplex simplex() const { return mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron; }
     /// The owner of a point in space; -1: outside, or a coordinate is not finite.
     Mesh::Index owner(const double* x) const;
-    /// Correctly rounded weights, in a cell that is not degenerate, of a finite point on the axes of the mesh.
+    /// Correctly rounded weights, in a straight cell that is not degenerate, of a finite point on the axes of the mesh.
     std::array<double, 4> weights(Mesh::Index cell, const double* point) const;
-    /// The point of the cells that is nearest to one in space; none if a coordinate is not finite.
+    /// The point of the cells that is nearest to one in space; none if a coordinate is not finite. Outside of cells
+    /// that are no straight simplices it is that of their simplices.
     Closest closest(const double* x, double limit) const;
+
+private:
+    bool mapped() const {
+        return locator && (locator->has_curved_cells() || locator->interpolation() != CellInterpolation::linear);
+    }
 };
 
-/// What a data set is to be taken for, if it is a piece of a mesh: the pieces of one mesh are taken alike.
-struct Shape {
-    int dimension = 0;        ///< of the cells that count; 0: the highest of its own
-    int normal = -1;          ///< triangles: the axis across which their plane lies; -1: any
-    bool by_numbers = false;  ///< the mesh's cells are in the order of their numbers in the whole mesh
-
-    friend bool operator==(const Shape&, const Shape&) = default;
-};
+/// What is wrong with a data set of such cells alone.
+inline constexpr const char* only_lower = "it has no cells but points and lines";
 
 /// What a rank knows before its piece is read.
 struct PieceFacts {
-    int dimension = -1;         ///< the highest of its cells; -1: it has none
-    bool numbered = false;      ///< its cells have numbers in the whole mesh
-    Box triangles = empty_box;  ///< of their vertices
+    int dimension = -1;        ///< the highest of its cells; -1: it has none
+    bool numbered = false;     ///< its cells have numbers in the whole mesh
+    Box polygons = empty_box;  ///< of their nodes
+    int low_type = 255;        ///< of its cells of that dimension, by VTK's numbers
+    int high_type = 0;
+    bool nodes_numbered = true;  ///< no cell is cut, or its nodes have numbers in the whole mesh
+
+    /// Whether types in that range are several, or one that is no simplex of order 1 or 2.
+    static bool mixed(int low, int high) {
+        return low < high || (low == high && low != 5 && low != 10 && low != 22 && low != 24);
+    }
 };
 
-/// All call it. The pieces have the highest dimension of any of them; triangles lie across one axis on all ranks, or
+/// All call it. The pieces have the highest dimension of any of them; polygons lie across one axis on all ranks, or
 /// they are not those of one mesh.
 Result<Shape> agree_on_shape(Exchange& exchange, const PieceFacts& mine);
 

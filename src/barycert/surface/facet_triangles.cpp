@@ -318,4 +318,21 @@ FacetTriangles triangles_of_facet(std::span<const double> points, std::span<cons
     return out;
 }
 
+std::size_t add_triangles(std::span<const double> points, const mesh::CellType& type,
+                          std::span<const Mesh::Index> nodes, std::vector<Mesh::Index>& corners) {
+    std::vector<std::vector<Mesh::Index>> rings;
+    mesh::add_rings(type, nodes, rings);
+    std::size_t uncut = 0;
+    for (const auto& ring : rings) {
+        if (ring.size() == 3) {
+            corners.insert(corners.end(), ring.begin(), ring.end());
+            continue;
+        }
+        const auto triangles = triangles_of_facet(points, {&ring, 1}, {}).triangles;
+        uncut += triangles.empty() ? 1 : 0;
+        for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+    }
+    return uncut;
+}
+
 }  // namespace barycert::surface

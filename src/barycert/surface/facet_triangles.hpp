@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "barycert/mesh.hpp"
+#include "barycert/mesh/cell_types.hpp"
 
 namespace barycert::surface {
 
@@ -32,5 +32,10 @@ struct FacetTriangles {
 /// lower of those where both triangles turn one way.
 FacetTriangles triangles_of_facet(std::span<const double> points, std::span<const std::vector<Mesh::Index>> polygons,
                                   std::span<const double> holes);
+
+/// Appends the corners of the triangles of a polygon or strip, by its corners. Returns how many of its rings cannot be
+/// cut.
+std::size_t add_triangles(std::span<const double> points, const mesh::CellType& type,
+                          std::span<const Mesh::Index> nodes, std::vector<Mesh::Index>& corners);
 
 }  // namespace barycert::surface

@@ -43,24 +43,6 @@ TypeCounts count_types(const RawGrid& grid) {
     return counts;
 }
 
-/// Those at corners.
-std::span<const std::int32_t> corners_of(const CellType& type, std::span<const std::int32_t> nodes) {
-    const std::size_t fixed = mesh::shape_of(type.linear).corners;
-    return nodes.first(fixed != 0 ? fixed : type.name == "vtkQuadraticPolygon" ? nodes.size() / 2 : nodes.size());
-}
-
-/// The rings of a polygon, by its corners; those of a strip are triangles.
-void add_rings(const CellType& type, std::span<const std::int32_t> nodes,
-               std::vector<std::vector<Mesh::Index>>& rings) {
-    const auto c = corners_of(type, nodes);
-    if (type.linear == vtk_triangle_strip) {
-        for (std::size_t i = 0; i + 2 < c.size(); ++i) rings.push_back({c[i + i % 2], c[i + 1 - i % 2], c[i + 2]});
-        return;
-    }
-    rings.emplace_back(c.begin(), c.end());
-    if (type.name == "vtkPixel") std::swap(rings.back()[2], rings.back()[3]);
-}
-
 /// Makes triangles of all polygons in space, by their corners, where there are no cells that fill it.
 void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& path, InSpace& space) {
     std::size_t polygons = 0, curved = 0, flat = 0;
@@ -82,18 +64,13 @@ void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& pa
         const std::int32_t* const all = grid.cells.connectivity.data();
         const std::span nodes(all + std::exchange(begin, grid.cells.ends[cell]), all + grid.cells.ends[cell]);
         if (type.kind == CellKind::lower) continue;
-        std::vector<std::vector<Mesh::Index>> rings;
-        add_rings(type, nodes, rings);
-        by_corners += corners_of(type, nodes).size() < nodes.size() && type.kind == CellKind::surface ? 1 : 0;
-        for (const auto& ring : rings) {
-            const auto triangles = surface::triangles_of_facet(grid.points, {&ring, 1}, {}).triangles;
-            uncut += triangles.empty() ? 1 : 0;
-            for (const auto& t : triangles) {
-                cells.connectivity.insert(cells.connectivity.end(), t.begin(), t.end());
-                cells.ends.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
-                types.push_back(vtk_triangle);
-                rows.push_back(static_cast<std::int32_t>(cell));
-            }
+        by_corners += mesh::corners_of(type, nodes).size() < nodes.size() && type.kind == CellKind::surface ? 1 : 0;
+        uncut += surface::add_triangles(grid.points, type, nodes, cells.connectivity);
+        for (auto at = static_cast<std::size_t>(cells.ends.empty() ? 0 : cells.ends.back());
+             at < cells.connectivity.size(); at += 3) {
+            cells.ends.push_back(static_cast<std::int64_t>(at + 3));
+            types.push_back(vtk_triangle);
+            rows.push_back(static_cast<std::int32_t>(cell));
         }
     }
     if (rows.empty()) return;
@@ -224,19 +201,12 @@ void copy_shapes(const RawGrid& grid, const std::string& path, Mesh& mesh) {
         const auto begin = cell == 0 ? 0 : grid.cells.ends[cell - 1];
         const std::int32_t* const all = grid.cells.connectivity.data();
         const std::span nodes(all + begin, all + grid.cells.ends[cell]);
-        // Simplices up to order 4 keep all of their nodes.
-        const bool whole =
-            mesh::is_curved_simplex(grid.types[cell]) && mesh::simplex_order(mesh.dimension, nodes.size()) != 0;
-        const std::span corners = whole ? nodes : corners_of(type, nodes);
-        by_corners += corners.size() < nodes.size() ? 1 : 0;
-        if (mesh.dimension == 2 && corners.size() < 3)
+        if (mesh.dimension == 2 && mesh::corners_of(type, nodes).size() < 3)
             refuse_file(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
                         (type.name == "vtkQuadraticPolygon" ? "6 or more in a " : "3 or more in a ") +
                             name_of(grid.types[cell]),
                         std::to_string(nodes.size()));
-        shapes.types.push_back(whole ? grid.types[cell] : type.linear);
-        shapes.nodes.insert(shapes.nodes.end(), corners.begin(), corners.end());
-        shapes.ends.push_back(static_cast<std::int64_t>(shapes.nodes.size()));
+        by_corners += mesh::add_shape(mesh, grid.types[cell], nodes) ? 0 : 1;
         if (!polyhedra) continue;
         const RawFaces& faces = grid.faces;
         for (auto f = cell == 0 ? 0 : faces.face_ends[cell - 1]; f != faces.face_ends[cell]; ++f) {

@@ -7,46 +7,15 @@
 #include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/numbers.hpp"
+#include "barycert/mesh/cell_types.hpp"
 
 namespace barycert::io {
 
-/// VTK's types of cells that have a name here, by their numbers (vtkCellType.h).
-enum VtkCell : std::uint8_t {
-    vtk_vertex = 1,
-    vtk_poly_vertex = 2,
-    vtk_line = 3,
-    vtk_poly_line = 4,
-    vtk_triangle = 5,
-    vtk_triangle_strip = 6,
-    vtk_polygon = 7,
-    vtk_quad = 9,
-    vtk_tetra = 10,
-    vtk_quadratic_triangle = 22,
-    vtk_quadratic_tetra = 24,
-    vtk_polyhedron = 42,
-};
-
-enum class CellKind : std::uint8_t {
-    tetrahedron,
-    triangle,
-    lower,    ///< points and lines
-    surface,  ///< polygons of any order
-    solid,    ///< what else fills space
-    other,    ///< whose corners are not known
-};
-
-struct CellType {
-    CellKind kind = CellKind::other;
-    std::uint8_t linear = 0;  ///< the type of its corners, which come first
-    std::size_t nodes = 0;    ///< 0: any number, but at least the corners
-    std::string name;         ///< "vtkTetra"; "unknown type 200"
-
-    int dimension() const {
-        if (kind == CellKind::triangle || kind == CellKind::surface) return 2;
-        return kind == CellKind::tetrahedron || kind == CellKind::solid ? 3 : 0;
-    }
-};
-const std::array<CellType, 256>& cell_types();
+using enum mesh::VtkCell;
+using mesh::cell_types;
+using mesh::CellKind;
+using mesh::CellType;
+using mesh::VtkCell;
 
 /// The sections of polygon data. VTK numbers the cells of all sections in this order, whatever the order in the file.
 enum Section : std::size_t { vertices, lines, polygons, strips, section_count };
