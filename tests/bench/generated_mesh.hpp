@@ -30,8 +30,9 @@ enum class CubeCells : std::uint8_t {
 /// flat. `shuffled`: nodes and cells in random order, else along the lattice. The same precondition; warp <= 0.15.
 Mesh shaped_cube(CubeCells what, int n, double warp, bool shuffled, std::uint64_t seed);
 
-/// jittered_cube with nodes at mid-edges. Where x > 1/2 these are moved smoothly, by up to `bend` / n a coordinate, on
-/// the boundary of the cube within it: about half of the cells are curved.
+/// jittered_cube with nodes at mid-edges, where x > 1/2 moved smoothly, by up to `bend` / n a coordinate, on the
+/// boundary of the cube within it: about half of the cells are curved. Corners are rounded to multiples of 2^-30, so
+/// that the others are exactly in the middle: to nobody's definition does rounding matter.
 Mesh curved_cube(int n, double bend, std::uint64_t seed);
 
 }  // namespace barycert::bench
