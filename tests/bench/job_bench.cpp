@@ -8,9 +8,9 @@
 //     bench_job [--quick] [--repetitions N] [--threads N] [ROW...]
 //     bench_job read MESH      reads the mesh and ends: what a job for few points is measured by
 //
-// ROW: same, npy, csv, few, grid, bad, bracket. Files go to BARYCERT_BENCH_DIR, or else the system's temporary folder,
-// and stay there for the next run; about 700 MiB. About a quarter of an hour, nearly all of it VTK's. --quick: small
-// meshes and few points, to see that all of it works.
+// ROW: same, npy, csv, few, grid, bad, bracket, hexahedra. Files go to BARYCERT_BENCH_DIR, or else the system's
+// temporary folder, and stay there for the next run; about 700 MiB. About a quarter of an hour, nearly all of it VTK's.
+// --quick: small meshes and few points, to see that all of it works.
 
 #include <unistd.h>
 
@@ -53,13 +53,13 @@ struct Arguments {
 [[noreturn]] void usage() {
     std::fprintf(stderr,
                  "usage: bench_job [--quick] [--repetitions N] [--threads N] "
-                 "[same] [npy] [csv] [few] [grid] [bad] [bracket]\n");
+                 "[same] [npy] [csv] [few] [grid] [bad] [bracket] [hexahedra]\n");
     std::exit(2);
 }
 
 Arguments parse(int count, char** text) {
     Arguments out;
-    const std::set<std::string> names{"same", "npy", "csv", "few", "grid", "bad", "bracket"};
+    const std::set<std::string> names{"same", "npy", "csv", "few", "grid", "bad", "bracket", "hexahedra"};
     for (int i = 1; i < count; ++i) {
         const std::string word = text[i];
         if (word == "--quick") {
@@ -283,7 +283,7 @@ void run(Row& row, const Arguments& arguments, int threads, bool look) {
 std::vector<Row> rows_of(const Arguments& arguments, int threads, const std::string& self) {
     const bool quick = arguments.quick;
     const std::string kept = folder().string() + (quick ? "/quick-" : "/");
-    const JobFiles good{kept + "cube"}, bad{kept + "bad"}, bracket{kept + "bracket"};
+    const JobFiles good{kept + "cube"}, bad{kept + "bad"}, bracket{kept + "bracket"}, hexahedra{kept + "hexahedra"};
     const std::size_t many = quick ? 20'000 : 1'000'000, few = 100;
     const std::string side = quick ? "24" : "256";
     std::vector<Row> rows;
@@ -344,12 +344,27 @@ std::vector<Row> rows_of(const Arguments& arguments, int threads, const std::str
          bracket.stem,
          {ours("sample", threads, bracket.stem, points(bracket, many, ".npy"), kept + "ours.npy")}},
         at_points(bracket, many, ".vtp"));
+    if (with_vtk())
+        add("hexahedra",
+            {std::string("cube of a ") + (quick ? "thousand" : "million") + " hexahedra, " + thousand +
+                 ", the same .vtu and .vtp; .vtu out",
+             hexahedra.vtu(),
+             {ours("sample", threads, hexahedra.vtu(), points(hexahedra, many, ".vtp"), kept + "ours.vtu")},
+             12},
+            at_points(hexahedra, many, ".vtp"));
     return rows;
 }
 
 void make_files(const Arguments& arguments) {
     const std::string kept = folder().string() + (arguments.quick ? "/quick-" : "/");
     const std::size_t many = arguments.quick ? 20'000 : 1'000'000;
+    if (arguments.wants("hexahedra")) {
+        const JobFiles hexahedra{kept + "hexahedra"};
+        const Mesh cubes = shaped_cube(CubeCells::hexahedra, arguments.quick ? 10 : 100, 0.15, true, 1);
+        make_mesh_files(hexahedra, cubes);
+        make_point_files(hexahedra, cubes, many);
+        if (arguments.rows.size() == 1) return;
+    }
     const Mesh good = cube(arguments.quick);
     const JobFiles files{kept + "cube"}, bad{kept + "bad"}, bracket{kept + "bracket"};
     make_mesh_files(files, good);

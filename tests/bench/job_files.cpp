@@ -125,7 +125,7 @@ void make_mesh_files(const JobFiles& files, Mesh mesh) {
     mesh.point_markers.clear();
     for (std::size_t i = 0; i < mesh.point_count(); ++i)
         mesh.point_fields.front().data.push_back(field_at(mesh.points.data() + 3 * i));
-    if (!fs::exists(files.stem + ".ele")) demand_done(write_tetgen(mesh, files.stem));
+    if (mesh.shapes.types.empty() && !fs::exists(files.stem + ".ele")) demand_done(write_tetgen(mesh, files.stem));
     if (!fs::exists(files.vtu())) demand_done(write_vtu(mesh, files.vtu()));
 }
 

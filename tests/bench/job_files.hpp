@@ -10,8 +10,8 @@
 
 namespace barycert::bench {
 
-/// Files of one mesh: STEM.node and .ele, STEM.vtu where VTK is there, and points in STEM-COUNT.npy, .csv and, where
-/// VTK is there, .vtp. The field is called attribute0.
+/// Files of one mesh: STEM.node and .ele of tetrahedra, STEM.vtu where VTK is there, and points in STEM-COUNT.npy, .csv
+/// and, where VTK is there, .vtp. The field is called attribute0.
 struct JobFiles {
     std::string stem;
 

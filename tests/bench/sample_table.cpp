@@ -16,11 +16,13 @@ std::string with_unit(double value, const char* unit) {
     return text;
 }
 
-void SampleTable::demand(const std::string& what, double found, double limit, bool at_most, const std::string& remark) {
+void SampleTable::demand(const std::string& what, double found, double limit, bool at_most, const std::string& remark,
+                         const char* unit) {
     const bool met = at_most ? found <= limit : found >= limit;
     char text[256];
-    std::snprintf(text, sizeof text, "%-76s %s %6gx  %9s  %s", what.c_str(), at_most ? "<=" : ">=", limit,
-                  std::isnan(found) ? "-" : with_unit(found, "x").c_str(),
+    std::snprintf(text, sizeof text, "%-76s %s %8s  %9s  %s", what.c_str(),
+                  at_most ? "<=" : ">=", with_unit(limit, unit).c_str(),
+                  std::isnan(found) ? "-" : with_unit(found, unit).c_str(),
                   std::isnan(found) ? "not decided: the peer is missing"
                   : met             ? "met"
                                     : "NOT met");

@@ -19,7 +19,7 @@ public:
 
     /// `found` >= limit, or with `at_most` <= limit. NaN: nothing to compare with, and so the demand is not decided.
     void demand(const std::string& what, double found, double limit, bool at_most = false,
-                const std::string& remark = {});
+                const std::string& remark = {}, const char* unit = "x");
 
     void print() const;
     void print_demands() const;

@@ -1,14 +1,10 @@
-#include <vtkCellArray.h>
 #include <vtkCellTreeLocator.h>
-#include <vtkCellType.h>
-#include <vtkCharArray.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkGenericCell.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProbeFilter.h>
 #include <vtkSmartPointer.h>
@@ -17,23 +13,16 @@
 
 #include <limits>
 
+#include "mesh/whole_cells.hpp"
 #include "sample_peers.hpp"
 #include "sample_subject.hpp"
+#include "vtk_grid.hpp"
 
 namespace barycert::bench {
 
 void use_one_vtk_thread();  // sample_vtk_threads.cpp
 
 namespace {
-
-vtkSmartPointer<vtkPoints> points_of(std::span<const double> coordinates) {
-    auto points = vtkSmartPointer<vtkPoints>::New();
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(static_cast<vtkIdType>(coordinates.size() / 3));
-    for (std::size_t i = 0; i < coordinates.size() / 3; ++i)
-        points->SetPoint(static_cast<vtkIdType>(i), coordinates.data() + 3 * i);
-    return points;
-}
 
 vtkSmartPointer<vtkAbstractCellLocator> new_locator(VtkPeer::Which which) {
     if (which == VtkPeer::Which::static_locator) return vtkSmartPointer<vtkStaticCellLocator>::New();
@@ -49,8 +38,10 @@ public:
     void find(Which which, std::vector<Mesh::Index>& cells) override;
     void find_all(Which which, std::span<const double> points, std::vector<Mesh::Index>& cells) override;
     void interpolate(Which which, std::vector<double>& values) override;
-    void probe(Which which) override { probe(points_, new_locator(which)); }
-    void probe_image() override { probe(image_, nullptr); }
+    void probe(Which which) override { probe(points_, grid_, new_locator(which)); }
+    void probe_image() override { probe(image_, grid_, nullptr); }
+    void set_image(std::vector<double>& values) override;
+    void probe_in_image() override { probe(points_, image_, nullptr); }
     std::vector<double> probed() const override;
 
 private:
@@ -62,23 +53,23 @@ private:
     template <class Visit>
     void for_found(Which which, std::span<const double> points, Visit visit) {
         vtkNew<vtkGenericCell> cell;
-        double parametric[3], weights[8];
+        double parametric[3], weights[VTK_CELL_SIZE];
         for (std::size_t i = 0; i < points.size() / 3; ++i) {
             double at[3] = {points[3 * i], points[3 * i + 1], points[3 * i + 2]};
             visit(i, locator(which)->FindCell(at, 0, cell, parametric, weights), cell.Get(), weights);
         }
     }
 
-    void probe(vtkDataSet* where, vtkAbstractCellLocator* prototype) {
+    void probe(vtkDataSet* where, vtkDataSet* source, vtkAbstractCellLocator* prototype) {
         vtkNew<vtkProbeFilter> filter;
         filter->SetInputData(where);
-        filter->SetSourceData(grid_);
+        filter->SetSourceData(source);
         if (prototype != nullptr) filter->SetCellLocatorPrototype(prototype);
         filter->Update();
         probed_ = filter->GetOutput();
     }
 
-    vtkNew<vtkUnstructuredGrid> grid_;
+    vtkSmartPointer<vtkUnstructuredGrid> grid_;
     vtkNew<vtkPolyData> points_;
     vtkNew<vtkImageData> image_;
     const std::vector<double>& values_;
@@ -90,21 +81,9 @@ private:
 Vtk::Vtk(const Mesh& mesh, const std::vector<double>& values, std::span<const double> points, const Grid& grid)
     : values_(values), coordinates_(points) {
     use_one_vtk_thread();
-    vtkNew<vtkCellArray> cells;
-    cells->AllocateExact(static_cast<vtkIdType>(mesh.cell_count()), static_cast<vtkIdType>(mesh.cells.size()));
-    for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
-        vtkIdType corners[4];
-        for (std::size_t i = 0; i < 4; ++i) corners[i] = mesh.cells[4 * c + i];
-        cells->InsertNextCell(4, corners);
-    }
-    grid_->SetPoints(points_of(mesh.points));
-    grid_->SetCells(VTK_TETRA, cells);
-    vtkNew<vtkDoubleArray> field;
-    field->SetName("field");
-    field->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-    for (std::size_t i = 0; i < values.size(); ++i) field->SetValue(static_cast<vtkIdType>(i), values[i]);
-    grid_->GetPointData()->SetScalars(field);
-    points_->SetPoints(points_of(points));
+    const test::CellArrays cells = test::whole_cells(mesh);
+    grid_ = test::vtk_grid(test::vtk_points(mesh.points), cells.types, cells.ends, cells.nodes, "field", values);
+    points_->SetPoints(test::vtk_points(points));
     image_->SetDimensions(static_cast<int>(grid.counts[0]), static_cast<int>(grid.counts[1]),
                           static_cast<int>(grid.counts[2]));
     image_->SetOrigin(grid.origin.data());
@@ -135,10 +114,17 @@ void Vtk::interpolate(Which which, std::vector<double>& values) {
     values.resize(coordinates_.size() / 3);
     for_found(which, coordinates_, [&](std::size_t i, vtkIdType found, vtkGenericCell* cell, const double* weights) {
         double sum = 0;
-        for (int k = 0; k < 4 && found >= 0; ++k)
+        for (int k = 0; found >= 0 && k < cell->GetNumberOfPoints(); ++k)
             sum += weights[k] * values_[static_cast<std::size_t>(cell->GetPointId(k))];
         values[i] = found >= 0 ? sum : std::numeric_limits<double>::quiet_NaN();
     });
+}
+
+void Vtk::set_image(std::vector<double>& values) {
+    vtkNew<vtkDoubleArray> field;
+    field->SetName("field");
+    field->SetArray(values.data(), static_cast<vtkIdType>(values.size()), 1);
+    image_->GetPointData()->SetScalars(field);
 }
 
 std::vector<double> Vtk::probed() const {

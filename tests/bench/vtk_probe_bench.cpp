@@ -16,16 +16,13 @@
 #include <string>
 #include <vector>
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellTreeLocator.h>
-#include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProbeFilter.h>
 #include <vtkSmartPointer.h>
@@ -35,36 +32,21 @@
 #include "barycert/base/random.hpp"
 #include "barycert/sampler.hpp"
 #include "cube_mesh.hpp"
+#include "mesh/whole_cells.hpp"
 #include "require.hpp"
 #include "vtkBarycertLocator.h"
 #include "vtkBarycertProbe.h"
+#include "vtk_grid.hpp"
 
 namespace {
 
 using namespace barycert;
 using bench::require;
 
-vtkSmartPointer<vtkPoints> points_of(const std::vector<double>& coordinates) {
-    auto points = vtkSmartPointer<vtkPoints>::New();
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(static_cast<vtkIdType>(coordinates.size() / 3));
-    std::copy(coordinates.begin(), coordinates.end(), vtkDoubleArray::SafeDownCast(points->GetData())->GetPointer(0));
-    return points;
-}
-
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Mesh& mesh) {
-    auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    grid->SetPoints(points_of(mesh.points));
-    vtkNew<vtkCellArray> cells;
-    for (std::size_t i = 0; i < mesh.cells.size(); i += 4) {
-        const std::array<vtkIdType, 4> nodes{mesh.cells[i], mesh.cells[i + 1], mesh.cells[i + 2], mesh.cells[i + 3]};
-        cells->InsertNextCell(4, nodes.data());
-    }
-    grid->SetCells(VTK_TETRA, cells);
-    vtkNew<vtkDoubleArray> values;
-    values->SetName("f");
-    for (const double value : mesh.point_fields[0].data) values->InsertNextValue(value);
-    grid->GetPointData()->AddArray(values);
+    const test::CellArrays cells = test::whole_cells(mesh);
+    auto grid = test::vtk_grid(test::vtk_points(mesh.points), cells.types, cells.ends, cells.nodes, "f",
+                               mesh.point_fields[0].data);
     vtkNew<vtkIdTypeArray> ids;
     ids->SetName("cell");
     for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) ids->InsertNextValue(i);
@@ -123,7 +105,7 @@ int main(int argc, char** argv) {
     std::vector<double> coordinates;
     for (std::size_t i = 0; i < 3 * count; ++i) coordinates.push_back(random.uniform(0, 1));
     vtkNew<vtkPolyData> points;
-    points->SetPoints(points_of(coordinates));
+    points->SetPoints(test::vtk_points(coordinates));
     constexpr int side = 128;
     vtkNew<vtkImageData> image;
     image->SetDimensions(side, side, side);

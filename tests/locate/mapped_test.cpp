@@ -74,9 +74,7 @@ Inverse invert(std::size_t d, const std::vector<const double*>& nodes, const std
 }
 
 std::vector<Real> products(const std::array<Real, 3>& x) {
-    const auto [r, s, t] = x;
-    const Real a = 1 - r, b = 1 - s, c = 1 - t;
-    return {a * b * c, r * b * c, r * s * c, a * s * c, a * b * t, r * b * t, r * s * t, a * s * t};
+    return shape_functions(12, x);
 }
 
 std::vector<Real> products_of_wedge(const std::array<Real, 3>& x) {
@@ -432,6 +430,24 @@ TEST(MappedCells, NodesOfCurvedCellsHaveTheirOwnValues) {
                 ASSERT_EQ(rows.values[i], mesh.point_fields[0].data[i]) << i;
             }
         }
+    }
+}
+
+// A node amid a curved edge may lie inside the straight simplex of one of them.
+TEST(MappedCells, AllCellsOfACurvedEdgeHoldItsNode) {
+    for (const int d : {2, 3}) {
+        const auto corners = static_cast<std::size_t>(d) + 1, mids = mesh::edges_of(d).size();
+        const Mesh mesh = testing::curved_ball(d, 0.4);
+        const Table all = Locator::build(mesh).value().locate_all(mesh.points).value();
+        const auto holds = [&](std::size_t cell, Index node) {
+            const auto own = static_cast<std::size_t>(node);
+            return std::count(all.cells.begin() + static_cast<std::ptrdiff_t>(all.point_begin[own]),
+                              all.cells.begin() + static_cast<std::ptrdiff_t>(all.point_begin[own + 1]),
+                              static_cast<Index>(cell)) == 1;
+        };
+        for (std::size_t i = 0; i < mesh.cells.size(); ++i) EXPECT_TRUE(holds(i / corners, mesh.cells[i])) << d << i;
+        for (std::size_t i = 0; i < mesh.mid_nodes.size(); ++i)
+            EXPECT_TRUE(holds(i / mids, mesh.mid_nodes[i])) << d << "D, cell " << i / mids << ", edge " << i % mids;
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "barycert/base/text.hpp"
 #include "barycert/sampler.hpp"
+#include "mesh/whole_cells.hpp"
 #include "scratch.hpp"
 #include "systems/exchange.hpp"
 #include "systems/point_sets.hpp"
@@ -64,7 +65,12 @@ public:
             if (std::string why = call("triangulate"); !why.empty()) return why;
             mesh_.cells = read_array<std::int32_t>(folder_.path("cells.i32"));
         } else {
-            write_array(folder_.path("cells.i32"), mesh_.cells);
+            const test::CellArrays cells = test::whole_cells(mesh_);
+            write_array(folder_.path("cells.i32"), cells.nodes);
+            if (kind_of(mesh_) == CellKind::others) {
+                write_array(folder_.path("types.u8"), cells.types);
+                write_array(folder_.path("ends.i64"), cells.ends);
+            }
         }
         const Points points = make_points(mesh_, league_.count, league_.seed);
         write_array(folder_.path("points.f64"), points.coordinates);
@@ -106,12 +112,18 @@ private:
     }
 
     std::string judge(const Points& points) {
-        const auto owners = read_array<std::int64_t>(folder_.path("owners.i64"));
+        auto owners = read_array<std::int64_t>(folder_.path("owners.i64"));
         const auto sampled = read_array<double>(folder_.path("sampled.f64"));
         const std::size_t count = points.coordinates.size() / d();
         if ((owners.size() != count && !owners.empty()) || (sampled.size() != count && !sampled.empty()))
             return "wrote something else";
-        const Locator locator = Locator::build(mesh_).value();
+        for (std::int64_t& owner : owners) {
+            // To the judge a cell is any of its parts.
+            if (!mesh_.shapes.types.empty() && owner >= 0 && owner < static_cast<std::int64_t>(mesh_.shapes.count()))
+                owner = mesh_.shapes.parts[static_cast<std::size_t>(owner)];
+        }
+        const Locator locator =
+            Locator::build(mesh_, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
         std::vector<FieldChoice> fields;
         if (!sampled.empty()) fields.push_back({.field = &mesh_.point_fields.at(0)});
         const Sampler sampler = Sampler::build(locator, fields).value();
@@ -147,6 +159,7 @@ std::vector<System> all_systems() {
     all.push_back({"vtkProbeFilter", {BARYCERT_SYSTEM_VTK, "probe"}});
     all.push_back({"vtkResampleWithDataSet", {BARYCERT_SYSTEM_VTK, "resample"}});
 #endif
+    for (System& system : all) system.other_cells = true;
     all.push_back({"CGAL locate, exact predicates", {BARYCERT_SYSTEM_CGAL, "exact-predicates"}, true});
     all.push_back({"CGAL locate, plain doubles", {BARYCERT_SYSTEM_CGAL, "inexact"}, true, 0, 10});
     const std::string scipy = python_with("scipy"), matplotlib = python_with("matplotlib");

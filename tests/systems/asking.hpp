@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "systems/league.hpp"
-#include "systems/test_meshes.hpp"
 
 namespace barycert::systems {
 
@@ -14,8 +13,14 @@ struct System {
     std::string name;
     std::vector<std::string> command;  ///< program and its first arguments; none: not installed
     bool own_triangulation = false;
-    int dimension = 0;  ///< 0: both
-    int limit = 60;     ///< seconds for one mesh; then it is taken not to end
+    int dimension = 0;         ///< 0: both
+    int limit = 60;            ///< seconds for one mesh; then it is taken not to end
+    bool other_cells = false;  ///< takes more than linear simplices
+
+    bool takes(CellKind kind) const {
+        if (kind == CellKind::others) return other_cells;
+        return dimension == 0 || dimension == (kind == CellKind::tetrahedra ? 3 : 2);
+    }
 };
 
 /// All that are known, installed or not.

@@ -19,6 +19,7 @@ namespace barycert::systems {
 /// FOLDER/dimension.i32 holds 2 or 3. Coordinates are `dimension` doubles a node or point.
 ///
 ///     nodes.f64  cells.i32  values.f64 (one a node)  points.f64     to the system
+///     types.u8  ends.i64   if cells are not linear simplices: VTK's numbers of types, where nodes of each cell end
 ///     owners.i64   a cell for each point, -1 outside                from it; not there if it tells no cells
 ///     sampled.f64  a value for each point, NaN outside              from it; not there if it gives no values
 ///     seconds.f64  to make its index, and to answer all points      from it
@@ -54,17 +55,21 @@ struct Question {
           dimension(static_cast<std::size_t>(read_array<std::int32_t>(folder + "/dimension.i32").at(0))),
           nodes(read_array<double>(folder + "/nodes.f64")),
           cells(read_array<std::int32_t>(folder + "/cells.i32")),
+          types(read_array<std::uint8_t>(folder + "/types.u8")),
+          ends(read_array<std::int64_t>(folder + "/ends.i64")),
           values(read_array<double>(folder + "/values.f64")),
           points(read_array<double>(folder + "/points.f64")) {}
 
     std::size_t node_count() const { return nodes.size() / dimension; }
-    std::size_t cell_count() const { return cells.size() / (dimension + 1); }
+    std::size_t cell_count() const { return types.empty() ? cells.size() / (dimension + 1) : types.size(); }
     std::size_t point_count() const { return points.size() / dimension; }
 
     std::string folder;
     std::size_t dimension;
     std::vector<double> nodes;
     std::vector<std::int32_t> cells;
+    std::vector<std::uint8_t> types;
+    std::vector<std::int64_t> ends;
     std::vector<double> values, points;
 };
 

@@ -41,12 +41,12 @@ Json tally_json(const Tally& t) {
     return j;
 }
 
-void summary(std::string& text, const League& league, int dimension) {
+void summary(std::string& text, const League& league, CellKind kind) {
     text +=
         "| system | version | inside called outside | outside called inside | owner does not contain the point | "
         "worst value error / range | ns a random point |\n|---|---|---|---|---|---|---|\n";
     for (const Standing& s : league.standings) {
-        if (s.dimension != dimension) continue;
+        if (s.kind != kind) continue;
         if (!s.why_not.empty()) {
             text += fmt::format("| {} | {} | | | | | |\n", s.name, s.why_not);
             continue;
@@ -64,9 +64,9 @@ void summary(std::string& text, const League& league, int dimension) {
 }
 
 /// What ended before it answered, in words.
-void failures(std::string& text, const League& league, int dimension) {
+void failures(std::string& text, const League& league, CellKind kind) {
     for (const Standing& s : league.standings) {
-        if (s.dimension != dimension) continue;
+        if (s.kind != kind) continue;
         const auto list = [&](const char* what, const std::vector<std::string>& reasons) {
             if (reasons.empty()) return;
             text += fmt::format("\n{}, {}:\n\n", s.name, what);
@@ -77,29 +77,33 @@ void failures(std::string& text, const League& league, int dimension) {
     }
 }
 
-void by_set(std::string& text, const League& league, int dimension) {
+/// By sets of points, or by meshes; `values`: with errors of values.
+void by_name(std::string& text, const League& league, CellKind kind, std::map<std::string, Tally> Standing::*tallies,
+             const std::vector<std::pair<std::string, std::string>>& names, bool values) {
     std::string rule = "|---|";
-    text += "| points |";
+    text += values ? "| mesh |" : "| points |";
     for (const Standing& s : league.standings) {
-        if (s.dimension != dimension || !s.why_not.empty()) continue;
+        if (s.kind != kind || !s.why_not.empty()) continue;
         text += ' ' + s.name + " |";
         rule += "---|";
     }
     text += '\n' + rule + '\n';
-    for (const auto& [set, recipe] : league.sets) {
-        std::string line = "| " + set + " |";
+    for (const auto& [name, recipe] : names) {
+        std::string line = "| " + name + " |";
         bool any = false;
         for (const Standing& s : league.standings) {
-            if (s.dimension != dimension || !s.why_not.empty()) continue;
-            const auto found = s.by_set.find(set);
-            if (found == s.by_set.end()) {
+            if (s.kind != kind || !s.why_not.empty()) continue;
+            const auto found = (s.*tallies).find(name);
+            if (found == (s.*tallies).end()) {
                 line += " |";
                 continue;
             }
             any = true;
             const Tally& t = found->second;
-            line += fmt::format(" {} / {} / {} |", percent(t.missed, t.points), percent(t.invented, t.points),
+            line += fmt::format(" {} / {} / {}", percent(t.missed, t.points), percent(t.invented, t.points),
                                 t.has_cells ? percent(t.wrong_cell, t.points) : "-");
+            if (values) line += fmt::format(" / {}", t.has_values ? fmt::format("{:.2g}", t.max_error) : "-");
+            line += " |";
         }
         if (any) text += line + '\n';
     }
@@ -121,17 +125,22 @@ void Tally::add(const Verdicts& v, bool cells, bool values) {
 
 std::string league_markdown(const League& league) {
     std::string text = fmt::format("{} points of each set on each mesh, seed {}.\n", league.count, league.seed);
-    for (const int dimension : {3, 2}) {
+    for (const CellKind kind : all_kinds) {
         if (std::none_of(league.standings.begin(), league.standings.end(),
-                         [&](const Standing& s) { return s.dimension == dimension; }))
+                         [&](const Standing& s) { return s.kind == kind; }))
             continue;
-        text += dimension == 3 ? "\n### Tetrahedra\n\n" : "\n### Triangles\n\n";
-        summary(text, league, dimension);
-        failures(text, league, dimension);
+        text += kind == CellKind::tetrahedra  ? "\n### Tetrahedra\n\n"
+                : kind == CellKind::triangles ? "\n### Triangles\n\n"
+                                              : "\n### Other cells\n\n";
+        summary(text, league, kind);
+        failures(text, league, kind);
         text +=
             "\nBy set of points, in percent of its points: inside called outside / outside called inside / owner "
             "does not contain the point.\n\n";
-        by_set(text, league, dimension);
+        by_name(text, league, kind, &Standing::by_set, league.sets, false);
+        if (kind != CellKind::others) continue;
+        text += "\nBy mesh, the same; and the worst value error / range.\n\n";
+        by_name(text, league, kind, &Standing::by_mesh, league.meshes, true);
     }
     text += "\nSets of points:\n\n";
     for (const auto& [name, recipe] : league.sets) text += fmt::format("- {}: {}\n", name, recipe);
@@ -146,7 +155,7 @@ std::string league_json(const League& league) {
     for (const auto& [name, recipe] : league.sets) j["sets"][name] = recipe;
     j["systems"] = Json::array();
     for (const Standing& s : league.standings) {
-        Json row{{"name", s.name}, {"version", s.version}, {"dimension", s.dimension}};
+        Json row{{"name", s.name}, {"version", s.version}, {"dimension", s.kind == CellKind::triangles ? 2 : 3}};
         if (!s.why_not.empty()) row["not_run"] = s.why_not;
         row["total"] = tally_json(s.total);
         row["ns_a_random_point"] = s.ns.empty() ? Json() : Json(median(s.ns));
@@ -154,7 +163,7 @@ std::string league_json(const League& league) {
         for (const auto& [name, t] : s.by_mesh) row["by_mesh"][name] = tally_json(t);
         row["failures"] = s.failures;
         row["not_timed"] = s.not_timed;
-        j["systems"].push_back(row);
+        j[s.kind == CellKind::others ? "systems_of_other_cells" : "systems"].push_back(row);
     }
     return j.dump(2) + "\n";
 }

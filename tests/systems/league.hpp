@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "barycert/verify.hpp"
+#include "systems/test_meshes.hpp"
 
 namespace barycert::systems {
 
@@ -21,7 +22,7 @@ struct Tally {
 
 struct Standing {
     std::string name, version;
-    int dimension = 3;
+    CellKind kind = CellKind::tetrahedra;
     Tally total;
     std::map<std::string, Tally> by_set, by_mesh;
     std::vector<std::string> failures;  ///< meshes on which it ended by itself, or did not in time: not counted

@@ -8,12 +8,10 @@
 #include <vtkCellLocator.h>
 #include <vtkCellTreeLocator.h>
 #include <vtkCellType.h>
-#include <vtkDoubleArray.h>
 #include <vtkGenericCell.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkProbeFilter.h>
 #include <vtkResampleWithDataSet.h>
@@ -26,42 +24,28 @@
 #include <limits>
 
 #include "systems/exchange.hpp"
+#include "vtk_grid.hpp"
 
 namespace {
 
 using barycert::systems::Answer;
 using barycert::systems::now;
 using barycert::systems::Question;
+using barycert::test::vtk_points;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-vtkSmartPointer<vtkPoints> points_of(const std::vector<double>& coordinates, std::size_t dimension) {
-    auto points = vtkSmartPointer<vtkPoints>::New();
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(static_cast<vtkIdType>(coordinates.size() / dimension));
-    for (std::size_t i = 0; i < coordinates.size() / dimension; ++i) {
-        const double* const x = coordinates.data() + dimension * i;
-        points->SetPoint(static_cast<vtkIdType>(i), x[0], x[1], dimension == 3 ? x[2] : 0);
-    }
-    return points;
-}
-
 /// The mesh with its field f, and the field cell of cells: their numbers.
 vtkSmartPointer<vtkUnstructuredGrid> grid_of(const Question& question) {
-    auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    grid->SetPoints(points_of(question.nodes, question.dimension));
-    vtkNew<vtkCellArray> cells;
-    const std::size_t corners = question.dimension + 1;
-    for (std::size_t c = 0; c < question.cell_count(); ++c) {
-        vtkIdType cell[4];
-        for (std::size_t i = 0; i < corners; ++i) cell[i] = question.cells[corners * c + i];
-        cells->InsertNextCell(static_cast<vtkIdType>(corners), cell);
+    std::vector<std::uint8_t> types = question.types;
+    std::vector<std::int64_t> ends = question.ends;
+    if (types.empty()) {
+        types.assign(question.cell_count(), question.dimension == 3 ? VTK_TETRA : VTK_TRIANGLE);
+        for (std::size_t c = 1; c <= types.size(); ++c)
+            ends.push_back(static_cast<std::int64_t>(c * (question.dimension + 1)));
     }
-    grid->SetCells(question.dimension == 3 ? VTK_TETRA : VTK_TRIANGLE, cells);
-    vtkNew<vtkDoubleArray> field;
-    field->SetName("f");
-    for (const double value : question.values) field->InsertNextValue(value);
-    grid->GetPointData()->AddArray(field);
+    auto grid = barycert::test::vtk_grid(vtk_points(question.nodes, question.dimension), types, ends, question.cells,
+                                         "f", question.values);
     vtkNew<vtkIdTypeArray> numbers;
     numbers->SetName("cell");
     for (std::size_t c = 0; c < question.cell_count(); ++c) numbers->InsertNextValue(static_cast<vtkIdType>(c));
@@ -75,14 +59,14 @@ void find(vtkAbstractCellLocator* locator, const Question& question, vtkUnstruct
     locator->BuildLocator();
     const double built = now();
     vtkNew<vtkGenericCell> cell;
-    double parametric[3], weights[8];
+    double parametric[3], weights[VTK_CELL_SIZE];
     for (std::size_t i = 0; i < question.point_count(); ++i) {
         const double* const x = question.points.data() + question.dimension * i;
         double at[3] = {x[0], x[1], question.dimension == 3 ? x[2] : 0};
         const vtkIdType found = locator->FindCell(at, 0, cell, parametric, weights);
         double sum = found < 0 ? nan : 0;
-        for (std::size_t k = 0; k <= question.dimension && found >= 0; ++k)
-            sum += weights[k] * question.values[static_cast<std::size_t>(cell->GetPointId(static_cast<int>(k)))];
+        for (int k = 0; found >= 0 && k < cell->GetNumberOfPoints(); ++k)
+            sum += weights[k] * question.values[static_cast<std::size_t>(cell->GetPointId(k))];
         answer.owners[i] = found;
         answer.sampled[i] = sum;
     }
@@ -94,7 +78,7 @@ void find(vtkAbstractCellLocator* locator, const Question& question, vtkUnstruct
 template <class Filter>
 void filter(const Question& question, vtkUnstructuredGrid* grid, Answer& answer) {
     vtkNew<vtkPolyData> points;
-    points->SetPoints(points_of(question.points, question.dimension));
+    points->SetPoints(vtk_points(question.points, question.dimension));
     // vtkResampleWithDataSet of VTK 9.1 ends the process where there are no cells
     // (tests/findings/vtk_resample_points.py).
     vtkNew<vtkCellArray> vertices;

@@ -62,16 +62,16 @@ void describe(const std::vector<NamedMesh>& meshes, League& league) {
     }
 }
 
-Standing standing_of(const System& system, int dimension, const std::vector<NamedMesh>& meshes, const League& league) {
+Standing standing_of(const System& system, CellKind kind, const std::vector<NamedMesh>& meshes, const League& league) {
     Standing standing;
     standing.name = system.name;
-    standing.dimension = dimension;
+    standing.kind = kind;
     if (system.command.empty()) {
         standing.why_not = "not installed";
         return standing;
     }
     for (const NamedMesh& mesh : meshes) {
-        if (mesh.mesh.dimension != dimension) continue;
+        if (kind_of(mesh.mesh) != kind) continue;
         std::fprintf(stderr, "systems: %s, %s\n", system.name.c_str(), mesh.name.c_str());
         ask(system, mesh, league, standing);
     }
@@ -136,15 +136,12 @@ int main(int count, char** words) {
 
     std::erase_if(meshes, [&](const NamedMesh& m) { return !only_meshes.empty() && !contains(only_meshes, m.name); });
     describe(meshes, league);
-    for (const int dimension : {3, 2}) {
-        if (std::none_of(meshes.begin(), meshes.end(),
-                         [&](const NamedMesh& m) { return m.mesh.dimension == dimension; }))
+    for (const CellKind kind : all_kinds) {
+        if (std::none_of(meshes.begin(), meshes.end(), [&](const NamedMesh& m) { return kind_of(m.mesh) == kind; }))
             continue;
         for (const System& system : all) {
-            if ((system.dimension != 0 && system.dimension != dimension) ||
-                (!only_systems.empty() && !contains(only_systems, system.name)))
-                continue;
-            league.standings.push_back(standing_of(system, dimension, meshes, league));
+            if (!system.takes(kind) || (!only_systems.empty() && !contains(only_systems, system.name))) continue;
+            league.standings.push_back(standing_of(system, kind, meshes, league));
         }
     }
     if (std::all_of(league.standings.begin(), league.standings.end(),

@@ -77,5 +77,65 @@ TEST_F(Failing, WhenItIsTimed) {
     EXPECT_TRUE(json.at("ns_a_random_point").is_null());
 }
 
+class OtherCells : public ::testing::Test {
+protected:
+    static Standing asked(const std::string& name, const System& system) {
+        static const std::vector<NamedMesh> meshes = meshes_for_systems();
+        const League league{.seed = 1, .count = 10, .meshes = {}, .sets = {}, .standings = {}};
+        Standing standing;
+        standing.name = system.name;
+        standing.kind = CellKind::others;
+        for (const NamedMesh& mesh : meshes)
+            if (mesh.name == name) ask(system, mesh, league, standing);
+        return standing;
+    }
+    const System barycert_{"barycert", {BARYCERT_SYSTEM_BARYCERT, "all"}};
+};
+
+// Or the judge would take them for something else than the systems do.
+TEST_F(OtherCells, AllHaveTheirMaps) {
+    std::size_t meshes = 0;
+    for (const NamedMesh& mesh : meshes_for_systems()) {
+        if (kind_of(mesh.mesh) != CellKind::others) continue;
+        const Locator locator =
+            Locator::build(mesh.mesh, {.interpolation = CellInterpolation::multilinear, .progress = {}}).value();
+        EXPECT_EQ(locator.unmapped_cells(), 0U) << mesh.name;
+        EXPECT_TRUE(locator.certified()) << mesh.name;
+        ++meshes;
+    }
+    EXPECT_EQ(meshes, 9U);
+}
+
+TEST_F(OtherCells, HaveATableOfTheirOwn) {
+    for (const char* const name : {"mixed-warped", "curved"}) {
+        const Standing s = asked(name, barycert_);
+        EXPECT_TRUE(s.failures.empty()) << s.failures.front();
+        EXPECT_EQ(s.total.points, 80U);
+        EXPECT_EQ(s.total.missed + s.total.invented + s.total.wrong_cell, 0U);
+        EXPECT_EQ(s.total.max_error, 0);
+        const League league{.seed = 1, .count = 10, .meshes = {{name, ""}}, .sets = {}, .standings = {s}};
+        const std::string text = league_markdown(league);
+        EXPECT_EQ(text.find("### Tetrahedra"), std::string::npos);
+        EXPECT_NE(text.find("### Other cells"), std::string::npos);
+        EXPECT_NE(text.find("| " + std::string(name) + " | 0 / 0 / 0 / 0 |"), std::string::npos) << text;
+        const auto json = nlohmann::json::parse(league_json(league));
+        EXPECT_TRUE(json.at("systems").empty());
+        EXPECT_EQ(json.at("systems_of_other_cells").at(0).at("by_mesh").at(name).at("points"), 80);
+    }
+}
+
+// Who names cell 0 for every point is wrong.
+TEST_F(OtherCells, WrongAnswersAreCounted) {
+    const test::Scratch scratch;
+    const std::string script = scratch.put("system.sh", "\"" BARYCERT_SYSTEM_BARYCERT
+                                                        "\" all \"$@\" && size=$(wc -c <\"$2/owners.i64\") && "
+                                                        "head -c \"$size\" /dev/zero >\"$2/owners.i64\"\n");
+    const Standing s = asked("hexahedra-warped", {"liar", {"sh", script}});
+    EXPECT_TRUE(s.failures.empty()) << s.failures.front();
+    EXPECT_EQ(s.total.invented, s.total.outside);
+    EXPECT_GT(s.total.outside, 10U);
+    EXPECT_GT(s.total.wrong_cell, 40U);
+}
+
 }  // namespace
 }  // namespace barycert::systems

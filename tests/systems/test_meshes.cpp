@@ -8,6 +8,7 @@
 #include "barycert/base/random.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
+#include "bench/generated_mesh.hpp"
 
 namespace barycert::systems {
 namespace {
@@ -104,6 +105,26 @@ std::vector<NamedMesh> meshes_for_systems() {
         set_field(mesh);
         add(name, "data/meshes", std::move(mesh));
     }
+    // Sheared, so that sides are not parallel to axes; by powers of two, so that middles of edges stay exact.
+    const auto sheared = [](Mesh mesh) {
+        return moved(std::move(mesh), [](double* x) {
+            x[0] += 0.25 * x[1];
+            x[2] += 0.125 * x[0];
+        });
+    };
+    using bench::CubeCells;
+    const auto add_shaped = [&](const std::string& name, CubeCells what, int n) {
+        add(name, "made of lattice cubes, sheared", sheared(bench::shaped_cube(what, n, 0, true, 7)));
+        add(name + "-warped",
+            "made of lattice cubes whose inner nodes are moved: sides of four nodes are not flat; sheared",
+            sheared(bench::shaped_cube(what, n, 0.15, true, 7)));
+    };
+    add_shaped("hexahedra", CubeCells::hexahedra, 8);
+    add_shaped("wedges", CubeCells::wedges, 6);
+    add_shaped("pyramids", CubeCells::pyramids, 5);
+    add_shaped("mixed", CubeCells::mixed, 8);
+    add("curved", "tetrahedra of second order, half of them with curved edges",
+        sheared(bench::curved_cube(4, 0.07, 7)));
     return meshes;
 }
 

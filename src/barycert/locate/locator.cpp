@@ -210,7 +210,6 @@ Result<Table> Locator::locate_all(std::span<const double> points, int threads, N
             parts[b].ways.no_cell_near += sorted.left_out();
             const auto key = [](const Found& f) { return std::pair(f.point, f.cell); };
             std::ranges::sort(found[b], {}, key);
-            if (data_->index.inside == nullptr) return;
             const auto same = [&](const Found& f, const Found& g) {  // parts of one cell
                 return f.point == g.point && mesh().cell_number(f.cell) == mesh().cell_number(g.cell);
             };
