@@ -1,13 +1,11 @@
 #include <cctype>
 #include <filesystem>
 #include <limits>
-#include <numeric>
+#include <limits>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/medit/medit_file.hpp"
-#include "barycert/mesh/columns.hpp"
-#include "barycert/mesh/part.hpp"
 #include "barycert/mesh/pulling.hpp"
 
 namespace barycert::io {

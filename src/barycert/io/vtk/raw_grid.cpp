@@ -6,8 +6,6 @@
 
 namespace barycert::io {
 
-}
-
 void FileText::check(NumberFault fault, const char* begin, const std::string& what, std::uint64_t count,
                      NumberFault* inexact) const {
     // A number stands in a line of its own.
