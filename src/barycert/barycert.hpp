@@ -11,9 +11,9 @@
 ///   W1  A weight has the exact sign; it is zero only if the exact one is, or rounds to it.   weights.hpp
 ///   W2  A weight is the exact one rounded to nearest, ties to even.                          weights.hpp
 ///   V1  A value is the exact sum of weight (quadratic field: of shape function) times nodal
-///       value, rounded once.                               weights.hpp, quadratic.hpp, perspective.hpp
+///       value, rounded once.                                              weights.hpp, perspective.hpp
 ///   V2  A point that two cells share has the same value, to the bit, from both.      the same headers
-///   G1  A gradient's component is the exact one rounded to nearest, ties to even.        gradient.hpp
+///   G1  A gradient's component is the exact one rounded to nearest, ties to even.         weights.hpp
 ///   D1  Results depend on the input bits alone: not on threads, SIMD target, compiler,
 ///       optimisation, or the order of cases.
 ///   D2  Results do not depend on the caller's floating-point environment: rounding mode, flush-to-zero,
@@ -40,10 +40,8 @@
 #pragma once
 
 #include "barycert/environment.hpp"  // IWYU pragma: export
-#include "barycert/gradient.hpp"     // IWYU pragma: export
 #include "barycert/perspective.hpp"  // IWYU pragma: export
 #include "barycert/predicates.hpp"   // IWYU pragma: export
-#include "barycert/quadratic.hpp"    // IWYU pragma: export
 #include "barycert/result.hpp"       // IWYU pragma: export
 #include "barycert/simplex.hpp"      // IWYU pragma: export
 #include "barycert/weights.hpp"      // IWYU pragma: export

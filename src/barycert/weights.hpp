@@ -1,6 +1,6 @@
-/// Barycentric weights and interpolated values, correctly rounded.
+/// Barycentric weights, interpolated values and gradients of linear and quadratic fields, correctly rounded.
 ///
-/// Input: coordinates and nodal values as doubles (values also as floats). Output: doubles.
+/// Input: coordinates and nodal values as doubles (of linear fields also as floats). Output: doubles.
 ///
 /// Laws (each is a test of that name in tests/core):
 ///   W1  A weight has the sign of the exact one. It is zero only if the exact one is zero, and then +0, or if that
@@ -11,12 +11,14 @@
 ///       exact zero is +0, even if all nodal values are -0; what underflows to zero keeps its sign.
 ///   V2  At a point on a shared face, edge or vertex the value has the same bits from every cell that holds it, if the
 ///       cells are not degenerate, whatever values the nodes beside it have.
+///   G1  Each component of a gradient is the exact one, rounded once in the same way. An exact zero is +0,
+///       what underflows to zero keeps its sign.
 ///   D1  Results depend on the input bits alone, not on threads, SIMD target, compiler or optimisation, nor (D2) on the
 ///       caller's floating-point environment.
 ///
-/// A degenerate simplex has no weights: they and its values are NaN, and TierCounts::degenerate counts the case. A
-/// nodal value that is NaN or infinite makes its component NaN, and TierCounts::not_finite counts the case, unless its
-/// exact weight is zero: then it takes no part. NaN or infinity among the coordinates is an Error.
+/// A degenerate simplex has no weights: they, its values and gradients are NaN, and TierCounts::degenerate counts the
+/// case. A nodal value that is NaN or infinite makes its component NaN, and TierCounts::not_finite counts the case,
+/// unless its exact weight is zero: then it takes no part. NaN or infinity among the coordinates is an Error.
 ///
 /// Rounded weights need not sum to 1, nor give back the point they came from; their rounded combination with nodal
 /// values is not the value. On segment and triangle3d V2 holds for points on the shared edge or vertex itself, not for
@@ -77,6 +79,72 @@ Status interpolate(const MeshQueries& queries, const NodalValues<double>& values
                    TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
 Status interpolate(const MeshQueries& queries, const NodalValues<float>& values, std::span<double> out,
                    TierCounts* tiers = nullptr, Rounding rounding = Rounding::correct);
+
+// The gradient of a linear field f in a cell, a triangle in the plane or a tetrahedron: g_k = sum f_i d(lambda_i)/dx_k,
+// in units of the values over units of the coordinates. It is the one vector with g . (v_i - v_j) = f_i - f_j for any
+// two vertices of the cell, whatever their order. A nodal value that is NaN or infinite makes g_k of its component NaN,
+// unless d(lambda_i)/dx_k is exactly zero.
+
+struct Gradient {
+    std::array<double, 3> gradient{};  ///< space_dimension(simplex) of them
+    bool degenerate = false;
+    Tier tier = Tier::double_double;
+};
+
+/// Returns the gradient in the cell at `vertices` (vertex after vertex, see Case) with `values[i]` at vertex i. Returns
+/// an Error if a coordinate is not finite, or for other simplices than triangle and tetrahedron.
+Result<Gradient> gradient(Simplex simplex, const double* vertices, const double* values);
+
+/// Gradients in all cells of a mesh: vertex i of cell j is node corners[n * j + i] with coordinates nodes[d * node
+/// ...], n = vertex_count(simplex), d = space_dimension(simplex). Component k of the gradient of field component c is
+/// out[(components * j + c) * d + k]. `tiers` counts a cell for the highest tier that one of its numbers needed.
+///
+/// Returns an Error if a coordinate of a cell is not finite, for other simplices, if corners.size() is not a multiple
+/// of n, if out.size() is not d * components times the number of cells, or if components < 1; `out` is then not to be
+/// used. Requires corners in range, a value for each component of each node, and `out` not to overlap any input.
+Status gradients(Simplex simplex, std::span<const double> nodes, std::span<const std::int32_t> corners,
+                 const NodalValues<double>& values, std::span<double> out, TierCounts* tiers = nullptr);
+
+// Quadratic fields on tetrahedra of ten nodes and triangles, in the plane, of six. With l the exact barycentric weights
+// of the point in the straight-sided cell of the corners (wherever the mid-edge nodes lie), the value is
+//     sum_i l_i (2 l_i - 1) f_i + sum_ij 4 l_i l_j f_ij        over the corners i and the edges ij
+// with the edges in the order 01 12 02 (triangle) or 01 12 02 03 13 23 (tetrahedron), the order in which meshes hold
+// their mid-edge nodes.
+//
+// V1 holds with these factors for the weights. So does V2, if the cells have the same nodes on what they share: at a
+// corner the value is that of its node, in the middle of an edge that of the mid-edge node; NaN if that is not finite.
+// A nodal value that is NaN or infinite makes its component NaN, unless its factor is exactly zero.
+
+/// Number of mid-edge nodes: 3 for a triangle, 6 for a tetrahedron.
+constexpr int mid_node_count(Simplex s) {
+    return s == Simplex::tetrahedron ? 6 : 3;
+}
+
+/// Returns the value at `point` of the quadratic field with values[i] at corner i and, behind these, those of the
+/// mid-edge nodes. Returns an Error if a coordinate is not finite, or for other simplices than triangle and
+/// tetrahedron.
+Result<Value> interpolate_quadratic(Simplex simplex, const double* vertices, const double* point, const double* values);
+
+/// Values of many cases: out[components * j + c] is component c of case j. Mid-edge node e of cell k is
+/// mid_nodes[m * k + e], m = mid_node_count(simplex); values are indexed by corners and mid-edge nodes alike. `tiers`
+/// counts a case for the highest tier that one of its components needed. Rounding::plain evaluates the formula in
+/// double: nothing is counted, and nothing promised but what is said of NaN.
+///
+/// Returns an Error if a coordinate is not finite (not with Rounding::plain), for other simplices, if out.size() is not
+/// `components` times the number of cases, if components < 1, or if corners and mid-edge nodes are not of the same
+/// number of cells; `out` is then not to be used. Requires indices in range, a value for each component of each node,
+/// and `out` not to overlap any input.
+Status interpolate_quadratic(const MeshQueries& queries, std::span<const std::int32_t> mid_nodes,
+                             const NodalValues<double>& values, std::span<double> out, TierCounts* tiers = nullptr,
+                             Rounding rounding = Rounding::correct);
+
+/// Returns the gradient at `point` of the quadratic field with these values (as for interpolate_quadratic). Each
+/// component is the exact one rounded once, to nearest, ties to even, subnormal results and infinity included; an exact
+/// zero is +0. NaN in a degenerate cell, and in a component where a nodal value is not finite, unless the derivative of
+/// its factor is exactly zero there. Always in integers, a microsecond or more; Rounding::plain evaluates the formula
+/// in double, and promises nothing else. Returns an Error if a coordinate is not finite, or for other simplices.
+Result<Gradient> quadratic_gradient(Simplex simplex, const double* vertices, const double* point, const double* values,
+                                    Rounding rounding = Rounding::correct);
 
 // The condition number of a cell: how many bits a kernel that works with differences of coordinates may lose in the
 // weights of points of the cell.

@@ -1,5 +1,5 @@
 #include "barycert/check.hpp"
-#include "barycert/gradient.hpp"
+#include "barycert/weights.hpp"
 #include "bindings.hpp"
 
 namespace barycert::python {

@@ -84,7 +84,7 @@ inline std::optional<std::vector<mpq_class>> exact_gradient(const Case& c) {
     return g;
 }
 
-/// A case with values at the mid-edge nodes besides, in the order of quadratic.hpp.
+/// A case with values at the mid-edge nodes besides, in the order of weights.hpp.
 struct QuadraticCase {
     Case linear;
     std::vector<double> mids;

@@ -1,8 +1,8 @@
 /// Questions about gradients and the oracle's verdict, for their tests.
 #pragma once
 
-#include "barycert/gradient.hpp"
 #include "barycert/oracle.hpp"
+#include "barycert/weights.hpp"
 #include "core/field_cases.hpp"
 #include "core/rational.hpp"
 

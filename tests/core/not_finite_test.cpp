@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "barycert/environment.hpp"
-#include "barycert/gradient.hpp"
 #include "barycert/perspective.hpp"
-#include "barycert/quadratic.hpp"
 #include "barycert/weights.hpp"
 
 namespace barycert {

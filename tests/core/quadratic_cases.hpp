@@ -2,7 +2,7 @@
 #pragma once
 
 #include "barycert/oracle.hpp"
-#include "barycert/quadratic.hpp"
+#include "barycert/weights.hpp"
 #include "core/field_cases.hpp"
 #include "core/rational.hpp"
 

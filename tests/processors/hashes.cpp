@@ -11,7 +11,6 @@
 #include "barycert/base/random.hpp"
 #include "barycert/check.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/gradient.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/io.hpp"
 #include "barycert/predicates.hpp"

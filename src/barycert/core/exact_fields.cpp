@@ -7,7 +7,6 @@
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/scaled_double.hpp"
-#include "barycert/quadratic.hpp"
 
 namespace barycert::core {
 namespace {

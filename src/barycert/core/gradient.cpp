@@ -1,5 +1,3 @@
-#include "barycert/gradient.hpp"
-
 #include "barycert/core/blocks.hpp"
 #include "barycert/core/exact_tier.hpp"
 #include "barycert/environment.hpp"

@@ -41,7 +41,7 @@ std::size_t gradient_lanes(Simplex s, const CaseBlock& cells, const double* cons
 std::size_t quadratic_lanes(Rounding rounding, Simplex s, const CaseBlock& cases, const double* const* values,
                             int components, double* const* out, std::uint32_t* undecided);
 
-/// The corners of each edge that a mid-edge node stands on, in the order of quadratic.hpp; the first three are those of
+/// The corners of each edge that a mid-edge node stands on, in the order of weights.hpp; the first three are those of
 /// a triangle.
 inline constexpr int quadratic_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 

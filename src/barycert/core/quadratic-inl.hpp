@@ -34,7 +34,6 @@
 
 #include "barycert/core/lanes.hpp"
 #include "barycert/core/refinement-inl.hpp"
-#include "barycert/quadratic.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace barycert::core::HWY_NAMESPACE {

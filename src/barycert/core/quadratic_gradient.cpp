@@ -9,7 +9,6 @@
 #include "barycert/core/numerators-inl.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/quadratic.hpp"
 
 namespace barycert::core {
 namespace {

@@ -58,7 +58,7 @@ std::size_t expect_true_quantities(const Mesh& mesh, const std::vector<double>& 
             unit.values.fill(0);
             unit.values[v] = 1;
             const auto of_weight = *testing_fields::exact_gradient(unit);
-            // The derivative of the value by weight v, see quadratic.hpp; linear: the value of the corner.
+            // The derivative of the value by weight v, see weights.hpp; linear: the value of the corner.
             Rational by = Rational(q.linear.values[v]) * (q.mids.empty() ? Rational(1) : Rational(4 * l[v] - 1));
             for (std::size_t e = 0; e < q.mids.size(); ++e) {
                 const auto ends = testing_fields::edge(e);

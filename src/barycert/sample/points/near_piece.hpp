@@ -5,7 +5,7 @@
 
 #include "barycert/locate/near_feature.hpp"
 #include "barycert/locator.hpp"
-#include "barycert/quadratic.hpp"
+#include "barycert/weights.hpp"
 
 namespace barycert::sample {
 

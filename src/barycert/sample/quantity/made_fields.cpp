@@ -8,7 +8,6 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
-#include "barycert/gradient.hpp"
 #include "barycert/mesh/consistency.hpp"
 
 namespace barycert::sample {
