@@ -146,13 +146,17 @@ public:
                                                                    input_->GetPoint(static_cast<vtkIdType>(i), x);
                                                                }});
         if (Status done = distribution.ask(); !done) return done;
-        report_.numbered_by_ranks = distribution.ranks_with_cells() > 1 && !shape_.by_numbers;
-        report_.cut_by_ranks = distribution.ranks_with_cells() > 1 && !shape_.nodes_by_numbers;
         report_.points_sent = distribution.points_sent();
         report_.points_received = distribution.points_received();
         if (Status done = sample(distribution); !done) return done;
         if (Status done = distribution.swap_values(owners_, numbers_, columns_); !done) return done;
         return exchange_.everywhere([&]() -> Status {
+            note(distribution, shape_.by_numbers,
+                 "the cells of some source have no global ids: they are numbered by process, and owners of points on "
+                 "seams depend on how the mesh is cut");
+            note(distribution, shape_.nodes_by_numbers,
+                 "the points of some source have no global ids: cells are cut as each process numbers their nodes, and "
+                 "values in them depend on how the mesh is cut");
             owners_ = {};
             // Tuples of others' points go.
             report_.mask->Resize(static_cast<vtkIdType>(count_));
@@ -171,6 +175,11 @@ public:
 private:
     static Error not_exact(const std::string& why) {
         return Error{.what = "the source cannot be probed exactly: " + why};
+    }
+
+    void note(const pieces::Distribution& distribution, bool has_numbers, const char* text) {
+        if (!has_numbers && distribution.ranks_with_cells() > 1 && exchange_.rank() == 0)
+            report_.notes.push_back({Note::Kind::guessed, text, {}, true});
     }
 
     Status agree_on_cells(const Status& ready) {

@@ -56,10 +56,7 @@ struct ProbeSettings {
 struct ProbeReport {
     vtkSmartPointer<vtkCharArray> mask;
     std::vector<std::string> inexact;  ///< arrays of integers that become doubles first
-    /// More than one rank has cells, and these have no numbers but those that follow from the ranks.
-    bool numbered_by_ranks = false;
-    bool cut_by_ranks = false;  ///< likewise of nodes, by which cells are cut
-    Notes notes;                ///< of how cells are taken
+    Notes notes;  ///< of how cells are taken and, on rank 0, that some of several ranks have no numbers
     std::uint64_t points_sent = 0, points_received = 0;
 };
 

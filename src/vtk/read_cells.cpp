@@ -43,8 +43,6 @@ public:
         const vtkIdType* all = nullptr;
         if (grid_ != nullptr) {
             grid_->GetCellPoints(cell, size, all);
-        } else if (surface_ != nullptr) {
-            surface_->GetCellPoints(cell, size, all);
         } else {
             data_.GetCellPoints(cell, some_);
             size = some_->GetNumberOfIds();
@@ -173,7 +171,6 @@ std::string look_at_cells(vtkDataSet& data, pieces::PieceFacts& facts) {
     const vtkIdType count = data.GetNumberOfCells(), most = std::numeric_limits<Mesh::Index>::max();
     if (count > most || data.GetNumberOfPoints() > most) return "it has more than 2147483647 points or cells";
     if (data.GetNumberOfPoints() == 0) return {};
-    bool cut = false;
     std::vector<Mesh::Index> nodes;
     for (vtkIdType i = 0; i < count; ++i) {
         const mesh::CellType& type = cells.type(i);
@@ -181,26 +178,22 @@ std::string look_at_cells(vtkDataSet& data, pieces::PieceFacts& facts) {
         if (type.kind == mesh::CellKind::other)
             return name_of(static_cast<Mesh::Index>(i)) + " is a " + type.name + ", whose corners are not known";
         if (type.dimension() < facts.dimension) continue;
-        if (type.dimension() > facts.dimension) {
-            facts = {.dimension = type.dimension()};
-            cut = false;
-        }
+        if (type.dimension() > facts.dimension) facts = {.dimension = type.dimension()};
         facts.low_type = std::min(facts.low_type, number);
         facts.high_type = std::max(facts.high_type, number);
-        if (facts.dimension == 2 && !cells.is_ghost(i)) {
-            cells.nodes(i, nodes);
+        if (mesh::shape_of(type.linear).corners != static_cast<std::size_t>(type.dimension()) + 1)
+            facts.nodes_numbered = data.GetPointData()->GetGlobalIds() != nullptr;
+        nodes.clear();
+        if (facts.dimension == 2 && !cells.is_ghost(i)) cells.nodes(i, nodes);
+        for (const Mesh::Index node : nodes) {
             // A node that is not there makes no bounds: who reads the cells tells of it.
-            std::erase_if(nodes, [&](Mesh::Index node) { return node < 0 || node >= data.GetNumberOfPoints(); });
-            for (const Mesh::Index node : nodes) {
-                std::array<double, 3> x{};
-                data.GetPoint(node, x.data());
-                facts.polygons.add({x, x});
-            }
+            if (node < 0 || node >= data.GetNumberOfPoints()) continue;
+            std::array<double, 3> x{};
+            data.GetPoint(node, x.data());
+            facts.polygons.add({x, x});
         }
-        cut = cut || mesh::shape_of(type.linear).corners != static_cast<std::size_t>(type.dimension()) + 1;
     }
     facts.numbered = data.GetCellData()->GetGlobalIds() != nullptr;
-    facts.nodes_numbered = !cut || data.GetPointData()->GetGlobalIds() != nullptr;
     return {};
 }
 

@@ -258,14 +258,6 @@ int vtkPBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** input
     }
     WarnOfInexact(report.inexact);
     for (const Note& note : report.notes) vtkWarningMacro("" << message(note));
-    if (report.numbered_by_ranks && exchange.rank() == 0)
-        vtkWarningMacro(
-            "the cells of some source have no global ids: they are numbered by process, and owners of points on seams "
-            "depend on how the mesh is cut");
-    if (report.cut_by_ranks && exchange.rank() == 0)
-        vtkWarningMacro(
-            "the points of some source have no global ids: cells are cut as each process numbers their nodes, and "
-            "values in them depend on how the mesh is cut");
     ListValidPoints(*report.mask);
     PassArrays(input, output);
     return 1;

@@ -22,8 +22,8 @@
  * that fails, no memory) is an error on all, with the same text and the rank: the output is empty, GetErrorCode() is
  * not zero, and none of them waits.
  *
- * Unlike vtkBarycertProbe it has no tolerance. Composite data sets are
- * an error: VTK would execute the filter once a block, on each process another number of times.
+ * Unlike vtkBarycertProbe it has no tolerance. Composite data sets are an error: VTK would execute the filter once a
+ * block, on each process another number of times.
  */
 #ifndef vtkPBarycertProbe_h
 #define vtkPBarycertProbe_h

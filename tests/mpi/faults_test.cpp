@@ -177,7 +177,7 @@ TEST(Faults, OfPlanes) {
     vtkNew<vtkPBarycertProbe> probe;
     probe->SetSourceData(piece);
     probe->SetInputData(points_of({0.1, 0.1, 0.5}));
-    if (ranks() > 1) expect_error(probe, "its triangles do not lie in one plane across an axis");
+    if (ranks() > 1) expect_error(probe, "its polygons do not lie in one plane across an axis");
 }
 
 TEST(Faults, OfSettings) {

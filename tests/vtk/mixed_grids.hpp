@@ -81,7 +81,7 @@ inline vtkSmartPointer<vtkUnstructuredGrid> mixed_block(int n, double by, bool p
                     const vtkIdType middle = points->InsertNextPoint(i + 0.5, j + 0.5, k + 0.5);
                     for (const auto& s : sides) {
                         std::vector<vtkIdType> nodes;
-                        for (std::size_t at = 4; at-- > 0;) nodes.push_back(c[static_cast<std::size_t>(s[at])]);
+                        for (std::size_t m = 4; m-- > 0;) nodes.push_back(c[static_cast<std::size_t>(s[m])]);
                         nodes.push_back(middle);
                         add(VTK_PYRAMID, nodes);
                     }
