@@ -97,7 +97,7 @@ private:
         std::iota(order.begin(), order.end(), 0U);
         std::vector<std::uint32_t> root(facets_.size());
         for (std::size_t f = 0; f < facets_.size(); ++f) root[f] = piece_.find(f);
-        std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return root[a] < root[b]; });
+        std::ranges::stable_sort(order, [&](auto a, auto b) { return root[a] < root[b]; });
         std::vector<std::uint32_t> pieces;
         Integer all;
         for (std::size_t i = 0; i < order.size();) {
@@ -120,9 +120,8 @@ private:
     /// As many facets as a cell has, closed: its nodes are those of one and the one of another that the first has not.
     void add_missing_cell(std::uint32_t f, std::uint32_t g) {
         const auto &nodes = facets_[f].nodes, &others = facets_[g].nodes;
-        const auto fourth = std::find_if(others.begin(), others.end(), [&](Mesh::Index n) {
-            return std::find(nodes.begin(), nodes.end(), n) == nodes.end();
-        });
+        const auto fourth =
+            std::ranges::find_if(others, [&](Mesh::Index n) { return std::ranges::find(nodes, n) == nodes.end(); });
         if (fourth == others.end()) return;
         DefectPlace place{.cells = {facets_[f].cell, facets_[g].cell}, .nodes = nodes};
         (d_ == 2 ? place.nodes[2] : place.other_nodes[0]) = *fourth;

@@ -4,7 +4,6 @@
 
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/check/stages.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/mesh/consistency.hpp"
 
 namespace barycert {
@@ -70,114 +69,90 @@ CurvedCells note_curved_cells(const Mesh& mesh, CheckReport& report) {
     return curved;
 }
 
-class Check {
-public:
-    Check(const Mesh& mesh, const CheckOptions& options, CheckReport& report)
-        : options_(options), report_(report), defects_(options.examples, report.measures.defects) {
-        if (const char* fault = fault_of_sizes(mesh); fault != nullptr) {
-            defects_.add(DefectKind::bad_structure, {.detail = fault});
-        } else {
-            Checked checked{mesh, options, report, defects_};
-            check_all(checked);
-        }
-        report.defects = std::move(defects_).list();
-        const bool whole = std::ranges::none_of(report.defects, &Defect::breaks);
-        verdict = whole ? Verdict::certified : Verdict::not_certified;
+/// Where the cause of what breaks the certificate is known.
+void tell_remedies(DefectList& defects) {
+    const bool merge = defects[DefectKind::coincident_nodes].cause || defects[DefectKind::near_nodes].cause;
+    const bool split = defects[DefectKind::hanging_node].count != 0 || defects[DefectKind::near_hanging].cause;
+    if (!merge && !split) return;
+    constexpr std::string_view merging = "merge the coincident and near nodes below";
+    constexpr std::string_view splitting = "split the cells at the hanging nodes below";
+    constexpr std::string_view both =
+        "merge coincident and near nodes, and split the cells at hanging nodes: both below";
+    defects[DefectKind::boundary_contact].better_remedy = merge && split ? both : merge ? merging : splitting;
+    defects[DefectKind::nested_part].better_remedy =
+        "first merge nodes or split cells as said below; remove a part that lies inside another one even then";
+    defects[DefectKind::overlapping_cells].better_remedy =
+        "remove the other defects, those below included: this one follows from them";
+}
+
+void check_boundary_and_pairs(Checked& c, bool proved) {
+    c.stage("boundary");
+    const std::vector<std::uint32_t> pieces = check_boundary(c);
+    if (c.enough()) return;
+    BoundaryContacts touching;
+    std::vector<CellPair> meeting;
+    if (!proved) {
+        c.stage("contacts of the boundary");
+        const std::size_t limit = c.options.verdict_only ? 1 : pair_limit;
+        touching = find_boundary_contacts(c, limit);
+        if (c.enough()) return;
+        meeting = find_nested_parts(c, pieces, limit);
     }
-
-    Verdict verdict = Verdict::not_checked;
-
-private:
-    void stage(const char* name) const {
-        if (!options_.progress) return;
-        options_.progress(name);
-        ExactEnvironment::renew();
+    check_files(c);
+    if (c.enough()) return;
+    std::vector<CellPair> overlapping;
+    // One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.
+    if (c.defects.has([](const DefectText& t) { return t.breaks && t.condition != "P5"; })) {
+        c.stage("overlapping cells");
+        overlapping = find_overlapping_cells(c);
     }
-
-    void check_all(Checked& c) {
-        stage("nodes");
-        check_nodes(c);
-        stage("cells");
-        check_cells(c);
-        if (enough()) return;
-        stage("facets");
-        const bool proved = check_facets(c);
-        if (enough()) return;
-        // What one thread does alone is done beside the rest.
-        tbb::task_group parts;
-        if (!options_.verdict_only) parts.run([&] { report_.parts = count_parts(c); });
-        check_boundary_and_pairs(c, proved);
-        parts.wait();
-        // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
-        if (const char* fault = mesh::inconsistency_of_extras(c.mesh, mesh::FieldValues::any); fault != nullptr)
-            defects_.add(DefectKind::unfit_array, {.detail = fault});
-        if (enough()) return;
-        if (!options_.verdict_only) report_.maps = check_maps(c);
-        if (options_.delaunay) {
-            stage("Delaunay");
-            report_.delaunay = check_delaunay(c);
-        }
-        if (options_.plc != nullptr && c.mesh.dimension == 3) {
-            stage("conformity");
-            report_.conformity = check_conformity(c);
-        }
+    if (!c.options.verdict_only) {
+        meeting.insert(meeting.end(), touching.cells.begin(), touching.cells.end());
+        meeting.insert(meeting.end(), overlapping.begin(), overlapping.end());
+        find_cracks(c, touching, meeting);
+        tell_remedies(c.defects);
     }
+    c.report.contacts = contacts(c, std::move(overlapping), std::move(touching.cells));
+}
 
-    void check_boundary_and_pairs(Checked& c, bool proved) {
-        stage("boundary");
-        const std::vector<std::uint32_t> pieces = check_boundary(c);
-        if (enough()) return;
-        BoundaryContacts touching;
-        std::vector<CellPair> meeting;
-        if (!proved) {
-            stage("contacts of the boundary");
-            const std::size_t limit = options_.verdict_only ? 1 : pair_limit;
-            touching = find_boundary_contacts(c, limit);
-            if (enough()) return;
-            meeting = find_nested_parts(c, pieces, limit);
-        }
-        check_files(c);
-        if (enough()) return;
-        std::vector<CellPair> overlapping;
-        // One of P2 to P4 fails, or a cell is left out of them; otherwise the theorem says that there is none.
-        if (defects_.has([](const DefectText& t) { return t.breaks && t.condition != "P5"; })) {
-            stage("overlapping cells");
-            overlapping = find_overlapping_cells(c);
-        }
-        if (!options_.verdict_only) {
-            meeting.insert(meeting.end(), touching.cells.begin(), touching.cells.end());
-            meeting.insert(meeting.end(), overlapping.begin(), overlapping.end());
-            find_cracks(c, touching, meeting);
-            tell_remedies();
-        }
-        report_.contacts = contacts(c, std::move(overlapping), std::move(touching.cells));
+void check_all(Checked& c) {
+    c.stage("nodes");
+    check_nodes(c);
+    c.stage("cells");
+    check_cells(c);
+    if (c.enough()) return;
+    c.stage("facets");
+    const bool proved = check_facets(c);
+    if (c.enough()) return;
+    // What one thread does alone is done beside the rest.
+    tbb::task_group parts;
+    if (!c.options.verdict_only) parts.run([&] { c.report.parts = count_parts(c); });
+    check_boundary_and_pairs(c, proved);
+    parts.wait();
+    // Last, as it says nothing of where cells lie: what is certified is accepted by all who ask for a whole mesh.
+    if (const char* fault = mesh::inconsistency_of_extras(c.mesh, mesh::FieldValues::any); fault != nullptr)
+        c.defects.add(DefectKind::unfit_array, {.detail = fault});
+    if (c.enough()) return;
+    if (!c.options.verdict_only) c.report.maps = check_maps(c);
+    if (c.options.delaunay) {
+        c.stage("Delaunay");
+        c.report.delaunay = check_delaunay(c);
     }
-
-    /// Where the cause of what breaks the certificate is known.
-    void tell_remedies() {
-        const bool merge = defects_[DefectKind::coincident_nodes].cause || defects_[DefectKind::near_nodes].cause;
-        const bool split = defects_[DefectKind::hanging_node].count != 0 || defects_[DefectKind::near_hanging].cause;
-        if (!merge && !split) return;
-        constexpr std::string_view merging = "merge the coincident and near nodes below";
-        constexpr std::string_view splitting = "split the cells at the hanging nodes below";
-        constexpr std::string_view both =
-            "merge coincident and near nodes, and split the cells at hanging nodes: both below";
-        defects_[DefectKind::boundary_contact].better_remedy = merge && split ? both : merge ? merging : splitting;
-        defects_[DefectKind::nested_part].better_remedy =
-            "first merge nodes or split cells as said below; remove a part that lies inside another one even then";
-        defects_[DefectKind::overlapping_cells].better_remedy =
-            "remove the other defects, those below included: this one follows from them";
+    if (c.options.plc != nullptr && c.mesh.dimension == 3) {
+        c.stage("conformity");
+        c.report.conformity = check_conformity(c);
     }
+}
 
-    /// The verdict is known, and nothing else is asked for.
-    bool enough() const {
-        return options_.verdict_only && defects_.has([](const DefectText& t) { return t.breaks; });
+Verdict verdict_of(const Mesh& mesh, Findings findings) {
+    if (const char* fault = fault_of_sizes(mesh); fault != nullptr) {
+        findings.defects.add(DefectKind::bad_structure, {.detail = fault});
+        return findings.report_defects();
     }
-
-    const CheckOptions& options_;
-    CheckReport& report_;
-    DefectList defects_;
-};
+    Checked checked{std::move(findings), mesh};
+    check_all(checked);
+    return checked.report_defects();
+}
 
 }  // namespace
 
@@ -193,8 +168,9 @@ CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
     report.dimension = mesh.dimension;
     report.threads = base::threads_of(options.threads);
     // Cells of a dimension that is none cannot be counted: their corners can.
-    base::in_arena(options.threads, mesh.cells.size(),
-                   [&] { report.certificate = Certificate(Check(mesh, options, report).verdict, mesh); });
+    base::in_arena(options.threads, mesh.cells.size(), [&] {
+        report.certificate = Certificate(verdict_of(mesh, {options, report}), mesh);
+    });
     if (mesh.dimension == 2 || mesh.dimension == 3) {
         report.nodes = mesh.point_count();
         report.cells = mesh.cell_count();

@@ -98,7 +98,7 @@ std::vector<Mesh::Index> neighbours_of(const Mesh& mesh, const index::CellIndex&
 
 void search_facets(Checked& c) {
     base::resize_large(c.neighbours, c.mesh.cells.size());
-    std::fill(c.neighbours.begin(), c.neighbours.end(), -1);
+    std::ranges::fill(c.neighbours, -1);
     const mesh::FacetTable table(c.mesh, c.usable);
     const FacetChecker check{c};
     in_blocks(
@@ -207,7 +207,7 @@ std::vector<std::uint8_t> faces_of_cells(const Mesh& mesh, const std::vector<std
         if (usable[cell] == 0) return;
         std::array<Mesh::Index, 4> n{};
         std::copy_n(&mesh.cells[4 * cell], 4, n.begin());
-        std::sort(n.begin(), n.end());
+        std::ranges::sort(n);
         for (const Triple& facet :
              {Triple{n[0], n[1], n[2]}, {n[0], n[1], n[3]}, {n[0], n[2], n[3]}, {n[1], n[2], n[3]}})
             meet(facet);

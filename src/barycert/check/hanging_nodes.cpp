@@ -71,7 +71,7 @@ public:
             const double* const p[] = {at(f.nodes[0]), at(f.nodes[1]), at(f.nodes[2]), at(node)};
             h.distance = 6 * std::fabs(volumes_.rounded(volumes_.cell(p), unit)) / length(normal);
             if (h.distance <= radius) h.face = f.nodes;
-            std::sort(h.face.begin(), h.face.end());
+            std::ranges::sort(h.face);
         }
         h.distance = std::ldexp(h.distance, unit);
         return h;

@@ -6,6 +6,7 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/check.hpp"
 #include "barycert/check/exact_volumes.hpp"
+#include "barycert/environment.hpp"
 #include "barycert/index/box_tree.hpp"
 #include "barycert/index/facet_contact.hpp"
 #include "barycert/index/overlap.hpp"
@@ -69,6 +70,11 @@ public:
         return std::ranges::any_of(all_, [&](const Defect& f) { return f.count > 0 && asked(defect_text(f.kind)); });
     }
 
+    /// One that breaks the certificate, whatever it is the cause of, has been found.
+    bool breaks() const {
+        return has([](const DefectText& t) { return t.breaks; });
+    }
+
     /// Those that occur; first those that break the certificate.
     std::vector<Defect> list() && {
         std::erase_if(all_, [](const Defect& f) { return f.count == 0; });
@@ -80,6 +86,29 @@ private:
     std::size_t examples_;
     std::vector<DefectSet>& of_cells_;
     std::vector<Defect> all_;
+};
+
+/// What is asked of a mesh or a surface, and what is found of it in one stage after the other.
+struct Findings {
+    const CheckOptions& options;
+    CheckReport& report;
+    DefectList defects{options.examples, report.measures.defects};
+
+    void stage(const char* name) const {
+        if (!options.progress) return;
+        options.progress(name);
+        ExactEnvironment::renew();
+    }
+
+    /// The verdict is known, and nothing else is asked for.
+    bool enough() const { return options.verdict_only && defects.breaks(); }
+
+    /// After the last stage.
+    Verdict report_defects() {
+        report.defects = std::move(defects).list();
+        const bool whole = std::ranges::none_of(report.defects, &Defect::breaks);
+        return whole ? Verdict::certified : Verdict::not_certified;
+    }
 };
 
 /// work(first, last, part) for blocks of [0, count), on all threads of the calling arena, each part a copy of `empty`;
@@ -159,11 +188,8 @@ inline PlacedFacet placed(const Mesh& mesh, const BoundaryFacet& facet) {
 }
 
 /// A mesh whose arrays make nodes and cells, and what is known of it.
-struct Checked {
+struct Checked : Findings {
     const Mesh& mesh;
-    const CheckOptions& options;
-    CheckReport& report;
-    DefectList& defects;
     const ExactVolumes volumes{mesh.dimension, mesh.points};
     const std::vector<std::int8_t>& orientation = report.measures.orientation;
     std::vector<std::uint8_t> finite = {};     ///< 1 for each node whose coordinates are all finite

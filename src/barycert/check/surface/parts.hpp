@@ -10,11 +10,8 @@
 namespace barycert::check {
 
 /// Nodes at one place are one: that of the lowest of them.
-struct SurfaceParts {
+struct SurfaceParts : Findings {
     const Surface& surface;
-    const CheckOptions& options;
-    CheckReport& report;
-    DefectList& defects;
     SurfaceReport& found = *report.surface;
 
     Triangles triangles = {};

@@ -140,13 +140,9 @@ public:
     }
 
     void measure_planes() {
-        Box box = empty_box;
-        for (const Mesh::Index n : s_.triangles.index.original_node) {
-            const double* const p = &plc_.points[3 * static_cast<std::size_t>(n)];
-            box.add({{p[0], p[1], p[2]}, {p[0], p[1], p[2]}});
-        }
+        const index::CellIndex& all = s_.triangles.index;
         double extent = 0;
-        for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, box.high[k] / 2 - box.low[k] / 2);
+        for (std::size_t k = 0; k < 3; ++k) extent = std::max(extent, all.high[k] / 2 - all.low[k] / 2);
         int exponent = 0;
         std::frexp(extent, &exponent);
         for (std::size_t i = 0; i < plc_.facets.size(); ++i) {
@@ -186,7 +182,7 @@ private:
             return std::lexicographical_compare(point(a), point(a) + 3, point(b), point(b) + 3);
         };
         std::stable_partition(order.begin(), order.end(), [&](auto n) { return !loose[static_cast<std::size_t>(n)]; });
-        std::stable_sort(order.begin(), order.end(), before);
+        std::ranges::stable_sort(order, before);
         for (std::size_t i = 1; i < order.size(); ++i) {
             const auto node = static_cast<std::size_t>(order[i]);
             if (!loose[node] || before(order[i - 1], order[i])) continue;

@@ -23,91 +23,63 @@ const char* detail(FaultKind kind) {
                                        : "segments that cross";
 }
 
-class SurfaceCheck {
-public:
-    SurfaceCheck(const Surface& surface, const CheckOptions& options, const Plc* plc, CheckReport& report)
-        : options_(options),
-          plc_(plc),
-          report_(report),
-          defects_(options.examples, report.measures.defects),
-          parts_{surface, options, report, defects_} {}
-
-    void add(const std::vector<Fault>& faults) {
-        for (const auto& [facet, fault] : faults) {
-            const auto& n = fault.nodes;
-            if (fault.kind == FaultKind::on_segment) {
-                defects_.add(DefectKind::node_on_facet, {.nodes = {n[0], -1, -1}, .other_nodes = {n[1], n[2], -1}});
-            } else {
-                defects_.add(
-                    DefectKind::bad_facet,
-                    {.nodes = {n[0], n[1], -1}, .detail = detail(fault.kind), .other_nodes = {n[2], n[3], -1}});
-            }
-        }
-    }
-
-    Verdict run() {
-        const Surface& s = parts_.surface;
-        if (s.dimension != 3 || s.points.size() % 3 != 0 || s.cells.size() % 3 != 0 || s.point_count() > INT32_MAX ||
-            s.cell_count() > std::size_t{1} << 29) {
-            defects_.add(DefectKind::bad_structure, {.detail = "arrays that are no points and triangles in space"});
+void add_faults(DefectList& defects, const std::vector<Fault>& faults) {
+    for (const auto& [facet, fault] : faults) {
+        const auto& n = fault.nodes;
+        if (fault.kind == FaultKind::on_segment) {
+            defects.add(DefectKind::node_on_facet, {.nodes = {n[0], -1, -1}, .other_nodes = {n[1], n[2], -1}});
         } else {
-            check_all();
+            defects.add(DefectKind::bad_facet,
+                        {.nodes = {n[0], n[1], -1}, .detail = detail(fault.kind), .other_nodes = {n[2], n[3], -1}});
         }
-        // --fix is for meshes.
-        defects_[DefectKind::coincident_nodes].better_remedy = "none needed: nodes at one place count as one";
-        defects_[DefectKind::near_nodes].better_remedy = "merge them in the program that made the surface";
-        report_.defects = std::move(defects_).list();
-        const bool whole = std::ranges::none_of(report_.defects, &Defect::breaks);
-        return whole && parts_.found.closed ? Verdict::certified : Verdict::not_certified;
     }
+}
 
-private:
-    void stage(const char* name) const {
-        if (!options_.progress) return;
-        options_.progress(name);
-        ExactEnvironment::renew();
+void check_all(SurfaceParts& s, const Plc* plc) {
+    s.stage("triangles");
+    if (!check_triangles(s) || s.enough()) return;
+    s.stage("intersections");
+    // What one thread does alone is done beside the rest.
+    tbb::task_group beside;
+    beside.run([&] { link_triangles(s); });
+    const std::vector<CellPair> pairs = find_intersections(s);
+    beside.wait();
+    if (s.enough()) return;
+    s.embedded = !s.defects.breaks();
+    s.stage("edges and nodes");
+    connect_triangles(s);
+    if (plc != nullptr) {
+        s.stage("segments");
+        check_segments(s, *plc);
     }
-    bool enough() const {
-        return options_.verdict_only && defects_.has([](const DefectText& t) { return t.breaks; });
-    }
+    s.stage("shells and regions");
+    measure_regions(s, plc);
+    // Inside the region that a PLC bounds, facets may be open.
+    const bool bounds = plc != nullptr && !s.found.regions.empty();
+    if (!bounds) s.defects[DefectKind::open_edge].cause = true;
+    if (bounds) s.found.closed = true;
+    if (s.options.verdict_only) return;
+    s.stage("cracks");
+    find_surface_cracks(s);
+    s.stage("witnesses");
+    for (std::size_t i = 0; i < std::min(pairs.size(), s.options.contacts); ++i)
+        s.report.contacts.push_back(common_part(s.surface, pairs[i]));
+}
 
-    void check_all() {
-        stage("triangles");
-        if (!check_triangles(parts_) || enough()) return;
-        stage("intersections");
-        // What one thread does alone is done beside the rest.
-        tbb::task_group beside;
-        beside.run([&] { link_triangles(parts_); });
-        const std::vector<CellPair> pairs = find_intersections(parts_);
-        beside.wait();
-        if (enough()) return;
-        parts_.embedded = !defects_.has([](const DefectText& t) { return t.breaks; });
-        stage("edges and nodes");
-        connect_triangles(parts_);
-        if (plc_ != nullptr) {
-            stage("segments");
-            check_segments(parts_, *plc_);
-        }
-        stage("shells and regions");
-        measure_regions(parts_, plc_);
-        // Inside the region that a PLC bounds, facets may be open.
-        const bool bounds = plc_ != nullptr && !parts_.found.regions.empty();
-        if (!bounds) defects_[DefectKind::open_edge].cause = true;
-        if (bounds) parts_.found.closed = true;
-        if (options_.verdict_only) return;
-        stage("cracks");
-        find_surface_cracks(parts_);
-        stage("witnesses");
-        for (std::size_t i = 0; i < std::min(pairs.size(), options_.contacts); ++i)
-            report_.contacts.push_back(common_part(parts_.surface, pairs[i]));
+Verdict verdict_of(SurfaceParts s, const std::vector<Fault>& faults, const Plc* plc) {
+    add_faults(s.defects, faults);
+    if (s.surface.dimension != 3 || s.surface.points.size() % 3 != 0 || s.surface.cells.size() % 3 != 0 ||
+        s.surface.point_count() > INT32_MAX || s.surface.cell_count() > std::size_t{1} << 29) {
+        s.defects.add(DefectKind::bad_structure, {.detail = "arrays that are no points and triangles in space"});
+    } else {
+        check_all(s, plc);
     }
-
-    const CheckOptions& options_;
-    const Plc* plc_;
-    CheckReport& report_;
-    DefectList defects_;
-    SurfaceParts parts_;
-};
+    // --fix is for meshes.
+    s.defects[DefectKind::coincident_nodes].better_remedy = "none needed: nodes at one place count as one";
+    s.defects[DefectKind::near_nodes].better_remedy = "merge them in the program that made the surface";
+    const Verdict verdict = s.report_defects();
+    return s.found.closed ? verdict : Verdict::not_certified;
+}
 
 Verdict run_check(const Surface& surface, const std::vector<Fault>& faults, const Plc* plc, const CheckOptions& options,
                   CheckReport& report) {
@@ -122,9 +94,7 @@ Verdict run_check(const Surface& surface, const std::vector<Fault>& faults, cons
     report.notes = surface.notes;
     report.measures.defects.assign(report.cells, 0);
     const Verdict verdict = base::in_arena(options.threads, report.cells, [&] {
-        SurfaceCheck check(surface, options, plc, report);
-        check.add(faults);
-        return check.run();
+        return verdict_of({{options, report}, surface}, faults, plc);
     });
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return verdict;
@@ -141,8 +111,8 @@ CheckReport check_surface(const Surface& surface, const CheckOptions& options) {
 
 CheckReport check_plc(const Plc& plc, const CheckOptions& options) {
     const ExactEnvironment environment;
-    CheckReport report;
     const io::PlcTriangles cut = io::triangles_of(plc);
+    CheckReport report;
     report.certificate = Certificate(run_check(cut.surface, cut.faults, &plc, options, report));
     return report;
 }
