@@ -86,10 +86,8 @@ auto made_of_json(const std::string& path, const JsonFile& file, Make make)
             .what = file.is_none, .file = path, .expected = "JSON", .found = "something else", .remedy = file.remedy};
     try {
         if (const json& schema = member(all, "schema", file.name); schema != witness_schema)
-            return Error{.what = "unknown schema",
-                         .file = path,
-                         .expected = std::to_string(witness_schema),
-                         .found = found_json(schema)};
+            throw Exception(
+                {.what = "unknown schema", .expected = std::to_string(witness_schema), .found = found_json(schema)});
         return make(all);
     } catch (const Exception& e) {
         Error error = e.error();

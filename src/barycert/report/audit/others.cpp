@@ -119,29 +119,17 @@ SystemsLeague systems_from(const OthersJson& all) {
 Result<OtherResults> read_other_results(const std::string& path) {
     const ExactEnvironment environment;
     const char* const remedy = "make one with `./run flags --json FILE` or `./run systems --json FILE`";
-    const Result<std::string> text = base::read_file(path, base::longest_pipe, base::Text::json);
-    if (!text) return text.error();
-    const OthersJson all = OthersJson::parse(*text, nullptr, false);
-    if (all.is_discarded())
-        return Error{.what = "neither a flags matrix nor a league of systems",
-                     .file = path,
-                     .expected = "JSON",
-                     .found = "something else, or a part of it",
-                     .remedy = remedy};
-    try {
+    const JsonFile file{.cannot_read = "cannot read the flags matrix or league of systems",
+                        .is_none = "neither a flags matrix nor a league of systems",
+                        .name = "the file",
+                        .remedy = remedy,
+                        .remedy_of_members = remedy};
+    return made_of_json(path, file, [](const OthersJson& all) -> OtherResults {
         const std::string command = text_in(all, "command", "the file");
-        if (command != "flags" && command != "systems")
-            refuse("the file, command", "\"flags\" or \"systems\"", found_json(all.at("command")));
-        if (const std::uint64_t schema = count_in(all, "schema", "the file"); schema != 1)
-            refuse("the file, schema", "1", std::to_string(schema));
-        if (command == "flags") return OtherResults(flags_from(all));
-        return OtherResults(systems_from(all));
-    } catch (const Exception& e) {
-        Error error = e.error();
-        error.file = path;
-        error.remedy = remedy;
-        return error;
-    }
+        if (command == "flags") return flags_from(all);
+        if (command == "systems") return systems_from(all);
+        refuse("the file, command", "\"flags\" or \"systems\"", found_json(all.at("command")));
+    });
 }
 
 namespace report {
