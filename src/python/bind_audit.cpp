@@ -108,9 +108,8 @@ int call_kernel(const double* vertices, const double* point, double* weights) {
 
 Kernel kernel_of(Simplex simplex, const std::string& name, bool declares, std::optional<double> tolerance) {
     // How weights and nodal values make a value is the same for all kernels of a simplex.
-    const auto same = std::find_if(catalogue().begin(), catalogue().end(), [&](const Kernel& k) {
-        return k.simplex == simplex && !k.perspective && k.value != nullptr;
-    });
+    const auto same = std::ranges::find_if(
+        catalogue(), [&](const Kernel& k) { return k.simplex == simplex && !k.perspective && k.value != nullptr; });
     Kernel kernel;
     kernel.name = std::string(barycert::name(simplex)) + "." + name;
     kernel.simplex = simplex;

@@ -74,7 +74,7 @@ void set_field(MeshObject& mesh, const std::string& name, const std::optional<Gi
         std::erase_if(fields, named);
         return;
     }
-    const auto place = std::find_if(fields.begin(), fields.end(), named);
+    const auto place = std::ranges::find_if(fields, named);
     (place == fields.end() ? fields.emplace_back() : *place) = field_of(name, *values);
 }
 

@@ -89,7 +89,7 @@ py::tuple nearest(const MeshObject& object, const Given<double>& points, double 
         for (std::size_t i = first; i < first + n; ++i) {
             const std::span<const double> point = points.part(i, 1);
             const bool skipped = nonfinite == NonfinitePoints::nan &&
-                                 !std::all_of(point.begin(), point.end(), [](double x) { return std::isfinite(x); });
+                                 !std::ranges::all_of(point, [](double x) { return std::isfinite(x); });
             const Nearest found = skipped ? Nearest{} : locator.nearest(point.data(), limit).value();
             cells[i] = found.cell;
             distances[i] = found.cell < 0 ? std::numeric_limits<double>::quiet_NaN() : found.distance;

@@ -16,7 +16,7 @@ Asked ask_in_process(const Kernel& kernel, std::span<const Case> cases, std::spa
     using Clock = std::chrono::steady_clock;
     const WeightsFunction function = kernel.weights;
     // A weight that the kernel leaves unset must not look like an answer, least of all another kernel's.
-    std::fill(statements.begin(), statements.end(), Statement{});
+    std::ranges::fill(statements, Statement{});
     std::string detail;
     const auto start = Clock::now();
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -166,7 +166,7 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
     const auto n = static_cast<std::size_t>(vertex_count(c.simplex));
     const std::span weights(s.weights.data(), n), exact(answer.weights.data(), n);
     const bool degenerate = answer.region == Region::degenerate;
-    const bool perfect = s.status == 0 && !degenerate && std::equal(weights.begin(), weights.end(), exact.begin());
+    const bool perfect = s.status == 0 && !degenerate && std::ranges::equal(weights, exact);
     if (!perfect || kernel.rule != RegionRule::sign) compare_regions(r, answer.region);
     if (degenerate) {
         if (r.wrong()) {
@@ -198,7 +198,7 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
     const ExactEnvironment environment;
     Statement s;
     s.status = status;
-    std::copy(weights.begin(), weights.end(), s.weights.begin());
+    std::ranges::copy(weights, s.weights.begin());
     complete(s, kernel, c);
     return compare(kernel, c, answer, s);
 }

@@ -65,8 +65,7 @@ Error not_comparable(const Baseline& b, std::string expected, std::string found,
 }
 
 bool given_up(const KernelResult& k) {
-    return std::any_of(k.families.begin(), k.families.end(),
-                       [](const FamilyResult& f) { return f.statistics.not_run != 0; });
+    return std::ranges::any_of(k.families, [](const FamilyResult& f) { return f.statistics.not_run != 0; });
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -111,7 +110,7 @@ Status check_comparable(const Baseline& b, const AuditOptions& options, const Me
                               "give job.seed " + std::to_string(b.seed) + " job.count " + std::to_string(b.count) +
                                   ", or make a new baseline");
     const auto draws = [](const Family& f) { return f.needs_mesh; };
-    if (std::any_of(options.families.begin(), options.families.end(), draws)) {
+    if (std::ranges::any_of(options.families, draws)) {
         std::vector<std::string> names;
         for (const auto& m : meshes.meshes()) names.push_back(m->name);
         // A baseline without meshes has no families from meshes: there is nothing to compare them with.

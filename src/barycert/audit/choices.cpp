@@ -28,12 +28,11 @@ Result<std::vector<Item>> chosen(const std::vector<std::string>& globs, std::vec
                                  const std::string& what, std::string_view lists) {
     if (globs.empty()) return items;
     for (const std::string& glob : globs) {
-        if (std::none_of(items.begin(), items.end(), [&](const Item& i) { return base::glob_match(glob, i.name); }))
+        if (std::ranges::none_of(items, [&](const Item& i) { return base::glob_match(glob, i.name); }))
             return unknown("no " + what + " of that name", "", glob, names_of(items), lists);
     }
     std::erase_if(items, [&](const Item& item) {
-        return std::none_of(globs.begin(), globs.end(),
-                            [&](const std::string& glob) { return base::glob_match(glob, item.name); });
+        return std::ranges::none_of(globs, [&](const std::string& glob) { return base::glob_match(glob, item.name); });
     });
     return items;
 }
@@ -134,8 +133,7 @@ Result<PreparedAudit> prepare_audit(const AuditJob& job) try {
     PreparedAudit out{.options = job.options, .meshes = {}, .baseline = {}, .libraries = {}, .notes = {}};
     out.options.kernels = choose_kernels(job.kernels).value();
     out.options.families = choose_families(job.families).value();
-    const bool wanted = std::any_of(out.options.families.begin(), out.options.families.end(),
-                                    [](const Family& f) { return f.needs_mesh; });
+    const bool wanted = std::ranges::any_of(out.options.families, [](const Family& f) { return f.needs_mesh; });
     if (wanted || job.meshes_asked)
         out.meshes = source_of(job.meshes, job.check, job.options.threads, job.curved, out.notes);
     if (!job.baseline.empty()) {
@@ -166,7 +164,7 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
                        {"segment", "triangle", "triangle3d", "tetrahedron"});
     Witness w;
     if (!job.kernel.empty()) {
-        const auto k = std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& x) {
+        const auto k = std::ranges::find_if(kernels, [&](const Kernel& x) {
             return x.perspective == family.perspective && (!simplex || x.simplex == *simplex) &&
                    base::glob_match(job.kernel, x.name);
         });

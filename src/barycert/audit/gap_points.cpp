@@ -67,7 +67,7 @@ GapPoint GapPoints::make(Feature feature, std::uint64_t seed, std::uint64_t inde
         p.cells.insert(p.cells.end(), around_.begin() + static_cast<std::ptrdiff_t>(first_[k]),
                        around_.begin() + static_cast<std::ptrdiff_t>(first_[k + 1]));
     }
-    std::sort(p.cells.begin(), p.cells.end());
+    std::ranges::sort(p.cells);
     p.cells.erase(std::unique(p.cells.begin(), p.cells.end()), p.cells.end());
     return p;
 }

@@ -41,7 +41,7 @@ public:
           mesh_(mesh),
           points_(mesh),
           claimants_(claimants),
-          judge_(OracleChoice::automatic, std::none_of(claimants.begin(), claimants.end(), [](const Claimant& c) {
+          judge_(OracleChoice::automatic, std::ranges::none_of(claimants, [](const Claimant& c) {
                      return c.kernel != nullptr && (c.kernel->core || c.kernel->certifies);
                  })) {}
 
@@ -136,8 +136,7 @@ void merge(ClaimResult& to, const ClaimResult& from) {
 Result<std::vector<Claimant>> claimants_of(const GapsOptions& options, Simplex simplex, const std::string& mesh) {
     std::vector<Claimant> all;
     const auto wanted = [&](ClaimRule rule) {
-        return options.rules.empty() ||
-               std::find(options.rules.begin(), options.rules.end(), rule) != options.rules.end();
+        return options.rules.empty() || std::ranges::find(options.rules, rule) != options.rules.end();
     };
     for (const ClaimRule rule : {ClaimRule::strict, ClaimRule::exact, ClaimRule::tolerant}) {
         if (wanted(rule)) all.push_back({nullptr, rule});

@@ -48,15 +48,14 @@ MeshFrame best_frame(const Locator& locator, const PreparedMesh& m, int threads)
             MeshFrame f{
                 static_cast<int>(k), (1 - t) * m.low[k] + t * m.high[k], {k == 0 ? 1U : 0U, k == 2 ? 1U : 2U}, 24, 24};
             const auto owners = owners_in(locator, m, f, threads);
-            const auto inside = std::count_if(owners.begin(), owners.end(), [](Mesh::Index c) { return c >= 0; });
+            const auto inside = std::ranges::count_if(owners, [](Mesh::Index c) { return c >= 0; });
             const double sides = (extent[f.shown[0]] / largest) * (extent[f.shown[1]] / largest);
             planes.emplace_back(static_cast<double>(inside) * sides, f);
         }
     }
-    const double most = std::max_element(planes.begin(), planes.end(), [](const auto& a, const auto& b) {
-                            return a.first < b.first;
-                        })->first;
-    return std::find_if(planes.begin(), planes.end(), [&](const auto& p) { return !(p.first < most / 2); })->second;
+    const double most =
+        std::ranges::max_element(planes, [](const auto& a, const auto& b) { return a.first < b.first; })->first;
+    return std::ranges::find_if(planes, [&](const auto& p) { return !(p.first < most / 2); })->second;
 }
 
 /// As long and as high as the mesh, but so that something is seen of thin ones.
@@ -103,7 +102,7 @@ void fill_errors(MeshMap& map, const PreparedMesh& m, const std::vector<Mesh::In
         std::vector<Case> cases;
         for (std::size_t i = first; i < last; ++i) add_cases(m, cells[i], seed, cases);
         std::vector<OracleAnswer> answers;
-        std::transform(cases.begin(), cases.end(), std::back_inserter(answers), ask_oracle);
+        std::ranges::transform(cases, std::back_inserter(answers), ask_oracle);
         std::vector<Statement> said(cases.size());
         for (std::size_t k = 0; k < kernels.size(); ++k) {
             ask_kernel(kernels[k], cases, said, false);
@@ -129,7 +128,7 @@ void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& ke
     set_size(frame, m);
     const std::vector<Mesh::Index> owners = owners_in(locator, m, frame, threads);
     std::vector<Mesh::Index> cells = owners;
-    std::sort(cells.begin(), cells.end());
+    std::ranges::sort(cells);
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     if (!cells.empty() && cells.front() < 0) cells.erase(cells.begin());
     if (cells.empty()) throw Exception({.what = "no cell is large enough to be seen"});
@@ -138,8 +137,7 @@ void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& ke
     map.high = {m.high[frame.shown[0]], m.high[frame.shown[1]]};
     for (const Mesh::Index owner : owners)
         map.pixels.push_back(
-            owner < 0 ? -1
-                      : static_cast<std::int32_t>(std::lower_bound(cells.begin(), cells.end(), owner) - cells.begin()));
+            owner < 0 ? -1 : static_cast<std::int32_t>(std::ranges::lower_bound(cells, owner) - cells.begin()));
     fill_errors(map, m, cells, kernels, seed, threads);
     for (const Mesh::Index cell : cells) map.cells.push_back(m.mesh.cell_number(cell));
 }
@@ -154,8 +152,8 @@ std::vector<MeshMap> mesh_maps(const std::vector<Kernel>& kernels, const MeshSou
         if (maps.size() == MeshMap::max_meshes) break;
         const Simplex simplex = m->mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
         std::vector<Kernel> fit;
-        std::copy_if(kernels.begin(), kernels.end(), std::back_inserter(fit),
-                     [&](const Kernel& k) { return k.simplex == simplex && !k.perspective; });
+        std::ranges::copy_if(kernels, std::back_inserter(fit),
+                             [&](const Kernel& k) { return k.simplex == simplex && !k.perspective; });
         if (fit.empty()) continue;
         const std::size_t all = fit.size();
         if (all > MeshMap::max_kernels) std::erase_if(fit, is_variant);

@@ -148,7 +148,7 @@ std::vector<SignPicture> sign_pictures(const std::vector<Kernel>& kernels) {
     std::vector<SignPicture> pictures;
     for (const Kernel& k : kernels) {
         if (k.simplex == Simplex::segment) continue;
-        auto exact = std::find_if(pictures.begin(), pictures.end(), [&](const SignPicture& p) {
+        auto exact = std::ranges::find_if(pictures, [&](const SignPicture& p) {
             return p.kernel.empty() && p.simplex == k.simplex && p.perspective == k.perspective;
         });
         if (exact == pictures.end()) exact = pictures.insert(exact, exact_picture(k.simplex, k.perspective));

@@ -111,7 +111,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
         for (const std::size_t k : part.kernels) kernels.push_back(options.kernels[k]);
         // The core is no judge of itself, nor of a kernel that claims to be as good.
         const bool core_may_decide =
-            std::none_of(kernels.begin(), kernels.end(), [](const Kernel& k) { return k.core || k.certifies; });
+            std::ranges::none_of(kernels, [](const Kernel& k) { return k.core || k.certifies; });
         const Job job{family, part.simplex, options.seed,
                       meshes, kernels,      Judge(options.oracle, core_may_decide, options.cgal)};
         tbb::enumerable_thread_specific<JobResult> results([&] { return JobResult(kernels.size()); });
@@ -152,7 +152,7 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     }
     // Kernels that no family applied to say nothing.
     std::erase_if(report.kernels, [](const KernelResult& r) { return r.total.cases + r.total.not_run == 0; });
-    std::stable_sort(report.kernels.begin(), report.kernels.end(), worse);
+    std::ranges::stable_sort(report.kernels, worse);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;
 }

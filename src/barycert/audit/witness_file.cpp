@@ -178,10 +178,9 @@ std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) 
     const std::size_t reason = search_reason_named(w.reason);
     if (reason == search_reasons) return "no class of finding has that name";
     const auto named = [&](const auto& x) { return x.name == w.kernel; };
-    if (std::none_of(kernels.begin(), kernels.end(), named))
+    if (std::ranges::none_of(kernels, named))
         return "no kernel of that name here; name its library with job.kernel_library";
-    const auto a =
-        std::find_if(r.answers.begin(), r.answers.end(), [&](const auto& x) { return x.kernel == w.kernel; });
+    const auto a = std::ranges::find_if(r.answers, [&](const auto& x) { return x.kernel == w.kernel; });
     if (a == r.answers.end()) return "the kernel is for another simplex";
     if (reason < finding_count) {
         if (a->comparison.counts[reason] != 0) return "";

@@ -17,7 +17,7 @@ inline constexpr std::size_t decade_bins = decade_edges.size() + 2;
 
 /// From 1 on. NaN lies in the last.
 inline std::size_t decade_bin(double x) {
-    const auto* const above = std::upper_bound(decade_edges.begin(), decade_edges.end(), x);
+    const auto* const above = std::ranges::upper_bound(decade_edges, x);
     return 1 + static_cast<std::size_t>(above - decade_edges.begin());
 }
 

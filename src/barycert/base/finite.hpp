@@ -24,7 +24,7 @@ inline bool all_finite(std::span<const double> numbers) {
 
 /// The place of the first number that is not finite; numbers.size() if all are.
 inline std::size_t first_not_finite(std::span<const double> numbers) {
-    const auto bad = std::find_if(numbers.begin(), numbers.end(), [](double x) { return !std::isfinite(x); });
+    const auto bad = std::ranges::find_if(numbers, [](double x) { return !std::isfinite(x); });
     return static_cast<std::size_t>(bad - numbers.begin());
 }
 

@@ -83,7 +83,7 @@ std::vector<std::string> names_in_folder(const std::string& folder, std::error_c
         const std::string name = entry->d_name;
         if (name != "." && name != "..") names.push_back(name);
     }
-    std::sort(names.begin(), names.end());
+    std::ranges::sort(names);
     return names;
 }
 

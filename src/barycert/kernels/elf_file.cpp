@@ -61,7 +61,7 @@ private:
         if (!within(offset, count * sizeof(Header))) cut();
         std::vector<Header> headers(count);
         if (count != 0) read(offset, headers.data(), count * sizeof(Header));
-        if (!std::all_of(headers.begin(), headers.end(), [&](const Header& h) { return holds(h); })) cut();
+        if (!std::ranges::all_of(headers, [&](const Header& h) { return holds(h); })) cut();
     }
     bool holds(const ProgramHeader& h) const { return h.p_type == PT_NULL || within(h.p_offset, h.p_filesz); }
     bool holds(const SectionHeader& h) const {

@@ -216,7 +216,7 @@ Host::End Host::command(Worker& worker, Command command, int milliseconds) {
 
 Asked Host::run(std::span<const Case> cases, std::span<Statement> statements, Asking asking) {
     Asked batch;
-    std::fill(statements.begin(), statements.end(), Statement{{}, false, false});
+    std::ranges::fill(statements, Statement{{}, false, false});
     const auto count = static_cast<std::uint32_t>(std::min(cases.size(), batch_size));
     if (count == 0) return batch;
     Worker worker = take();

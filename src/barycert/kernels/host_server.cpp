@@ -104,7 +104,7 @@ bool end_children(std::span<const pid_t> kept) {
         for (char* next = nullptr;; at = next) {
             const auto pid = static_cast<pid_t>(std::strtol(at, &next, 10));
             if (next == at) break;
-            if (*next != '\0' && std::find(kept.begin(), kept.end(), pid) == kept.end()) ended[count++] = pid;
+            if (*next != '\0' && std::ranges::find(kept, pid) == kept.end()) ended[count++] = pid;
         }
         for (std::size_t i = 0; i < count; ++i) kill(ended[i], SIGKILL);
         for (std::size_t i = 0; i < count; ++i) (void)TEMP_FAILURE_RETRY(waitpid(ended[i], nullptr, __WALL));

@@ -14,7 +14,7 @@ using kernels::Description;
 
 /// Letters, digits, -, _ and ., so that a name survives shells, globs and file names.
 bool well_formed(std::string_view name) {
-    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return !name.empty() && std::ranges::all_of(name, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
                c == '.';
     });
@@ -50,7 +50,7 @@ Result<Kernel> described(const std::string& path, const Description& d) {
     k.perspective = perspective;
     if (d.classifies) k.rule = RegionRule::own;
     const auto same_name = [&](const Kernel& other) { return other.name == k.name; };
-    if (std::any_of(catalogue().begin(), catalogue().end(), same_name))
+    if (std::ranges::any_of(catalogue(), same_name))
         return refused(path, "the kernel library takes the name of a kernel of the catalogue", "another name", k.name,
                        "change info->name");
     return k;

@@ -72,7 +72,7 @@ const Formula triangle_kernels[] = {
 int exact_perspective(const double* vertices, const double* point, double* weights) {
     const Result<PerspectiveWeights> w = perspective_weights(vertices, point);
     if (!w || w->degenerate) return 1;
-    std::copy(w->weights.begin(), w->weights.end(), weights);
+    std::ranges::copy(w->weights, weights);
     return 0;
 }
 

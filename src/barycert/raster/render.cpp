@@ -149,8 +149,8 @@ public:
 
     Image run(RenderCounts* counts) {
         for (std::size_t t = 0; t < scene_.triangles.size(); t += 3) draw(scene_.triangles.data() + t);
-        counts_.pixels = static_cast<std::uint64_t>(
-            std::count_if(depth_.begin(), depth_.end(), [](double z) { return z < HUGE_VAL; }));
+        counts_.pixels =
+            static_cast<std::uint64_t>(std::ranges::count_if(depth_, [](double z) { return z < HUGE_VAL; }));
         if (counts != nullptr) *counts = counts_;
         return std::move(image_);
     }
@@ -217,7 +217,7 @@ private:
         if (scene_.interpolation == Interpolation::projected_z) {
             for (std::size_t i = 0; i < 3; ++i) depth[i] = (part_.z[i] + 1) / 2;
         }
-        const double least = *std::min_element(depth.begin(), depth.end());
+        const double least = *std::ranges::min_element(depth);
         std::vector<double> values;
         for (std::size_t i = 0; i < 3; ++i) {
             values.push_back(part_.z[i]);

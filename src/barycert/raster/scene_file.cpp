@@ -39,7 +39,7 @@ public:
     void allow_only(std::initializer_list<const char*> names) const {
         if (!value_.is_object()) fail("an object");
         for (const auto& [name, value] : value_.items()) {
-            if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+            if (std::ranges::find(names, name) != names.end()) continue;
             std::string all;
             for (const char* known : names) all += (all.empty() ? "" : ", ") + std::string(known);
             refuse((Json::json_pointer(place_) / name).to_string(), "one of the members " + all, base::quoted(name));

@@ -84,7 +84,7 @@ std::string ci_sarif(const CiReport& report) {
     Json rules = Json::array(), results = Json::array();
     for (const CiOutcome& o : report.outcomes) {
         if (o.state == State::passed) continue;
-        auto at = std::find(ids.begin(), ids.end(), o.rule);
+        auto at = std::ranges::find(ids, o.rule);
         if (at == ids.end()) {
             rules.push_back(record("id", o.rule, "shortDescription", record("text", o.meaning)));
             at = ids.insert(ids.end(), o.rule);

@@ -150,7 +150,7 @@ void tell_values(Document& d, const VerifyReport& s) {
 void tell_errors(Document& d, const VerifyReport& s, const std::string& column, const ValueErrors& e) {
     const auto some = [](std::uint64_t n) { return n != 0; };
     const auto& counts = e.by_relative;
-    const auto first = std::find_if(counts.begin(), counts.end(), some);
+    const auto first = std::ranges::find_if(counts, some);
     const auto last = std::find_if(counts.rbegin(), counts.rend(), some).base();
     Bars bars;
     for (auto at = first; at < last; ++at) {

@@ -266,7 +266,7 @@ void Verdicts::add(const Verdicts& other, std::size_t examples_of_each) {
     if (columns.size() < other.columns.size()) columns.resize(other.columns.size());
     for (std::size_t c = 0; c < other.columns.size(); ++c) columns[c].add(other.columns[c]);
     examples.insert(examples.end(), other.examples.begin(), other.examples.end());
-    std::sort(examples.begin(), examples.end(), [](const WrongRow& x, const WrongRow& y) {
+    std::ranges::sort(examples, [](const WrongRow& x, const WrongRow& y) {
         if (x.verdict != y.verdict) return x.verdict < y.verdict;
         if (x.severity != y.severity) return x.severity > y.severity;
         return x.row < y.row;
@@ -274,7 +274,7 @@ void Verdicts::add(const Verdicts& other, std::size_t examples_of_each) {
     // The same rows, whatever the parts.
     invented_rows.insert(invented_rows.end(), other.invented_rows.begin(), other.invented_rows.end());
     const auto before = [](const WrongRow& x, const WrongRow& y) { return base::mix64(x.row) < base::mix64(y.row); };
-    std::sort(invented_rows.begin(), invented_rows.end(), before);
+    std::ranges::sort(invented_rows, before);
     if (invented_rows.size() > max_measured) invented_rows.resize(max_measured);
     std::size_t of_kind = 0;
     RowVerdict kind = RowVerdict::right;

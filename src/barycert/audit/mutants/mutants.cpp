@@ -37,8 +37,7 @@ Telling compare_figures(const KernelStatistics& sound, const KernelStatistics& m
 }
 
 const KernelResult* result_of(const AuditReport& report, const std::string& name) {
-    const auto at = std::find_if(report.kernels.begin(), report.kernels.end(),
-                                 [&](const KernelResult& k) { return k.kernel.name == name; });
+    const auto at = std::ranges::find_if(report.kernels, [&](const KernelResult& k) { return k.kernel.name == name; });
     return at == report.kernels.end() ? nullptr : &*at;
 }
 
@@ -55,8 +54,7 @@ MutantResult judged(const Mutant& m, const AuditReport& report) {
         t.what.family = report.families[mutant->families[i].family].name;
         telling.push_back(std::move(t));
     }
-    std::stable_sort(telling.begin(), telling.end(),
-                     [](const Telling& a, const Telling& b) { return a.weight > b.weight; });
+    std::ranges::stable_sort(telling, [](const Telling& a, const Telling& b) { return a.weight > b.weight; });
     for (Telling& t : telling) r.catches.push_back(std::move(t.what));
     return r;
 }
@@ -65,7 +63,7 @@ MutantResult judged(const Mutant& m, const AuditReport& report) {
 
 std::uint64_t MutantReport::caught() const {
     return static_cast<std::uint64_t>(
-        std::count_if(mutants.begin(), mutants.end(), [](const MutantResult& r) { return !r.catches.empty(); }));
+        std::ranges::count_if(mutants, [](const MutantResult& r) { return !r.catches.empty(); }));
 }
 
 Result<MutantReport> audit_mutants(AuditOptions options, const MeshSource& meshes, const std::vector<Mutant>& mutants) {
@@ -73,7 +71,7 @@ Result<MutantReport> audit_mutants(AuditOptions options, const MeshSource& meshe
     options.kernels.clear();
     const auto add = [&](const Kernel& k) {
         const auto same = [&](const Kernel& x) { return x.name == k.name; };
-        if (std::none_of(options.kernels.begin(), options.kernels.end(), same)) options.kernels.push_back(k);
+        if (std::ranges::none_of(options.kernels, same)) options.kernels.push_back(k);
     };
     for (const Mutant& m : mutants) {
         add(m.sound);

@@ -188,8 +188,7 @@ struct Bounded {
 };
 
 bool far_from_underflow(std::initializer_list<double> differences) {
-    return std::all_of(differences.begin(), differences.end(),
-                       [](double x) { return x == 0 || std::fabs(x) >= 0x1p-300; });
+    return std::ranges::all_of(differences, [](double x) { return x == 0 || std::fabs(x) >= 0x1p-300; });
 }
 
 template <FilterFault fault>

@@ -57,7 +57,7 @@ struct Harvest {
     void include(std::size_t r, const Met& m, std::size_t most) {
         std::vector<Met>& list = worst[r];
         if (!enters(r, m.height, most)) return;
-        const auto at = std::find_if(list.begin(), list.end(), [&](const Met& x) { return m.height > x.height; });
+        const auto at = std::ranges::find_if(list, [&](const Met& x) { return m.height > x.height; });
         list.insert(at, m);
         if (list.size() > most) list.pop_back();
     }

@@ -38,7 +38,7 @@ Point corner(const TriangleInSpace& t, std::size_t k) {
 
 bool has_area(const TriangleInSpace& t) {
     Case c{.simplex = Simplex::triangle3d};
-    std::copy(t.begin(), t.end(), c.vertices.begin());
+    std::ranges::copy(t, c.vertices.begin());
     return affine_dimension(c) == 2;
 }
 
@@ -186,8 +186,8 @@ SurfaceCase tetrahedron(Random& random) {
         const Point a = corner(t, 0), b = corner(t, 1), c = corner(t, 2);
         const Point d = Sum{point_on(t, random), random.scaled(0.5, 1, -40, 1), any(random)};
         Case solid{.simplex = Simplex::tetrahedron};
-        std::copy(t.begin(), t.end(), solid.vertices.begin());
-        std::copy(d.begin(), d.end(), solid.vertices.begin() + 9);
+        std::ranges::copy(t, solid.vertices.begin());
+        std::ranges::copy(d, solid.vertices.begin() + 9);
         if (affine_dimension(solid) != 3) continue;
         const Point p =
             few_ulps_off(Sum{point_on(t, random), random.unit() * random.unit() * 0.01, base::minus(d, a)}, random);

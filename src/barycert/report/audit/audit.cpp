@@ -140,7 +140,7 @@ void tell_families(Document& d, const AuditReport& r) {
                   .sorts = true};
     for (auto& [key, line] : lines) {
         auto& wrong = line.wrong;
-        std::stable_sort(wrong.begin(), wrong.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+        std::ranges::stable_sort(wrong, [](const auto& a, const auto& b) { return a.first > b.first; });
         if (wrong.empty()) wrong.emplace_back(0, "not run");
         const std::uint64_t worst = wrong.front().first;
         const auto with = [&all = wrong](std::uint64_t n) {

@@ -68,7 +68,7 @@ std::string figure_of(const std::string& kind, const std::vector<const KernelRes
     svg.lines(steps, "front");
     std::vector<Label> labels;
     for (const KernelResult* k : kernels) {
-        const bool best = std::find(front.begin(), front.end(), k) != front.end();
+        const bool best = std::ranges::find(front, k) != front.end();
         const Pixel p = axes.at(*k);
         svg.dot(p, best ? 5 : 4, best ? "dot front" : "dot",
                 fmt::format("{}: {} ns, {} % wrong", k->kernel.name, brief_time(k->ns),
@@ -89,7 +89,7 @@ std::string error_histogram(const KernelResult& k) {
     constexpr double histogram_width = 236, histogram_height = 92, histogram_floor = 74, histogram_top = 6;
     const ErrorSizes& e = k.total.errors;
     Picture svg(histogram_width, histogram_height, k.kernel.name + ": number of cases by the size of the error");
-    const std::uint64_t most = *std::max_element(e.counts.begin(), e.counts.end());
+    const std::uint64_t most = *std::ranges::max_element(e.counts);
     const double wide = histogram_width / static_cast<double>(ErrorSizes::bins);
     const double scale = (histogram_floor - histogram_top) / std::log10(2.0 * static_cast<double>(most) + 2);
     for (std::size_t b = 0; b < ErrorSizes::bins; ++b) {
@@ -212,7 +212,7 @@ std::string map_figure(const MeshMap& map, const MeshMap::OfKernel& k, const Map
     for (const std::int32_t p : map.pixels)
         pixels.push_back(p < 0 ? MapScale::beside : scale.index_of(k.errors[static_cast<std::size_t>(p)]));
     const std::string png = io::indexed_png(map.width, pixels, scale.colours).value();
-    const auto worst = static_cast<std::size_t>(std::max_element(k.errors.begin(), k.errors.end()) - k.errors.begin());
+    const auto worst = static_cast<std::size_t>(std::ranges::max_element(k.errors) - k.errors.begin());
     const double largest = k.errors[worst];
     const std::string name = html_escaped(base::printable(k.kernel));
     const std::string error =

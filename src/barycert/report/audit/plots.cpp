@@ -83,7 +83,7 @@ std::vector<const KernelResult*> candidates(const AuditReport& report, Simplex s
     std::vector<const KernelResult*> list;
     for (const KernelResult& k : report.kernels) {
         const auto bins = k.prediction.bins();
-        const bool off = std::any_of(bins.begin(), bins.end(), [](const auto& bin) { return bin.worst > 0.5; });
+        const bool off = std::ranges::any_of(bins, [](const auto& bin) { return bin.worst > 0.5; });
         if (k.kernel.simplex == simplex && off) list.push_back(&k);
     }
     const auto worst = [](const KernelResult* k) { return k->prediction.worst_factor(); };

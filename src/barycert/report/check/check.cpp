@@ -86,7 +86,7 @@ void tell_conditions(Document& d, const CheckReport& r, const Mesh& mesh) {
                                              : Tone::plain});
     }
     d.table(std::move(table), "What was checked");
-    if (!r.surface && std::any_of(r.defects.begin(), r.defects.end(), leaves_cells_out))
+    if (!r.surface && std::ranges::any_of(r.defects, leaves_cells_out))
         d.say("P2 to P5 leave out cells with an invalid index, a non-finite coordinate or a repeated node.");
 }
 

@@ -38,7 +38,7 @@ Exhibit of_contact(const CellContact& c, const Cells& cells) {
 
 Exhibit of_place(DefectKind problem, const DefectPlace& p, const Cells& cells) {
     std::string what(defect_text(problem).name);
-    std::replace(what.begin(), what.end(), '_', ' ');
+    std::ranges::replace(what, '_', ' ');
     if (*p.detail != '\0') what += fmt::format(" ({})", p.detail);
     return {.cells = cells, .what = std::move(what), .defect = true};
 }

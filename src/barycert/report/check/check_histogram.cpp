@@ -196,7 +196,7 @@ std::string histograms(const CheckReport& r) {
         const Histogram h = histogram(m.values, m.rule);
         const std::string apart = html_escaped(counted_apart(h, m));
         // An empty picture says nothing; what is counted apart does.
-        const bool none = std::all_of(h.counts.begin(), h.counts.end(), [](std::uint64_t n) { return n == 0; });
+        const bool none = std::ranges::all_of(h.counts, [](std::uint64_t n) { return n == 0; });
         out += none ? fmt::format("<p class=\"small\">{}: no cell in a bar. {}</p>\n", html_escaped(m.axis), apart)
                     : fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", chart(h, m), apart);
     }

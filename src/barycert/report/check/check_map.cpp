@@ -95,7 +95,7 @@ Outline outline_of(const Mesh& mesh, const Normalised& normalised, const View& v
         for (std::size_t i = 0; i < (mesh.dimension == 2 ? 1U : 3U); ++i)
             edges.push_back({{std::min(n[i], n[(i + 1) % 3]), std::max(n[i], n[(i + 1) % 3])}, f});
     }
-    std::sort(edges.begin(), edges.end());
+    std::ranges::sort(edges);
     constexpr double bend = 0.77;  // cosine of 40 degrees
     std::size_t all = 0;
     for (std::size_t i = 0; i < edges.size(); ++all) {
@@ -267,7 +267,7 @@ std::string exhibit_map(const CheckReport& r, const Mesh& mesh, const std::vecto
         svg.dot(at, 4, e.defect ? "spot problem" : "spot", "cell " + cells_of(r, e, " and "));
         labels.push_back({at, std::to_string(i + 1), e.defect ? "number bad" : "number"});
     }
-    std::reverse(labels.begin(), labels.end());
+    std::ranges::reverse(labels);
     place_labels(svg, std::move(labels));
 
     std::string drawn =

@@ -292,7 +292,7 @@ public:
 private:
     static std::string head_of(const Column& c) {
         std::string head = c.page.empty() ? c.head : c.page;
-        std::replace(head.begin(), head.end(), '\n', ' ');
+        std::ranges::replace(head, '\n', ' ');
         return head;
     }
 

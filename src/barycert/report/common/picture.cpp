@@ -24,9 +24,8 @@ Rectangle room(Pixel centre, const std::string& text) {
 void join_close_ones(std::vector<Label>& labels) {
     std::vector<Label> joined;
     for (Label& l : labels) {
-        const auto near = std::find_if(joined.begin(), joined.end(), [&](const Label& m) {
-            return std::hypot(m.at.x - l.at.x, m.at.y - l.at.y) < 4;
-        });
+        const auto near = std::ranges::find_if(
+            joined, [&](const Label& m) { return std::hypot(m.at.x - l.at.x, m.at.y - l.at.y) < 4; });
         if (near == joined.end()) {
             joined.push_back(std::move(l));
         } else if ((" " + near->text + " ").find(" " + l.text + " ") == std::string::npos) {
@@ -62,7 +61,7 @@ void place_labels(Picture& picture, std::vector<Label> labels, double top) {
             best = {l.at.x + c * (reach + distance), l.at.y + s * (reach + distance)};
             const Rectangle r = room(best, l.text);
             return r.left >= 0 && r.right <= picture.width() && r.top >= top && r.bottom <= picture.height() &&
-                   std::none_of(taken.begin(), taken.end(), [&](const Rectangle& t) { return t.meets(r); });
+                   std::ranges::none_of(taken, [&](const Rectangle& t) { return t.meets(r); });
         };
         bool placed = false;
         for (const double distance : {5.0, 14.0, 26.0, 40.0, 60.0, 85.0})
