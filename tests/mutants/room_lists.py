@@ -11,7 +11,7 @@ CHECK = [
     ("cells.cpp", "d == 3 && proper(3, {{}, {p[0], other, p[i]}})", "d == 3", "nodes on a line are coplanar"),
     ("cells.cpp", "std::isnormal(volume) && ", "", "the shape of a cell from a subnormal volume"),
     ("check.cpp", ' && t.condition != "P5"', "", "overlaps looked for where only P5 fails"),
-    ("check.cpp", "        ExactEnvironment::renew();\n", "", "what the caller's progress did to the environment stays"),
+    ("stages.hpp", "        ExactEnvironment::renew();\n", "", "what the caller's progress did to the environment stays"),
     ("conformity.cpp", "box.high[k] / 2 - box.low[k] / 2", "(box.high[k] - box.low[k]) / 2", "an extent that overflows"),
     ("conformity.cpp", "crossing < 0 && areas.equal()", "areas.equal()", "areas alone"),
     ("conformity.cpp", " && !misses_vertex(region)", "", "a vertex that is no node"),
