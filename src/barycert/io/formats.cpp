@@ -1,7 +1,6 @@
 #include <cctype>
 #include <filesystem>
 #include <limits>
-#include <limits>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/nearest_name.hpp"

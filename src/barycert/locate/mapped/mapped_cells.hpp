@@ -81,12 +81,10 @@ public:
         std::array<bool, max> settled{};  ///< of MappedLanes::push()
 
         PointRecord record(std::size_t lane) const {
-            PointRecord out{};
-            for (std::size_t k = 0; k < 3; ++k) out.at[k] = point[k * max + lane];
-            out.number = numbers[lane];
-            return out;
+            return {{point[lane], point[max + lane], point[2 * max + lane]}, numbers[lane]};
         }
     };
+
     /// Asks memory for what add() will read of a cell, in calls some points apart: with step 0 first, with 3 last.
     void fetch(Mesh::Index cell, std::size_t step) const;
     static constexpr std::size_t fetch_steps = 4;

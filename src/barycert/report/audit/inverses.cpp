@@ -32,7 +32,8 @@ void tell_rules(Document& d, const InverseAudit& audit) {
     d.notes(
         {"no answer: of points in the cell or on its boundary. in, on, out: inside, on the boundary, outside, exactly.",
          "values: errors where a point is rightly told inside, in units in the last place of the exact value, and in",
-         "parts of the range of the values at the nodes. x: of the worst reference coordinate; of pyramids the third."});
+         "parts of the range of the values at the nodes. x: of the worst reference coordinate; of pyramids the "
+         "third."});
 }
 
 Json case_json(const InverseRule& rule, const InverseFamily& family, std::uint64_t seed, std::uint64_t index) {
