@@ -154,6 +154,7 @@ Location MappedCells::owner(const double* point, Location in_parts, const AllInP
     // Inside a straight cell, or a curved one, and not on its sides, it is nowhere else.
     const bool straight = in_parts.feature == Feature::interior && maps_.reference(whole(in_parts.cell)) == nullptr;
     if (curved_tree_ != nullptr && !near && !straight) {
+        if (const Mesh::Index cell = inside_on_lanes(point); cell >= 0) return {cell, Feature::interior};
         if (const std::size_t own = is_mapped(in_parts.cell) ? whole(in_parts.cell) : 0;
             is_mapped(in_parts.cell) && maps_.reference(own)->is_simplex()) {
             const iso::InSimplex in = in_curved(own, point);
@@ -177,6 +178,23 @@ Location MappedCells::owner(const double* point, Location in_parts, const AllInP
     }
     if (is_mapped(in_parts.cell)) in_parts.cell = first_part(whole(in_parts.cell));
     return in_parts;
+}
+
+Mesh::Index MappedCells::inside_on_lanes(const double* point) const {
+    if (mesh_.dimension != 3) return -1;
+    Batch batch;
+    batch.element = iso::LaneElement::tetrahedron;
+    const PointRecord record{{point[0], point[1], point[2]}, 0};
+    curved_tree_->for_each(index::box_of(3, &point, 1), [&](std::uint32_t i) {
+        add({first_part(static_cast<std::size_t>(curved_[i])), Feature::interior}, record, {}, batch);
+        return batch.count < Batch::max;
+    });
+    const iso::LanesProved proved = iso::evaluate_lanes({.count = batch.count,
+                                                         .element = batch.element,
+                                                         .places = batch.places.data(),
+                                                         .others = batch.others.data(),
+                                                         .point = batch.point.data()});
+    return proved.inside == 0 ? -1 : batch.at[static_cast<std::size_t>(std::countr_zero(proved.inside))].cell;
 }
 
 void MappedCells::settle_all(const double* point, const std::vector<AtSides>& sides, std::vector<Location>& all) const {

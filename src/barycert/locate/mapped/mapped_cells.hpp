@@ -135,6 +135,8 @@ private:
     NodeTable rounded_nodes() const;
     core::isoparametric::InSimplex in_curved(std::size_t whole, const double* point) const;
     void add_curved(const double* point, std::vector<Location>& found) const;
+    /// One of order 2 that certainly has the point inside, among the first whose boxes hold it; or -1.
+    Mesh::Index inside_on_lanes(const double* point) const;
 
     /// use(places of its nodes, bit of the side) for each side of four nodes.
     template <class Use>
