@@ -123,8 +123,7 @@ private:
         }
     };
     void settle(const PointRecord& point, const Location& in_parts) {
-        const bool finite = base::all_finite({point.at.data(), data_.index.dimension()});
-        to_[point.number] = finite ? data_.settle(point.at.data(), in_parts) : Location{};
+        to_[point.number] = data_.settle(point.at.data(), in_parts);
     }
 
     const LocatorData& data_;

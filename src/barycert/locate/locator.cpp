@@ -35,6 +35,7 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
 }
 
 Location locate::LocatorData::settle(const double* point, Location in_parts) const {
+    if (!base::all_finite({point, index.dimension()})) return {};
     return mapped->owner(point, in_parts, [&](std::vector<Location>& all) {
         if (in_parts.cell < 0) return;
         const bool alone = proved() != nullptr && proved()->proof.partition && in_parts.feature == Feature::interior;

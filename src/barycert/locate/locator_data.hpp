@@ -52,7 +52,7 @@ struct LocatorData {
     int threads = 0;                            ///< of BuildOptions
     std::unique_ptr<const MappedCells> mapped;  ///< nullptr: cells are simplices, or their parts
 
-    /// Its location, by that in straight simplices or parts of cells. Precondition: mapped.
+    /// Its location, by that in straight simplices or parts of cells; none if it is not finite. Precondition: mapped.
     Location settle(const double* point, Location in_parts) const;
     /// Asks memory for what is read of maps of the owners that follow the first.
     void fetch_maps(const Place* owner, std::size_t count) const {

@@ -45,7 +45,7 @@ template <class T>
 bool values_in(const Reference& of, const Inverse& inverse, const std::vector<Component>& all, double goal,
                std::vector<std::uint8_t>& open, double* out, Vector<double>* about) {
     std::array<Ball<T>, 3> x;
-    if (!inverse.enclose<T>(x, goal)) return false;
+    if (!inverse.enclose<T>(x, goal) || !may_be_inside(of, x)) return false;
     std::array<Ball<T>, max_nodes> n;
     shape_functions(of, x, n, nullptr);
     for (std::size_t c = 0; c < all.size(); ++c) {

@@ -1,13 +1,13 @@
 // Krawczyk's operator (inverse.hpp) in double, and one step of Newton's method and the value in double-double.
 //
 // u = 2^-53; q_i = p_i - p as double-double, Q the largest |q_i| by coordinates, F the largest |f_i|. x, found in
-// double, is taken as exact. Near the reference cell, with coordinates in [-2^-20, 1 + 2^-20], these are bounds, for
-// products first (wedges as well), for tetrahedra with L the barycentric coordinates second:
+// double, is taken as exact. Near the reference cell, its coordinates, and the sum of those in which that is a triangle
+// or tetrahedron, are in [-2^-20, 1 + 2^-20]. There these are bounds, for products first (wedges as well), for
+// tetrahedra with L the barycentric coordinates second:
 //   N           sum |N_i|            1 + 2^-17; sum |L| |2 L - 1| <= 1 + 2^-17 at corners, and at edges
 //                                    sum 4 |L_a L_b| <= 2 (sum |L|)^2 - 2 sum L^2 <= 3/2 + 2^-15: in all 2.51
-//   N'          sum |dN_i / dx_j|    2 + 2^-16; by L_c, |4 L_c - 1| + sum 4 |L_d| <= 5.01: by x_j, as L_0 = 1 - r - s -
-//   t,
-//                                    10.02
+//   N'          sum |dN_i / dx_j|    2 + 2^-16; by L_c, |4 L_c - 1| + sum 4 |L_d| <= 5.01: by x_j 10.02, as L_0 is
+//                                    1 - r - s - t
 //   N''         sum |d2 N_i / dx_j dx_k|   4 + 2^-16, and none by one coordinate twice; 16
 // From these, with the rounding of each operation:
 //   X'          in double            off by 24 u (2 + 2^-16) Q < 49 u Q; 4 L - 1 by 19 u, 4 L by 16 u, as L_0 is off by
@@ -225,9 +225,12 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
         if (hn::AllFalse(tag, hn::And(certain, hn::Gt(moved, hn::Set(tag, 0x1p-26))))) break;
     }
     invert(tag, at.jacobian, y);
-    for (const V& own : x)
-        certain =
-            hn::And(certain, hn::And(hn::Ge(own, hn::Set(tag, -0x1p-20)), hn::Le(own, hn::Set(tag, 1 + 0x1p-20))));
+    const auto near = [&](V own) HWY_ATTR {
+        return hn::And(hn::Ge(own, hn::Set(tag, -0x1p-20)), hn::Le(own, hn::Set(tag, 1 + 0x1p-20)));
+    };
+    for (const V& own : x) certain = hn::And(certain, near(own));
+    if (element != LaneElement::hexahedron)
+        certain = hn::And(certain, near(B::simplex ? x[0] + x[1] + x[2] : x[0] + x[1]));
 
     // X(x) - p, and d.
     const DoubleDouble<V> unit{one, zero};
@@ -260,14 +263,16 @@ void evaluate_some(const LaneCases& cases, std::size_t first, LanesProved& prove
     certain = hn::And(certain, hn::And(hn::Lt(m, hn::Set(tag, 0.25)), hn::Le(radius, hn::Set(tag, 0x1p-20))));
     certain = hn::And(certain, hn::Le(y_size, hn::Set(tag, 0x1p330)));
     const V error = (hn::Set(tag, 2) * by * m + off + hn::Set(tag, 5 * u * u)) * more;
+    const V blur = hn::Set(tag, 3) * error + hn::Set(tag, 8 * u);  // each sum below is off by less than 4 u
     Mask inside = certain;
     for (int k = 0; k < 3; ++k) {
         from[k] = from[k] - d[k];
-        V room = from[k].high;  // each sum is off by less than 4 u
+        V room = from[k].high;
         if (element == LaneElement::hexahedron || (k == 2 && !B::simplex)) room = hn::Min(room, one - room);
         if (k == 1 && element == LaneElement::wedge) room = hn::Min(room, one - from[0].high - from[1].high);
         if (k == 2 && B::simplex) room = hn::Min(room, one - from[0].high - from[1].high - from[2].high);
-        inside = hn::And(inside, hn::Gt(room, hn::Set(tag, 3) * error + hn::Set(tag, 8 * u)));
+        inside = hn::And(inside, hn::Gt(room, blur));
+        certain = hn::And(certain, hn::Ge(room, hn::Neg(blur)));  // else another point that is taken there
     }
     functions<element>(tag, unit, from, n);
     for (std::size_t c = 0; c < cases.components; ++c) {

@@ -71,6 +71,19 @@ bool eliminate(Rows& a, std::size_t n) {
     return true;
 }
 
+/// Whether a point of the reference cell may have these coordinates.
+template <class T>
+bool may_be_inside(const Reference& of, const std::array<Ball<T>, 3>& x) {
+    const auto negative = [](const Ball<T>& b) { return b.sign() == -1; };
+    Ball<T> rest(1);
+    for (std::size_t k = 0; k < of.dimension(); ++k) {
+        const bool summed = of.is_simplex() || (of.element == Element::wedge && k < 2);
+        if (negative(x[k]) || (!summed && negative(Ball<T>(1) - x[k]))) return false;
+        if (summed) rest = rest - x[k];
+    }
+    return !negative(rest);
+}
+
 /// A point beside the nodes of a cell, all of them divided by one power of two.
 class Inverse {
 public:
@@ -254,12 +267,7 @@ private:
 
     bool near_cell(const Vector<double>& x) const {
         constexpr double off = 0x1p-20;
-        double sum = 0;
-        for (std::size_t k = 0; k < d_; ++k) {
-            if (!(x[k] > -off && x[k] < 1 + off)) return false;
-            if (of_.is_simplex() || (of_.element == Element::wedge && k < 2)) sum += x[k];
-        }
-        return sum < 1 + off;
+        return may_be_inside<double>(of_, {Ball<double>(x[0], off), Ball<double>(x[1], off), Ball<double>(x[2], off)});
     }
 
     /// Sets inverse_.

@@ -30,8 +30,7 @@ MappedCells::MappedCells(const Mesh& mesh, bool products, bool curves)
         if (reference == nullptr) return;
         sign_[whole] = static_cast<std::int8_t>(iso::proved_orientation(*reference, maps_.places(whole)));
         if (sign_[whole] == 0) return static_cast<void>(unproved.fetch_add(1, std::memory_order_relaxed));
-        if (reference->is_simplex()) return;
-        of_products.fetch_add(1, std::memory_order_relaxed);
+        if (!reference->is_simplex()) of_products.fetch_add(1, std::memory_order_relaxed);
     });
     unproved_ = unproved;
     products_ = of_products != 0;
@@ -200,16 +199,7 @@ Mesh::Index MappedCells::inside_on_lanes(const double* point) const {
 void MappedCells::settle_all(const double* point, const std::vector<AtSides>& sides, std::vector<Location>& all) const {
     std::vector<Location> found;
     for (const AtSides& at : sides) {
-        if (at.outside) continue;
-        const auto in_parts = std::ranges::find(all, at.whole, [&](const Location& l) { return whole(l.cell); });
-        // On a side that is flat, perhaps.
-        const bool asked = at.feature == Feature::interior && in_parts != all.end() && in_parts->feature != at.feature;
-        const int held_by = asked ? std::popcount(active_nodes(at.whole, point)) : 0;
-        const Feature flat = held_by > 4    ? Feature::interior
-                             : held_by > 2  ? Feature::face
-                             : held_by == 2 ? Feature::edge
-                                            : Feature::vertex;
-        found.push_back({first_part(at.whole), asked ? flat : at.feature});
+        if (!at.outside) found.push_back({first_part(at.whole), at.feature});
     }
     for (const Location& own : all) {
         const std::size_t of = whole(own.cell);

@@ -4,7 +4,9 @@
 /// four nodes that are not in one plane are pieces of hyperbolic paraboloids. What the cell and its parts
 /// (mesh/pulling.hpp) do not have in common lies in the tetrahedra of the nodes of such sides: a point in none of them
 /// is in the cell if it is in one of its parts; one that is in some, if it is on the inner side of each of these
-/// paraboloids, which are the points with a c = b d, where a, b, c, d are its weights in the tetrahedron.
+/// paraboloids, which are the points with a c = b d, where a, b, c, d are its weights in the tetrahedron. The
+/// tetrahedron meets no flat side but in an edge: its nodes beyond that edge are joined to the flat side's nodes by
+/// edges, along which the Jacobian is positive at both ends. So its faces that are parts' alone lie inside the cell.
 ///
 /// Curved simplices of order 2 to 4. A point is in the cell if Newton's method finds it there, proved, and not if the
 /// cell is proved to have it nowhere else (core/isoparametric). Facets whose edges are all straight are flat, and

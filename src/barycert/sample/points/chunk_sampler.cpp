@@ -165,27 +165,25 @@ void ChunkSampler::push(const locate::PointRecord& point, locate::Place owner, F
     if (!lanes_) return push_straight(point, owner, feature);
     const Location at{owner < 0 ? -1 : data_.index().original[static_cast<std::size_t>(owner)], feature};
     if (!in_parts_) return settled(point, at);
-    if (!lanes_->push(at, point, false)) settled(point, settle(point, at));
-    // Not while lanes call back.
+    if (!lanes_->push(at, point, false)) settled(point, data_.located().settle(point.at.data(), at));
+    settle_rest();
+}
+
+void ChunkSampler::settle_rest() {
     while (!not_here_.empty()) {
-        const auto [record, in_parts] = not_here_.back();
+        const auto [point, in_parts] = not_here_.back();
         not_here_.pop_back();
-        settled(record, settle(record, in_parts));
+        settled(point, data_.located().settle(point.at.data(), in_parts));
     }
 }
 
 void ChunkSampler::flush() {
     if (lanes_) {
         lanes_->flush();
-        for (const auto& [record, in_parts] : std::exchange(not_here_, {})) settled(record, settle(record, in_parts));
+        settle_rest();
         lanes_->flush();
     }
     flush_straight();
-}
-
-Location ChunkSampler::settle(const locate::PointRecord& point, const Location& in_parts) const {
-    const bool finite = base::all_finite({point.at.data(), data_.index().dimension()});
-    return finite ? data_.located().settle(point.at.data(), in_parts) : Location{};
 }
 
 void ChunkSampler::UseLane::operator()(const locate::MappedCells::Batch& batch, std::size_t lane, bool inside,

@@ -72,8 +72,8 @@ private:
                   const Feature* feature);
     /// A point whose owner is known, by the map of the cell if it has one.
     void settled(const locate::PointRecord& point, const Location& at, bool on_lanes = true);
-    /// The owner of a point by that in parts of cells.
-    Location settle(const locate::PointRecord& point, const Location& in_parts) const;
+    /// The points of not_here_: not while lanes call back.
+    void settle_rest();
     void set_row(const locate::PointRecord& point, const Location& at, const double* values, std::size_t stride);
     struct UseLane {
         ChunkSampler* sampler;
