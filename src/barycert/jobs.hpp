@@ -98,11 +98,12 @@ struct ResampleJob : SamplingJob {
     std::optional<std::pair<double, double>> range = {};  ///< of the colours of a picture
 };
 
-/// How the owners of points were found. `pass`: one look at each cell, and no index of the mesh.
-enum class FoundBy : std::uint8_t { walk, candidates, map, grid, pass };
+/// How the owners of points were found. `pass`: one look at each cell, and no index of the mesh. `axes`: by coordinates
+/// along axes, in a mesh that is a grid.
+enum class FoundBy : std::uint8_t { walk, candidates, map, grid, pass, axes };
 
 constexpr std::string_view name(FoundBy f) {
-    constexpr std::array<std::string_view, 5> names{"walk", "candidates", "map", "grid", "pass"};
+    constexpr std::array<std::string_view, 6> names{"walk", "candidates", "map", "grid", "pass", "axes"};
     return names[static_cast<std::size_t>(f)];
 }
 

@@ -4,6 +4,8 @@
 /// positions in file order, whatever base the file used. Coordinates are finite doubles in the file's own unit.
 #pragma once
 
+#include <array>
+
 #include "barycert/result.hpp"
 
 namespace barycert {
@@ -81,6 +83,9 @@ struct Mesh {
     std::vector<double> points;  ///< dimension coordinates a node
     std::vector<Index> cells;    ///< dimension + 1 vertices a cell
     Shapes shapes;               ///< what `cells` were cut from; empty if the file has simplices
+    /// Of a grid along axes whose nodes and cells are not listed (ReadOptions::list_grids), coordinates along each,
+    /// increasing; the first runs fastest. Then points, cells and shapes are empty. Else empty.
+    std::array<std::vector<double>, 3> axes;
 
     /// Nodes at mid-edges in the order `vtk` whatever the file's, 6 a tetrahedron or 3 a triangle; empty if linear.
     std::vector<Index> mid_nodes;
@@ -110,11 +115,19 @@ struct Mesh {
         return cell_numbers.empty() || cell < 0 ? cell : cell_numbers[static_cast<std::size_t>(cell)];
     }
     std::size_t corners() const { return static_cast<std::size_t>(dimension) + 1; }
-    std::size_t point_count() const { return points.size() / static_cast<std::size_t>(dimension); }
-    std::size_t cell_count() const { return cells.size() / corners(); }
+    bool is_listed() const { return axes[0].empty(); }
+    std::size_t point_count() const {
+        return is_listed() ? points.size() / static_cast<std::size_t>(dimension) : count_along_axes(0);
+    }
+    std::size_t cell_count() const { return is_listed() ? cells.size() / corners() : count_along_axes(1); }
     /// Cells as users know them.
     std::size_t whole_count() const { return shapes.types.empty() ? cell_count() : shapes.count(); }
     std::size_t face_count() const { return faces.size() / 3; }
+
+private:
+    std::size_t count_along_axes(std::size_t less) const {
+        return (axes[0].size() - less) * (axes[1].size() - less) * (dimension == 2 ? 1 : axes[2].size() - less);
+    }
 };
 
 /// Second-order cells whose sides are not straight. Locators and samplers take them as they are (locator.hpp); what

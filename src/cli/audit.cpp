@@ -30,11 +30,6 @@ void check_files(const AuditArguments& a) {
 
 /// What other options say is of kernels, their cases and reports on them.
 void check_alone(const AuditArguments& a) {
-    for (const std::string& name : a.job.kernels.names) {
-        const std::string shape = name.substr(0, name.find('.')) + ".";
-        if (std::ranges::any_of(inverse_rules(), [&](const InverseRule& r) { return r.name.starts_with(shape); }))
-            throw Exception({.what = "no kernel of simplices", .found = name, .remedy = "--inverse-maps audits those"});
-    }
     const auto check = [&](const char* mode, const char* audited, std::initializer_list<std::string_view> fits) {
         const std::string other = given_option(*a.app, fits, true);
         if (!other.empty())
@@ -51,6 +46,11 @@ void check_alone(const AuditArguments& a) {
     if (a.inverses)
         check("--inverse-maps", "Newton's method on cells, on cases of its own",
               {"--inverse-maps", "--count", "--seed", "--threads", "--json", "--html", "--quiet"});
+    for (const std::string& name : a.job.kernels.names) {
+        const std::string shape = name.substr(0, name.find('.')) + ".";
+        if (std::ranges::any_of(inverse_rules(), [&](const InverseRule& r) { return r.name.starts_with(shape); }))
+            throw Exception({.what = "no kernel of simplices", .found = name, .remedy = "--inverse-maps audits those"});
+    }
 }
 
 std::function<void(const AuditProgress&)> progress_of(AuditArguments& a) {

@@ -53,7 +53,8 @@ bool same_cells(const ExactIndex& a, const ExactIndex& b) {
     return a.shape == b.shape && a.normal == b.normal && a.plane == b.plane && a.reason == b.reason &&
            a.mesh.cells == b.mesh.cells && a.mesh.mid_nodes == b.mesh.mid_nodes && a.mesh.shapes == b.mesh.shapes &&
            a.mesh.cell_numbers == b.mesh.cell_numbers && a.mesh.points == b.mesh.points &&
-           a.surface.points == b.surface.points && a.surface.facets == b.surface.facets;
+           a.surface.points == b.surface.points && a.surface.facets == b.surface.facets &&
+           a.by_corners == b.by_corners && a.uncut == b.uncut && a.cells_are_cut == b.cells_are_cut;
 }
 
 void remember(vtkDataSet& data, const pieces::Shape& shape, vtkMTimeType time,
@@ -130,13 +131,13 @@ void ExactIndex::place(const double* point, double* x) const {
 }
 
 Mesh::Index ExactIndex::owner(const double* x) const {
-    if (!in_space()) return IndexedPiece::owner(x);
+    if (!on_surface) return IndexedPiece::owner(x);                 // of a surface without triangles: none
     const Result<SurfaceNearest> near = on_surface->nearest(x, 0);  // without a winding number
     return near && near->on ? near->cell : -1;
 }
 
 pieces::Closest ExactIndex::closest(const double* x, double limit) const {
-    if (!in_space()) return IndexedPiece::closest(x, limit);
+    if (!on_surface) return IndexedPiece::closest(x, limit);
     pieces::Closest found;
     const Result<SurfaceNearest> near = on_surface->nearest(x, limit);
     if (!near || near->cell < 0) return found;
@@ -187,7 +188,9 @@ void ExactIndex::weights_of_nodes(Mesh::Index cell, const double* x, bool inside
         if (Result<NodeWeights> all = node_weights(*locator, row.view(), {.kind = Outside::nearest}))
             its = std::move(*all);
     }
-    std::fill_n(out, nodes.GetNumberOfIds(), 0.0);
+    // Of a map that cannot be inverted there, none.
+    const double others = its.nodes.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
+    std::fill_n(out, nodes.GetNumberOfIds(), others);
     for (std::size_t i = 0; i < its.nodes.size(); ++i)
         if (const vtkIdType at = nodes.IsId(its.nodes[i]); at >= 0) out[at] = its.weights[i];
 }

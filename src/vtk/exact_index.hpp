@@ -20,11 +20,13 @@ namespace barycert::in_vtk {
 /// or if there is a `reason`. Polygons that lie in no plane across an axis are a surface, by their triangles: the mesh
 /// then has the corners of these, and no nodes.
 struct ExactIndex : pieces::IndexedPiece {
-    pieces::Shape shape;         ///< what the data set is taken for
-    std::string reason;          ///< why points cannot be located exactly in the data set; empty if they can
-    Notes notes;                 ///< of cells that are not taken as they are, or as they were asked for
-    bool cells_are_cut = false;  ///< into simplices, or their nodes stand in another order than VTK's
-    Surface surface;             ///< without points: there is none
+    pieces::Shape shape;  ///< what the data set is taken for
+    std::string reason;   ///< why points cannot be located exactly in the data set; empty if they can
+    Notes notes;          ///< of cells that are not taken as they are, or as they were asked for
+    /// Into simplices; or they have more nodes than the mesh has of them, or in another order.
+    bool cells_are_cut = false;
+    std::size_t by_corners = 0, uncut = 0;  ///< cells taken by their corners; polygons left out
+    Surface surface;                        ///< without points: there is none
     std::optional<SurfaceLocator> on_surface;
 
     bool in_space() const { return !surface.points.empty(); }
@@ -53,7 +55,7 @@ inline pieces::Shape shape_of(int interpolation, int curved) {
 
 /// Of one data set at one time of modification it is made once; data sets of the same cells share it as long as one of
 /// them lives. Any thread may call this, one at a time for a vtkPolyData, whose cells it may build. Never null.
-/// Numbers of cells in the whole mesh are the GlobalIds of the cell data, without fault; those of nodes of point data.
+/// Cells are numbered by the GlobalIds of cell data, which are without fault; nodes by those of point data.
 std::shared_ptr<const ExactIndex> exact_index(vtkDataSet& data, const pieces::Shape& shape = {});
 
 /// The next one is made anew.

@@ -290,7 +290,7 @@ void ProbeArrays::write(const TableView& rows, const vtkIdType* ids, vtkIdType f
 Sign ProbeArrays::side(const Sampled& array, int component, const Row& row, const PlaceOfRow& place,
                        double threshold) const {
     // A value at the nearest point, which is rounded itself; or one that is not linear.
-    if (!row.inside || !index_.straight()) return Sign::zero;
+    if (!row.inside || !index_.straight(row.cell)) return Sign::zero;
     const Field& field = fields_[array.field];
     const Mesh& mesh = index_.mesh;
     std::array<double, 3> point{};

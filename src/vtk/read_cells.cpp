@@ -19,6 +19,11 @@ namespace {
 constexpr unsigned char ghost_mask =
     vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::HIDDENCELL;
 
+// An id that is none of at most 2147483647 points is no node.
+Mesh::Index node_of(vtkIdType id) {
+    return id >= 0 && id < std::numeric_limits<Mesh::Index>::max() ? static_cast<Mesh::Index>(id) : -1;
+}
+
 // The cells of any data set.
 class Cells {
 public:
@@ -48,7 +53,8 @@ public:
             size = some_->GetNumberOfIds();
             all = some_->GetPointer(0);
         }
-        out.assign(all, all + size);
+        out.resize(static_cast<std::size_t>(size));
+        std::transform(all, all + size, out.begin(), node_of);
     }
     /// Appends the faces of a polyhedron, the last of the shapes, as Mesh::Shapes has them.
     void faces(vtkIdType cell, Mesh::Shapes& shapes) const {
@@ -59,7 +65,7 @@ public:
         for (; count > 0; --count) {
             const vtkIdType* const ring = stream + 1;
             stream = ring + *stream;
-            shapes.rings.insert(shapes.rings.end(), ring, stream);
+            std::transform(ring, stream, std::back_inserter(shapes.rings), node_of);
             shapes.ring_ends.push_back(static_cast<std::int64_t>(shapes.rings.size()));
         }
         shapes.face_ends.push_back(static_cast<std::int64_t>(shapes.ring_ends.size()));
@@ -107,17 +113,19 @@ std::string make_surface(Cells& cells, const std::vector<Mesh::Index>& kept, Exa
     Surface& surface = index.surface;
     surface.points = std::exchange(index.mesh.points, {});
     if (index.shape.mixed || !index.mesh.mid_nodes.empty()) {
-        if (!pieces::all_finite(surface.points)) return "it has polygons, and a coordinate that is not finite";
-        std::size_t uncut = 0, by_corners = 0;
+        const bool is_finite = pieces::all_finite(surface.points);
         std::vector<Mesh::Index> nodes;
         for (const Mesh::Index cell : kept) {
             cells.nodes(cell, nodes);
-            uncut += surface::add_triangles(surface.points, cells.type(cell), nodes, surface.cells);
-            by_corners += mesh::corners_of(cells.type(cell), nodes).size() < nodes.size() ? 1 : 0;
+            const bool cut = cells.number(cell) != mesh::vtk_triangle_strip && nodes.size() > 3;
+            if (cut && !is_finite) return "it has polygons, and a coordinate that is not finite";
+            index.uncut += surface::add_triangles(surface.points, cells.type(cell), nodes, surface.cells);
+            index.by_corners += mesh::corners_of(cells.type(cell), nodes).size() < nodes.size() ? 1 : 0;
             surface.facets.resize(surface.cell_count(), cell);
         }
-        note(index, by_corners, " polygons of a higher order: they are taken by their corners");
-        note(index, uncut, " polygons that are no simple ones, and cannot be cut into triangles: they are left out");
+        note(index, index.by_corners, " polygons of a higher order: they are taken by their corners");
+        note(index, index.uncut,
+             " polygons that are no simple ones, and cannot be cut into triangles: they are left out");
         index.cells_are_cut = true;
     } else {
         surface.cells = index.mesh.cells;
@@ -203,8 +211,8 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index) {
     pieces::Shape& shape = index.shape;
     const bool alone = shape.dimension == 0;
     if (alone && facts.dimension < 2) return pieces::only_lower;
-    if (alone) shape.dimension = facts.dimension;
-    if (alone) shape.mixed = pieces::PieceFacts::mixed(facts.low_type, facts.high_type);
+    if (alone)
+        shape.dimension = facts.dimension, shape.mixed = pieces::PieceFacts::mixed(facts.low_type, facts.high_type);
 
     Cells cells(data);
     std::vector<Mesh::Index> kept = cells.kept(shape.dimension);
@@ -222,14 +230,13 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index) {
     const std::size_t points = mesh.points.size() / 3;
     // Of tetrahedra alone who indexes or checks them tells what is no node.
     const bool any_node = !shape.mixed && shape.dimension == 3;
-    std::size_t by_corners = 0;
     std::vector<Mesh::Index> nodes;
     for (const Mesh::Index cell : kept) {
         cells.nodes(cell, nodes);
         if (std::string fault = fault_of_nodes(cells.type(cell), nodes, any_node ? 0 : points); !fault.empty())
             return name_of(cell) + fault;
         if (shape.mixed) {
-            by_corners += mesh::add_shape(mesh, cells.number(cell), nodes) ? 0 : 1;
+            index.by_corners += mesh::add_shape(mesh, cells.number(cell), nodes) ? 0 : 1;
             if (cells.number(cell) == mesh::vtk_polyhedron) cells.faces(cell, shapes);
         } else {
             const auto mid = nodes.begin() + static_cast<std::ptrdiff_t>(mesh.corners());
@@ -246,7 +253,7 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index) {
     if (shape.dimension == 2 && !index.flatten(shape.normal))
         return alone ? make_surface(cells, kept, index) : "its polygons do not lie in one plane across an axis";
     if (!shape.mixed) return {};
-    // No cell has more parts.
+    // No cell has more parts than nodes of its own and of its faces.
     if (shapes.nodes.size() + shapes.rings.size() > std::numeric_limits<Mesh::Index>::max())
         return "its cells would have more than 2147483647 parts";
     vtkDataArray* const ids = shape.nodes_by_numbers ? data.GetPointData()->GetGlobalIds() : nullptr;
@@ -257,7 +264,7 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index) {
     if (const auto open = index.cut(ids != nullptr ? integers_of(*ids) : std::vector<std::int64_t>()))
         return "the faces of " + name_of(mesh.cell_number(shapes.parts[*open])) + " do not close";
     index.cells_are_cut = true;
-    note(index, by_corners, " cells of a higher order: they are taken by their corners");
+    note(index, index.by_corners, " cells of a higher order: they are taken by their corners");
     return {};
 }
 

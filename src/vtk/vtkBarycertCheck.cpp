@@ -245,10 +245,11 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
         vtkErrorMacro("this data set cannot be checked: " << reason);
         return 0;
     }
-    const CheckReport report = check(*input, index,
-                                     {.delaunay = Delaunay != 0,
-                                      .examples = static_cast<std::size_t>(Examples),
-                                      .contacts = static_cast<std::size_t>(Contacts)});
+    CheckReport report = check(*input, index,
+                               {.delaunay = Delaunay != 0,
+                                .examples = static_cast<std::size_t>(Examples),
+                                .contacts = static_cast<std::size_t>(Contacts)});
+    report.notes.insert(report.notes.begin(), index.notes.begin(), index.notes.end());
     Certified = report.certified();
     if (report.surface && Delaunay != 0) vtkWarningMacro("a surface is not tested whether it is Delaunay");
 
@@ -257,8 +258,7 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     output->GetCellData()->SetActiveScalars("problems");
     const Mesh none;
     const std::string text = check_text(report, report.surface ? none : std::as_const(index.mesh), "input", {});
-    for (const Notes& notes : {index.notes, report.notes})
-        for (const Note& note : notes) vtkWarningMacro("" << message(note));
+    for (const Note& note : report.notes) vtkWarningMacro("" << message(note));
     if (report.curved.cells != 0) vtkWarningMacro("" << message(report.curved));
     // The verdict stands below what is told of curved cells, which takes two lines.
     std::size_t verdict = 0;

@@ -10,10 +10,10 @@
  * Data sets: any vtkDataSet. Cells are those that fill space; if there are none, the polygons: a mesh if they lie in
  * one plane across an axis, else a surface in space. Cells that are no simplices are cut into such, each cell and face
  * from its node of lowest number (Interpolation); of order 2 to 4 simplices are curved (CurvedCells), other cells are
- * taken by their corners, after a warning. Cells of a lower dimension, empty cells and ghost cells (vtkGhostType:
- * duplicate, refined, hidden) are no cells to FindCell and FindClosestPoint, nor triangles of zero area. A data set
- * with cells whose corners are not known (convex point sets, parametric ones), or with points that are not finite, is
- * an error, and nothing is found: GetExact() is false then.
+ * taken by their corners, after a warning, and so are surfaces in space. Cells of a lower dimension, empty cells and
+ * ghost cells (vtkGhostType: duplicate, refined, hidden) are no cells to FindCell and FindClosestPoint, nor are
+ * triangles of zero area. A data set with cells whose corners are not known (convex point sets, parametric ones), or
+ * with points that are not finite, is an error, and nothing is found: GetExact() is false then.
  *
  * FindClosestPoint and its variants are exact as well: the cell is the lowest of those nearest, and `inside` is 1 if
  * the point lies in it. Outside of curved and multilinear cells what is nearest is that of their simplices. So is

@@ -43,6 +43,48 @@ TEST(Shapes, AFileOfValuesHasARowForEachCellOfTheFile) {
     EXPECT_TRUE(contains(short_one.err, "2, one for each cell")) << short_one.err;
 }
 
+TEST(Shapes, ASeriesOfValuesHasARowForEachCellOfTheFile) {
+    const Scratch scratch;
+    const std::string mesh = scratch.put("two.vtk", two_hexahedra("1"));
+    const std::string points = scratch.put("p.csv", "x,y,z\n0.5,0.5,0.5\n1.5,0.25,0.5\n");
+    scratch.put("g-1.txt", "10\n20\n");
+    scratch.put("g-2.txt", "30\n40\n");
+    const Ended rows = run({"sample", mesh, "--points", points, "--cell-field", "g@" + scratch.path("g-*.txt"),
+                            "--fields", "g", "--output", scratch.path("r-{step}.csv"), "--quiet"});
+    EXPECT_EQ(rows.code, 0) << rows.err;
+    EXPECT_TRUE(contains(read_file(scratch.path("r-2.csv")), ",1,interior,40\n"));
+}
+
+TEST(Shapes, ImagesWithoutListsOfCells) {
+    const Scratch scratch;
+    const std::string cells = "<CellData><DataArray type='Int64' Name='c'>7 8</DataArray></CellData>",
+                      values =
+                          "<PointData><DataArray type='Float64' Name='t'>0 1 0 2 0 3 0 5 0 7 0 11</DataArray>"
+                          "</PointData>";
+    const auto image = [&](const std::string& axes) {
+        return "<VTKFile type='ImageData'><ImageData WholeExtent='0 2 0 1 0 1' " + axes +
+               "><Piece Extent='0 2 0 1 0 1'>" + values + cells + "</Piece></ImageData></VTKFile>";
+    };
+    const std::string mesh = scratch.put("i.vti", image("Spacing='1 1 1'"));
+    const std::string points = scratch.put("p.csv", "x,y,z\n0.7,0.6,0.9\n1,0.5,0.25\n1.25,1,0.1\n2,1,1\n3,0,0\n");
+    const auto sample = [&](const Words& more) { return run(plus({"sample", mesh, "--points", points}, more)); };
+    for (const char* how : {"linear", "multilinear"}) {
+        const Words interpolation{"--interpolation", how};
+        const Ended rows = sample(plus(interpolation, {"--output", "-", "--json", scratch.path("r.json")}));
+        EXPECT_EQ(rows.code, 0) << rows.err;
+        EXPECT_EQ(parse(read_file(scratch.path("r.json")))["method"], "axes");
+        EXPECT_TRUE(contains(rows.out, "1,0.5,0.25,0,face,")) << rows.out;
+        // A map asks for lists.
+        const Ended listed = sample(
+            plus(interpolation, {"--output", "-", "--save-map", scratch.path("m"), "--json", scratch.path("l.json")}));
+        EXPECT_EQ(listed.out, rows.out);
+        EXPECT_EQ(parse(read_file(scratch.path("l.json")))["method"], "walk");
+    }
+    for (const char* fields : {"grad(t)", "mean(c)"})
+        EXPECT_EQ(sample({"--fields", fields, "--output", "-", "--quiet"}).code, 0) << fields;
+    EXPECT_EQ(sample({"--outside", "nearest", "--output", "-", "--quiet"}).code, 0);
+}
+
 TEST(Shapes, MapsAreOfOneInterpolation) {
     const Scratch scratch;
     const std::string mesh = scratch.put("two.vtk", two_hexahedra("1.5")), map = scratch.path("m.map");

@@ -46,6 +46,7 @@ std::vector<CellContact> contacts(const Checked& c, std::vector<CellPair> overla
 /// Arrays whose sizes do not make whole nodes or cells: nothing else can be said of such a mesh.
 const char* fault_of_sizes(const Mesh& mesh) {
     if (mesh.dimension != 2 && mesh.dimension != 3) return "the dimension is neither 2 nor 3";
+    if (!mesh.is_listed()) return mesh::not_listed;
     if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0)
         return "the number of coordinates is not a multiple of the dimension";
     if (mesh.cells.size() % mesh.corners() != 0)

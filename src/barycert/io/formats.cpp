@@ -276,7 +276,7 @@ Result<Mesh> io::read_mesh_in_space(const std::string& path, const ReadOptions& 
     if (options.step.made() && *format != MeshFormat::vtk) return no_series(path);
     if (*format == MeshFormat::gmsh) return read_gmsh_in_space(path, {.step = {}, .threads = options.threads}, space);
     if (*format == MeshFormat::vtk)
-        return on_threads(options.threads, [&] { return read_vtk_in_space(path, options.step, space); });
+        return on_threads(options.threads, [&] { return read_vtk_in_space(path, options, space); });
     if (*format == MeshFormat::medit)
         return on_threads(options.threads, [&] { return read_medit(path, options, space); });
     if (*format == MeshFormat::by_meshio) return read_converted(path, meshio_format(path));

@@ -116,7 +116,7 @@ struct InSpace {
 /// By the end of the path: .stl .ply .off .obj .poly .smesh .vtp.
 bool is_surface_file(const std::string& path);
 Result<Mesh> read_mesh_in_space(const std::string& path, const ReadOptions& options, InSpace* space);
-Result<Mesh> read_vtk_in_space(const std::string& path, const StepChoice& step, InSpace* space);
+Result<Mesh> read_vtk_in_space(const std::string& path, const ReadOptions& options, InSpace* space);
 Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& options, InSpace* space);
 
 /// The number of the step that is chosen. Error: there is none such.

@@ -178,6 +178,12 @@ Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes) {
     return io::read_field_file(file.name, file.path, file.column, notes).value();
 }
 
+void by_parts(const Mesh& mesh, const FieldFile& file, Field& field) {
+    const std::size_t whole = mesh.whole_count() * static_cast<std::size_t>(field.components);
+    if (mesh.shapes.count() != 0 && !is_file_of_a_mesh(file.path) && field.data.size() == whole)
+        field = mesh::rows_of(field, mesh::whole_of_parts(mesh));
+}
+
 FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace) {
     FieldFile of = file;
     Field field = read_field(mesh, of, mesh.notes);
@@ -185,7 +191,7 @@ FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace) {
     // Files of meshes were cut like this one.
     const bool parts = is_file_of_a_mesh(of.path);
     const bool cells = is_of_cells(of, rows, mesh.point_count(), parts ? mesh.cell_count() : mesh.whole_count());
-    if (cells && !parts && mesh.shapes.count() != 0) field = mesh::rows_of(field, mesh::whole_of_parts(mesh));
+    if (cells) by_parts(mesh, of, field);
     std::vector<Field>& fields = cells ? mesh.cell_fields : mesh.point_fields;
     const std::string full = std::string(cells ? cell_prefix : point_prefix) + file.name;
     for (std::size_t i = 0; replace && i < fields.size(); ++i) {

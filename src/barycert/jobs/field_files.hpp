@@ -23,6 +23,10 @@ struct FieldPlace {
 /// read_field_file and read_mesh refuse; an array that is not there.
 Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes);
 
+/// Of a field of cells that is not of a file of a mesh, which was cut like this one, rows of whole cells become rows of
+/// their parts.
+void by_parts(const Mesh& mesh, const FieldFile& file, Field& field);
+
 /// Adds the field of a file to the mesh, and to its notes what is to be told of it; with `replace`, in the place of one
 /// of that name. Refused: what read_field refuses; a name that there is already; a number of rows that is that of
 /// neither nodes nor cells, or, where it is not said which, of both.

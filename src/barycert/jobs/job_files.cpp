@@ -66,9 +66,11 @@ void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done)
     if (job.progress) job.progress({.stage = what, .done = done});
 }
 
-Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved) {
+Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved, bool list_grids) {
     tell_stage(job, "reading " + job.mesh);
-    Mesh mesh = read_mesh(job.mesh, {.faces = false, .neighbours = false, .threads = threads, .step = step}).value();
+    const ReadOptions options{
+        .faces = false, .neighbours = false, .threads = threads, .step = step, .list_grids = list_grids};
+    Mesh mesh = read_mesh(job.mesh, options).value();
     const CurvedCells straight = measure_curved(mesh, job.mesh, job.curved).value();
     // Of steps, that with the largest deviation.
     if (straight.max_deviation >= curved.max_deviation) curved = straight;

@@ -82,7 +82,7 @@ std::string output_of_step(const std::string& output, const Step& step);
 void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0);
 
 /// Reads the mesh of the job, and takes its cells as straight, as far as it may: `curved` says which are not.
-Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved);
+Mesh open_mesh(const MeshJob& job, int threads, const StepChoice& step, CurvedCells& curved, bool list_grids = true);
 
 /// The same at the step of the job, with the fields from files.
 Mesh open_mesh_with_fields(const MeshJob& job, int threads, MeshReport& report);

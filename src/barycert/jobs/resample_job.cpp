@@ -131,7 +131,11 @@ void onto_grid_in_steps(SampledMesh& mesh, const ResampleJob& job) {
     if (io::has_suffix(job.output, ".vti")) grid = as_in_vti(grid);
     mesh.report.from = PointsFrom::grid;
     mesh.for_outputs([&](const std::string& path, bool, bool anew) {
-        if (anew) mesh.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds");
+        if (anew && mesh.mesh().is_listed()) {
+            mesh.prepare_without_search(FoundBy::grid, "each cell finds the points that it holds");
+        } else if (anew) {
+            mesh.prepare();
+        }
         if (anew && mesh.report.meshes == 2 && job.bounds.empty())
             mesh.report.notes.push_back(
                 {Note::Kind::guessed,
@@ -180,7 +184,8 @@ void onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
 Result<SampleReport> resample_files(const ResampleJob& job) {
     return jobs::sample_mesh(
         job, "resample", [&](const auto& steps) { check_job(job, steps); },
-        [&](SampledMesh& mesh) { job.onto.empty() ? onto_grid_in_steps(mesh, job) : onto_mesh(mesh, job); });
+        [&](SampledMesh& mesh) { job.onto.empty() ? onto_grid_in_steps(mesh, job) : onto_mesh(mesh, job); },
+        !job.onto.empty() || jobs::needs_listed_grids(job));
 }
 
 }  // namespace barycert

@@ -360,7 +360,8 @@ Result<SampleReport> sample_files(const SampleJob& asked) {
     }
     Result<SampleReport> sampled = jobs::sample_mesh(
         job, "sample", [&](const auto& steps) { check_job(job, steps); },
-        [&](SampledMesh& mesh) { job.map.empty() ? at_points(mesh, job) : at_points_of_map(mesh, job); });
+        [&](SampledMesh& mesh) { job.map.empty() ? at_points(mesh, job) : at_points_of_map(mesh, job); },
+        !(job.map.empty() && job.save_map.empty()) || job.all.value_or(false) || jobs::needs_listed_grids(job));
     if (!sampled && sampled.error().file == job.mesh) {
         // Triangles off the plane are found when they are read.
         if (const auto surface = at_surface(job)) return *surface;

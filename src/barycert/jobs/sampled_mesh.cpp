@@ -40,6 +40,7 @@ std::string name_of_step(const std::string& name, const Step& step) {
 /// Why points are found by walks, and where not.
 std::string reason_of(const Locator& locator, std::uint64_t degenerate, bool curved, const std::string& program) {
     const std::uint64_t contested = locator.contested_cells();
+    if (!locator.mesh().is_listed()) return "the coordinates along each axis increase";
     if (locator.certified()) return curved ? "the mesh is certified for straight sides" : "the mesh is certified";
     if (contested == 0 && degenerate != 0) return "cells meet in common faces; degenerate ones are left out";
     return fmt::format(
@@ -51,8 +52,16 @@ std::string reason_of(const Locator& locator, std::uint64_t degenerate, bool cur
 
 }  // namespace
 
-SampledMesh::SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std::string command)
-    : job(of), steps(std::move(all_steps)) {
+bool needs_listed_grids(const SamplingJob& job) {
+    const auto asks_for_cells = [](const std::string& field) {
+        return field.find("grad(") != std::string::npos || field.find("mean(") != std::string::npos;
+    };
+    return !job.weights.empty() || gives_distances(job.options.outside) ||
+           std::ranges::any_of(job.fields, asks_for_cells);
+}
+
+SampledMesh::SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std::string command, bool list_grids)
+    : job(of), steps(std::move(all_steps)), list_grids_(list_grids) {
     for (const Step& step : steps) {
         report.steps.push_back(step.label);
         if (step.of_mesh) report.times.push_back(base::parse_double(step.time).value_or(0));
@@ -82,7 +91,8 @@ void SampledMesh::open() {
 /// That of the step, where it has one, or the one that the job asks for.
 Mesh SampledMesh::read(const Step* step) {
     const bool of_step = step != nullptr && step->of_mesh.has_value();
-    return open_mesh(job, job.options.threads, of_step ? StepChoice{.number = step->of_mesh} : job.step, report.curved);
+    return open_mesh(job, job.options.threads, of_step ? StepChoice{.number = step->of_mesh} : job.step, report.curved,
+                     list_grids_);
 }
 
 void SampledMesh::add_fields_of_job() {
@@ -122,7 +132,7 @@ void SampledMesh::go_to(const Step& step) try {
 
 bool SampledMesh::is_another(const Mesh& mesh) const {
     return mesh.points != mesh_.points || mesh.cells != mesh_.cells || mesh.mid_nodes != mesh_.mid_nodes ||
-           mesh.cell_numbers != mesh_.cell_numbers;
+           mesh.shapes != mesh_.shapes || mesh.axes != mesh_.axes || mesh.cell_numbers != mesh_.cell_numbers;
 }
 
 void SampledMesh::check_one_mesh(const std::string& path, const char* member) {
@@ -163,6 +173,7 @@ void SampledMesh::read_fields(const Step& step) {
         FieldFile file = step.files[i];
         file.of = place.of_cells ? FieldFile::Of::cells : FieldFile::Of::points;
         Field read = read_field(mesh_, file, notes);
+        if (place.of_cells) by_parts(mesh_, file, read);
         const auto shape = [](const Field& f) {
             const auto components = static_cast<std::size_t>(f.components);
             return fmt::format("{} rows of {}", f.data.size() / components, counted(components, "component"));
@@ -261,7 +272,7 @@ void SampledMesh::prepare(std::span<const double> all_points) {
         return build(part_->mesh, fields_of_part(), Prove::never);
     }
     build(mesh_, fields_, Prove::at_once);
-    report.method = FoundBy::walk;
+    report.method = mesh_.is_listed() ? FoundBy::walk : FoundBy::axes;
     report.contested_cells += locator_->contested_cells();
     // Of several meshes, that all are certified, or why one is not.
     if (report.verdict == Verdict::not_certified) return;
@@ -285,7 +296,7 @@ std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const 
     });
     // What is wrong with fields or points is told by the usual way.
     if (gives_distances(job.options.outside) || may_be_mapped() || !needs_no_index(count, cells) || !fit ||
-        !base::all_finite(points))
+        !mesh_.is_listed() || !base::all_finite(points))
         return std::nullopt;
     // If more cells may hold a point, an index is made all the same.
     const std::size_t most = cells / 8;
@@ -298,7 +309,9 @@ std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const 
 }
 
 void SampledMesh::let_go_of_mesh() {
-    if (gives_distances(job.options.outside) || !mesh_.mid_nodes.empty() || step_by_step() || may_be_mapped()) return;
+    if (gives_distances(job.options.outside) || !mesh_.mid_nodes.empty() || step_by_step() || may_be_mapped() ||
+        !mesh_.is_listed())
+        return;
     // The index has corners and coordinates in an order of its own, and so has the sampler the values of nodes.
     // Clearing alone would keep the memory.
     mesh_.points = std::vector<double>();

@@ -17,8 +17,8 @@ constexpr bool needs_no_index(std::size_t points, std::size_t cells) {
 /// Writes what it does into the job's report. The job must stay, and so must this: sampler and locator use the mesh.
 class SampledMesh {
 public:
-    /// `steps`: of the series of the job. `command`: of the report.
-    SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std::string command);
+    /// `steps`: of the series of the job. `command`: of the report. `list_grids`: see ReadOptions.
+    SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std::string command, bool list_grids = true);
     SampledMesh(const SampledMesh&) = delete;
     SampledMesh& operator=(const SampledMesh&) = delete;
 
@@ -107,6 +107,7 @@ private:
     void build_sampler(const std::vector<FieldChoice>& fields);
     void build(const Mesh& mesh, const std::vector<FieldChoice>& fields, Prove prove);
 
+    const bool list_grids_;
     Stopwatch whole_;
     Mesh mesh_;
     bool another_mesh_ = false;
@@ -120,14 +121,18 @@ private:
     std::optional<Sampler> sampler_;
 };
 
+/// Whether more than owners and values is asked of a grid: what its nodes and cells must be listed for.
+bool needs_listed_grids(const SamplingJob& job);
+
 /// A whole job: its files checked by check(steps), the mesh opened, points sampled by sample(mesh).
 template <class Check, class Sample>
-Result<SampleReport> sample_mesh(const SamplingJob& job, const char* command, Check check, Sample sample) try {
+Result<SampleReport> sample_mesh(const SamplingJob& job, const char* command, Check check, Sample sample,
+                                 bool list_grids = true) try {
     const base::RunFiles files;
     std::vector<Step> steps = find_steps(job);
     check(steps);
     const ThreadLimit limit(job.options.threads);
-    SampledMesh mesh(job, std::move(steps), command);
+    SampledMesh mesh(job, std::move(steps), command, list_grids);
     mesh.open();
     sample(mesh);
     return mesh.finish();

@@ -22,6 +22,11 @@ inline std::optional<std::size_t> first_outside(std::span<const Mesh::Index> cel
     return std::nullopt;
 }
 
+/// What asks for listed cells (Mesh::axes).
+inline Error not_listed(const std::string& what) {
+    return {.what = what + " of a grid whose cells are not listed", .remedy = "read it with ReadOptions::list_grids"};
+}
+
 /// There are d coordinates a point.
 inline Status check_size(std::span<const double> points, std::size_t d) {
     if (points.size() % d == 0) return Done{};

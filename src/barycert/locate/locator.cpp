@@ -10,10 +10,15 @@ Locator::~Locator() = default;
 
 Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
     const ExactEnvironment environment;
-    if (const char* const wrong = mesh::inconsistency_of_cells(mesh, mesh::FieldValues::any))
-        return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
+    const char* const wrong = mesh.is_listed() ? mesh::inconsistency_of_cells(mesh, mesh::FieldValues::any)
+                                               : mesh::inconsistency_of_axes(mesh);
+    if (wrong != nullptr) return Error{.what = std::string("the mesh is inconsistent: ") + wrong};
     auto data = std::make_unique<locate::LocatorData>();
     data->mesh = &mesh;
+    if (!mesh.is_listed()) {
+        data->grid = std::make_unique<core::AxisGrid>(mesh);
+        data->multilinear = options.interpolation == CellInterpolation::multilinear;
+    }
     data->method = options.prove == Prove::never ? Method::candidates : Method::walk;
     data->threads = options.threads;
     constexpr std::size_t small = 100000;
@@ -27,7 +32,8 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
         stage("ordering cells");
         data->index = locate::make_cell_index(mesh);
         const bool products = options.interpolation == CellInterpolation::multilinear;
-        if (products || (!options.straight_sides && (!mesh.mid_nodes.empty() || !mesh.shapes.types.empty())))
+        if (data->grid == nullptr &&
+            (products || (!options.straight_sides && (!mesh.mid_nodes.empty() || !mesh.shapes.types.empty()))))
             data->mapped = locate::MappedCells::make(mesh, products, !options.straight_sides);
         if (!later) data->prove(stage);
     });
@@ -79,7 +85,8 @@ std::uint64_t Locator::degenerate_cells() const {
 }
 
 CellInterpolation Locator::interpolation() const {
-    return data_->mapped && data_->mapped->has_products() ? CellInterpolation::multilinear : CellInterpolation::linear;
+    const bool products = data_->multilinear || (data_->mapped && data_->mapped->has_products());
+    return products ? CellInterpolation::multilinear : CellInterpolation::linear;
 }
 
 bool Locator::has_curved_cells() const {
@@ -152,8 +159,17 @@ Status Locator::locate(std::span<const double> points, std::span<Mesh::Index> ce
     };
     bool finite = true;
     base::in_arena(threads, data_->index.cell_count() + cells.size(), [&] {
-        finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write);
-        if (data_->mapped) locate::count_anew(features, all);
+        if (data_->grid) {
+            finite = base::all_finite(points);
+            base::parallel_for(count, std::size_t{1} << 12, [&](std::size_t begin, std::size_t end) {
+                const std::size_t d = data_->grid->dimension;
+                const std::span<const double> some = points.subspan(d * begin, d * (end - begin));
+                core::sample_grid(*data_->grid, {some, cells.data() + begin, features.data() + begin}, nullptr);
+            });
+        } else {
+            finite = locate::for_chunks(*data_, data_->index.nodes.data(), points, all, make, write);
+        }
+        if (data_->grid || data_->mapped) locate::count_anew(features, all);
     });
     if (!finite) {
         if (nonfinite == NonfinitePoints::error) return locate::check_finite(points, data_->index.dimension());
@@ -176,6 +192,7 @@ Result<Table> Locator::locate(std::span<const double> points, int threads, Nonfi
 
 Result<Table> Locator::locate_all(std::span<const double> points, int threads, NonfinitePoints nonfinite) const {
     const ExactEnvironment environment;
+    if (data_->grid) return locate::not_listed("all cells of points");
     if (Status status = locate::check_size(points, data_->index.dimension()); !status) return status.error();
     struct Found {
         std::size_t point;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "barycert/core/grid_lanes.hpp"
 #include "barycert/locate/contested_cells.hpp"
 #include "barycert/locate/mapped/mapped_cells.hpp"
 #include "barycert/locate/nearest.hpp"
@@ -49,8 +50,10 @@ struct LocatorData {
 
     const Mesh* mesh = nullptr;
     Method method = Method::candidates;
-    int threads = 0;                            ///< of BuildOptions
-    std::unique_ptr<const MappedCells> mapped;  ///< nullptr: cells are simplices, or their parts
+    int threads = 0;                             ///< of BuildOptions
+    std::unique_ptr<const MappedCells> mapped;   ///< nullptr: cells are simplices, or their parts
+    std::unique_ptr<const core::AxisGrid> grid;  ///< of a mesh that is not listed; then the index is empty
+    bool multilinear = false;                    ///< that grid
 
     /// Its location, by that in straight simplices or parts of cells; none if it is not finite. Precondition: mapped.
     Location settle(const double* point, Location in_parts) const;

@@ -185,6 +185,7 @@ Nearest find_nearest(const LocatorData& data, const double* point, double limit,
 
 Result<Nearest> Locator::nearest(const double* point, double limit) const {
     const ExactEnvironment environment;
+    if (data_->grid) return locate::not_listed("the nearest cell");
     limit = base::held(limit);
     const std::size_t d = data_->index.dimension();
     if (Status status = locate::check_finite({point, d}, d); !status) return status.error();

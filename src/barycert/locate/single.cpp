@@ -124,6 +124,11 @@ Result<Location> Locator::locate(const double* point, Mesh::Index hint) const {
     for (std::size_t k = 0; k < d; ++k) {
         if (!std::isfinite(point[k])) return locate::check_finite({point, d}, d).error();
     }
+    if (data.grid) {
+        Location found;
+        core::sample_grid(*data.grid, {{point, d}, &found.cell, &found.feature}, nullptr);
+        return found;
+    }
     const auto location = [&](locate::Place owner, Feature feature) {
         const Location found =
             owner < 0 ? Location{} : Location{index.original[static_cast<std::size_t>(owner)], feature};

@@ -70,7 +70,7 @@ void add_rings(const CellType& type, std::span<const Mesh::Index> nodes, std::ve
         return;
     }
     rings.emplace_back(c.begin(), c.end());
-    if (type.name == "vtkPixel") std::swap(rings.back()[2], rings.back()[3]);
+    if (type.linear == 8) std::swap(rings.back()[2], rings.back()[3]);
 }
 
 bool add_shape(Mesh& mesh, std::uint8_t type, std::span<const Mesh::Index> nodes) {
@@ -79,6 +79,11 @@ bool add_shape(Mesh& mesh, std::uint8_t type, std::span<const Mesh::Index> nodes
     Mesh::Shapes& shapes = mesh.shapes;
     shapes.types.push_back(whole ? type : cell_types()[type].linear);
     shapes.nodes.insert(shapes.nodes.end(), kept.begin(), kept.end());
+    if (type == 73 || type == 80) {  // VTK's wedges of Lagrange and Bezier have their base seen from inside
+        Mesh::Index* const own = &shapes.nodes[shapes.nodes.size() - 6];
+        std::swap(own[1], own[2]);
+        std::swap(own[4], own[5]);
+    }
     shapes.ends.push_back(static_cast<std::int64_t>(shapes.nodes.size()));
     return kept.size() == nodes.size();
 }

@@ -9,6 +9,8 @@
 namespace barycert::mesh {
 namespace {
 
+constexpr const char* too_many = "it has more than 2147483647 nodes or cells";
+
 bool all_within(const std::vector<Mesh::Index>& indices, Mesh::Index lowest, std::size_t count) {
     // One comparison each, without a branch: compilers make vectors of it.
     const auto low = static_cast<std::uint32_t>(lowest);
@@ -43,6 +45,21 @@ const char* fault_of_fields(const std::vector<Field>& fields, std::size_t rows, 
 
 }  // namespace
 
+bool is_increasing(std::span<const double> x) {
+    return x.size() > 1 && base::all_finite(x) && std::ranges::adjacent_find(x, std::greater_equal()) == x.end();
+}
+
+const char* inconsistency_of_axes(const Mesh& mesh) {
+    if (mesh.dimension != 2 && mesh.dimension != 3) return "its dimension is neither 2 nor 3";
+    double nodes = 1;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(mesh.dimension); ++k) {
+        if (!is_increasing(mesh.axes[k])) return "the coordinates along an axis are not two or more that increase";
+        nodes *= static_cast<double>(mesh.axes[k].size());
+    }
+    if (nodes > INT32_MAX) return too_many;
+    return mesh.points.empty() && mesh.cells.empty() ? nullptr : "it has axes, and lists nodes or cells";
+}
+
 const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
     const std::size_t nodes = mesh.point_count();
     if (mesh.index_base != 0 && mesh.index_base != 1) return "its index base is neither 0 nor 1";
@@ -66,10 +83,10 @@ const char* inconsistency_of_extras(const Mesh& mesh, FieldValues values) {
 
 const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values) {
     if (mesh.dimension != 2 && mesh.dimension != 3) return "its dimension is neither 2 nor 3";
+    if (!mesh.is_listed()) return not_listed;
     if (mesh.points.size() % static_cast<std::size_t>(mesh.dimension) != 0)
         return "the number of coordinates is not a multiple of the dimension";
-    if (std::max(mesh.point_count(), mesh.cell_count()) > INT32_MAX)
-        return "it has more than 2147483647 nodes or cells";
+    if (std::max(mesh.point_count(), mesh.cell_count()) > INT32_MAX) return too_many;
     if (!base::all_finite(mesh.points)) return "a coordinate is not finite";
     if (mesh.cells.size() % mesh.corners() != 0)
         return "the number of vertex indices is not a multiple of the vertices of a cell";

@@ -1,6 +1,8 @@
 /// Whether a mesh in memory is whole.
 #pragma once
 
+#include <span>
+
 #include "barycert/mesh.hpp"
 
 namespace barycert::mesh {
@@ -8,12 +10,20 @@ namespace barycert::mesh {
 /// What the values of fields may be. Coordinates are always finite.
 enum class FieldValues : bool { finite, any };
 
+inline constexpr const char* not_listed = "the nodes and cells of a grid are not listed (ReadOptions::list_grids)";
+
 /// What is wrong with the sizes, indices or numbers of the mesh, in one clause; nullptr if nothing is. A mesh that
 /// passes can be written, and what is written can be read.
 const char* inconsistency(const Mesh& mesh, FieldValues values = FieldValues::finite);
 
 /// All of it but what belongs to faces: their markers and nodes at mid-edges. What check_mesh certifies passes.
 const char* inconsistency_of_cells(const Mesh& mesh, FieldValues values);
+
+/// Of a grid whose cells are not listed.
+const char* inconsistency_of_axes(const Mesh& mesh);
+
+/// Finite coordinates of planes, at least two.
+bool is_increasing(std::span<const double> coordinates);
 
 /// The part of that which check_mesh does not find otherwise: about what belongs to nodes and cells (markers, fields,
 /// nodes at mid-edges), and the index base. Precondition: whole nodes and cells of dimension 2 or 3.

@@ -5,6 +5,7 @@
 #include "barycert/core/isoparametric/inverse.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
+#include "barycert/locate/locator_data.hpp"
 #include "barycert/locate/near_feature.hpp"
 #include "barycert/mesh/pulling.hpp"
 
@@ -233,10 +234,14 @@ Status IndexedPiece::build(const Shape& shape) {
                                                  .straight_sides = shape.curved == Curved::straight});
     if (!made) return made.error();
     if (shape.curved == Curved::refuse && made->has_curved_cells())
-        return Error{.what = "cells of a higher order, which may be curved, stand beside others"};
+        return Error{.what = "it has cells of a higher order, which may be curved"};
     locator = std::move(*made);
     some_cells = size_of_some_cells(mesh);
     return Done{};
+}
+
+bool IndexedPiece::straight(Mesh::Index cell) const {
+    return mesh.mid_nodes.empty() && !(mapped() && locate::LocatorData::of(*locator).mapped->is_mapped(cell));
 }
 
 Mesh::Index IndexedPiece::owner(const double* x) const {

@@ -69,7 +69,7 @@ struct Closest {
 struct Shape {
     int dimension = 0;              ///< of the cells that count; 0: the highest of its own
     int normal = -1;                ///< polygons: the axis across which their plane lies; -1: any
-    bool mixed = false;             ///< cells are of several types, or of one that is cut
+    bool mixed = false;             ///< cells are of several types, or of one that is no simplex of order 1 or 2
     bool by_numbers = false;        ///< the mesh's cells are in the order of their numbers in the whole mesh
     bool nodes_by_numbers = false;  ///< cells are cut by the numbers of nodes in the whole mesh
     CellInterpolation interpolation = CellInterpolation::linear;
@@ -87,6 +87,7 @@ struct IndexedPiece : Piece {
     Status build(const Shape& shape);
     /// Whether all cells are the simplices of their corners, with linear functions.
     bool straight() const { return !mapped() && mesh.mid_nodes.empty(); }
+    bool straight(Mesh::Index cell) const;
 
     Simplex simplex() const { return mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron; }
     /// The owner of a point in space; -1: outside, or a coordinate is not finite.

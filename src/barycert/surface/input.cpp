@@ -21,6 +21,7 @@ Error bad_index() {
 
 Status check_input(const Mesh& mesh, int dimension, const CutOptions& options) {
     if (mesh.dimension != 2 && mesh.dimension != 3) return bad_mesh("a dimension that is neither 2 nor 3");
+    if (!mesh.is_listed()) return bad_mesh(mesh::not_listed);
     if (dimension != 0 && mesh.dimension != dimension)
         return Error{.what = "a mesh of another dimension",
                      .expected = dimension == 3 ? "tetrahedra" : "triangles in the plane",

@@ -224,6 +224,7 @@ ClaimedRows part_of(const ClaimedRows& rows, std::size_t d, std::size_t columns,
 
 Result<Verdicts> Verifier::verify(const ClaimedRows& rows) const {
     const ExactEnvironment environment;
+    if (!sampler_.locator().mesh().is_listed()) return locate::not_listed("rows to verify, of cells");
     if (Status ok = verify::check_claims(sampler_, rows, options_.nonfinite_points); !ok) return ok.error();
     const auto d = static_cast<std::size_t>(sampler_.locator().mesh().dimension);
     const std::size_t count = rows.points.size() / d, columns = sampler_.columns().size();

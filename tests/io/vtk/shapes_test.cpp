@@ -370,6 +370,17 @@ TEST(VtkShapes, StructuredGrids) {
         const Result<PointData> data = read_vtk_point_data(folder / "g.vtk", 3);
         ASSERT_TRUE(data) << data.error().message();
         EXPECT_EQ(data->fields.at(0).data.size(), 12U);
+        const Result<Mesh> unlisted = read_mesh(folder / "g.vtk", {.list_grids = false});
+        ASSERT_TRUE(unlisted) << unlisted.error().message();
+        ASSERT_NE(unlisted->is_listed(), along_axes);
+        EXPECT_EQ(unlisted->point_count(), 12U);
+        EXPECT_EQ(unlisted->whole_count(), 2U);
+        EXPECT_EQ(unlisted->point_fields.at(0).data, read->point_fields.at(0).data);
+        if (along_axes) {
+            EXPECT_EQ(unlisted->axes, (std::array<std::vector<double>, 3>{{{0, 1, 3}, {0, 2}, {0, 1}}}));
+            EXPECT_TRUE(unlisted->points.empty() && unlisted->cells.empty() && unlisted->shapes.types.empty());
+            EXPECT_EQ(unlisted->cell_fields.at(0).data, (std::vector<double>{.5, .25}));
+        }
 
         const Result<Mesh> flat = read_text(plane[i]);
         ASSERT_TRUE(flat) << flat.error().message();
@@ -410,6 +421,30 @@ TEST(VtkShapes, Images) {
     EXPECT_EQ(read_vtk_points(folder / "g.vti", 3).value(), image->points);
     EXPECT_EQ(mesh_files(folder / "g.vti"), Texts{folder / "g.vti"});
     EXPECT_TRUE(read_mesh(folder / "g.vti"));
+    // What has no increasing axes is listed: its third ones fall. So are ghosts, other planes, and grids of one file.
+    for (const std::string& text : {vti, vtk}) {
+        put(folder / "g.vtk", text);
+        EXPECT_TRUE(read_mesh(folder / "g.vtk", {.list_grids = false})->is_listed());
+    }
+    const std::string ghosts = "<CellData><DataArray type='UInt8' Name='vtkGhostType'>0 32</DataArray></CellData>";
+    for (const std::string& fields : {std::string(), ghosts}) {
+        put(folder / "g.vti", xml_grid("ImageData", "", "0 2 0 1 0 1", fields));
+        EXPECT_EQ(read_mesh(folder / "g.vti", {.list_grids = false})->is_listed(), !fields.empty());
+        EXPECT_TRUE(read_mesh(folder / "g.vti")->is_listed());
+    }
+    put(folder / "h.vti", xml_grid("ImageData", "Origin='5 0 0'", "0 2 0 1 0 1", ""));
+    put(folder / "b.vtm",
+        "<VTKFile type='vtkMultiBlockDataSet'><vtkMultiBlockDataSet><DataSet index='0' file='g.vti'/>"
+        "<DataSet index='1' file='h.vti'/></vtkMultiBlockDataSet></VTKFile>");
+    const Result<Mesh> blocks = read_mesh(folder / "b.vtm", {.list_grids = false});
+    ASSERT_TRUE(blocks) << blocks.error().message();
+    EXPECT_TRUE(blocks->is_listed());
+    EXPECT_EQ(blocks->shapes.count(), 3U);
+    // A billion cells without values in some kilobytes.
+    put(folder / "g.vti", xml_grid("ImageData", "", "0 1000 0 1000 0 1000", ""));
+    const Result<Mesh> large = read_mesh(folder / "g.vti", {.list_grids = false});
+    ASSERT_TRUE(large) << large.error().message();
+    EXPECT_EQ(large->cell_count(), 1000000000U);
     // Grids along one axis, of one point or none have no cells that make a mesh; other planes are none of a mesh.
     for (const char* extent : {"0 2 0 0 0 0", "0 0 0 0 0 0", "0 -1 0 -1 0 -1", "5 6 0 0 0 0"}) {
         const Result<Mesh> read = read_text(xml_grid("ImageData", "", extent, ""));

@@ -13,9 +13,10 @@ bool is_injective(const InverseCase& c) {
     return iso::jacobian_sign(*iso::linear_reference(c.type), places_of(c)) == iso::JacobianSign::positive;
 }
 
-/// Rounded; what is beyond the middle of a wedge's square goes to the other side of it.
-void set_point(InverseCase& c, Triple x) {
-    if (c.type == 13 && std::max(x[0], x[1]) <= 1 && x[0] + x[1] > 1) x = {1 - x[0], 1 - x[1], x[2]};
+/// Sets the point to the image of x, rounded. `mirrored`: x in the half of the unit square that a wedge has not is
+/// taken into the other.
+void set_point(InverseCase& c, Triple x, bool mirrored = true) {
+    if (mirrored && c.type == 13 && std::max(x[0], x[1]) <= 1 && x[0] + x[1] > 1) x = {1 - x[0], 1 - x[1], x[2]};
     const Triple p = image_of(c, x);
     std::copy_n(p.begin(), c.point.size(), c.point.begin());
 }
@@ -49,7 +50,7 @@ void warp(InverseCase& c, Random& random, double most, double by = 0) {
     });
 }
 
-/// Of a parallelepiped with 20 bits after the point: nothing is rounded.
+/// Nodes of a parallelepiped, multiples of 2^-20, exact; the point is rounded.
 void affine(InverseCase& c, Random& random) {
     std::array<Triple, 4> edges{};
     set_nodes(c, [&](const Triple& p) {
@@ -121,8 +122,9 @@ void beyond(InverseCase& c, Random& random) {
     Triple x = any_inside(c, random);
     const double off = random.scaled(0.5, 1, -40, 0);
     const std::size_t axis = random.below(c.point.size());
-    x[axis] = random.coin() ? 1 + off : -off;
-    set_point(c, x);
+    const double end = c.type == 13 && axis < 2 ? 1 - x[1 - axis] : 1;  // the slanted side
+    x[axis] = random.coin() ? end + off : -off;
+    set_point(c, x, axis == 2);
 }
 
 void far(InverseCase& c, Random& random) {
@@ -155,10 +157,10 @@ const std::vector<InverseFamily>& inverse_families() {
          }},
         {"thin", "2^-8 to 2^-24 as thick as wide, 1 to 2^-20 wide; points inside", thin},
         {"flat-corner",
-         "a corner 2^-4 to 2^-40 over the plane of its neighbours; points 1 to 2^-20 from it, or an apex", flat_corner},
+         "a corner 2^-4 to 2^-41 over the plane of its neighbours; points 1 to 2^-20 from it, or an apex", flat_corner},
         {"boundary", "nodes with small integers; points exactly on sides, edges and nodes", on_lattice},
         {"beside", "warped ones; points within a few ulps of a side", beside},
-        {"beyond", "warped ones; points past a side by 2^-40 to 1 of the cell", beyond},
+        {"beyond", "warped ones; points past a side by 2^-41 to 1 of the cell", beyond},
         {"far", "warped ones; points up to 2^20 cells away", far},
     };
     return all;

@@ -96,8 +96,11 @@ Polygons read_stl(PlcText& in) {
     if (is_binary(bytes, bytes.size(), in.path())) return read_binary(in.path(), bytes);
     Joined soup(1024);
     bool ended = false;
+    std::size_t begin = 0;
     while (in.next_line()) {
         ended = in.word(0) == "endsolid";
+        if (in.word(0) == "endloop" && soup.all.corners.size() - std::exchange(begin, soup.all.corners.size()) != 3)
+            in.fail("cannot read", "a facet of three corners", in.line());
         if (in.word(0) != "vertex") continue;
         in.take("vertex");
         std::array<double, 3> corner{};
@@ -108,13 +111,17 @@ Polygons read_stl(PlcText& in) {
     return std::move(soup.all);
 }
 
+std::string nodes_of(std::size_t count) {
+    return count == 0 ? "none, as there are no nodes" : "0 to " + std::to_string(count - 1);
+}
+
 void check_corners(PlcText& in, Polygons& all) {
     if (all.corners.empty()) return;
     const auto [low, high] = std::ranges::minmax(all.corners);
     if (low >= 0 && static_cast<std::size_t>(high) < all.point_count()) return;
     // A file that never uses 0 and does use the count of its points numbers from 1.
     if (low < 1 || static_cast<std::size_t>(high) > all.point_count())
-        in.fail("no such node", "0 to " + std::to_string(all.point_count() - 1), std::to_string(low < 0 ? low : high));
+        in.fail("no such node", nodes_of(all.point_count()), std::to_string(low < 0 ? low : high));
     all.index_base = 1;
     for (Mesh::Index& corner : all.corners) --corner;
 }
@@ -139,7 +146,7 @@ Polygons read_off(PlcText& in) {
         for (std::size_t k = 0; k < n; ++k) {
             all.corners.push_back(in.take_integer("a polygon's corner"));
             if (const Mesh::Index corner = all.corners.back(); corner < 0 || static_cast<std::size_t>(corner) > nodes)
-                in.fail("no such node", "0 to " + std::to_string(nodes - 1), std::to_string(corner));
+                in.fail("no such node", nodes_of(nodes), std::to_string(corner));
         }
         all.counts.push_back(static_cast<std::uint32_t>(n));
     }

@@ -4,6 +4,7 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/pulling.hpp"
 #include "barycert/surface/facet_triangles.hpp"
 
@@ -232,6 +233,59 @@ void make_field(RawArray& array) {
         array.values = std::vector<double>(integers->begin(), integers->end());
 }
 
+/// The cells that make a mesh, and their points; the rows of the other cells go.
+void take_cells(RawGrid& grid, const std::string& path, InSpace* space, Mesh& mesh) {
+    check_cells(grid, path);
+    if (space != nullptr) cut_polygons(grid, count_types(grid), path, *space);
+    const TypeCounts counts = count_types(grid);
+    mesh.dimension = choose(counts, grid, path);
+    // Simplices of one type are the mesh's cells themselves.
+    const auto of_mesh = [&](std::size_t type) { return cell_types()[type].dimension() == mesh.dimension; };
+    std::size_t types = 0, own = 0;
+    for (std::size_t t = 0; t < counts.size(); ++t) {
+        if (counts[t] == 0 || !of_mesh(t)) continue;
+        ++types;
+        own = t;
+    }
+    const CellType& type = cell_types()[own];
+    const bool simplices = types == 1 && (type.kind == CellKind::tetrahedron || type.kind == CellKind::triangle);
+    std::size_t ghosts = 0;
+    mesh.cell_numbers = kept_cells(grid, mesh.dimension, ghosts);
+    const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
+    if (cells == 0)
+        refuse_file(path, "the file contains no mesh", "cells of its own",
+                    std::to_string(ghosts) + " ghost cells (vtkGhostType)", "name the file of all pieces (.pvtu)");
+    const auto leave_out = [&](bool there_are, std::string what) {
+        if (there_are) mesh.notes.push_back({Note::Kind::left_out, std::move(what), path, true});
+    };
+    const auto is_other = [&](std::uint8_t one) { return !of_mesh(one); };
+    leave_out(cells + ghosts != grid.types.size(), std::to_string(grid.types.size() - cells - ghosts) +
+                                                       " cells that are no " +
+                                                       (!simplices            ? "cells of the mesh's dimension: "
+                                                        : mesh.dimension == 3 ? "tetrahedra: "
+                                                                              : "triangles: ") +
+                                                       counts_by_name(counts, false, is_other));
+    leave_out(ghosts != 0, std::to_string(ghosts) +
+                               " ghost cells, which stand for cells of other pieces or are hidden (vtkGhostType)");
+    simplices ? copy_cells(grid, type.nodes, cells, mesh) : copy_shapes(grid, path, mesh);
+    if (simplices && type.nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
+    grid.cells.connectivity = {};
+    mesh.points = to_points(std::move(grid.points), mesh.dimension, path,
+                            simplices && mesh.mid_nodes.empty() ? path : "", "point", space);
+    if (!mesh.cell_numbers.empty()) {
+        keep_rows(grid.cell_arrays, mesh.cell_numbers);
+        std::ranges::for_each(grid.cell_arrays, make_field);
+    }
+}
+
+/// Whether a mesh can be of axes alone: without ghosts, in space or in the plane z = 0, coordinates increasing.
+bool may_be_axes(const RawGrid& grid) {
+    const auto is_ghost = [](const RawArray& array) { return array.name == ghost_name; };
+    const auto& [x, y, z] = grid.unlisted->axes;
+    return std::ranges::none_of(grid.cell_arrays, is_ghost) && mesh::is_increasing(x) && mesh::is_increasing(y) &&
+           (mesh::is_increasing(z) || z == std::vector{0.0});
+}
+
 }  // namespace
 
 std::vector<double> to_points(std::vector<double> points, int dimension, const std::string& path,
@@ -288,49 +342,15 @@ void note_narrow_points(const RawGrid& grid, const std::string& path, Notes& not
     if (grid.narrow_points) notes.push_back({Note::Kind::converted, "float32 to double: the coordinates", path});
 }
 
-Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space) {
-    check_cells(grid, path);
-    if (space != nullptr) cut_polygons(grid, count_types(grid), path, *space);
-    const TypeCounts counts = count_types(grid);
+Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space, bool list_grids) {
+    if (grid.unlisted && (list_grids || !may_be_axes(grid))) grid.list(path);
     Mesh mesh;
-    mesh.dimension = choose(counts, grid, path);
-    // Simplices of one type are the mesh's cells themselves.
-    const auto of_mesh = [&](std::size_t type) { return cell_types()[type].dimension() == mesh.dimension; };
-    std::size_t types = 0, own = 0;
-    for (std::size_t t = 0; t < counts.size(); ++t) {
-        if (counts[t] == 0 || !of_mesh(t)) continue;
-        ++types;
-        own = t;
-    }
-    const CellType& type = cell_types()[own];
-    const bool simplices = types == 1 && (type.kind == CellKind::tetrahedron || type.kind == CellKind::triangle);
     mesh.notes = std::move(grid.notes);
-    std::size_t ghosts = 0;
-    mesh.cell_numbers = kept_cells(grid, mesh.dimension, ghosts);
-    const std::size_t cells = mesh.cell_numbers.empty() && ghosts == 0 ? grid.types.size() : mesh.cell_numbers.size();
-    if (cells == 0)
-        refuse_file(path, "the file contains no mesh", "cells of its own",
-                    std::to_string(ghosts) + " ghost cells (vtkGhostType)", "name the file of all pieces (.pvtu)");
-    const auto leave_out = [&](bool there_are, std::string what, bool important = true) {
-        if (there_are) mesh.notes.push_back({Note::Kind::left_out, std::move(what), path, important});
-    };
-    const auto is_other = [&](std::uint8_t one) { return !of_mesh(one); };
-    leave_out(cells + ghosts != grid.types.size(), std::to_string(grid.types.size() - cells - ghosts) +
-                                                       " cells that are no " +
-                                                       (!simplices            ? "cells of the mesh's dimension: "
-                                                        : mesh.dimension == 3 ? "tetrahedra: "
-                                                                              : "triangles: ") +
-                                                       counts_by_name(counts, false, is_other));
-    leave_out(ghosts != 0, std::to_string(ghosts) +
-                               " ghost cells, which stand for cells of other pieces or are hidden (vtkGhostType)");
-    simplices ? copy_cells(grid, type.nodes, cells, mesh) : copy_shapes(grid, path, mesh);
-    if (simplices && type.nodes != mesh.corners()) mesh.mid_edge_order = MidEdgeOrder::vtk;
-    grid.cells.connectivity = {};
-    mesh.points = to_points(std::move(grid.points), mesh.dimension, path,
-                            simplices && mesh.mid_nodes.empty() ? path : "", "point", space);
-    if (!mesh.cell_numbers.empty()) {
-        keep_rows(grid.cell_arrays, mesh.cell_numbers);
-        std::ranges::for_each(grid.cell_arrays, make_field);
+    if (grid.unlisted) {
+        mesh.axes = std::move(grid.unlisted->axes);
+        mesh.dimension = mesh.axes[2].size() == 1 ? 2 : 3;
+    } else {
+        take_cells(grid, path, space, mesh);
     }
     // Point markers are an array like any other but for its name and type.
     const auto markers = std::ranges::find_if(grid.point_arrays, [](RawArray& array) {
@@ -343,10 +363,13 @@ Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space) {
     take_fields(grid.point_arrays, "point array", path, mesh.point_fields, nullptr, mesh.notes);
     take_fields(grid.cell_arrays, "cell array", path, mesh.cell_fields, &mesh.cell_labels, mesh.notes);
     note_narrow_points(grid, path, mesh.notes);
+    const auto leave_out = [&](bool there_are, const std::string& what, bool important) {
+        if (there_are) mesh.notes.push_back({Note::Kind::left_out, what, path, important});
+    };
     leave_out(!grid.loose_arrays.empty(),
               "arrays of neither points nor cells (field data): " + list_of(grid.loose_arrays), false);
-    leave_out(grid.has_steps, "all steps but the first of arrays with several time steps");
-    cut_into_simplices(mesh, path);
+    leave_out(grid.has_steps, "all steps but the first of arrays with several time steps", true);
+    if (!mesh.shapes.types.empty()) cut_into_simplices(mesh, path);
     return mesh;
 }
 

@@ -211,8 +211,8 @@ private:
             if (has_dimensions_) fail("a second line DIMENSIONS", "one", "two");
             has_dimensions_ = true;
             for (std::size_t& count : grid.counts) count = take_count("the points along an axis");
-            const std::string fault = grid.fault(along_axes_ ? part_ : Part::points);
-            if (!fault.empty()) fail("the points of the grid", fault, "more");
+            if (const std::string fault = grid.fault(part_, along_axes_); !fault.empty())
+                fail("the points of the grid", fault, "more");
             point_count_ = grid.point_count();
             return true;
         }

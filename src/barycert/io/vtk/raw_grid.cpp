@@ -260,8 +260,12 @@ void RawArray::make_labels() {
 }
 
 void append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
+    if (grid.point_count() != 0) {
+        grid.list(path);
+        piece.list(path);
+    }
     const std::size_t points = grid.point_count(), cells = grid.types.size();
-    if (points + piece.point_count() > max_entities || cells + piece.types.size() > max_entities)
+    if (points + piece.point_count() > max_entities || cells + piece.cell_count() > max_entities)
         refuse_file(path, "more points or cells than a mesh can have",
                     "at most " + std::to_string(max_entities) + " in all pieces");
     grid.narrow_points = grid.narrow_points || piece.narrow_points;
@@ -279,7 +283,8 @@ void append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
         }
         move_behind(grid.points, piece.points);
     }
-    if (piece.types.empty()) return;
+    if (piece.unlisted) grid.unlisted = std::move(piece.unlisted);
+    if (piece.cell_count() == 0) return;
     append_arrays(grid.cell_arrays, piece.cell_arrays, cells);
     if (points != 0) {
         for (std::int32_t& node : piece.cells.connectivity) node += static_cast<std::int32_t>(points);

@@ -54,11 +54,39 @@ struct RawFaces {
     void append(RawFaces more, std::size_t before, std::size_t cells, std::size_t points);
 };
 
+/// How much of a file is wanted. Texts of points, and integers of theirs that no doubles represent, are labels only
+/// where there is no mesh that would have to carry them: with point_arrays.
+enum class Part : std::uint8_t { points, point_arrays, all };
+
+struct RawGrid;
+
+/// The points and cells of a structured grid, the first axis running fastest.
+struct StructuredGrid {
+    std::array<std::size_t, 3> counts{};           ///< of points along each axis
+    std::array<std::vector<double>, 3> axes = {};  ///< coordinates along them; empty where the points are given
+
+    static constexpr std::size_t listed = 400;  ///< bytes a point, with cells: their nodes, and six parts each
+
+    /// What is wrong with their number; empty: nothing. Few bytes describe any number: no more than memory holds, with
+    /// so many bytes each.
+    std::string fault(std::size_t bytes_a_point) const;
+    std::string fault(Part part, bool along_axes) const {
+        if (!along_axes || part != Part::all) return fault(3 * sizeof(double));
+        constexpr std::size_t most = 1 << 20;
+        return fault(std::max({counts[0], counts[1], counts[2]}) <= most ? 1 : listed);
+    }
+    std::size_t point_count() const { return counts[0] * counts[1] * counts[2]; }
+    std::size_t cell_count() const;
+    /// Cells go with Part::all. Those along axes stay unlisted then.
+    void append_to(RawGrid& grid, Part part) const;
+};
+
 struct RawGrid {
     std::vector<double> points;  ///< 3 coordinates a point
     RawCells cells;
     RawFaces faces;
-    std::vector<std::uint8_t> types;  ///< VTK's number of each cell's type
+    std::vector<std::uint8_t> types;         ///< VTK's number of each cell's type
+    std::optional<StructuredGrid> unlisted;  ///< along axes, instead of points and cells
     std::vector<RawArray> point_arrays, cell_arrays;
     std::vector<std::string> unread_arrays;       ///< of points, by name, where only points were asked for (XML)
     bool narrow_points = false;                   ///< float32 in the file
@@ -68,15 +96,15 @@ struct RawGrid {
     std::vector<std::size_t> piece_points = {0};  ///< the first point of each piece of the data set
     Notes notes;                                  ///< what was left out on the way
 
-    std::size_t point_count() const { return points.size() / 3; }
+    std::size_t point_count() const { return unlisted ? unlisted->point_count() : points.size() / 3; }
+    std::size_t cell_count() const { return unlisted ? unlisted->cell_count() : types.size(); }
+    /// Points and cells of what is unlisted. Error: they are more than memory holds.
+    void list(const std::string& path);
+    void list_points();
 
     /// The cells behind those that there are, which get the types of cells in that section, if it is given.
     void append(RawCells more, std::optional<Section> section = {});
 };
-
-/// How much of a file is wanted. Texts of points, and integers of theirs that no doubles represent, are labels only
-/// where there is no mesh that would have to carry them: with point_arrays.
-enum class Part : std::uint8_t { points, point_arrays, all };
 
 /// Name of the array in which write_vtu keeps point markers: 64-bit integers of one component.
 inline constexpr const char* marker_name = "marker";
@@ -124,18 +152,6 @@ bool takes_texts(RawArray& array, bool may_label);
 /// The first node that is none of `count` points; nodes.size() if there is none.
 std::size_t first_wrong_node(const std::vector<std::int32_t>& nodes, std::size_t count);
 
-/// The points and, with Part::all, cells of a structured grid, the first axis running fastest.
-struct StructuredGrid {
-    std::array<std::size_t, 3> counts{};           ///< of points along each axis
-    std::array<std::vector<double>, 3> axes = {};  ///< coordinates along them; empty where the points are given
-
-    /// What is wrong with their number; empty: nothing. Few bytes describe any number: no more than memory holds.
-    std::string fault(Part part) const;
-    std::size_t point_count() const { return counts[0] * counts[1] * counts[2]; }
-    std::size_t cell_count() const;
-    void append_to(RawGrid& grid, Part part) const;
-};
-
 /// Those of `from` behind those of `to`, on large pages.
 template <class T>
 void move_behind(std::vector<T>& to, std::vector<T>& from) {
@@ -162,8 +178,8 @@ void check_legacy_head(std::string_view bytes, const std::string& path);
 RawGrid read_legacy(std::string_view bytes, const std::string& path, Part part);
 
 /// What read_vtk promises of cells, points, fields and notes, whatever the format. `path` is for messages. `space`: as
-/// for to_points; then polygons are triangles, too.
-Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space = nullptr);
+/// for to_points; then polygons are triangles, too. `list_grids`: see ReadOptions.
+Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space = nullptr, bool list_grids = true);
 
 /// The coordinates in that dimension, all finite. Error: one is not; or z is not 0 in dimension 2, with a remedy for
 /// the file of linear triangles `triangles`, if that is not empty. `one`: of what they are. `space`: takes points that

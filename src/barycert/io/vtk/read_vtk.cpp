@@ -387,17 +387,17 @@ Result<io::PointTable> io::read_vtk_table(const std::string& path, bool arrays, 
     return read_table(path, 3, arrays || has_suffix(path, ".vtk"), nullptr, true, nonfinite == NonfinitePoints::error);
 }
 
-Result<Mesh> io::read_vtk_in_space(const std::string& path, const StepChoice& step, InSpace* space) {
+Result<Mesh> io::read_vtk_in_space(const std::string& path, const ReadOptions& options, InSpace* space) {
     return read_guarded(path, [&]() -> Result<Mesh> {
-        GridReader reader(Part::all, step);
+        GridReader reader(Part::all, options.step);
         RawGrid grid = reader.read(path);
         if (reader.step_left()) return no_series(path);
-        return to_mesh(std::move(grid), path, space);
+        return to_mesh(std::move(grid), path, space, options.list_grids);
     });
 }
 
 Result<Mesh> read_vtk(const std::string& path, const StepChoice& step) {
-    return io::read_vtk_in_space(path, step, nullptr);
+    return io::read_vtk_in_space(path, {.step = step}, nullptr);
 }
 
 Result<std::vector<double>> read_vtk_points(const std::string& path, int dimension) {

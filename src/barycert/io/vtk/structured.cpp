@@ -47,15 +47,13 @@ void add_cells(const StructuredGrid& grid, RawGrid& to) {
 
 }  // namespace
 
-std::string StructuredGrid::fault(Part part) const {
+std::string StructuredGrid::fault(std::size_t bytes_a_point) const {
     std::uint64_t points = 1;
     for (const std::size_t count : counts) points = std::min(points * count, max_entities + 1);  // at most 2^62
     if (points > max_entities) return std::to_string(max_entities) + " points at most";
     const std::uint64_t memory =
         static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    // With cells: their nodes, and six parts each.
-    const std::uint64_t bytes = part == Part::all ? 400 : 3 * sizeof(double);
-    return points > memory / 2 / bytes ? "as many points as fit in half of the memory of this machine" : "";
+    return points > memory / 2 / bytes_a_point ? "as many points as fit in half of the memory of this machine" : "";
 }
 
 std::size_t StructuredGrid::cell_count() const {
@@ -64,18 +62,32 @@ std::size_t StructuredGrid::cell_count() const {
 }
 
 void StructuredGrid::append_to(RawGrid& grid, Part part) const {
-    if (point_count() != 0 && !axes[0].empty()) {
-        grid.points.resize(3 * point_count());
-        in_parallel(counts[2], [&](std::size_t k) {
-            double* to = grid.points.data() + 3 * k * counts[0] * counts[1];
-            for (const double y : axes[1]) {
-                for (const double x : axes[0]) {
-                    for (const double own : {x, y, axes[2][k]}) *to++ = own;
-                }
+    if (point_count() == 0) return;
+    if (axes[0].empty() && part == Part::all) return add_cells(*this, grid);
+    if (!axes[0].empty()) grid.unlisted = *this;
+    if (grid.unlisted && (part != Part::all || point_count() == 1)) grid.list_points();
+}
+
+void RawGrid::list_points() {
+    const StructuredGrid grid = *std::exchange(unlisted, {});
+    points.resize(3 * grid.point_count());
+    in_parallel(grid.counts[2], [&](std::size_t k) {
+        double* to = points.data() + 3 * k * grid.counts[0] * grid.counts[1];
+        for (const double y : grid.axes[1]) {
+            for (const double x : grid.axes[0]) {
+                for (const double own : {x, y, grid.axes[2][k]}) *to++ = own;
             }
-        });
-    }
-    if (point_count() != 0 && part == Part::all) add_cells(*this, grid);
+        }
+    });
+}
+
+void RawGrid::list(const std::string& path) {
+    if (!unlisted) return;
+    const StructuredGrid grid = *unlisted;
+    if (const std::string fault = grid.fault(StructuredGrid::listed); !fault.empty())
+        refuse_file(path, "the points of the grid", fault, std::to_string(grid.point_count()));
+    list_points();
+    add_cells(grid, *this);
 }
 
 }  // namespace barycert::io

@@ -66,7 +66,7 @@ public:
             if (part_ == Part::all && !structured) read_cells(element, grid.types.size(), piece);
             const XmlElement* const of_cells = child(&element, "CellData");
             if (part_ == Part::all && of_cells != nullptr)
-                read_arrays(*of_cells, piece.types.size(), piece.has_steps, piece.cell_arrays);
+                read_arrays(*of_cells, piece.cell_count(), piece.has_steps, piece.cell_arrays);
             append_piece(grid, std::move(piece), path);
         }
         return grid;
@@ -117,8 +117,8 @@ private:
             const std::int64_t count = (*extent)[2 * axis + 1] - (*extent)[2 * axis] + 1;
             structured.counts[axis] = count > 0 ? static_cast<std::size_t>(count) : 0;
         }
-        const std::string fault = structured.fault(type == "StructuredGrid" ? Part::points : part_);
-        if (!fault.empty()) refuse_at(piece, "the points of the grid", fault, "the extent " + in_quotes(text));
+        if (const std::string fault = structured.fault(part_, type != "StructuredGrid"); !fault.empty())
+            refuse_at(piece, "the points of the grid", fault, "the extent " + in_quotes(text));
         if (type == "StructuredGrid") {
             read_points(piece, structured.point_count(), grid);
         } else if (structured.point_count() != 0) {

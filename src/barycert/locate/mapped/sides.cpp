@@ -64,9 +64,9 @@ InSide look(const std::array<const double*, 4>& n, const double* p) {
     return out;
 }
 
-/// CellMaps has the nodes of a voxel in the order of a hexahedron.
+/// CellMaps has the nodes of a voxel in the order of a hexahedron, those of a pixel in that of a quadrilateral.
 const std::vector<std::vector<Mesh::Index>>& faces_of(std::uint8_t type) {
-    return mesh::rings_of(type == 11 ? 12 : type);
+    return mesh::rings_of(type == 11 ? 12 : type == 8 ? 9 : type);
 }
 
 }  // namespace

@@ -139,6 +139,10 @@ Bounds3 bounds_of_cells(const Mesh& mesh) {
     const ExactEnvironment environment;
     Bounds3 bounds;
     const auto d = static_cast<std::size_t>(mesh.dimension);
+    for (std::size_t k = 0; k < d && !mesh.is_listed(); ++k) {
+        bounds.low[k] = mesh.axes[k].front();
+        bounds.high[k] = mesh.axes[k].back();
+    }
     for (std::size_t k = 0; k < d && !mesh.cells.empty(); ++k) {
         bounds.low[k] = std::numeric_limits<double>::infinity();
         bounds.high[k] = -bounds.low[k];

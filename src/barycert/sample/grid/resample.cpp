@@ -96,7 +96,7 @@ Status check_grid(const SamplerData& data, const Grid& grid) {
     return Done{};
 }
 
-/// Point by point, some layers at a time: cells that have maps are not filled.
+/// Point by point, some layers at a time: cells that have maps, or are not listed, are not filled.
 Result<SampleCounts> resample_points(const Sampler& sampler, const Grid& grid, const SampleOptions& options,
                                      const GridSink& sink) {
     SampleCounts all;
@@ -173,7 +173,7 @@ Result<SampleCounts> resample(const Sampler& sampler, const Grid& grid, const Sa
     const ExactEnvironment environment;
     const sample::SamplerData& data = sample::SamplerData::of(sampler);
     if (Status status = sample::check_grid(data, grid); !status) return status.error();
-    if (data.located().mapped) return sample::resample_points(sampler, grid, options, sink);
+    if (data.located().mapped || data.located().grid) return sample::resample_points(sampler, grid, options, sink);
     const sample::Raster raster = sample::raster_of(grid, data.index());
     const std::vector<double>& layers = raster.at[data.index().dimension() - 1];
     const std::size_t layer = static_cast<std::size_t>(grid.point_count()) / layers.size();

@@ -5,6 +5,7 @@
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/output_file.hpp"
 #include "barycert/base/text.hpp"
+#include "barycert/core/isoparametric/shape_functions.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/pulling.hpp"
 #include "barycert/sample/map/map_format.hpp"
@@ -44,12 +45,18 @@ sample::MapHeader header_of(const Mesh& mesh, bool all, const BuildOptions& loca
         return curved.cells + curved.rounded_cells != 0 ||
                std::ranges::any_of(mesh.shapes.types, mesh::is_curved_simplex);
     };
-    if (located.interpolation == CellInterpolation::multilinear && mesh.shapes.count() != 0) header.taken = 1;
+    const auto has_products = [](std::uint8_t type) { return core::isoparametric::linear_reference(type) != nullptr; };
+    const bool multilinear = located.interpolation == CellInterpolation::multilinear;
+    if (multilinear && std::ranges::any_of(mesh.shapes.types, has_products)) header.taken = 1;
     if (!located.straight_sides && is_curved()) header.taken |= 2;
-    for (const auto* nodes : {&mesh.shapes.nodes, &mesh.mid_nodes}) {
-        for (std::size_t i = 0; header.taken != 0 && i < nodes->size(); ++i)
-            header.fingerprint = sample::map_step(header.fingerprint, static_cast<std::uint32_t>((*nodes)[i]));
-    }
+    const auto add = [&](const auto& numbers) {
+        for (const auto number : numbers)
+            header.fingerprint = sample::map_step(header.fingerprint, static_cast<std::uint32_t>(number));
+    };
+    if (header.taken == 0) return header;
+    add(mesh.shapes.types);
+    add(mesh.shapes.nodes);
+    add(mesh.mid_nodes);
     return header;
 }
 
@@ -195,8 +202,8 @@ struct MapReaderData {
     Status check(const MapHeader& is, const char* cells) const {
         const bool alike = head.dimension == is.dimension && head.nodes == is.nodes && head.cells == is.cells;
         if (alike && head.taken != is.taken)
-            return map_error(name, "the map was made of cells taken otherwise", words_of(is.taken),
-                             words_of(head.taken),
+            return map_error(name, "the map was made of cells taken otherwise", words_of(head.taken),
+                             words_of(is.taken),
                              "take them as the map does (interpolation, curved cells), or create the map again");
         if (alike && head.fingerprint == is.fingerprint) return Done{};
         const auto size_of = [](std::uint64_t nodes, std::uint64_t count, const char* word) {

@@ -142,6 +142,11 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
             return Error{.what = "gradients are those of straight cells and their parts",
                          .found = mapped->has_products() ? "multilinear interpolation" : "curved cells",
                          .remedy = "take the interpolation linear, and straight sides"};
+        const auto asks_for_cells = [&](const QuantityStep& step) {
+            return is_gradient(step) || step.kind == QuantityStep::Kind::mean;
+        };
+        if (!mesh.is_listed() && std::ranges::any_of(asked.steps, asks_for_cells))
+            return locate::not_listed("gradients and means");
         const std::size_t rows = asked.of_cells ? mesh.cell_count() : mesh.point_count();
         if (Status fits = mesh::check_field(asked.field, rows, asked.of_cells ? "cell" : "node"); !fits) return fits;
         const Result<QuantityShape> shape = shape_of(mesh, asked);
@@ -226,7 +231,8 @@ Result<Sampler> Sampler::build(const Locator& locator, const std::vector<FieldCh
     data->locator = &locator;
     data->quadratic = !locator.mesh().mid_nodes.empty();
     if (Status arranged = sample::arrange_columns(locator.mesh(), fields, *data); !arranged) return arranged.error();
-    if (data->point_components != 0) data->quadratic ? sample::arrange_by_node(*data) : sample::arrange_by_place(*data);
+    if (data->point_components != 0 && locator.mesh().is_listed())
+        data->quadratic ? sample::arrange_by_node(*data) : sample::arrange_by_place(*data);
     return Sampler(std::move(data));
 }
 
@@ -266,6 +272,11 @@ Status Sampler::sample(std::span<const double> points, const SampleOptions& opti
     if (Status status = locate::check_size(points, data_->index().dimension()); !status) return status;
     sample::resize(*data_, options, points.size() / data_->index().dimension(), out);
     out.point_begin.clear();
+    if (data_->located().grid) {
+        if (Status done = sample::sample_on_grid(*data_, points, options, out); !done) return done;
+        const bool finite = out.counts.locations.outside == 0 || base::all_finite(points);
+        return sample::apply_policies(points, finite, options, first_point, out);
+    }
     bool finite = true;
     base::in_arena(options.threads, data_->index().cell_count() + out.cells.size(), [&] {
         const std::size_t count = out.cells.size(), block = locate::block_of(count, data_->index().cell_count());
@@ -288,6 +299,7 @@ Status Sampler::evaluate(std::span<const double> points, const SampleOptions& op
                          std::size_t first_point) const {
     const ExactEnvironment environment;
     out.counts = {};
+    if (data_->located().grid) return locate::not_listed("points in known cells");
     if (Status status = locate::check_size(points, data_->index().dimension()); !status) return status;
     Status finite = locate::check_finite(points, data_->index().dimension(), first_point);
     if (!finite && options.nonfinite_points == NonfinitePoints::error) return finite;

@@ -67,6 +67,11 @@ struct SamplerData {
     }
 };
 
+/// Sets cells, features, values and counts of rows as large as there are points, in a grid whose cells are not listed.
+/// Error: a policy that asks for the nearest cell.
+Status sample_on_grid(const SamplerData& data, std::span<const double> points, const SampleOptions& options,
+                      Table& out);
+
 /// Of `count` rows that are `width` numbers each leaves the columns, row after row.
 inline void leave_out_hidden(const SamplerData& data, double* rows, std::size_t count) {
     const std::size_t columns = data.columns.size();

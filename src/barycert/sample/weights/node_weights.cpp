@@ -159,6 +159,7 @@ private:
 
 Result<NodeWeights> node_weights(const Locator& locator, const TableView& rows, const OutsidePolicy& outside) {
     const ExactEnvironment environment;
+    if (!locator.mesh().is_listed()) return locate::not_listed("weights of nodes");
     const auto d = static_cast<std::size_t>(locator.mesh().dimension);
     if (rows.points.size() != d * rows.cells.size())
         return Error{.what = "size of the points",
