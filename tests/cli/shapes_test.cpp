@@ -103,5 +103,25 @@ TEST(Shapes, MapsAreOfOneInterpolation) {
     }
 }
 
+// Parts of a quadrilateral and of a polygon of the same nodes are alike, what is taken there is not.
+TEST(Shapes, MapsAreOfCellsOfOneType) {
+    const Scratch scratch;
+    const std::string points = scratch.put("p.csv", "x,y\n0.7,0.6\n0.2,0.8\n"), map = scratch.path("m.map");
+    const auto mesh = [&](const std::string& type) {
+        return scratch.put(type + ".vtk",
+                           "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                           "POINTS 4 double\n0 0 0 1 0 0 1 1 0 0 2 0\nCELLS 1 5\n4 0 1 2 3\n"
+                           "CELL_TYPES 1\n" +
+                               type + "\n");
+    };
+    const Words multilinear{"--interpolation", "multilinear", "--output", scratch.path("r.csv"), "--quiet"};
+    const Ended saved = run(plus({"sample", mesh("9"), "--points", points, "--save-map", map}, multilinear));
+    EXPECT_EQ(saved.code, 0) << saved.err;
+    EXPECT_EQ(run(plus({"sample", mesh("7"), "--map", map}, multilinear)).code, 2);
+    // Where no cell has products, a map is one of linear cells.
+    EXPECT_EQ(run(plus({"sample", mesh("7"), "--points", points, "--save-map", map}, multilinear)).code, 0);
+    EXPECT_EQ(run({"sample", mesh("7"), "--map", map, "--output", "-", "--quiet"}).code, 0);
+}
+
 }  // namespace
 }  // namespace barycert::cli_test

@@ -1,6 +1,7 @@
 #include <map>
 #include <set>
 
+#include "barycert/mesh/cell_types.hpp"
 #include "mesh/shaped_mesh.hpp"
 
 namespace barycert::test {
@@ -241,6 +242,16 @@ TEST(Pulling, CellsOfAllTypesAgreeOnTheirCommonFace) {
         }
     }
     EXPECT_GT(pairs, 500U);
+}
+
+// Their base is seen from inside, that of VTK's linear wedge from outside.
+TEST(Pulling, WedgesOfLagrangeAreTurned) {
+    for (const std::uint8_t type : {73, 80}) {
+        Mesh mesh;
+        mesh::add_shape(mesh, type, first_numbers(6));
+        EXPECT_EQ(mesh.shapes.types, std::vector<std::uint8_t>{13});
+        EXPECT_EQ(mesh.shapes.nodes, (std::vector<Index>{0, 2, 1, 3, 5, 4}));
+    }
 }
 
 TEST(Pulling, ACollapsedCellFillsWhatIsLeft) {

@@ -23,6 +23,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkSelectEnclosedPoints.h>
 #include <vtkStaticCellLocator.h>
 #include <vtkUnsignedCharArray.h>
@@ -85,6 +86,30 @@ std::vector<std::pair<Surface, std::string>> surfaces() {
             {surface_of(random_voxels(3, 0.5, 3)), "voxels"},
             {random_soup(6, 20, 40, 1), "soup"},
             {random_soup(40, 20, 40, 2), "wide soup"}};
+}
+
+// A bow-tie in a tilted plane: no triangles, and nobody asks them.
+TEST(SurfaceInVtk, OfPolygonsThatCannotBeCut) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const std::array<double, 3>& p : {std::array<double, 3>{0, 0, 0}, {1, 1, 1}, {1, 0, 1}, {0, 1, 0}})
+        points->InsertNextPoint(p.data());
+    vtkNew<vtkPolyData> bow;
+    bow->SetPoints(points);
+    bow->AllocateExact(1, 4);
+    const std::array<vtkIdType, 4> nodes{0, 1, 2, 3};
+    bow->InsertNextCell(VTK_QUAD, 4, nodes.data());
+    vtkNew<vtkBarycertLocator> locator;
+    locator->SetDataSet(bow);
+    locator->BuildLocator();
+    std::array<double, 3> at{0.5, 0.5, 0.5}, closest{};
+    vtkNew<vtkGenericCell> cell;
+    vtkIdType id = 0;
+    int sub_id = 0;
+    double distance = 0;
+    EXPECT_EQ(locator->FindCell(at.data()), -1);
+    locator->FindClosestPoint(at.data(), closest.data(), cell, id, sub_id, distance);
+    EXPECT_EQ(id, -1);
 }
 
 TEST(Surface, FindClosestPointIsTheLowestOfTheNearest) {

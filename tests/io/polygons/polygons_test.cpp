@@ -190,6 +190,11 @@ TEST(Polygons, BadFilesAreErrorsWithALine) {
     fails("a.obj", "v 0 0 nan\n", "a finite number");
     fails("a.obj", "v 0 0 0\n", "no triangles");
     fails("a.off", "OFF\n1 1 0\n0 0 0\n2 0 0\n", ":4: cannot read");
+    fails("a.off", "OFF\n0 1 0\n3 0 1 2\n", "as there are no nodes");
+    const std::string corner = "vertex 0 0 0\n", four = "facet\nouter loop\n" + corner + corner + corner + corner;
+    std::string facets = "solid a\n";
+    for (int i = 0; i < 3; ++i) facets += four + "endloop\nendfacet\n";
+    fails("a.stl", facets + "endsolid\n", ":8: cannot read");
     fails("a.ply",
           "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
           "z\nend_header\nxx",
