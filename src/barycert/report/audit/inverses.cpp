@@ -71,19 +71,6 @@ Document inverses_document(const InverseAudit& audit) {
 
 }  // namespace
 
-std::string inverses_text(const InverseAudit& audit, const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(inverses_document(audit), style.colour);
-}
-
-std::string inverses_json(const InverseAudit& audit) {
-    const ExactEnvironment environment;
-    return data_text(inverses_document(audit));
-}
-
-std::string inverses_html(const InverseAudit& audit) {
-    const ExactEnvironment environment;
-    return page_text(inverses_document(audit));
-}
+RULES_WRITERS(inverses, InverseAudit)
 
 }  // namespace barycert

@@ -62,4 +62,12 @@ Document rules_document(std::string title, const Audit& audit, const Families& f
     return d;
 }
 
+/// With a page.
+#define RULES_WRITERS(name, Audit)                \
+    AUDIT_TEXT_AND_JSON(name, Audit)              \
+    std::string name##_html(const Audit& audit) { \
+        const ExactEnvironment environment;       \
+        return page_text(name##_document(audit)); \
+    }
+
 }  // namespace barycert::report

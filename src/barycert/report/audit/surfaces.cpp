@@ -80,19 +80,6 @@ Document surfaces_document(const SurfaceAudit& audit) {
 
 }  // namespace
 
-std::string surfaces_text(const SurfaceAudit& audit, const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(surfaces_document(audit), style.colour);
-}
-
-std::string surfaces_json(const SurfaceAudit& audit) {
-    const ExactEnvironment environment;
-    return data_text(surfaces_document(audit));
-}
-
-std::string surfaces_html(const SurfaceAudit& audit) {
-    const ExactEnvironment environment;
-    return page_text(surfaces_document(audit));
-}
+RULES_WRITERS(surfaces, SurfaceAudit)
 
 }  // namespace barycert
