@@ -57,11 +57,8 @@ std::string in_words(std::uint64_t seed, std::uint64_t count) {
 }
 
 Error not_comparable(const Baseline& b, std::string expected, std::string found, std::string remedy) {
-    return {.what = "the baseline is not comparable: it has other cases",
-            .file = b.path,
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = std::move(remedy)};
+    return file_error(b.path, "the baseline is not comparable: it has other cases", std::move(expected),
+                      std::move(found), std::move(remedy));
 }
 
 bool given_up(const KernelResult& k) {
@@ -162,8 +159,8 @@ Result<BaselineComparison> compare_with_baseline(const AuditReport& report, cons
         }
     }
     if (result.compared == 0)
-        return Error{.what = "the baseline is not comparable: it has no kernel and family in common with this audit",
-                     .file = b.path};
+        return file_error(b.path,
+                          "the baseline is not comparable: it has no kernel and family in common with this audit");
     result.not_now = b.entries.size() - result.compared;
     return result;
 }

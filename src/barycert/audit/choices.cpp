@@ -91,11 +91,9 @@ Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice) {
         Result<Kernel> kernel =
             choice.in_process ? load_kernel_library(path) : load_contained_kernel(path, choice.seconds);
         if (!kernel) return kernel.error();
-        if (std::any_of(all->begin(), all->end(), [&](const Kernel& k) { return k.name == kernel->name; }))
-            return Error{.what = "two kernel libraries have the same name",
-                         .file = path,
-                         .found = kernel->name,
-                         .remedy = "set another info->name in one of them"};
+        if (std::ranges::find(*all, kernel->name, &Kernel::name) != all->end())
+            return file_error(path, "two kernel libraries have the same name", "", kernel->name,
+                              "set another info->name in one of them");
         all->push_back(std::move(*kernel));
     }
     for (Kernel& kernel : *all) {
