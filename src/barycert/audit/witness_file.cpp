@@ -155,11 +155,6 @@ Result<std::vector<Witness>> read_witnesses(const std::string& path) {
 
 namespace {
 
-KernelAnswer answer_of(const Kernel& kernel, const Case& c) {
-    const Evaluation e = evaluate(kernel, c);
-    return {kernel.name, e.said.answered, e.said.status, e.said.weights, e.comparison, e.detail};
-}
-
 std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) {
     const Witness& w = r.witness;
     if (w.kernel.empty() || w.reason.empty()) return "";
@@ -199,7 +194,9 @@ Replay replay_witness(const Witness& witness, const std::vector<Kernel>& kernels
         r.identity = c.perspective ? perspective_is_ray_casting(c) : bilinear_is_barycentric(c);
     if (c.simplex == Simplex::tetrahedron) r.identity = trilinear_is_barycentric(c);
     for (const Kernel& k : kernels) {
-        if (k.simplex == c.simplex && k.perspective == c.perspective) r.answers.push_back(answer_of(k, c));
+        if (k.simplex != c.simplex || k.perspective != c.perspective) continue;
+        const Evaluation e = evaluate(k, c);
+        r.answers.push_back({k.name, e.said.answered, e.said.status, e.said.weights, e.comparison, e.detail});
     }
     r.not_reproduced = not_reproduced(r, kernels);
     return r;

@@ -47,11 +47,6 @@ ExactPoint exact_point(const Form& n) {
     return p;
 }
 
-/// The point where g and h are zero in the triangle. Precondition: there is exactly one.
-ExactPoint zero_in_triangle(const Form& g, const Form& h) {
-    return exact_point({g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0]});
-}
-
 /// The sign of h at the point: -1, 0 or 1.
 int sign_at(const Form& h, const ExactPoint& p) {
     return (h[0] * p.numerator[0] + h[1] * p.numerator[1] + h[2] * p.numerator[2]).sign();
@@ -179,7 +174,9 @@ public:
         // Where the sign changes strictly along an edge, its form and that of the bound differ by more than a factor,
         // so that they have one zero in common.
         const auto cross = [&](int edge, int next_edge) {
-            made_.push_back(zero_in_triangle(form_of(edge), form));
+            const Form g = form_of(edge), &h = form;
+            made_.push_back(
+                exact_point({g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0]}));
             left.push_back({2 + static_cast<int>(made_.size()), next_edge});
         };
         for (std::size_t i = 0; i < polygon_.size(); ++i) {
