@@ -29,13 +29,13 @@ inline std::size_t first_not_finite(std::span<const double> numbers) {
 }
 
 /// An error of what is given.
-inline Error unfit(std::string what, std::string expected, std::string found = {}, std::string remedy = {}) {
+inline Error misfit(std::string what, std::string expected, std::string found = {}, std::string remedy = {}) {
     return {std::move(what), {}, 0, std::move(expected), std::move(found), std::move(remedy)};
 }
 
 /// That `what`, which is x, is not.
 inline Error not_finite(std::string what, double x, std::string remedy = {}) {
-    return unfit(std::move(what), "a finite number", std::to_string(x), std::move(remedy));
+    return misfit(std::move(what), "a finite number", std::to_string(x), std::move(remedy));
 }
 
 }  // namespace barycert::base
