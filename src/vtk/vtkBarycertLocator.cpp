@@ -159,11 +159,6 @@ std::string vtkBarycertLocator::GetReason() {
     return index == nullptr ? "there is no data set" : index->reason;
 }
 
-// As vtkTetra and vtkTriangle have them: all weights but the first.
-static void set_parametric(const double* weights, std::size_t count, double* pcoords) {
-    for (std::size_t i = 0; i < 3; ++i) pcoords[i] = i + 1 < count ? weights[i + 1] : 0;
-}
-
 // The weights of x in a cell of any kind, and its place there. VTK finds that, in double and by the cell's own map, for
 // its functions of a cell take it so; of simplices, and where VTK fails, it is the mean of the places of the nodes.
 static void set_place(const in_vtk::ExactIndex& index, const pieces::Closest& found, const double* x, vtkCell& cell,
@@ -225,7 +220,8 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     std::array<double, 3> point{};
     if (found.inside && index->project(x, point.data())) found.weights = index->weights(found.cell, point.data(), cell);
     std::copy_n(found.weights.begin(), index->mesh.corners(), weights);
-    set_parametric(weights, index->mesh.corners(), pcoords);
+    // As vtkTetra and vtkTriangle have them: all weights but the first.
+    for (std::size_t i = 0; i < 3; ++i) pcoords[i] = i + 1 < index->mesh.corners() ? weights[i + 1] : 0;
     return id;
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <set>
 
 #include "barycert/audit/asking.hpp"
@@ -53,15 +55,12 @@ BaselineEntry entry_from(const Json& j, const std::string& kernel) {
 }
 
 std::string in_words(std::uint64_t seed, std::uint64_t count) {
-    return "seed " + std::to_string(seed) + " and " + std::to_string(count) + " cases per family and simplex";
+    return fmt::format("seed {} and {} cases per family and simplex", seed, count);
 }
 
 Error not_comparable(const Baseline& b, std::string expected, std::string found, std::string remedy) {
-    return {.what = "the baseline is not comparable: it has other cases",
-            .file = b.path,
-            .expected = std::move(expected),
-            .found = std::move(found),
-            .remedy = std::move(remedy)};
+    return file_error(b.path, "the baseline is not comparable: it has other cases", std::move(expected),
+                      std::move(found), std::move(remedy));
 }
 
 bool given_up(const KernelResult& k) {
@@ -69,9 +68,7 @@ bool given_up(const KernelResult& k) {
 }
 
 std::string joined(const std::vector<std::string>& words) {
-    std::string out;
-    for (const std::string& w : words) out += (out.empty() ? "" : ", ") + w;
-    return out.empty() ? "none" : out;
+    return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
 }
 
 }  // namespace
@@ -107,8 +104,7 @@ Result<Baseline> read_baseline(const std::string& path) {
 Status check_comparable(const Baseline& b, const AuditOptions& options, const MeshSource& meshes) {
     if (b.seed != options.seed || b.count != options.count)
         return not_comparable(b, in_words(options.seed, options.count), in_words(b.seed, b.count),
-                              "give job.seed " + std::to_string(b.seed) + " job.count " + std::to_string(b.count) +
-                                  ", or make a new baseline");
+                              fmt::format("give job.seed {} job.count {}, or make a new baseline", b.seed, b.count));
     const auto draws = [](const Family& f) { return f.needs_mesh; };
     if (std::ranges::any_of(options.families, draws)) {
         std::vector<std::string> names;
@@ -162,8 +158,8 @@ Result<BaselineComparison> compare_with_baseline(const AuditReport& report, cons
         }
     }
     if (result.compared == 0)
-        return Error{.what = "the baseline is not comparable: it has no kernel and family in common with this audit",
-                     .file = b.path};
+        return file_error(b.path,
+                          "the baseline is not comparable: it has no kernel and family in common with this audit");
     result.not_now = b.entries.size() - result.compared;
     return result;
 }

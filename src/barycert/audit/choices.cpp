@@ -4,6 +4,7 @@
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit_search.hpp"
+#include "barycert/base/finite.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 
@@ -91,11 +92,9 @@ Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice) {
         Result<Kernel> kernel =
             choice.in_process ? load_kernel_library(path) : load_contained_kernel(path, choice.seconds);
         if (!kernel) return kernel.error();
-        if (std::any_of(all->begin(), all->end(), [&](const Kernel& k) { return k.name == kernel->name; }))
-            return Error{.what = "two kernel libraries have the same name",
-                         .file = path,
-                         .found = kernel->name,
-                         .remedy = "set another info->name in one of them"};
+        if (std::ranges::find(*all, kernel->name, &Kernel::name) != all->end())
+            return file_error(path, "two kernel libraries have the same name", "", kernel->name,
+                              "set another info->name in one of them");
         all->push_back(std::move(*kernel));
     }
     for (Kernel& kernel : *all) {
@@ -108,10 +107,8 @@ Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice) {
 
 Result<Kernel> choose_kernel(const KernelChoice& choice) {
     if (choice.names.empty() == choice.libraries.empty())
-        return Error{.what = "which kernel",
-                     .expected = "the name of one kernel, or job.kernel_library FILE",
-                     .found = choice.names.empty() ? "neither" : "both",
-                     .remedy = "`barycert kernels` lists the names"};
+        return base::misfit("which kernel", "the name of one kernel, or job.kernel_library FILE",
+                            choice.names.empty() ? "neither" : "both", "`barycert kernels` lists the names");
     if (!choice.libraries.empty()) {
         const Result<std::vector<Kernel>> one = choose_kernels(choice);
         return one ? one->front() : Result<Kernel>(one.error());
@@ -196,9 +193,8 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
 Status check_search_rules(const std::vector<Threshold>& rules) {
     for (const Threshold& rule : rules) {
         if (!figure({}, rule.name))
-            return Error{.what = "a rule on a figure that a search does not measure",
-                         .expected = "any, a class of finding, worst_weight_ulp or worst_value_ulp",
-                         .found = rule.name};
+            return base::misfit("a rule on a figure that a search does not measure",
+                                "any, a class of finding, worst_weight_ulp or worst_value_ulp", rule.name);
     }
     return Done{};
 }
@@ -232,10 +228,8 @@ Result<GapsLimit> parse_gaps_limit(std::string_view text) {
         if (name(fault) == limit.name && limit.most) return GapsLimit{fault, *limit.most};
         names.emplace_back(name(fault));
     }
-    return Error{.what = "unknown rule",
-                 .expected = "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
-                 .found = '"' + std::string(text) + '"',
-                 .remedy = base::did_you_mean(limit.name, names)};
+    return base::misfit("unknown rule", "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
+                        '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
 }
 
 }  // namespace barycert

@@ -105,7 +105,7 @@ bool MeshSource::supplies(Simplex s) const {
 }
 
 bool Family::applies_to(Simplex s) const {
-    return std::find(simplices.begin(), simplices.end(), s) != simplices.end();
+    return std::ranges::find(simplices, s) != simplices.end();
 }
 
 const std::vector<Family>& all_families() {
@@ -122,10 +122,8 @@ const std::vector<Family>& all_families() {
 }
 
 std::vector<Family> families_matching(std::string_view glob) {
-    std::vector<Family> matching;
-    for (const Family& f : all_families()) {
-        if (base::glob_match(glob, f.name)) matching.push_back(f);
-    }
+    std::vector<Family> matching = all_families();
+    std::erase_if(matching, [&](const Family& f) { return !base::glob_match(glob, f.name); });
     return matching;
 }
 

@@ -152,10 +152,9 @@ Result<std::vector<Claimant>> claimants_of(const GapsOptions& options, Simplex s
         }
     }
     if (!any)
-        return Error{.what = "no kernel for the cells of the mesh",
-                     .file = mesh,
-                     .expected = "a kernel for a " + std::string(barycert::name(simplex)),
-                     .remedy = "`barycert kernels` lists them"};
+        return file_error(mesh, "no kernel for the cells of the mesh",
+                          "a kernel for a " + std::string(barycert::name(simplex)), "",
+                          "`barycert kernels` lists them");
     if (!options.rules.empty() && wanted(ClaimRule::own) && !own)
         return Error{.what = "no kernel has a rule of its own",
                      .expected = "one that classifies points or has a tolerance",

@@ -17,11 +17,13 @@ inline std::string found_json(const nlohmann::json& j) {
     return j.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace).substr(0, longest);
 }
 
+[[noreturn]] inline void refuse(const std::string& where, const std::string& expected, const std::string& found) {
+    throw Exception({.what = where, .expected = expected, .found = found});
+}
+
 inline const nlohmann::json& member(const nlohmann::json& object, const std::string& key, const std::string& where) {
     if (!object.is_object() || !object.contains(key))
-        throw Exception({.what = where,
-                         .expected = "a member \"" + key + '"',
-                         .found = object.is_object() ? "none" : found_json(object)});
+        refuse(where, "a member \"" + key + '"', object.is_object() ? "none" : found_json(object));
     return object.at(key);
 }
 
@@ -29,7 +31,7 @@ inline const nlohmann::json& member(const nlohmann::json& object, const std::str
 inline const nlohmann::json& member(const nlohmann::json& object, const std::string& key, const std::string& where,
                                     bool (nlohmann::json::*is_type)() const noexcept, const char* expected) {
     const nlohmann::json& j = member(object, key, where);
-    if (!(j.*is_type)()) throw Exception({.what = where + ", " + key, .expected = expected, .found = found_json(j)});
+    if (!(j.*is_type)()) refuse(where + ", " + key, expected, found_json(j));
     return j;
 }
 
@@ -49,8 +51,7 @@ inline const nlohmann::json& list_in(const nlohmann::json& object, const std::st
 inline std::optional<double> figure_in(const nlohmann::json& object, const std::string& key, const std::string& where) {
     const nlohmann::json& j = member(object, key, where);
     if (j.is_null()) return std::nullopt;
-    if (!j.is_number() || !(j.get<double>() >= 0))
-        throw Exception({.what = where + ", " + key, .expected = "a number >= 0 or null", .found = found_json(j)});
+    if (!j.is_number() || !(j.get<double>() >= 0)) refuse(where + ", " + key, "a number >= 0 or null", found_json(j));
     return j.get<double>();
 }
 
@@ -81,13 +82,10 @@ auto made_of_json(const std::string& path, const JsonFile& file, Make make)
         return !too_deep;
     };
     const json all = json::parse(*text, watch, false);
-    if (too_deep || all.is_discarded())
-        return Error{
-            .what = file.is_none, .file = path, .expected = "JSON", .found = "something else", .remedy = file.remedy};
+    if (too_deep || all.is_discarded()) return file_error(path, file.is_none, "JSON", "something else", file.remedy);
     try {
         if (const json& schema = member(all, "schema", file.name); schema != witness_schema)
-            throw Exception(
-                {.what = "unknown schema", .expected = std::to_string(witness_schema), .found = found_json(schema)});
+            refuse("unknown schema", std::to_string(witness_schema), found_json(schema));
         return make(all);
     } catch (const Exception& e) {
         Error error = e.error();

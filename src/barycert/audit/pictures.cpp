@@ -14,19 +14,6 @@ namespace {
 
 constexpr int min_size = 4, max_size = 4096;
 
-/// Exact: see families_window.cpp.
-double twice_area(const Case& c) {
-    return std::fabs((c.vertex(1, 0) - c.vertex(0, 0)) * (c.vertex(2, 1) - c.vertex(0, 1)) -
-                     (c.vertex(1, 1) - c.vertex(0, 1)) * (c.vertex(2, 0) - c.vertex(0, 0)));
-}
-
-/// The kernel's value; NaN if it gives none.
-double value_of(const Kernel& k, const Case& c) {
-    Statement s;
-    ask_kernel(k, std::span(&c, 1), std::span(&s, 1), false);
-    return s.value;
-}
-
 void add(DriftPoint& point, double value, double exact, std::uint64_t index) {
     if (!std::isfinite(value)) {
         ++point.not_finite;
@@ -50,7 +37,10 @@ Case drift_case(int size, std::uint64_t seed, std::uint64_t index) {
     Case c{.simplex = Simplex::triangle};
     for (int attempt = 0; attempt < 64; ++attempt) {
         set_pixel_case(c, random, size, false, 1);
-        if (twice_area(c) >= size * size / 4.0) break;
+        // Exact: see families_window.cpp.
+        const double twice_area = (c.vertex(1, 0) - c.vertex(0, 0)) * (c.vertex(2, 1) - c.vertex(0, 1)) -
+                                  (c.vertex(1, 1) - c.vertex(0, 1)) * (c.vertex(2, 0) - c.vertex(0, 0));
+        if (std::fabs(twice_area) >= size * size / 4.0) break;
     }
     for (std::size_t i = 0; i < 3; ++i) c.values[i] = random.uniform(1, 2);
     return c;
@@ -72,8 +62,11 @@ Result<DriftReport> measure_drift(const DriftOptions& options) {
             const Case c = drift_case(size, options.seed, i);
             const OracleAnswer answer = ask_oracle(c);
             if (!is_inside(answer.region)) continue;
-            for (DriftCurve& curve : report.curves)
-                add(curve.points.back(), value_of(curve.kernel, c), answer.value, i);
+            for (DriftCurve& curve : report.curves) {
+                Statement said;
+                ask_kernel(curve.kernel, std::span(&c, 1), std::span(&said, 1), false);
+                add(curve.points.back(), said.value, answer.value, i);
+            }
         }
     }
     return report;

@@ -1,4 +1,5 @@
 #include "barycert/audit/asking.hpp"
+#include "barycert/base/finite.hpp"
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/base/text.hpp"
 
@@ -59,14 +60,10 @@ Result<Threshold> parse_threshold(std::string_view text) {
     if (!figure_named(rule.name)) {
         std::string names;
         for (const std::string& name : threshold_names()) names += (names.empty() ? "" : ", ") + name;
-        return Error{.what = "unknown rule",
-                     .expected = "NAME or NAME>NUMBER with NAME one of " + names,
-                     .found = '"' + std::string(text) + '"',
-                     .remedy = base::did_you_mean(rule.name, threshold_names())};
+        return base::misfit("unknown rule", "NAME or NAME>NUMBER with NAME one of " + names,
+                            '"' + std::string(text) + '"', base::did_you_mean(rule.name, threshold_names()));
     }
-    if (!limit.most)
-        return Error{
-            .what = "bad limit in a rule", .expected = "a number >= 0 after >", .found = '"' + std::string(text) + '"'};
+    if (!limit.most) return base::misfit("bad limit in a rule", "a number >= 0 after >", '"' + std::string(text) + '"');
     rule.limit = *limit.most;
     return rule;
 }

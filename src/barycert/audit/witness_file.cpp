@@ -18,22 +18,17 @@ double number(const Json& at, const std::string& where) {
     const std::optional<double> x = at.is_string()   ? base::parse_double(at.get<std::string>())
                                     : at.is_number() ? std::optional<double>(at.get<double>())
                                                      : std::nullopt;
-    if (!x || !std::isfinite(*x)) {
-        throw Exception({.what = where,
-                         .expected = "a finite number, best in hexadecimal as in \"0x1.8p+1\"",
-                         .found = found_json(at)});
-    }
+    if (!x || !std::isfinite(*x))
+        refuse(where, "a finite number, best in hexadecimal as in \"0x1.8p+1\"", found_json(at));
     return *x;
 }
 
 /// The array of so many entries.
 const Json& array_of(const Json& object, const char* key, std::size_t n, const std::string& where) {
     const Json& a = member(object, key, where);
-    if (!a.is_array() || a.size() != n) {
-        throw Exception({.what = where + ", " + key,
-                         .expected = "an array of " + std::to_string(n),
-                         .found = a.is_array() ? std::to_string(a.size()) + " entries" : found_json(a)});
-    }
+    if (!a.is_array() || a.size() != n)
+        refuse(where + ", " + key, "an array of " + std::to_string(n),
+               a.is_array() ? std::to_string(a.size()) + " entries" : found_json(a));
     return a;
 }
 
@@ -59,17 +54,12 @@ Witness witness_from(const Json& j, const std::string& where) {
     Witness w;
     const Json& simplex = member(j, "simplex", where);
     const auto known = simplex.is_string() ? simplex_named(simplex.get<std::string>()) : std::nullopt;
-    if (!known)
-        throw Exception({.what = where,
-                         .expected = "segment, triangle, triangle3d or tetrahedron as simplex",
-                         .found = found_json(simplex)});
+    if (!known) refuse(where, "segment, triangle, triangle3d or tetrahedron as simplex", found_json(simplex));
     w.c.simplex = *known;
     // A new member: without it, as in older files, there is none.
     const Json perspective = j.value("perspective", Json(false));
     if (!perspective.is_boolean() || (perspective.get<bool>() && *known != Simplex::triangle))
-        throw Exception({.what = where + ", perspective",
-                         .expected = "false, or true for a triangle",
-                         .found = found_json(perspective)});
+        refuse(where + ", perspective", "false, or true for a triangle", found_json(perspective));
     w.c.perspective = perspective.get<bool>();
     for (const auto& [key, text] : {std::pair("kernel", &Witness::kernel),
                                     {"reason", &Witness::reason},
@@ -88,14 +78,12 @@ Witness witness_from(const Json& j, const std::string& where) {
     const Json& vertices = array_of(j, "vertices", n, where);
     for (std::size_t i = 0; i < n; ++i) {
         const std::string vertex = where + ", vertex " + std::to_string(i);
-        if (!vertices[i].is_array() || vertices[i].size() != stride) {
-            throw Exception({.what = vertex,
-                             .expected = std::to_string(d) + " coordinates" + (w.c.perspective ? " and w" : ""),
-                             .found = vertices[i].dump().substr(0, 80)});
-        }
+        if (!vertices[i].is_array() || vertices[i].size() != stride)
+            refuse(vertex, std::to_string(d) + " coordinates" + (w.c.perspective ? " and w" : ""),
+                   vertices[i].dump().substr(0, 80));
         set_numbers(&w.c.vertices[stride * i], vertices[i], vertex);
         if (w.c.perspective && !(w.c.depth(static_cast<int>(i)) > 0))
-            throw Exception({.what = vertex, .expected = "a depth w above 0", .found = vertices[i][d].dump()});
+            refuse(vertex, "a depth w above 0", vertices[i][d].dump());
     }
     set_numbers(w.c.point.data(), array_of(j, "point", d, where), where + ", point");
     if (j.contains("values")) set_numbers(w.c.values.data(), array_of(j, "values", n, where), where + ", values");
@@ -157,7 +145,7 @@ Result<std::vector<Witness>> read_witnesses(const std::string& path) {
                         "; witnesses are made with `barycert audit --witnesses FILE`"};
     return made_of_json(path, file, [](const Json& all) {
         const Json& list = member(all, "witnesses", "witness file");
-        if (!list.is_array()) throw Exception({.what = "witnesses", .expected = "an array", .found = found_json(list)});
+        if (!list.is_array()) refuse("witnesses", "an array", found_json(list));
         std::vector<Witness> witnesses;
         for (std::size_t i = 0; i < list.size(); ++i)
             witnesses.push_back(witness_from(list[i], "witness " + std::to_string(i)));
@@ -167,20 +155,14 @@ Result<std::vector<Witness>> read_witnesses(const std::string& path) {
 
 namespace {
 
-KernelAnswer answer_of(const Kernel& kernel, const Case& c) {
-    const Evaluation e = evaluate(kernel, c);
-    return {kernel.name, e.said.answered, e.said.status, e.said.weights, e.comparison, e.detail};
-}
-
 std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) {
     const Witness& w = r.witness;
     if (w.kernel.empty() || w.reason.empty()) return "";
     const std::size_t reason = search_reason_named(w.reason);
     if (reason == search_reasons) return "no class of finding has that name";
-    const auto named = [&](const auto& x) { return x.name == w.kernel; };
-    if (std::ranges::none_of(kernels, named))
+    if (std::ranges::find(kernels, w.kernel, &Kernel::name) == kernels.end())
         return "no kernel of that name here; name its library with job.kernel_library";
-    const auto a = std::ranges::find_if(r.answers, [&](const auto& x) { return x.kernel == w.kernel; });
+    const auto a = std::ranges::find(r.answers, w.kernel, &KernelAnswer::kernel);
     if (a == r.answers.end()) return "the kernel is for another simplex";
     if (reason < finding_count) {
         if (a->comparison.counts[reason] != 0) return "";
@@ -212,7 +194,9 @@ Replay replay_witness(const Witness& witness, const std::vector<Kernel>& kernels
         r.identity = c.perspective ? perspective_is_ray_casting(c) : bilinear_is_barycentric(c);
     if (c.simplex == Simplex::tetrahedron) r.identity = trilinear_is_barycentric(c);
     for (const Kernel& k : kernels) {
-        if (k.simplex == c.simplex && k.perspective == c.perspective) r.answers.push_back(answer_of(k, c));
+        if (k.simplex != c.simplex || k.perspective != c.perspective) continue;
+        const Evaluation e = evaluate(k, c);
+        r.answers.push_back({k.name, e.said.answered, e.said.status, e.said.weights, e.comparison, e.detail});
     }
     r.not_reproduced = not_reproduced(r, kernels);
     return r;

@@ -28,12 +28,14 @@ inline std::size_t first_not_finite(std::span<const double> numbers) {
     return static_cast<std::size_t>(bad - numbers.begin());
 }
 
+/// An error of what is given.
+inline Error misfit(std::string what, std::string expected, std::string found = {}, std::string remedy = {}) {
+    return {std::move(what), {}, 0, std::move(expected), std::move(found), std::move(remedy)};
+}
+
 /// That `what`, which is x, is not.
 inline Error not_finite(std::string what, double x, std::string remedy = {}) {
-    return {.what = std::move(what),
-            .expected = "a finite number",
-            .found = std::to_string(x),
-            .remedy = std::move(remedy)};
+    return misfit(std::move(what), "a finite number", std::to_string(x), std::move(remedy));
 }
 
 }  // namespace barycert::base

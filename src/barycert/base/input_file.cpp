@@ -16,11 +16,7 @@ namespace {
 thread_local RunFiles* run_of_thread = nullptr;
 
 Error unfit(const std::string& path, std::string expected, const char* found, const char* remedy) {
-    return {.what = "cannot read the file",
-            .file = path,
-            .expected = std::move(expected),
-            .found = found,
-            .remedy = remedy};
+    return {"cannot read the file", path, 0, std::move(expected), found, remedy};
 }
 
 /// Opens and looks: without O_NONBLOCK a named pipe without a writer would hang here.

@@ -27,9 +27,7 @@ public:
             kept = std::min(kept, shortest_[index(second)]);
             merge(first, second);
         }
-        for (const Mesh::Index node : nodes) {
-            if (of(node) == node) places_.push_back(node);
-        }
+        std::ranges::copy_if(nodes, std::back_inserter(places_), [&](Mesh::Index n) { return of(n) == n; });
     }
 
     /// The near ones, of no common cell: merging would make it collapse.

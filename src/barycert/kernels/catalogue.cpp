@@ -126,10 +126,8 @@ const std::vector<Kernel>& catalogue() {
 }
 
 std::vector<Kernel> kernels_matching(std::string_view glob) {
-    std::vector<Kernel> list;
-    for (const Kernel& k : catalogue()) {
-        if (base::glob_match(glob, k.name)) list.push_back(k);
-    }
+    std::vector<Kernel> list = catalogue();
+    std::erase_if(list, [&](const Kernel& k) { return !base::glob_match(glob, k.name); });
     return list;
 }
 

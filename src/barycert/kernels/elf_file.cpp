@@ -76,18 +76,13 @@ private:
     }
 
     [[noreturn]] void foreign(const char* found) const {
-        throw Exception({.what = cannot_load,
-                         .file = path_,
-                         .expected = "a shared library (ELF) for this machine",
-                         .found = found,
-                         .remedy = "build it on this machine with -shared -fPIC"});
+        throw Exception(refused(path_, cannot_load, "a shared library (ELF) for this machine", found,
+                                "build it on this machine with -shared -fPIC"));
     }
     [[noreturn]] void cut() const {
-        throw Exception({.what = cannot_load,
-                         .file = path_,
-                         .expected = "a complete file, as its headers declare",
-                         .found = "the end of the file, after " + std::to_string(file_.size()) + " bytes",
-                         .remedy = "the file is truncated: build or copy it again"});
+        throw Exception(refused(path_, cannot_load, "a complete file, as its headers declare",
+                                "the end of the file, after " + std::to_string(file_.size()) + " bytes",
+                                "the file is truncated: build or copy it again"));
     }
 
     const std::string& path_;

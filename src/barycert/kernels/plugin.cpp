@@ -10,7 +10,7 @@
 namespace barycert {
 namespace {
 
-using kernels::Description;
+using kernels::Description, kernels::refused;
 
 /// Letters, digits, -, _ and ., so that a name survives shells, globs and file names.
 bool well_formed(std::string_view name) {
@@ -18,10 +18,6 @@ bool well_formed(std::string_view name) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
                c == '.';
     });
-}
-
-Error refused(const std::string& path, std::string what, std::string expected, std::string found, std::string remedy) {
-    return {std::move(what), path, 0, std::move(expected), std::move(found), std::move(remedy)};
 }
 
 /// The kernel that a library describes, its functions aside.
@@ -49,8 +45,7 @@ Result<Kernel> described(const std::string& path, const Description& d) {
     k.certifies = d.certifies != 0;
     k.perspective = perspective;
     if (d.classifies) k.rule = RegionRule::own;
-    const auto same_name = [&](const Kernel& other) { return other.name == k.name; };
-    if (std::ranges::any_of(catalogue(), same_name))
+    if (std::ranges::find(catalogue(), k.name, &Kernel::name) != catalogue().end())
         return refused(path, "the kernel library takes the name of a kernel of the catalogue", "another name", k.name,
                        "change info->name");
     return k;

@@ -47,11 +47,6 @@ ExactPoint exact_point(const Form& n) {
     return p;
 }
 
-/// The point where g and h are zero in the triangle. Precondition: there is exactly one.
-ExactPoint zero_in_triangle(const Form& g, const Form& h) {
-    return exact_point({g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0]});
-}
-
 /// The sign of h at the point: -1, 0 or 1.
 int sign_at(const Form& h, const ExactPoint& p) {
     return (h[0] * p.numerator[0] + h[1] * p.numerator[1] + h[2] * p.numerator[2]).sign();
@@ -73,15 +68,13 @@ struct Segment {
 
 Status check(const Segment& s) {
     if (s.dimension < 1 || s.dimension > 3)
-        return Error{.what = "dimension of a segment",
-                     .expected = "1, 2 or 3",
-                     .found = std::to_string(s.dimension),
-                     .remedy = "choose another dimension"};
+        return base::misfit("dimension of a segment", "1, 2 or 3", std::to_string(s.dimension),
+                            "choose another dimension");
     if (s.a.size() != s.b.size() || s.a.size() < static_cast<std::size_t>(s.dimension))
-        return Error{.what = "the ends of a segment",
-                     .expected = std::to_string(s.dimension) + " coordinates and as many attributes at both ends",
-                     .found = std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
-                     .remedy = "give a number for each coordinate and attribute of each end"};
+        return base::misfit("the ends of a segment",
+                            std::to_string(s.dimension) + " coordinates and as many attributes at both ends",
+                            std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
+                            "give a number for each coordinate and attribute of each end");
     const std::size_t i = base::first_not_finite(s.a), k = base::first_not_finite(s.b);
     if (i == s.a.size() && k == i) return Done{};
     return base::not_finite(
@@ -179,7 +172,9 @@ public:
         // Where the sign changes strictly along an edge, its form and that of the bound differ by more than a factor,
         // so that they have one zero in common.
         const auto cross = [&](int edge, int next_edge) {
-            made_.push_back(zero_in_triangle(form_of(edge), form));
+            const Form g = form_of(edge), &h = form;
+            made_.push_back(
+                exact_point({g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0]}));
             left.push_back({2 + static_cast<int>(made_.size()), next_edge});
         };
         for (std::size_t i = 0; i < polygon_.size(); ++i) {
@@ -236,10 +231,9 @@ unsigned beyond(const double* vertex) {
 
 Status check_rows(std::span<const double> vertices) {
     if (vertices.size() < 12 || vertices.size() % 3 != 0)
-        return Error{.what = "a triangle of other than three vertices",
-                     .expected = "three rows of x, y, z, w and attributes, of equal length",
-                     .found = std::to_string(vertices.size()) + " numbers",
-                     .remedy = "give a number for each attribute of each vertex"};
+        return base::misfit(
+            "a triangle of other than three vertices", "three rows of x, y, z, w and attributes, of equal length",
+            std::to_string(vertices.size()) + " numbers", "give a number for each attribute of each vertex");
     const std::size_t i = base::first_not_finite(vertices), row = vertices.size() / 3;
     if (i == vertices.size()) return Done{};
     return base::not_finite("number " + std::to_string(i % row) + " of vertex " + std::to_string(i / row), vertices[i],

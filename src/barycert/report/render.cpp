@@ -187,24 +187,7 @@ Document contour_document(const ContourReport& s, const Environment& environment
 
 }  // namespace
 
-std::string render_text(const RenderReport& summary, bool colour) {
-    const ExactEnvironment environment;
-    return terminal_text(render_document(summary, {}), colour);
-}
-
-std::string render_json(const RenderReport& summary, const Environment& environment) {
-    const ExactEnvironment exact;
-    return data_text(render_document(summary, environment));
-}
-
-std::string contour_text(const ContourReport& summary, bool colour) {
-    const ExactEnvironment environment;
-    return terminal_text(contour_document(summary, {}), colour);
-}
-
-std::string contour_json(const ContourReport& summary, const Environment& environment) {
-    const ExactEnvironment exact;
-    return data_text(contour_document(summary, environment));
-}
+RUN_TEXT_AND_JSON(render, RenderReport)
+RUN_TEXT_AND_JSON(contour, ContourReport)
 
 }  // namespace barycert

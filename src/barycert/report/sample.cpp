@@ -181,14 +181,6 @@ std::string policy_text(const OutsidePolicy& policy) {
     return limited ? text + "=" + base::shortest(policy.limit) : text;
 }
 
-std::string sample_text(const SampleReport& summary, bool colour) {
-    const ExactEnvironment environment;
-    return terminal_text(sample_document(summary, {}), colour);
-}
-
-std::string sample_json(const SampleReport& summary, const Environment& environment) {
-    const ExactEnvironment exact;
-    return data_text(sample_document(summary, environment));
-}
+RUN_TEXT_AND_JSON(sample, SampleReport)
 
 }  // namespace barycert

@@ -243,19 +243,11 @@ Document verify_document(const VerifyReport& s, const Environment& environment) 
 
 }  // namespace
 
-std::string verify_text(const VerifyReport& summary, bool colour) {
-    const ExactEnvironment environment;
-    return terminal_text(verify_document(summary, {}), colour);
-}
+RUN_TEXT_AND_JSON(verify, VerifyReport)
 
 std::string verify_html(const VerifyReport& summary, const Environment& environment) {
     const ExactEnvironment exact;
     return page_text(verify_document(summary, environment));
-}
-
-std::string verify_json(const VerifyReport& summary, const Environment& environment) {
-    const ExactEnvironment exact;
-    return data_text(verify_document(summary, environment));
 }
 
 CiReport verify_outcomes(const VerifyReport& s, const Environment& environment) {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <numeric>
 
+#include "barycert/base/finite.hpp"
 #include "barycert/base/large_pages.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/surface/cell_cases.hpp"
@@ -108,10 +109,8 @@ public:
         gather_ends();
         const std::size_t points = first_.back();
         if (std::max(points, part_count_) > INT32_MAX)
-            return Error{.what = "the surface is too large",
-                         .expected = "at most 2147483647 points and cells",
-                         .found = std::to_string(std::max(points, part_count_)),
-                         .remedy = "cut a part of the mesh"};
+            return base::misfit("the surface is too large", "at most 2147483647 points and cells",
+                                std::to_string(std::max(points, part_count_)), "cut a part of the mesh");
         write_edges(points, surface, counts);
         write_parts(surface, counts);
         return Done{};

@@ -54,12 +54,6 @@ inline ValueError compare(double claimed, double exact, double range) {
 
 static_assert(std::tuple_size_v<decltype(ValueErrors::by_relative)> == base::decade_bins);
 
-/// Where in ValueErrors::by_ulps an error that is not 0 counts.
-inline std::size_t bin_of_ulps(double ulps, std::size_t bins) {
-    const int exponent = std::ilogb(std::max(ulps, 0.5));
-    return static_cast<std::size_t>(std::clamp(exponent + 2, 1, static_cast<int>(bins) - 1));
-}
-
 inline void count(const ValueError& error, double claimed, const VerifyOptions& options, ValueErrors& to) {
     if (error.compared == Compared::both_nan) return;
     if (error.compared == Compared::missing) return void(++to.missing);
@@ -75,7 +69,8 @@ inline void count(const ValueError& error, double claimed, const VerifyOptions& 
     to.over += error.over(options) ? 1 : 0;
     to.max_ulps = std::max(to.max_ulps, error.ulps);
     to.max_relative = std::max(to.max_relative, error.relative);
-    ++to.by_ulps[bin_of_ulps(error.ulps, to.by_ulps.size())];
+    const int bin = std::clamp(std::ilogb(std::max(error.ulps, 0.5)) + 2, 1, static_cast<int>(to.by_ulps.size()) - 1);
+    ++to.by_ulps[static_cast<std::size_t>(bin)];
     ++to.by_relative[base::decade_bin(error.relative)];
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "barycert/audit/search/evaluation.hpp"
+#include "barycert/base/finite.hpp"
 #include "barycert/base/random.hpp"
 
 namespace barycert::audit {
@@ -43,10 +44,7 @@ inline bool admissible(const Case& c, const ExponentRange& range) {
         if (!std::isfinite(x) || (is_depth(c, k) && !(x > 0))) return false;
         if (x != 0 && (std::ilogb(x) < range.min || std::ilogb(x) > range.max)) return false;
     }
-    for (const double f : c.values) {
-        if (!std::isfinite(f)) return false;
-    }
-    return true;
+    return base::all_finite(c.values);
 }
 
 /// The double `n` places above x in the order of doubles, in which zero is one place; infinite beyond the largest.

@@ -98,11 +98,8 @@ SurfaceCase changed(SurfaceCase c, int k, double by) {
 }
 
 SurfaceCase still_proper(const SurfaceCase& c, int k, double by) {
-    SurfaceCase moved = changed(c, k, by);
-    for (const TriangleInSpace& t : moved.triangles) {
-        if (!has_area(t)) return c;
-    }
-    return moved;
+    const SurfaceCase moved = changed(c, k, by);
+    return std::ranges::all_of(moved.triangles, has_area) ? moved : c;
 }
 
 // Distances.

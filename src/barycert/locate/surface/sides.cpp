@@ -7,10 +7,6 @@
 namespace barycert::locate {
 namespace {
 
-Feature feature_of(const std::array<Mesh::Index, 3>& face) {
-    return face[2] >= 0 ? Feature::face : face[1] >= 0 ? Feature::edge : Feature::vertex;
-}
-
 bool box_of_triangle_holds(const PlacedFacet& f, const double* p) {
     for (std::size_t k = 0; k < 3; ++k) {
         const auto [low, high] = std::minmax({f.at[0][k], f.at[1][k], f.at[2][k]});
@@ -31,7 +27,7 @@ SurfaceLocation SurfaceData::on_the_way(const double* p, const double* end) cons
             const auto face = index::face_around(3, f, p);
             if (face[0] >= 0 && (found.triangle < 0 || triangles.number(t) < found.triangle)) {
                 found.triangle = triangles.number(t);
-                found.feature = feature_of(face);
+                found.feature = face[2] >= 0 ? Feature::face : face[1] >= 0 ? Feature::edge : Feature::vertex;
             }
         }
         if (found.triangle >= 0) return true;

@@ -187,34 +187,8 @@ Document texels_document(const std::vector<TexelResult>& results) {
 
 }  // namespace
 
-std::string gaps_text(const GapsReport& report, const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(gaps_document(report), style.colour);
-}
-
-std::string gaps_json(const GapsReport& report) {
-    const ExactEnvironment environment;
-    return data_text(gaps_document(report));
-}
-
-std::string drift_text(const DriftReport& report, const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(drift_document(report), style.colour);
-}
-
-std::string drift_json(const DriftReport& report) {
-    const ExactEnvironment environment;
-    return data_text(drift_document(report));
-}
-
-std::string texels_text(const std::vector<TexelResult>& results, const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(texels_document(results), style.colour);
-}
-
-std::string texels_json(const std::vector<TexelResult>& results) {
-    const ExactEnvironment environment;
-    return data_text(texels_document(results));
-}
+AUDIT_TEXT_AND_JSON(gaps, GapsReport)
+AUDIT_TEXT_AND_JSON(drift, DriftReport)
+AUDIT_TEXT_AND_JSON(texels, std::vector<TexelResult>)
 
 }  // namespace barycert

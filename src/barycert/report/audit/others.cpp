@@ -14,10 +14,6 @@ using OthersJson = nlohmann::json;
 /// A page of so many cells of tables is none that anybody reads.
 constexpr std::size_t max_cells = 20000;
 
-[[noreturn]] void refuse(const std::string& where, const std::string& expected, const std::string& found) {
-    throw Exception({.what = where, .expected = expected, .found = found});
-}
-
 void expect_at_most(std::uint64_t most, std::uint64_t n, const std::string& where, const char* what = "") {
     if (n > most) refuse(where, fmt::format("at most {}{}", most, what), std::to_string(n));
 }

@@ -156,14 +156,6 @@ std::string search_json(const SearchReport& report) {
     return data_text(search_document(report, {}));
 }
 
-std::string mutants_text(const MutantReport& report, const TerminalStyle& style) {
-    const ExactEnvironment environment;
-    return terminal_text(mutants_document(report), style.colour);
-}
-
-std::string mutants_json(const MutantReport& report) {
-    const ExactEnvironment environment;
-    return data_text(mutants_document(report));
-}
+AUDIT_TEXT_AND_JSON(mutants, MutantReport)
 
 }  // namespace barycert

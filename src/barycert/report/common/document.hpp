@@ -192,6 +192,27 @@ std::string page_text(const Document& document);
 
 std::string data_text(const Document& document);
 
+/// The public functions that write what NAME_document says, of an audit and of a run: names which nothing but a macro
+/// makes. Each works in the exact environment.
+#define AUDIT_TEXT_AND_JSON(name, Report)                                       \
+    std::string name##_text(const Report& report, const TerminalStyle& style) { \
+        const ExactEnvironment environment;                                     \
+        return terminal_text(name##_document(report), style.colour);            \
+    }                                                                           \
+    std::string name##_json(const Report& report) {                             \
+        const ExactEnvironment environment;                                     \
+        return data_text(name##_document(report));                              \
+    }
+#define RUN_TEXT_AND_JSON(name, Report)                                    \
+    std::string name##_text(const Report& report, bool colour) {           \
+        const ExactEnvironment environment;                                \
+        return terminal_text(name##_document(report, {}), colour);         \
+    }                                                                      \
+    std::string name##_json(const Report& report, const Environment& of) { \
+        const ExactEnvironment environment;                                \
+        return data_text(name##_document(report, of));                     \
+    }
+
 /// For sentences that hold of straight sides alone; empty where these are the mesh's own.
 inline std::string_view for_straight_sides(const CurvedCells& curved) {
     return curved.cells == 0 || curved.mapped ? "" : " for straight sides";
