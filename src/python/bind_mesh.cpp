@@ -112,6 +112,36 @@ std::string set_cells(const MeshObject& object, const std::string& file, Curved 
     return curved_of(object, file, curved).second;
 }
 
+/// What points, cells and fields do not tell, to be pickled: how cells are taken, and the shapes that they are parts
+/// of.
+py::tuple taken(const MeshObject& object) {
+    const BuildOptions& how = object.geometry()->options;
+    const Mesh::Shapes& s = object.mesh().shapes;
+    const auto copy = [](const auto& numbers) { return owned(std::decay_t<decltype(numbers)>(numbers)); };
+    return py::make_tuple(how.straight_sides, how.interpolation == CellInterpolation::multilinear, copy(s.types),
+                          copy(s.ends), copy(s.nodes), copy(s.face_ends), copy(s.ring_ends), copy(s.rings),
+                          copy(s.parts), copy(s.inside));
+}
+
+void take(const MeshObject& object, const py::tuple& taken) {
+    object.geometry()->options.straight_sides = taken[0].cast<bool>();
+    if (taken[1].cast<bool>()) object.geometry()->options.interpolation = CellInterpolation::multilinear;
+    Mesh::Shapes& s = object.geometry()->data.shapes;
+    std::size_t next = 2;
+    const auto get = [&]<class T>(std::vector<T>& to) {
+        const auto from = taken[next++].cast<py::array_t<T>>();
+        to.assign(from.data(), from.data() + from.size());
+    };
+    get(s.types);
+    get(s.ends);
+    get(s.nodes);
+    get(s.face_ends);
+    get(s.ring_ends);
+    get(s.rings);
+    get(s.parts);
+    get(s.inside);
+}
+
 MeshObject read(const std::string& path, std::optional<std::size_t> number, bool last, std::optional<double> time) {
     const py::gil_scoped_release unlocked;
     return MeshObject(read_mesh(path, {.step = {.number = number, .time = time, .last = last}}).value());
@@ -181,6 +211,8 @@ void bind_mesh(py::module_& module) {
              [](Object m, const std::string& file, const std::string& curved, const std::string& interpolation) {
                  return set_cells(m, file, words<Curved>.at(curved), words<CellInterpolation>.at(interpolation));
              })
+        .def("taken", &taken)
+        .def("take", &take)
         .def("curved", [](Object m) { return curved_of(m, "", Curved::isoparametric).first; })
         .def("field_names", &field_names)
         .def("field", &field_named)

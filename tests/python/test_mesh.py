@@ -207,6 +207,9 @@ def test_cells_of_other_shapes(tmp_path):
     point = [[0.5, 0.25, 0.75]]
     assert linear.sample(point, "f")[0] == 0.25  # on the part with corners 0 4 7 6, or the like
     assert multilinear.sample(point, "f")[0] == 0.5 * 0.25 * 0.75
+    for other in (pickle.loads(pickle.dumps(multilinear)), copy.copy(multilinear), copy.deepcopy(multilinear)):
+        assert other.sample(point, "f")[0] == 0.5 * 0.25 * 0.75
+        np.testing.assert_array_equal(other.cell_numbers, multilinear.cell_numbers)
     with pytest.raises(barycert.Error, match="interpolation=: expected linear or multilinear, found cubic"):
         barycert.read(path, interpolation="cubic")
 

@@ -448,10 +448,10 @@ class Mesh(GivenBack):
         self._core.write(os.fspath(path), comment, data)
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return _unpickle, (parts_of(self),)
+        return _unpickle, (parts_of(self), self._core.taken())
 
     def __deepcopy__(self, _: Any) -> Mesh:
-        return _unpickle(parts_of(self))
+        return _unpickle(parts_of(self), self._core.taken())
 
     def __repr__(self) -> str:
         kind = "triangles" if self.dimension == 2 else "tetrahedra"
@@ -494,8 +494,10 @@ class Mesh(GivenBack):
         return values.view(np.dtype(members)).reshape(shape)
 
 
-def _unpickle(parts: Parts) -> Mesh:
-    return Mesh.__new__(Mesh)._make(parts)
+def _unpickle(parts: Parts, taken: Any) -> Mesh:
+    mesh = Mesh.__new__(Mesh)._make(parts)
+    mesh._core.take(taken)
+    return mesh
 
 
 def read(
