@@ -181,6 +181,43 @@ TEST(GridPoints, D1L1V1AsListedCells) {
     }
 }
 
+// Values within 2^-150 of the middle between two doubles, or there: what two doubles hold cannot tell on which side.
+TEST(GridPoints, V1NearTies) {
+    base::Random random(53);
+    const Axes axes{{0, 1}, {0, 1.25}, {-1, 0.125}};
+    Grids g = make_grids(axes, false, random);
+    for (int round = 0; round < 400; ++round) {
+        const bool multilinear = round % 2 == 0;
+        std::vector<double> p;
+        for (const std::vector<double>& axis : axes) p.push_back(random.uniform(axis[0], axis[1]));
+        std::vector<std::pair<Rational, std::size_t>> weights;
+        for (std::size_t node = 0; node < 8; ++node) {
+            Field unit{"unit", 1, std::vector<double>(8, 0.0)};
+            unit.data[node] = 1;
+            weights.emplace_back(value_of(g, unit, 0, p.data(), multilinear), node);
+        }
+        std::ranges::sort(weights, std::greater());
+        Field near{"near", 1, std::vector<double>(8, 0.0)};
+        near.data[weights[0].second] = random.uniform(1, 2);
+        const double about = second_path::nearest(weights[0].first * near.data[weights[0].second]);
+        const Rational middle = (Rational(about) + Rational(std::nextafter(about, 2.0))) / 2;
+        Rational left = middle - weights[0].first * near.data[weights[0].second];
+        for (std::size_t i = 1; i < 4; ++i) {
+            double& value = near.data[weights[i].second];
+            value = second_path::nearest(left / weights[i].first);
+            left -= weights[i].first * value;
+        }
+        ASSERT_LT(abs(left), Rational(std::ldexp(1.0, -150)));
+        g.unlisted.point_fields[0] = near;
+        const auto how = multilinear ? CellInterpolation::multilinear : CellInterpolation::linear;
+        const auto sampler = Sampler::build(g.unlisted, {"near"}, {.interpolation = how, .progress = {}});
+        ASSERT_TRUE(sampler) << sampler.error().message();
+        const Table rows = sampler->sample(p).value();
+        EXPECT_EQ(rows.counts.values.exact, 1U);
+        ASSERT_EQ(rows.values[0], second_path::nearest(middle - left)) << round;
+    }
+}
+
 // On a grid of other points: as at these points.
 TEST(GridPoints, D1OntoAGrid) {
     base::Random random(11);
