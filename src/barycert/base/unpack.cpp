@@ -90,16 +90,10 @@ Status unpack(int& descriptor, const std::string& path, Text text) {
         return Done{};
     }
     if (result == LIBDEFLATE_INSUFFICIENT_SPACE)
-        return Error{.what = "the file is packed by gzip, and takes too much memory once it is unpacked",
-                     .file = path,
-                     .expected = "at most " + std::to_string(most) + " bytes",
-                     .found = "more",
-                     .remedy = "unpack it before, if you trust it"};
-    return Error{.what = "the file is packed by gzip, and cannot be unpacked",
-                 .file = path,
-                 .expected = "whole members, each with its checksum",
-                 .found = "others",
-                 .remedy = "copy it again, or pack it again"};
+        return file_error(path, "the file is packed by gzip, and takes too much memory once it is unpacked",
+                          "at most " + std::to_string(most) + " bytes", "more", "unpack it before, if you trust it");
+    return file_error(path, "the file is packed by gzip, and cannot be unpacked",
+                      "whole members, each with its checksum", "others", "copy it again, or pack it again");
 }
 
 }  // namespace barycert::base

@@ -153,13 +153,8 @@ std::string message(const CurvedCells& curved) {
 Result<CurvedCells> measure_curved(const Mesh& mesh, const std::string& file, Curved curved) {
     const CurvedCells found = curved_cells(mesh);
     if (curved != Curved::refuse || found.cells == 0) return found;
-    return Error{.what = "the mesh is curved",
-                 .file = file,
-                 .expected = "every mid-edge node at the middle of its edge",
-                 .found = deviations(found),
-                 .remedy =
-                     "mesh it with straight sides, or let them be taken as straight: `straight` in place of "
-                     "`refuse`"};
+    return file_error(file, "the mesh is curved", "every mid-edge node at the middle of its edge", deviations(found),
+                      "mesh it with straight sides, or let them be taken as straight: `straight` in place of `refuse`");
 }
 
 }  // namespace barycert
