@@ -95,17 +95,12 @@ std::string command_name() {
 }
 
 std::string with_command_name(std::string text) {
-    const std::string own = "`barycert ", named = '`' + command_name() + ' ';
-    for (std::size_t at = text.find(own); at != std::string::npos; at = text.find(own, at + named.size()))
-        text.replace(at, own.size(), named);
+    base::replace_all(text, "`barycert ", '`' + command_name() + ' ');
     return text;
 }
 
 std::string with_options(std::string text) {
-    for (const auto& [name, option] : of_rows) {
-        for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at))
-            text.replace(at, name.size(), option);
-    }
+    for (const auto& [name, option] : of_rows) base::replace_all(text, name, option);
     for (const std::string_view owner : {"job.", "options."}) {
         for (std::size_t at = text.find(owner); at != std::string::npos; at = text.find(owner, at + 1)) {
             const std::size_t begin = at + owner.size();

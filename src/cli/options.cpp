@@ -70,7 +70,7 @@ std::optional<double> positive(std::string_view text) {
 }
 
 std::optional<std::int64_t> count_of(std::string_view text) {
-    const auto n = integer_of<std::int64_t>(text);
+    const auto n = base::whole_number<std::int64_t>(text);
     return n && *n >= 1 ? n : std::nullopt;
 }
 
@@ -164,7 +164,7 @@ void Options::step(StepChoice& step, bool* all) const {
               std::string("a number from 0, ") + (all != nullptr ? "all or last" : "or last"), [&step, all](Text text) {
                   if (all != nullptr && text == "all") return *all = true;
                   if (text == "last") return step.last = true;
-                  step.number = integer_of<std::size_t>(text);
+                  step.number = base::whole_number<std::size_t>(text);
                   return step.number.has_value();
               });
     parsed("--time", "T", "The step of exactly this time in the file", "a finite number", step.time, finite)

@@ -102,7 +102,7 @@ public:
     /// Any whole number of 64 bits. "-1" and 2^64 are refused: the parser would take both for 2^64 - 1.
     template <class N>
     CLI::Option* whole(Text name, N& n, Text help, Text type = "S") const {
-        return parsed(name, type, help, "a whole number from 0 to 2^64 - 1", n, integer_of<std::uint64_t>);
+        return parsed(name, type, help, "a whole number from 0 to 2^64 - 1", n, base::whole_number<std::uint64_t>);
     }
     /// A finite number of at least `least`.
     template <class X>

@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <charconv>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,14 +22,6 @@ std::string joined(const std::vector<std::string>& words);
 /// A message that says what is expected of a value stands alone.
 std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,
                         std::span<const char* const> words = {});
-
-template <class N>
-std::optional<N> integer_of(std::string_view text) {
-    N n = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return n;
-}
 
 std::vector<std::string> command_names(const CLI::App& app);
 

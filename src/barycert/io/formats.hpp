@@ -2,11 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <new>
-#include <system_error>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 
@@ -20,6 +19,8 @@ Result<FileFormat> format_of(const std::string& path);
 /// The same for points: .txt .dat .xyz .tsv are CSV, and so is a pipe or device of any name; a file without a suffix is
 /// told by its first bytes.
 Result<FileFormat> format_of_points(const std::string& path);
+
+using base::whole_number;
 
 /// Throws an Exception.
 [[noreturn]] void refuse_file(std::string file, std::string what, std::string expected = {}, std::string found = {},
@@ -55,15 +56,6 @@ Status status_of(const F& f) {
 /// no neighbour.
 void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
                 std::vector<std::string_view>& fields);
-
-/// The integer that is all of the text, without a plus; nothing if it is none of that type.
-template <class Integer>
-std::optional<Integer> whole_number(std::string_view text, int base = 10) {
-    Integer value = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, value, base);
-    return error == std::errc{} && end == last ? std::optional(value) : std::nullopt;
-}
 
 /// The line of a text in which `at` lies, from 1.
 inline std::size_t line_of(std::string_view text, const char* at) {

@@ -1,5 +1,6 @@
 #include "barycert/io/streams.hpp"
 
+#include <ranges>
 #include <set>
 
 #include "barycert/base/nearest_name.hpp"
@@ -137,11 +138,10 @@ void note_the_others(const TableColumns& all, PointColumns& out) {
         if (!kept && !out.is_coordinate(c)) others.push_back(c);
     }
     if (others.empty()) return;
-    std::string text = others.size() == 1 ? "column " : "columns ", names;
-    for (std::size_t i = 0; i < std::min(others.size(), most_listed); ++i) {
-        text += (i == 0 ? "" : ", ") + all.names[others[i]];
-        names += (i == 0 ? "" : ",") + all.names[others[i]];
-    }
+    const auto name = [&](std::size_t column) { return all.names[column]; };
+    const auto some = others | std::views::take(most_listed);
+    std::string text = (others.size() == 1 ? "column " : "columns ") + base::joined(some, ", ", name),
+                names = base::joined(some, ",", name);
     if (others.size() > most_listed) {
         text += " and " + std::to_string(others.size() - most_listed) + " more";
         names = "all";
@@ -157,9 +157,7 @@ std::string column_number(std::size_t column) {
 }
 
 std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(most_listed, names.size()); ++i)
-        text += (i != 0 ? ", " : "") + base::quoted(names[i]);
+    const std::string text = base::joined(names | std::views::take(most_listed), ", ", base::quoted);
     return names.empty() ? "none" : text + (names.size() > most_listed ? ", ..." : "");
 }
 

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "barycert/base/named_file.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/jobs.hpp"
 
 namespace barycert::jobs {
@@ -42,18 +43,10 @@ template <class... Parts>
 /// text(item) of each, with commas between them.
 template <class Items, class Text>
 std::string listed(const Items& items, Text text, const char* if_empty = "none") {
-    std::string all;
-    for (const auto& item : items) {
-        if (&item != &items.front()) all += ", ";
-        all += std::invoke(text, item);
-    }
-    return items.empty() ? if_empty : all;
+    return items.empty() ? if_empty : base::joined(items, ", ", text);
 }
 
-/// "1 row", "2 rows".
-inline std::string counted(std::uint64_t n, const std::string& what) {
-    return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
-}
+using base::counted;
 
 // Series: fields of which there is a file for each step.
 

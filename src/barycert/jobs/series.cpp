@@ -200,9 +200,7 @@ bool has_step_place(const std::string& output) {
 std::string output_of_step(const std::string& output, const Step& step) {
     std::string path = output;
     for (const auto& [place, text] : {std::pair(step_place, step.label), std::pair(time_place, step.time)}) {
-        if (text.empty()) continue;
-        for (std::size_t at = path.find(place); at != std::string::npos; at = path.find(place, at + text.size()))
-            path.replace(at, place.size(), text);
+        if (!text.empty()) base::replace_all(path, place, text);
     }
     return path;
 }

@@ -204,9 +204,8 @@ SampleOptions without_refusal(SampleOptions options) {
 }
 
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
-    std::string at;
-    for (const double x : where) at += (at.empty() ? "(" : ", ") + base::shortest(x);
-    return file_error(file, what + ", counted from 0, is outside the mesh", "", at + ")",
+    return file_error(file, what + ", counted from 0, is outside the mesh", "",
+                      "(" + base::joined(where, ", ", base::shortest) + ")",
                       "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate");
 }
 

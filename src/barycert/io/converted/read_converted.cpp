@@ -199,12 +199,6 @@ Error not_read(const Json& answer, const std::string& messages, const std::strin
                        : "install the Python module " + module + " beside meshio");
 }
 
-/// The text with the path of the file where the intermediate one is named.
-void rename_in(std::string& text, const std::string& from, const std::string& to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
-}
-
 /// That the file is complete: what meshio counted, against what was read.
 void check_complete(const Json& answer, const Mesh& mesh, const std::string& path) {
     const auto need = [&](const std::string& what, std::size_t counted, std::size_t read) {
@@ -258,14 +252,15 @@ Mesh checked(const Json& answer, const MeshioFile& file, const std::string& path
     if (!read) {
         Error error = read.error();
         const std::string stem = path.substr(0, path.size() - suffix_of(path).size());
+        // They name the intermediate file.
         for (std::string* part : {&error.what, &error.file, &error.found, &error.remedy}) {
-            for (const char* more : {"-", "."}) rename_in(*part, file.vtu + more, stem + more);
-            rename_in(*part, file.vtu, path);
+            for (const char* more : {"-", "."}) base::replace_all(*part, file.vtu + more, stem + more);
+            base::replace_all(*part, file.vtu, path);
         }
         throw Exception(error);
     }
     Mesh& mesh = *read;
-    for (Note& note : mesh.notes) rename_in(note.file, file.vtu, path);
+    for (Note& note : mesh.notes) base::replace_all(note.file, file.vtu, path);
     check_complete(answer, mesh, path);
     Notes notes{{Note::Kind::converted,
                  "by meshio " + answer.at("meshio").get<std::string>() + ", as " + format +

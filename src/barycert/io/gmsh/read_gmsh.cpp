@@ -213,10 +213,9 @@ void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes
     for (const MshSection& section : file.sections()) {
         if (std::find(read.begin(), read.end(), section.name) == read.end()) others.insert(section.name);
     }
-    std::string text;
-    for (const std::string_view name : others)
-        text += (text.empty() ? "section $" : ", $") + base::printable(name.substr(0, 40));
-    if (!text.empty()) notes.push_back({Note::Kind::left_out, text, file.path()});
+    const auto shown = [](std::string_view name) { return base::printable(name.substr(0, 40)); };
+    if (!others.empty())
+        notes.push_back({Note::Kind::left_out, "section $" + base::joined(others, ", $", shown), file.path()});
     std::set<std::string> names;
     for (const MshView& view : views) {
         if (view.of != MshView::Of::element_nodes || !names.insert(view.field).second) continue;

@@ -61,14 +61,6 @@ void note_medit_sections(const MeditFile& file, Notes& notes) {
     if (!names.empty()) notes.push_back({Note::Kind::left_out, "sections " + list_of(names), file.path()});
 }
 
-/// "12 Edges, 1 Triangles"
-std::string counted_sections(const std::vector<const MeditSection*>& sections) {
-    std::string text;
-    for (const MeditSection* section : sections)
-        text += (text.empty() ? "" : ", ") + std::to_string(section->count) + " " + section->name;
-    return text;
-}
-
 bool is_simplex(const MeditKeyword& cell, int order) {
     return cell.nodes == (cell.dimension == 3 ? (order == 1 ? 4U : 10U) : (order == 1 ? 3U : 6U));
 }
@@ -252,9 +244,10 @@ private:
             mesh_.face_mid_nodes = std::move(cells.mids);
             mesh_.face_markers = references(std::move(cells.references));
         }
+        const auto text = [](const MeditSection* s) { return std::to_string(s->count) + " " + s->name; };
         if (!left_out.empty())
             note(Note::Kind::left_out,
-                 "elements of a lower dimension: " + counted_sections(left_out) +
+                 "elements of a lower dimension: " + base::joined(left_out, ", ", text) +
                      (apart ? "; some have nodes that no cell has" : ""),
                  apart);
     }

@@ -36,7 +36,7 @@ bool take_escape(std::string_view& rest, std::string& value) {
     }
     const std::size_t digits = c == 'x' ? 2 : c == 'u' ? 4 : c == 'U' ? 8 : 0;
     if (digits == 0 || rest.size() < digits) return false;
-    const std::optional<std::uint32_t> code = whole_number<std::uint32_t>(rest.substr(0, digits), 16);
+    const std::optional<std::uint32_t> code = whole_number<std::uint32_t, 16>(rest.substr(0, digits));
     rest.remove_prefix(digits);
     return code && append_utf8(value, *code);
 }

@@ -174,11 +174,8 @@ Polygons read_obj(PlcText& in) {
             others.emplace_back(key);
         }
     }
-    if (!others.empty()) {
-        std::string list;
-        for (const std::string& key : others) list += (list.empty() ? "" : " ") + key;
-        all.notes.push_back({Note::Kind::left_out, "lines other than v and f: " + list, in.path()});
-    }
+    const std::string list = base::joined(others, " ", std::identity());
+    if (!list.empty()) all.notes.push_back({Note::Kind::left_out, "lines other than v and f: " + list, in.path()});
     return all;
 }
 
