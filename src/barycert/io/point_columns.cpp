@@ -4,7 +4,6 @@
 #include <set>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {

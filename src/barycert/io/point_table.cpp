@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 

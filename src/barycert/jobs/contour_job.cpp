@@ -8,7 +8,6 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/strict_math.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"

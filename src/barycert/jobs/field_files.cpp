@@ -5,7 +5,6 @@
 #include <system_error>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/jobs/job_files.hpp"

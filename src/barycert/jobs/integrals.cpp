@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/sample/quantity/quantities.hpp"

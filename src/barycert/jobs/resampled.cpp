@@ -7,7 +7,6 @@
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/output_file.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/vti/vti.hpp"

@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"

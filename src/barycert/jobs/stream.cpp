@@ -8,7 +8,6 @@
 #include <set>
 #include <system_error>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/npz/weights_file.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/map.hpp"

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/converted/meshio_script.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 

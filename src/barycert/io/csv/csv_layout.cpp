@@ -3,7 +3,6 @@
 #include <iterator>
 #include <limits>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/scanner.hpp"

@@ -1,5 +1,4 @@
 // Rows of CSV: what they say, and why they are refused, in words.
-#include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"

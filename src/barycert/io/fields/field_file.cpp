@@ -1,5 +1,4 @@
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"

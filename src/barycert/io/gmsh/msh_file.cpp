@@ -3,7 +3,6 @@
 #include <cstring>
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
 
 namespace barycert::io {

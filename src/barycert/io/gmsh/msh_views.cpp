@@ -2,7 +2,6 @@
 // Integers count, integers: step, components, rows, perhaps a partition. All this is text. Rows: tag value...
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 
 namespace barycert::io {

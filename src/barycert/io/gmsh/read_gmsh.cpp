@@ -1,7 +1,6 @@
 // Groups of cells, what a file has beside the mesh, and the mesh as a whole.
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/mid_edges.hpp"

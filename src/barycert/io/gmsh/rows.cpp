@@ -1,7 +1,5 @@
 #include "barycert/io/gmsh/rows.hpp"
 
-#include "barycert/base/text.hpp"
-
 namespace barycert::io {
 
 Walk::Walk(const MshFile& file, const MshSection& section, bool text, const char* bad)

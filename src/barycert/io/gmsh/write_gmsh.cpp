@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"

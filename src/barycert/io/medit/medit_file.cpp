@@ -2,7 +2,6 @@
 
 #include <strings.h>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/numbers.hpp"
 

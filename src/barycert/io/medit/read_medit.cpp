@@ -2,7 +2,6 @@
 #include <filesystem>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/medit/medit_file.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/mid_edges.hpp"

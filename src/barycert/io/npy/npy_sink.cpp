@@ -5,7 +5,6 @@
 #include <set>
 #include <type_traits>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/streams.hpp"

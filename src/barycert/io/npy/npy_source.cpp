@@ -1,7 +1,6 @@
 // Points from an NPY file.
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/parallel.hpp"

@@ -1,7 +1,5 @@
 #include "barycert/io/polygons/triangles.hpp"
 
-#include "barycert/base/text.hpp"
-
 namespace barycert::io {
 namespace {
 

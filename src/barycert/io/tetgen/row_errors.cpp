@@ -1,7 +1,5 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
-#include "barycert/base/text.hpp"
-
 namespace barycert::io {
 namespace {
 

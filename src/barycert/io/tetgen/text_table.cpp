@@ -1,7 +1,6 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
 #include "barycert/base/large_pages.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
 
 namespace barycert::io {

@@ -1,6 +1,5 @@
 // VTK's legacy files: words and numbers of them, sections made of these.
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {

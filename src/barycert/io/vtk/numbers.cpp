@@ -2,7 +2,6 @@
 
 #include <fast_float/fast_float.h>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"
 

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/xml.hpp"
 

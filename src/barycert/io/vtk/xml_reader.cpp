@@ -2,8 +2,6 @@
 
 #include <set>
 
-#include "barycert/base/text.hpp"
-
 namespace barycert::io {
 namespace {
 
