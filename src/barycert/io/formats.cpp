@@ -1,10 +1,11 @@
+#include "barycert/io/formats.hpp"
+
 #include <cctype>
 #include <filesystem>
 #include <limits>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/io/medit/medit_file.hpp"
 #include "barycert/mesh/pulling.hpp"
 
 namespace barycert::io {

@@ -189,6 +189,30 @@ inline constexpr const char* formats_read =
 /// differs from what meshio counted.
 Result<Mesh> read_converted(const std::string& path, const std::string& format);
 
+// Medit: .mesh and .meshb, .sol and .solb.
+
+/// By the first bytes of a file, behind a byte-order mark.
+bool is_medit(std::string_view head);
+
+/// Reads .mesh and .meshb of version 1 to 4.
+///
+/// - Tetrahedra make a mesh of dimension 3, and its Triangles are the faces, with their references as markers. Where
+///   there are no cells of dimension 3, triangles make one of dimension 2; then z is 0, if there is one. If all are of
+///   order 2 (TetrahedraP2, TrianglesP2), their mid-edge nodes are told by the points.
+/// - Hexahedra, Prisms, Pyramids, Quadrilaterals, and cells of several sections or of a higher order are taken by their
+///   corners and cut into simplices; cells count on from section to section.
+/// - References of nodes are point markers, those of cells the cell field "medit:ref"; absent where all are 0.
+/// - SolAt... are fields, as in read_medit_fields.
+/// - What else there is is left out, with a Note.
+///
+/// Error: what the format does not have; a coordinate that is not finite; a node that there is not; no cells; polygons
+/// off the plane z = 0.
+Result<Mesh> read_medit(const std::string& path, const ReadOptions& options, InSpace* space = nullptr);
+
+/// The fields of .sol and .solb files for a mesh of that dimension, and notes, in a mesh without nodes and cells: those
+/// of nodes, and those of triangles or tetrahedra, are solution0, solution1, ... each.
+Result<Mesh> read_medit_fields(const std::string& path, int dimension);
+
 /// The path and, of XDMF, the file of numbers that lies beside it.
 std::vector<std::string> converted_files(const std::string& path);
 

@@ -6,7 +6,6 @@
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/medit/medit_file.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/mesh/part.hpp"
