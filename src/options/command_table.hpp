@@ -46,7 +46,7 @@ bool is_type_of_files(std::string_view type);
 
 /// Types of values, by which their words are found: parts between |. Those in small letters are words themselves (up to
 /// a [; with their = where one follows), names of files are completed as such, others are looked up in the vocabulary.
-/// `above`: the path of the command that this one is of.
+/// `above`: the path above it.
 CommandEntry command_table(const CLI::App& app, const Vocabulary& vocabulary, const std::string& above = {});
 
 /// Calls visit(command) for the command, and for all below it, depth first.

@@ -1,7 +1,6 @@
 /// TetGen behind one call. Only mesher.cpp sees TetGen's header.
 ///
-/// TetGen prints to stdout, throws integers, calls exit() and may crash or never end: call make_mesh() in a child
-/// process (child.hpp).
+/// TetGen prints, throws integers, calls exit(), may crash or never end: call make_mesh() in a child (child.hpp).
 #pragma once
 
 #include "barycert/io.hpp"

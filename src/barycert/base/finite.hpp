@@ -10,8 +10,7 @@
 
 namespace barycert::base {
 
-/// Differences of finite numbers with themselves are zero, all others NaN, and stay that in a sum. Eight sums, for one
-/// would wait for each addition.
+/// x - x is zero of finite numbers, else NaN, and stays that in a sum. Eight sums: one would wait for each addition.
 inline bool all_finite(std::span<const double> numbers) {
     std::array<double, 8> sums{};
     std::size_t i = 0;

@@ -19,8 +19,7 @@
 namespace barycert::base {
 
 /// Of an unfinished file, from before it exists until it is renamed or removed. In a list that only grows: a signal
-/// handler may walk it at any moment, in any thread, without a lock. Some tens of bytes for each file that needed a
-/// name.
+/// handler may walk it at any moment, in any thread, without a lock.
 struct BegunName {
     const std::string path;
     std::atomic<bool> live{true};

@@ -7,13 +7,11 @@
 namespace barycert::base {
 
 // Names that a process has given to unfinished files, removed when a signal ends it. Most unfinished files have no name
-// at all. A name exists where the file system knows no nameless files, and for the moment in which a finished file
-// replaces an older one.
+// at all. It takes one where the file system knows no nameless files, and to replace an older file.
 
 /// For the main function of a program: from now on SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE and SIGXCPU first remove
 /// the unfinished files of this process and then end it as they would have. A signal that is ignored stays ignored.
-/// `tell`: SIGINT, SIGTERM and SIGHUP say on stderr that they ended it. A library must not decide about signals, so
-/// nothing else calls this.
+/// `tell`: SIGINT, SIGTERM and SIGHUP say on stderr that they ended it. A library must not call it.
 void remove_begun_files_on_signals(bool tell = false);
 
 /// Removes the unfinished files of this process that have names, for a program that ends without its destructors.
@@ -59,8 +57,7 @@ public:
     /// The first error so far. Bytes are gathered, so that an error may show only at a later call.
     Status status() const;
 
-    /// Hands everything to the system but leaves the target as it was. For sets of files that are to change together:
-    /// close() all, and commit() only when none has failed.
+    /// Hands all to the system; the target stays. Of files that change together close() all, commit() if all is well.
     Status close();
 
     /// close() if that is still to do, then the rename.

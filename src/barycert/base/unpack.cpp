@@ -17,8 +17,7 @@ std::size_t most_unpacked(std::size_t packed) {
     return std::min(memory / 2, least + 200 * std::min(packed, memory / 200));
 }
 
-/// All members, one after the other, and how many bytes that made. The file has room for so many, in memory as far as
-/// they are filled.
+/// All members, one after the other, and how many bytes that made. The file has `room`, memory as far as it is filled.
 libdeflate_result unpack_members(std::string_view packed, int plain, std::size_t room, std::size_t& size) {
     const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> own(
         libdeflate_alloc_decompressor(), libdeflate_free_decompressor);

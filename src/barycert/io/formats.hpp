@@ -16,8 +16,7 @@ enum class FileFormat : std::uint8_t { csv, npy, node, vtu };
 /// By the suffix, in any case: .csv .npy .node .vtu; "-" is CSV. Returns an Error that lists them for another suffix.
 Result<FileFormat> format_of(const std::string& path);
 
-/// The same for points: .txt .dat .xyz .tsv are CSV, and so is a pipe or device of any name; a file without a suffix is
-/// told by its first bytes.
+/// The same for points: .txt .dat .xyz .tsv are CSV, as pipes and devices; first bytes tell a file without a suffix.
 Result<FileFormat> format_of_points(const std::string& path);
 
 using base::whole_number;
@@ -52,8 +51,7 @@ Status status_of(const F& f) {
     return Done{};
 }
 
-/// The fields of a line, parted by blanks or by a separator with blanks around it; an empty field where a separator has
-/// no neighbour.
+/// The fields of a line, parted by blanks or a separator with blanks around it; empty where it has no neighbour.
 void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
                 std::vector<std::string_view>& fields);
 
@@ -83,12 +81,10 @@ std::string suffix_of(const std::string& path);
 /// That the suffix of the path is another one.
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
-/// True if the path ends as those of VTK's files with meshes do: .vtu .vtk .vtp .vti .vtr .vts, .pvtu .pvtp .vtm .vtpd
-/// .vtpc .pvd.
+/// True if the path ends as those of VTK's files with meshes do.
 bool is_vtk_file(std::string_view path);
 
-// `path`, `options` and `format` are as for open_points and open_table.
-// Errors are thrown as Exceptions.
+// As open_points and open_table. Errors are thrown as Exceptions.
 using Source = std::unique_ptr<PointSource>;
 Source open_csv_source(const std::string& path, int dimension, const PointOptions& options);
 Source open_npy_source(const std::string& path, int dimension, const PointOptions& options);
@@ -139,12 +135,10 @@ Result<MeshFormat> mesh_output_format(const std::string& path);
 /// Tells that so many cells are taken by their corners, if there are such.
 void note_by_corners(std::size_t cells, const std::string& path, Notes& notes);
 
-/// Cuts the shapes of a mesh whose cell numbers, fields and labels have a row for each shape, and tells it; nothing if
-/// it has no shapes. Error: a polyhedron that is not closed.
+/// As mesh::cut_into_simplices(), and notes it; nothing without shapes. Throws: a polyhedron that is not closed.
 void cut_into_simplices(Mesh& mesh, const std::string& path);
 
-/// Adds to `notes`, once, which of these names a .node or .ele file does not have: its columns have no names, and are
-/// read as attribute0, attribute1, ...
+/// Adds to `notes`, once, which of these names are lost in a .node or .ele file: it has attribute0, attribute1, ...
 void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes);
 
 struct OtherFormat {
@@ -172,8 +166,7 @@ Error other_format_error(const OtherFormat& format, const std::string& path);
 /// How to cut the cells of a file of VTK into simplices.
 std::string to_simplices(const std::string& path);
 
-/// Whether all points x, y, z lie in that plane; and what to do where they do not in z = 0. `path`: of a file of linear
-/// triangles; else empty.
+/// Whether all points lie in that plane; what to do where it is not z = 0. `path`: if it holds linear triangles.
 bool in_plane(std::span<const double> points, double z = 0);
 std::string plane_remedy(std::span<const double> points, const std::string& path);
 
@@ -184,9 +177,8 @@ inline constexpr const char* formats_read =
     "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .vti .vtr .vts .pvtu .vtm .pvd .vtu.series "
     ".vtp.series), TetGen or Triangle (.node .ele), or one that meshio reads";
 
-/// Reads a mesh by way of meshio, whose name of the format is `format`: nodes and cells in its order, which is told
-/// with its version and what it printed. Error: run_meshio(); meshio cannot read the file; read_vtk(); what comes back
-/// differs from what meshio counted.
+/// Reads a mesh by way of meshio, whose name of the format that is; tells its version and what it printed. Error:
+/// run_meshio(); meshio cannot read the file; what comes back is not what it counted.
 Result<Mesh> read_converted(const std::string& path, const std::string& format);
 
 // Medit: .mesh and .meshb, .sol and .solb.

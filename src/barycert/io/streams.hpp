@@ -1,5 +1,4 @@
-/// What sources of points with carried columns have alike: which columns are what, and how they are read. What sinks of
-/// rows have alike. Errors are thrown as Exceptions.
+/// What sources of points with carried columns have alike, and sinks of rows. Errors are thrown as Exceptions.
 #pragma once
 
 #include <algorithm>
@@ -110,8 +109,7 @@ protected:
     /// Puts the rows [first, last) there; the place after them. Called on all threads.
     virtual char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const = 0;
 
-    /// put(value, k) for all that a row has, in the order of the columns: doubles, the cell, the feature, then the
-    /// value of each carried column k.
+    /// put(value, k) for all that a row has, in the order of its columns; k: the number of a carried one.
     template <class Put>
     void put_row(const TableView& rows, std::size_t row, const Put& put) const {
         const auto dimension = static_cast<std::size_t>(format_.dimension);

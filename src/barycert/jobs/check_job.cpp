@@ -68,8 +68,7 @@ Status write_measures(const CheckJob& job, const CheckReport& report, Mesh mesh)
     return write_vtu(mesh, job.measures, job.vtk_data.value_or(VtkData::raw));
 }
 
-/// What of the mesh the file has no place for: names of fields, labels of cells, faces. What follows from the cells, as
-/// neighbours do, is not among it.
+/// What of the mesh the file has no place for, but for what follows from the cells, as neighbours do.
 Notes left_out_of(const std::string& path, const Mesh& mesh) {
     const io::MeshFormat format = *io::mesh_output_format(path);
     Notes notes;

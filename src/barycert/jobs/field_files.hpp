@@ -10,8 +10,7 @@ namespace barycert::jobs {
 /// True for names that outputs have besides fields: x, y, z, cell, feature, distance, vtkValidPointMask.
 bool is_name_of_rows(const std::string& name);
 
-/// Whether fields are read from such a file as arrays of a mesh: by its suffix, else by what it is. Files that end as
-/// tables do are none: .dat, which is Tecplot's, too, among them.
+/// Whether fields are read as arrays of a mesh: by the suffix (.dat is a table, if Tecplot's, too), else the content.
 bool is_file_of_a_mesh(const std::string& path);
 
 struct FieldPlace {
@@ -49,8 +48,7 @@ using OtherNames = std::function<std::optional<std::vector<std::string>>(const s
 std::vector<std::string> with_other_names(const std::vector<std::string>& names, const OtherNames& other);
 
 /// The labels that are named, in their order; they are removed from `names`. A field goes before a label of its name;
-/// cell:NAME may stand for NAME. Refused: a label named twice; one that does not fit the mesh; one with the
-/// integer that stands for "outside".
+/// cell:NAME may stand for NAME. Refused: one named twice, that does not fit, or has mesh::no_label.
 std::vector<const Column*> take_labels(const Mesh& mesh, std::vector<std::string>& names);
 
 }  // namespace barycert::jobs

@@ -85,8 +85,7 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
 /// Notes in the report what is not there yet.
 void tell_once(Notes notes, MeshReport& report);
 
-/// Whether curved cells are taken by their maps; and, noted, where cells are straight or linear though these are asked
-/// for.
+/// Whether curved cells are taken by their maps; notes where cells are straight or linear though maps are asked for.
 void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report);
 
 /// What finds points in the mesh.

@@ -9,8 +9,7 @@ namespace barycert::jobs {
 std::array<double, 3> point_of(const Grid& grid, std::uint64_t i);
 
 /// A sink of the blocks of a grid, in order, whose views have no points: `path`, by its suffix. `picture` gets, with
-/// the commit, what became of its values. Refused: a format that cannot hold fields or grid; a path that cannot be
-/// written.
+/// the commit, what became of values. Refused: a format that cannot hold fields or grid.
 Sink open_grid_sink(const ResampleJob& job, const std::string& path, const TableFormat& format, const Grid& grid,
                     std::optional<SliceCounts>& picture);
 

@@ -53,9 +53,8 @@ public:
     /// Prepares the locator for all points; from now on blocks are as large as its mesh asks for.
     void locate_in(const Locator& locator);
 
-    /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in
-    /// which they were read. At most one block a thread, and two more, are in memory, and filled again. What is thrown
-    /// ends it all: the first in the order of blocks is thrown on.
+    /// Three stages at once: blocks are read one after the other, worked on side by side, and written in their order.
+    /// At most one block a thread, and two more, are in memory. What the first block throws ends it all.
     void run(const Stage& work, const Stage& write);
 
 private:

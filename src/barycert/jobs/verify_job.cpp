@@ -171,8 +171,7 @@ ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std
 }
 
 /// What the columns say. Cells are indices in the mesh: those that the file numbers otherwise are translated, and those
-/// that the mesh does not have are beyond its last one. Refused, with rows counted from `first_row`: a text that is
-/// no number, a cell that is no integer. An empty text is NaN.
+/// that the mesh does not have are beyond its last one. Refused: a text that is no number, a cell that is no integer.
 Claims claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
                  const VerifyJob& job, std::uint64_t first_row) {
     Claims out;

@@ -12,8 +12,7 @@ namespace barycert::mesh {
 /// The corners of each edge, in the order `vtk`: 6 edges of a tetrahedron or 3 of a triangle.
 std::span<const std::array<std::size_t, 2>> edges_of(int dimension);
 
-/// Which edge (of edges_of) the k-th node of a cell in that order stands on. Precondition: the order exists in that
-/// dimension; otherwise the span is empty.
+/// Which edge (of edges_of) the k-th node of a cell stands on; empty if the order is of another dimension.
 std::span<const std::size_t> edge_sequence(MidEdgeOrder order, int dimension);
 
 struct MidEdgeVote {
@@ -22,9 +21,8 @@ struct MidEdgeVote {
 };
 
 /// The order in which mesh.mid_nodes stand, told by the points: each cell votes for the order in which every node is
-/// nearest to the midpoint of its own edge. It abstains where two midpoints are equally near (degenerate cells).
-/// Nothing if fewer than half of the votes agree on a known order; TetGen's or Triangle's own, as a guess, if no cell
-/// votes.
+/// nearest to the midpoint of its own edge. It abstains where two are equally near (degenerate cells). Nothing if no
+/// order has more than half of them; TetGen's or Triangle's, as a guess, if no cell votes.
 std::optional<MidEdgeVote> detect_mid_edge_order(const Mesh& mesh);
 
 /// Brings mesh.mid_nodes from mesh.mid_edge_order into the order `vtk`.

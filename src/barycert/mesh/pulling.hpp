@@ -49,8 +49,7 @@ constexpr int simplex_order(int dimension, std::size_t nodes) {
 /// there is one: each edge must be one of two faces. Precondition: nodes in range, as many as the types have.
 std::optional<std::size_t> pull(Mesh& mesh);
 
-/// The same of a mesh whose cell numbers, fields and labels have a row for each shape; then they have one for each
-/// cell.
+/// The same; cell numbers, fields and labels have a row for each shape before, for each cell then.
 std::optional<std::size_t> cut_into_simplices(Mesh& mesh);
 
 /// The shape that each cell is a part of.

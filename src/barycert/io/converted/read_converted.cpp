@@ -133,8 +133,7 @@ struct MeshioFile {
 /// Has `path` read as what meshio calls `format`, by the Python of BARYCERT_MESHIO, else python3 or /usr/bin/python3.
 ///
 /// The process is started without fork(), in a session of its own, with limits of time, memory and output; it is ended
-/// as a whole, also by the end of this process, and leaves no file. Error: there is no meshio, it may not be used, it
-/// did not come to its end.
+/// as a whole, also by the end of this process, and leaves no file. Error: no meshio, or none that may be used or ends.
 MeshioFile run_meshio(const std::string& path, const std::string& format) {
     const char* const named = std::getenv("BARYCERT_MESHIO");
     if (named != nullptr && *named == '\0')

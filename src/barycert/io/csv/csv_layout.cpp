@@ -39,8 +39,7 @@ std::size_t empty_at_the_end(const TableColumns& all, int dimension) {
     return empty ? static_cast<std::size_t>(all.names.end() - first) : 0;
 }
 
-/// True if the text is a decimal number that no double holds: `value`, the nearest one, is another number when it is
-/// written with as many digits.
+/// True if no double holds the decimal number: `value`, the nearest, written with as many digits, is another one.
 bool is_rounded(std::string_view text, double value) {
     // A double holds 15 digits, unless it is subnormal, and has 767 at most.
     constexpr std::size_t held = 15, most = 767;

@@ -1,5 +1,4 @@
-/// What the first line of a CSV file tells about the others, and rows that are read so. Errors are thrown as
-/// Exceptions.
+/// What the first line of a CSV file tells about the others, and rows read so. Errors are thrown as Exceptions.
 #pragma once
 
 #include "barycert/io.hpp"
@@ -83,8 +82,7 @@ private:
 };
 
 struct CsvLayout {
-    /// What a field is: a coordinate (0, 1, 2; in the plane 2 is a z that must be 0), one of these, or first_kept + k
-    /// for the carried column k.
+    /// A coordinate (0, 1, 2; in the plane 2 is a z that must be 0), one of these, or carried column first_kept + k.
     enum Role : int { passed_over = -1, must_be_empty = -2, first_kept = 3 };
 
     char separator = ',';              ///< ',' ';' '\t', or ' ' for blanks
@@ -135,16 +133,14 @@ struct CsvPiece {
     std::optional<Error> fault;   ///< of that one, without file and number of the line
 };
 
-/// Parses `text` up to its end or the first bad line. The byte after the text must be readable. Keeps the memory of
-/// `piece`.
+/// Parses `text` up to its end or the first bad line. The byte after it must be readable. Keeps the memory of `piece`.
 void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, CsvPiece& piece);
 
 /// The integer in its shortest decimal form, as whoever writes integers writes it: no +, no leading zero, so that 007
 /// stays a text; nothing for other texts, and for integers beyond 64 bits.
 std::optional<std::int64_t> integer_of(std::string_view field);
 
-/// The number, in decimal form without leading zeros; nan and inf in any case; NaN of an empty text. Nothing for other
-/// texts, and for integers that no double represents.
+/// The decimal number without leading zeros, nan or inf; NaN of an empty text. Nothing: another, or an inexact integer.
 std::optional<double> number_of(std::string_view field);
 
 /// True if the text is an integer, in digits alone, and no double represents it; `value` is the nearest one.

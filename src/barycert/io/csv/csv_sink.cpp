@@ -7,8 +7,7 @@
 namespace barycert::io {
 namespace {
 
-/// The longest text of a double is -2.2250738585072014e-308, and those of integers and features are shorter; and a
-/// comma or line end.
+/// The longest value is -2.2250738585072014e-308; and a comma or line end.
 constexpr std::size_t longest_value = 24 + 1;
 
 char* put(char* at, double x) {
@@ -17,8 +16,7 @@ char* put(char* at, double x) {
     return std::to_chars(at, at + longest_value, x).ptr;
 }
 
-/// Whether a name or text would not be read as it is: readers settle the separator by the header, and pass over blanks
-/// around fields.
+/// Else it would not be read as it is: readers settle the separator by the header, and pass over blanks around fields.
 bool needs_quotes(std::string_view text) {
     return text.find_first_of(",;\"\r\n\t") != std::string_view::npos || text.starts_with(' ') || text.ends_with(' ');
 }

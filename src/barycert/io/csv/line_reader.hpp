@@ -19,8 +19,7 @@ public:
     /// "-" is the standard input.
     explicit LineReader(const std::string& path);
 
-    /// The next line without its LF or CR LF; valid until the next call, and one byte after it may be read.
-    /// False at the end of the file.
+    /// The next line without its end, valid until the next call; a byte after it may be read. False: there is none.
     bool next(std::string_view& line);
 
     /// Several lines at once, whole ones with their ends but for the last of the file, which may lack its own: at least
@@ -29,8 +28,7 @@ public:
     bool next_lines(std::string_view& lines);
     void count(std::size_t lines) { number_ += lines; }
 
-    /// Error: it is a regular file and was changed since it was opened, so that a line that is wrong may be half of
-    /// one. Looked at where the file ends.
+    /// Error: the regular file was changed since it was opened; a line that is wrong may be half of one.
     Status unchanged() const { return then_ ? base::unchanged(descriptor_, *then_, name_) : Status(Done{}); }
 
     /// The last line given ended with LF or CR, and not with the file.

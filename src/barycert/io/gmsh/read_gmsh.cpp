@@ -176,9 +176,8 @@ MshGroups read_msh_groups(const MshFile& file) {
     return groups;
 }
 
-/// Appends the fields "gmsh:physical" and "gmsh:geometrical", and the labels "gmsh:tag" and "gmsh:physical_name". A
-/// cell field of one of these names that is there already stays: the writer makes such where groups cannot say the
-/// same.
+/// Appends the fields "gmsh:physical" and "gmsh:geometrical", and the labels "gmsh:tag" and "gmsh:physical_name". Cell
+/// fields of such names stay: the writer makes them where groups cannot say the same.
 void label_cells(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells) {
     Mesh& mesh = cells.mesh;
     if (file.version() == 22) {

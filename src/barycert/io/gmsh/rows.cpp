@@ -14,8 +14,7 @@ void Walk::refuse_word(std::string expected, std::string found) const {
     file_->refuse(at_, std::string(bad_) + " $" + std::string(name_), std::move(expected), std::move(found));
 }
 
-/// A number in binary form may reach beyond the section: into its end, "$End..." and its name, which has 9 bytes or
-/// more.
+/// A number in binary form may reach into the end of the section, "$End..." and its name, which has 9 bytes or more.
 template <class Take>
 void Walk::step(const char* name, const Take& take) {
     const auto from = [&](auto row) {

@@ -123,8 +123,7 @@ void parse_runs(const MshFile& file, std::string_view section, std::span<const R
 /// A section from its beginning: headers number by number, rows passed over. What is not there is refused.
 class Walk {
 public:
-    /// `text`: the numbers are text, as those of some headers are in binary files too. `bad`: what errors call a word
-    /// that is no number.
+    /// `text`: numbers are text, as those of some headers in binary files. `bad`: what errors call a word that is none.
     Walk(const MshFile& file, const MshSection& section, bool text, const char* bad = "bad number in");
     Walk(const MshFile& file, const MshSection& section) : Walk(file, section, !file.binary()) {}
 

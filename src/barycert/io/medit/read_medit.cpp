@@ -108,8 +108,7 @@ const MeditKeyword* find_keyword(const IsOne& is_one) {
     return found == keywords().end() ? nullptr : &*found;
 }
 
-/// Takes the text up to the next keyword and the keyword itself off `text`; empty, at its end, if there is none. Names
-/// in quotes are passed over, and so are nan and inf.
+/// Takes the text up to the next keyword, and that, off `text`; empty: none is left. Quoted names, nan, inf are none.
 std::string_view next_keyword(std::string_view& text) {
     for (std::size_t i = 0; i < text.size();) {
         const auto letter = static_cast<unsigned char>((text[i] | 0x20) - 'a');
@@ -580,8 +579,7 @@ private:
         mesh::normalise_mid_nodes(mesh_);
     }
 
-    /// Cells of a lower dimension: triangles beside tetrahedra are faces, the others are left out. What has nodes of
-    /// its own is told to all, as by Gmsh's reader.
+    /// Cells of a lower dimension: triangles beside tetrahedra are faces. The others are told as by Gmsh's reader.
     void read_the_lower() {
         std::vector<std::uint8_t> used(mesh_.point_count(), 0);
         for (const auto* nodes : {&mesh_.cells, &mesh_.mid_nodes, &mesh_.shapes.nodes}) {

@@ -83,8 +83,7 @@ public:
 
     const NpyHeader& header() const { return header_; }
 
-    /// Columns can be read afterwards. Error: a type of unknown size, or Python objects; a shape that is no table; a
-    /// file of another size.
+    /// Columns can be read afterwards. Error: a type of unknown size, Python objects, a shape or size of no table.
     const NpyTable& make_table();
 
     /// How many rows of the table are read at once: some hundred kilobytes, or one.
@@ -93,12 +92,11 @@ public:
     /// Reads `count` rows from row `first` on; of a table by columns nothing, yet.
     void go_to(std::uint64_t first, std::size_t count);
 
-    /// The numbers of a column in these rows, to out[0], out[stride], ...; `what` is the column in messages. Error: an
-    /// integer that is no double. Precondition: a column of numbers.
+    /// The numbers of a column of such in these rows, to out[0], out[stride], ... Error, of `what`: an integer is no
+    /// double.
     void numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride);
 
-    /// Appends them to `out`, a column of integers, numbers or texts, as the type is. Error: an integer beyond int64; a
-    /// text that is not of characters.
+    /// Appends the values to `out`, a column of their type. Error: an integer beyond int64; a text not of characters.
     void values(const NpyColumn& column, const std::string& what, Column& out);
 
     void read(std::uint64_t offset, std::span<char> bytes) const;

@@ -129,8 +129,7 @@ void add_field(const std::string& name, NpyType type, std::uint64_t at, bool arr
     columns.push_back({name, std::move(type), at, 0});
 }
 
-/// The fields of a structured type and the bytes of an item; false if these are not known. A field is (name, type) or
-/// (name, type, shape); the name may be (title, name).
+/// Fields of a structured type, (name, type) or (name, type, shape), name or (title, name); and the bytes of an item.
 bool take_fields(const Literal& list, std::vector<NpyColumn>& columns, std::uint64_t& size, int depth) {
     if (list.kind != '[' || depth > deepest) return false;
     size = 0;

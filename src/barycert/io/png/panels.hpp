@@ -1,5 +1,4 @@
-/// Text in pictures (printable ASCII, each character five dots wide and seven high), and white panels beside and under
-/// them, row by row from the top, 4 bytes a pixel.
+/// Text in pictures, and white panels beside and under them, row by row from the top, 4 bytes a pixel.
 #pragma once
 
 #include <string>
@@ -20,13 +19,11 @@ inline constexpr std::size_t text_width(std::size_t characters) {
     return characters == 0 ? 0 : glyph_advance * characters - (glyph_advance - glyph_width);
 }
 
-/// How a picture writes a text: each byte that is not printable ASCII stands for a character that is not there, of
-/// several bytes in UTF-8 only the first.
+/// Characters of UTF-8; a byte that is none counts as one.
 std::size_t character_count(std::string_view text);
 
-/// Draws line `line` of the text, scaled up, from `left` on into a row of RGBA pixels; other pixels stay, and all if
-/// the text has no such line: it has scale * glyph_height. What is not printable ASCII is a box. Precondition: `left` +
-/// scale * text_width(character_count(text)) pixels in the row.
+/// Draws line `line` of scale * glyph_height of the text, from `left` on, into a row of RGBA pixels, which it must fit
+/// in; other pixels stay. What is not printable ASCII is a box.
 void draw_text(std::string_view text, std::size_t scale, std::size_t line, std::size_t left, std::uint8_t* pixels);
 
 /// Largest of 1, 2 and 5 times a power of ten that is at most `limit`. Precondition: limit > 0, finite.

@@ -8,8 +8,7 @@ namespace {
 constexpr std::size_t header_bytes = 84;  // 80 bytes of text and a count
 constexpr std::size_t record_bytes = 50;  // normal and three corners as floats, two bytes of padding
 
-/// Corners of a triangle soup: those of equal coordinates are one point. A table of open addresses: the next free place
-/// is taken.
+/// Corners of a triangle soup: those of equal coordinates are one point. A table of open addresses.
 class Joined {
 public:
     explicit Joined(std::size_t corners) : table_(std::bit_ceil(std::max<std::size_t>(16, corners)), -1) {}

@@ -102,8 +102,7 @@ struct Complaint {
     std::string expected, remedy;
 };
 
-/// Of a field that scan_real() refuses. `finite`: what to do about nan and inf; `separators`: about what is nothing
-/// known.
+/// Of a field that scan_real() refuses. `finite`: the remedy for nan and inf; `separators`: for what is nothing known.
 Complaint about_real(std::string_view field, const std::string& finite, const std::string& separators);
 
 /// A place in the text, moved by each success and left near the fault by a failure.

@@ -39,8 +39,7 @@ std::string header_text(std::initializer_list<std::int64_t> numbers) {
     refuse_header(table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
 }
 
-/// Sets the columns and the base of a .node file of that dimension, by its header and its first row, and makes room for
-/// their values.
+/// Sets the columns and the base of a .node file by its header and first row, and makes room for their values.
 void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
                          std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
     const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);

@@ -89,8 +89,7 @@ bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
     return blocks.size() != begin || table.rows == 0;
 }
 
-/// The commonest row of all: an id and the corners of a linear cell. False: the scanner has not moved, and nothing is
-/// known.
+/// The commonest row of all: an id and the corners of a linear cell. False: nothing is known, nothing has moved.
 template <std::size_t Corners>
 bool parse_plain_cell(const TextTable& table, Scanner& scanner, std::size_t row) {
     std::array<std::uint32_t, Corners + 1> values{};
@@ -115,8 +114,7 @@ std::size_t plain_corners(const TextTable& table) {
     return table.columns[1].count == count - 1 && table.columns[1].step == count - 1 ? count - 1 : 0;
 }
 
-/// Moves from the first field of row number `row` over its end, and puts the values where they belong. False: the row
-/// is not as it should be.
+/// Moves from the first field of the row over its end, and puts values where they belong. False: it is a bad row.
 bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row) {
     for (const Columns& c : table.columns) {
         for (std::size_t k = 0; k < c.count; ++k) {

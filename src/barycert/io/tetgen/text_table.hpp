@@ -24,8 +24,7 @@ enum class ColumnKind : std::uint8_t {
     real,
 };
 
-/// Some columns alike. Their values go to one of these vectors, value k of row r to r * step + k, or to a field of each
-/// column. Without a place for them they are checked alone.
+/// Columns alike. Values go to one of these vectors, k of row r to r * step + k, or a field each, or are checked alone.
 struct Columns {
     ColumnKind kind = ColumnKind::id;
     std::size_t count = 0;

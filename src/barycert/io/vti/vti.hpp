@@ -25,8 +25,7 @@ struct VtiGrid {
 class VtiWriter {
 public:
     /// Error: counts, origin or spacing that are none; more than 2^63 bytes; a name that is empty, twice there, or that
-    /// XML cannot hold (not UTF-8, or control characters but for tab and line breaks); fewer than one component; the
-    /// file cannot be made.
+    /// XML cannot hold (not UTF-8, or control characters but for tab and line breaks); no component; no file.
     static Result<std::unique_ptr<VtiWriter>> open(const std::string& path, const VtiGrid& grid,
                                                    const std::vector<ArrayFormat>& arrays, VtkData data = VtkData::raw);
 

@@ -75,8 +75,7 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
     return writer;
 }
 
-/// In its place, or in order where that is its turn and the bytes are few, which are gathered, or the file has no
-/// places. False if it has none and it is not its turn.
+/// In its place, or in order, as few bytes, which are gathered, and on a pipe. False: there it is not its turn.
 bool VtiWriter::put(std::uint64_t at, std::string_view bytes) {
     constexpr std::size_t many = std::size_t{1} << 16;
     if (at == end_ && (bytes.size() < many || !file_.can_replace())) {

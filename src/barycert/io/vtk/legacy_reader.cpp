@@ -29,8 +29,7 @@ std::string decoded(std::string_view word) {
     return text;
 }
 
-/// A place in a legacy file. Words are separated by white space; in a binary file the numbers of an array stand in
-/// big-endian order behind the end of the line that announces it.
+/// A place in a legacy file: words; in a binary file big-endian numbers behind the line that announces an array.
 class LegacyText {
 public:
     LegacyText(std::string_view bytes, const std::string& path) : file_{bytes, path}, rest_(bytes) {}
@@ -128,8 +127,7 @@ public:
             value = std::floor(255 * value + 0.5);
         }
     }
-    /// Strings of an array: a line each, or in a binary file, but for variants (`in_lines`), their length and bytes.
-    /// `texts`: where they go, if they are wanted.
+    /// Strings of an array: lines, or in a binary file, but for variants (`in_lines`), lengths and bytes.
     void take_strings(const std::string& what, bool in_lines, std::uint64_t count, std::vector<std::string>* texts) {
         rest_of_line();
         for (std::uint64_t i = 0; i < count; ++i) {

@@ -26,8 +26,7 @@ struct OutGrid {
     std::uint8_t type_of(std::size_t cell) const { return shapes == nullptr ? type : shapes->types[cell]; }
 };
 
-/// The faces of each polyhedron: how many, then how many nodes and these, face after face; where each ends goes to
-/// `ends`, -1 of other cells.
+/// As RawFaces has them. `ends`: where those of each polyhedron end, -1 of other cells.
 std::vector<std::int64_t> face_streams(const Mesh::Shapes& shapes, std::vector<std::int64_t>& ends) {
     std::vector<std::int64_t> stream;
     std::int64_t face = 0, node = 0;

@@ -71,8 +71,7 @@ using NumbersTo =
     std::variant<std::reference_wrapper<std::vector<double>>, std::reference_wrapper<std::vector<std::int64_t>>,
                  std::reference_wrapper<std::vector<std::int32_t>>, std::reference_wrapper<std::vector<std::uint8_t>>>;
 
-/// Appends `count` numbers to `values`, of bytes that may be too few. From a number that is not exact on, others may
-/// stand there. float32 becomes double exactly.
+/// Appends `count` numbers, of bytes that may be too few. From a number that is not exact on, others may stand there.
 NumberFault read_binary(std::string_view bytes, NumberType type, bool swapped, std::size_t count, NumbersTo values);
 
 /// The same from text, separated by white space; what has been read is taken off `text`. Decimal numbers are rounded to

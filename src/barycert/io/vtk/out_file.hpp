@@ -76,8 +76,7 @@ std::optional<std::string> xml_attribute(std::string_view name);
 /// Where names are to stand.
 enum class Names : bool { legacy, xml };
 
-/// What is wrong with the names of fields, in one clause; empty if every name can be written and is the only one: VTK
-/// keeps but one array of a name.
+/// What is wrong with the names of fields, in one clause, or empty. VTK keeps but one array of a name.
 std::string fault_of_names(const std::vector<OutArray>& arrays, Names names);
 
 /// That `what` ("the mesh") cannot be written because of that fault.

@@ -49,8 +49,7 @@ const Json& member_of(const Json& object, const char* name) {
     return object.is_object() && object.contains(name) ? object[name] : none;
 }
 
-/// What the root of a .pvtu, .pvtp, .vtm, .vtpd, .vtpc or .pvd names; nothing if it is another. Error: an entry without
-/// a file, or a time that is none.
+/// What the root of a file of collection_types names; nothing if it is another. Error: an entry without file or time.
 std::optional<Collection> files_of(const XmlTree& tree) {
     const std::string_view type = tree.root().attribute_or("type", "");
     if (tree.root().name != "VTKFile" || !has_word(collection_types, type) || tree.child(&tree.root(), type) == nullptr)
@@ -161,8 +160,7 @@ bool read_beginning(VtkFile& file, const std::string& path) {
     return true;
 }
 
-/// By the first word. Throws an Exception: a file that is not of VTK, as the first block shows; one that names none
-/// where it should.
+/// By the first word. Throws an Exception: a file that is not of VTK, or names none where it should.
 VtkFile open_vtk(const std::string& path) {
     const auto check = [&](std::string_view block, std::uint64_t) {
         return status_of([&] { check_block(block, path); });
@@ -294,8 +292,7 @@ private:
     std::set<std::string> seen_;
 };
 
-/// `arrays`: those too, of these names or all. `labels`: integers of one component that int64 holds are labels, and
-/// there is a remedy for points that are not finite.
+/// `arrays`: too, of these names or all. `labels`: such are integers of one component; points not finite have a remedy.
 Result<PointTable> read_table(const std::string& path, int dimension, bool arrays,
                               const std::vector<std::string>* names, bool labels, bool finite) {
     return read_guarded(path, [&]() -> Result<PointTable> {

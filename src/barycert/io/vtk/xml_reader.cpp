@@ -100,8 +100,7 @@ private:
         take_numbers(*array, "the coordinates", std::uint64_t{3} * count, grid.points);
     }
 
-    /// The only piece of a structured grid. Error: an extent that is none, or not that of the whole; more points than a
-    /// mesh can have, or than the file has numbers for.
+    /// The only piece of a structured grid. Error: an extent that is none, or not that of the whole; too many points.
     void read_structured(const XmlElement& data, const XmlElement& piece, const std::string& type,
                          RawGrid& grid) const {
         const std::string_view whole_text = data.attribute_or("WholeExtent", ""),

@@ -23,8 +23,7 @@ public:
     std::vector<XmlElement> elements;
     bool at_appended_data = false, has_doctype = false, out_of_memory = false;
 
-    /// Bytes `first` to `last` - 1 of the file, which may leave out text between tags. False where it ends: at an
-    /// error, or at appended data.
+    /// Bytes `first` to `last` - 1 of the file; text between tags may be left out. False: an error, or appended data.
     bool parse(std::string_view file, std::size_t first, std::size_t last) {
         jumps_.push_back({fed_, first});
         constexpr std::size_t chunk = std::size_t{1} << 24;  // expat takes lengths of 31 bits
