@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <system_error>
 
 #include "options/command_table.hpp"
 

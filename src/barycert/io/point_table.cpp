@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"

@@ -1,6 +1,5 @@
 #include "barycert/jobs/resampled.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <tuple>
 

@@ -1,7 +1,6 @@
 // Fields on a regular grid, or at the nodes of another mesh.
 
 #include <fmt/format.h>
-#include <algorithm>
 
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/resampled.hpp"

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "barycert/base/finite.hpp"
 #include "barycert/base/output_file.hpp"
 #include "barycert/io/formats.hpp"

@@ -4,9 +4,6 @@
 /// Errors are thrown as Exceptions.
 #pragma once
 
-#include <optional>
-#include <span>
-
 #include "barycert/base/input_file.hpp"
 #include "barycert/mesh.hpp"
 

@@ -1,6 +1,5 @@
 #include "barycert/io/vtk/out_file.hpp"
 
-#include <charconv>
 #include <set>
 
 #include "barycert/base/output_file.hpp"
