@@ -46,7 +46,6 @@ bool is_type_of_files(std::string_view type);
 
 /// Types of values, by which their words are found: parts between |. Those in small letters are words themselves (up to
 /// a [; with their = where one follows), names of files are completed as such, others are looked up in the vocabulary.
-/// `above`: the path above it.
 CommandEntry command_table(const CLI::App& app, const Vocabulary& vocabulary, const std::string& above = {});
 
 /// Calls visit(command) for the command, and for all below it, depth first.
@@ -67,8 +66,7 @@ struct Variable {
     std::string name, text;
 };
 
-/// A page for the program and one for each command below it. `version`: "barycert 0.1.0". `environment`: what the
-/// page of the program says of each variable. `date`: as YYYY-MM-DD, or empty.
+/// A page for the program, which has the environment, and one for each command below it. `date`: YYYY-MM-DD, or empty.
 std::vector<ManPage> man_pages(const CommandEntry& program, std::string_view version,
                                const std::vector<Variable>& environment, std::string_view date);
 

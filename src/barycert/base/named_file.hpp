@@ -13,8 +13,7 @@ struct NamedFile {
 /// What the name of an output has where each step of a series has a file of its own.
 inline constexpr std::string_view step_place = "{step}", time_place = "{time}";
 
-/// True if both paths lead to one file (device and inode: through links and other names), or would once it is made.
-/// An empty path names no file; "-" is the standard stream, which only "-" names.
+/// True if both paths lead to one file, or would once it is made. An empty one names none; "-" is the standard stream.
 bool same_file(const std::string& a, const std::string& b);
 
 /// The paths, all called the same.

@@ -9,8 +9,7 @@
 
 namespace barycert::base {
 
-/// Letters to insert, to leave out, to replace, or to swap with the next, that turn one word into the other; a swapped
-/// pair is not changed again. Letters of ASCII count as the same in both cases.
+/// Letters to insert, leave out, replace, or swap with the next (a pair once), in any case, to make the other word.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The name of least edit distance from the word, the first of several; a name counts as what follows its last dot as

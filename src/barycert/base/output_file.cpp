@@ -18,8 +18,7 @@
 
 namespace barycert::base {
 
-/// Of an unfinished file, from before it exists until it is renamed or removed. In a list that only grows: a signal
-/// handler may walk it at any moment, in any thread, without a lock.
+/// Of an unfinished file, in a list that only grows: a signal handler may walk it at any moment, without a lock.
 struct BegunName {
     const std::string path;
     std::atomic<bool> live{true};

@@ -122,8 +122,7 @@ enum class MeshFormat : std::uint8_t {
     by_meshio,  ///< converted: io/converted
 };
 
-/// Of a mesh that is to be read: by its first bytes if they tell, else by the end of its name; stems of TetGen's files
-/// have none. Error: it is not there; it is a file of another format, which is named.
+/// Of a mesh that is to be read: by its first bytes, else the end of its name. Error: none, or one of another format.
 Result<MeshFormat> mesh_format(const std::string& path);
 
 /// What meshio calls the format of a file that is MeshFormat::by_meshio.
@@ -177,8 +176,7 @@ inline constexpr const char* formats_read =
     "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .vti .vtr .vts .pvtu .vtm .pvd .vtu.series "
     ".vtp.series), TetGen or Triangle (.node .ele), or one that meshio reads";
 
-/// Reads a mesh by way of meshio, whose name of the format that is; tells its version and what it printed. Error:
-/// run_meshio(); meshio cannot read the file; what comes back is not what it counted.
+/// Reads a mesh by way of meshio, whose name of the format that is; notes its version and what it printed.
 Result<Mesh> read_converted(const std::string& path, const std::string& format);
 
 // Medit: .mesh and .meshb, .sol and .solb.
@@ -197,12 +195,10 @@ bool is_medit(std::string_view head);
 /// - SolAt... are fields, as in read_medit_fields.
 /// - What else there is is left out, with a Note.
 ///
-/// Error: what the format does not have; a coordinate that is not finite; a node that there is not; no cells; polygons
-/// off the plane z = 0.
+/// Error: what the format does not have; a coordinate not finite; an unknown node; no cells; polygons off the plane.
 Result<Mesh> read_medit(const std::string& path, const ReadOptions& options, InSpace* space = nullptr);
 
-/// The fields of .sol and .solb files for a mesh of that dimension, and notes, in a mesh without nodes and cells: those
-/// of nodes, and those of triangles or tetrahedra, are solution0, solution1, ... each.
+/// Notes and fields of .sol and .solb files, solution0, solution1, ..., for a mesh of that dimension, in an empty one.
 Result<Mesh> read_medit_fields(const std::string& path, int dimension);
 
 /// The path and, of XDMF, the file of numbers that lies beside it.
@@ -217,8 +213,7 @@ struct PointTable : PointData {
 /// As open_points chooses among columns: the coordinates x, y[, z]; NAME, or NAME.0, NAME.1, ... of each field; labels.
 Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options);
 
-/// Points and point arrays: integers of one component and texts as labels, all others as fields. Without `arrays` those
-/// of XML files are not read, and their names are in PointTable::unread.
+/// Points and point arrays: integers of one component and texts as labels. Without `arrays` those of XML are unread.
 Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
                                   NonfinitePoints nonfinite = NonfinitePoints::error);
 
@@ -230,9 +225,8 @@ Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
 /// they are. Blank lines, and what follows a #, are passed over. With `column`, CSV, whose first line settles the
 /// separator as in files of points: the column of that name or number (from 1), or NAME.0, NAME.1, ... NPY (by the
 /// suffix): an array of shape (rows,) or (rows, components) of floats or integers, of either byte order and either
-/// order of axes; with `column` a field of a structured array, or the number of a column from 1. Errors: it cannot be
-/// read; a word that is no number; rows of different lengths; an integer that is no double; no such column; another
-/// array.
+/// order of axes; with `column` a field of a structured array, or the number of a column from 1. Errors: a word that is
+/// no number; rows of different lengths; an integer that is no double; no such column or array.
 Result<Field> read_field_file(const std::string& name, const std::string& path, const std::string& column,
                               Notes& notes);
 

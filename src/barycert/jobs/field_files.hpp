@@ -18,17 +18,14 @@ struct FieldPlace {
     std::size_t number = 0;
 };
 
-/// The field in the file, any number of rows. file.of becomes what it is of, where the file tells. Refused: what
-/// read_field_file and read_mesh refuse; an array that is not there.
+/// The field in the file, any number of rows. file.of becomes what it is of, where the file tells.
 Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes);
 
 /// Adds the field of a file to the mesh, and to its notes what is to be told of it; with `replace`, in the place of one
-/// of that name. Refused: what read_field refuses; a name that there is already; a number of rows that is that of
-/// neither nodes nor cells, or, where it is not said which, of both.
+/// of that name. Refused: a name twice; rows that fit neither nodes nor cells, or both unsaid.
 FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace);
 
-/// Adds the fields of all files to the surface: a row of numbers for each node, or for each cell as users count them.
-/// Refused: as for meshes; an array of another file than of a surface.
+/// Adds the fields of all files to the surface: a row for each node, or for each cell as users count them.
 void add_fields(const std::vector<FieldFile>& files, Surface& surface);
 
 /// So that columns have one name each, a field of cells that has the name of one of nodes is called cell:NAME from then

@@ -60,9 +60,8 @@ struct Step {
 
 /// The steps of all series of fields of a job in natural order (2 before 10), or that of a .pvd file; where it has
 /// none, the steps of its mesh that are to have outputs of their own. A path may end in :COLUMN; of a mesh file the
-/// array of the field's name is read without it. Refused: a pattern without exactly one *, or that no file matches;
-/// what read_series refuses; a step that not all series have; all steps asked for where there are none, or where the
-/// outputs have one name.
+/// array of the field's name is read without it. Refused: a pattern that matches no file, or has not one *; a step that
+/// not all series have; all steps where there are none, or one output.
 std::vector<Step> find_steps(const SamplingJob& job);
 
 /// Whether each step has outputs of its own.
@@ -99,9 +98,8 @@ std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<b
 void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
                    std::vector<base::NamedFile> outputs);
 
-/// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
-/// inputs; `unread`: inputs, too, but who reads them tells what is wrong. Refused: an output that is an input or
-/// another output, or cannot be written; an input that cannot be read.
+/// What can be known of files before the work, of these and the mesh and fields; who reads those `unread` tells what is
+/// wrong. Refused as by base::check_inputs and check_outputs.
 void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
                  const std::vector<base::NamedFile>& unread = {});
 

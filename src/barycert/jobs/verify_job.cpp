@@ -125,8 +125,7 @@ std::int64_t index_of(std::int64_t number, const Mesh& mesh) {
     return at != mesh.cell_numbers.end() && *at == number ? at - mesh.cell_numbers.begin() : cells;
 }
 
-/// Chooses among the columns that the results have. Adds to `notes` which fields and columns are not compared. Refused:
-/// a column that the job names is not there, or nothing is left to compare.
+/// Chooses among the columns of the results; notes what is not compared. Refused: one is not there, or none is left.
 ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std::vector<FieldChoice>& fields,
                                const std::vector<ColumnFormat>& formats, Notes& notes) {
     std::vector<std::string> there(formats.size());

@@ -35,8 +35,7 @@ struct CellFacet {
     }
 };
 
-/// Time and memory O(cells + nodes) where the number of cells at a node is bounded. The work is shared among the
-/// threads of the calling arena, and the outcome does not depend on them.
+/// Time and memory O(cells + nodes) where cells at a node are bounded; on all threads, whose number does not show.
 class FacetTable {
 public:
     /// Of the cells for which use[cell] is not 0; of all if it is empty. Precondition: their indices are in range.

@@ -14,8 +14,7 @@ public:
     FieldCutter(std::string_view line, char separator)
         : at_(line.data()), end_(line.data() + line.size()), separator_(separator) {}
 
-    /// The next field, without quotes around it but with doubled quotes in it. False after the last, and at a quote
-    /// that is not closed or not followed by a separator: see malformed().
+    /// The next field, without quotes around it but doubled ones in it. False: after the last, or malformed().
     bool next(std::string_view& field) {
         if (!more_) return false;
         skip_blanks();
@@ -136,8 +135,7 @@ struct CsvPiece {
 /// Parses `text` up to its end or the first bad line. The byte after it must be readable. Keeps the memory of `piece`.
 void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, CsvPiece& piece);
 
-/// The integer in its shortest decimal form, as whoever writes integers writes it: no +, no leading zero, so that 007
-/// stays a text; nothing for other texts, and for integers beyond 64 bits.
+/// The integer of 64 bits in its shortest decimal form: no +, no leading zero, so that 007 stays a text; or nothing.
 std::optional<std::int64_t> integer_of(std::string_view field);
 
 /// The decimal number without leading zeros, nan or inf; NaN of an empty text. Nothing: another, or an inexact integer.

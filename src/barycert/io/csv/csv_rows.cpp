@@ -79,8 +79,7 @@ void parse_line(std::string_view line, bool whole, const CsvLayout& layout, std:
     if (is_off_plane(layout, point)) throw Exception(off_plane({}, 0, "", base::quoted(height)));
 }
 
-/// The common case: nothing but numbers, each with the separator or the end of the line right behind it. Then
-/// parse_line finds the same fields and the same values. False: nothing is known.
+/// The common case: numbers, the separator or line end right behind each; parse_line finds the same. False: not known.
 bool parse_plain(std::string_view line, const CsvLayout& layout, std::array<double, 3>& point) {
     const char* at = line.data();
     const char* const end = at + line.size();

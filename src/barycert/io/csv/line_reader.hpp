@@ -20,9 +20,8 @@ public:
     /// The next line without its end, valid until the next call; a byte after it may be read. False: there is none.
     bool next(std::string_view& line);
 
-    /// Several lines at once, whole ones with their ends but for the last of the file, which may lack its own: at least
-    /// one, and as many more as have come, at most longest_line bytes. Valid until the next call, and one byte after
-    /// them may be read. False as above. Whoever has counted the lines tells it by count().
+    /// Several lines at once, whole ones but for the last of the file: one at least, and as many more as have come, up
+    /// to longest_line bytes. Valid, and false, as above. Whoever has counted them tells it by count().
     bool next_lines(std::string_view& lines);
     void count(std::size_t lines) { number_ += lines; }
 

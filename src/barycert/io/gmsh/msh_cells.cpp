@@ -363,9 +363,8 @@ void note_cells(MshCells& cells, bool partitioned, const std::string& path) {
         cells.mesh.notes.push_back({Note::Kind::left_out, std::move(text), path, important});
     };
     const std::string others = counted_types(cells.left_out, 0, cells.mesh.dimension - 1);
-    // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result, and to
-    // tell it each time would teach users to look away. Of a wire or shell with nodes of its own nothing is left: that
-    // is told.
+    // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result; to tell
+    // it each time would teach users to look away. Of a wire nothing would be left.
     if (!others.empty())
         left_out("elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
                  cells.apart);

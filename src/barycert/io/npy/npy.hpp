@@ -89,8 +89,7 @@ public:
     /// Reads `count` rows from row `first` on; of a table by columns nothing, yet.
     void go_to(std::uint64_t first, std::size_t count);
 
-    /// The numbers of a column of such in these rows, to out[0], out[stride], ... Error, of `what`: an integer is no
-    /// double.
+    /// The numbers of a column in these rows, to out[0], out[stride], ... Error, of `what`: an integer is no double.
     void numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride);
 
     /// Appends the values to `out`, a column of their type. Error: an integer beyond int64; a text not of characters.

@@ -27,8 +27,7 @@ NumberType number_type(const NpyType& type) {
 }
 
 /// The numbers of `count` items, each `step` bytes behind the one before, to out[0], out[stride], ..., up to the first
-/// that is none of that type (an integer that is no double, or beyond int64); how many there were. Precondition:
-/// is_number(), and for integers is_integer().
+/// that is none of that type (an integer that is no double, or beyond int64); how many there were.
 template <class To>  // double, std::int64_t
 std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, To* out,
                         std::size_t stride) {

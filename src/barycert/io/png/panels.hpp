@@ -22,8 +22,7 @@ inline constexpr std::size_t text_width(std::size_t characters) {
 /// Characters of UTF-8; a byte that is none counts as one.
 std::size_t character_count(std::string_view text);
 
-/// Draws line `line` of scale * glyph_height of the text, from `left` on, into a row of RGBA pixels, which it must fit
-/// in; other pixels stay. What is not printable ASCII is a box.
+/// Draws line `line` of scale * glyph_height of the text into a row of RGBA pixels, where it must fit, from `left` on.
 void draw_text(std::string_view text, std::size_t scale, std::size_t line, std::size_t left, std::uint8_t* pixels);
 
 /// Largest of 1, 2 and 5 times a power of ten that is at most `limit`. Precondition: limit > 0, finite.
@@ -32,8 +31,7 @@ double round_length(double limit);
 /// Under a picture: a title and the scale of lengths.
 class Caption {
 public:
-    /// For a picture `width` pixels wide, of which the first `drawn` have the length `pixel_length` each (0: no scale);
-    /// `dot` pixels for each dot of the text. A title that is too long for the place is cut.
+    /// For a picture of that width, `drawn` pixels of it so long (0: no scale). A title that is too long is cut.
     Caption(const std::string& title, double pixel_length, std::size_t drawn, std::size_t width, std::size_t dot);
 
     std::size_t height() const { return height_; }  ///< 0 if there is nothing to say

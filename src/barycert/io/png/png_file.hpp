@@ -25,8 +25,7 @@ Status write_png_rows(const std::string& path, std::size_t width, std::size_t he
                       PngContent content = PngContent::few_colours);
 
 /// A small picture of few colours as the bytes of a PNG file. `pixels`: the index of each pixel's colour, row by row
-/// from the top. Error: libpng does not make it, as without memory. Preconditions: pixels.size() is a multiple of
-/// `width`, both > 0; 1 to 256 colours; indices are those of colours.
+/// from the top. Preconditions: whole rows, 1 to 256 colours, indices of these.
 Result<std::string> indexed_png(std::size_t width, std::span<const std::uint8_t> pixels,
                                 std::span<const Colour> colours);
 
@@ -35,8 +34,7 @@ struct PngPixels {
     std::vector<std::uint8_t> rows;  ///< 8-bit RGBA, 4 * width bytes a row, from the top
 };
 
-/// Reads a PNG file of any kind, see read_png in raster.hpp. Memory is that of the file, 4 bytes a pixel, of which
-/// there are at most max_pixels, and libpng's own, which limits keep below a few MiB.
+/// Reads a PNG file of any kind, see read_png in raster.hpp. Memory: the file, 4 bytes a pixel, a few MiB of libpng.
 Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels);
 
 }  // namespace barycert::io

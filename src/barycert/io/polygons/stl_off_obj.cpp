@@ -147,8 +147,7 @@ Polygons read_off(PlcText& in) {
     return all;
 }
 
-/// Wavefront's format: lines `v x y z` and `f a b c ...`, where a corner is a number from 1, or from the last point
-/// back if it is negative, with more behind a slash. All else is passed over.
+/// Wavefront: lines `v x y z` and `f a b c ...`, corners from 1, or from the last point back, with more behind a slash.
 Polygons read_obj(PlcText& in) {
     Polygons all;
     all.index_base = 1;

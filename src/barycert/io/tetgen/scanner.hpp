@@ -208,8 +208,7 @@ private:
     }
 };
 
-/// Reads exactly Count integers of at most 8 digits, separated by spaces and ended by LF within 64 bytes; the place
-/// after the LF, or nullptr for any other row. Precondition: 72 bytes can be read.
+/// As plain_row_end(), of exactly Count integers of at most 8 digits, which it reads.
 template <std::size_t Count>
 const char* scan_plain_row(const char* at, std::array<std::uint32_t, Count>& values) {
     const ByteMasks masks(at);

@@ -1,6 +1,5 @@
 // The grammar accepted. Each file is a header line and then rows, one a line. '#' starts a comment that goes to the end
-// of the line; blank and comment lines may stand anywhere. Fields and separators: see scanner.hpp. A byte-order mark at
-// the beginning is passed over.
+// of the line; blank and comment lines may stand anywhere. Fields and separators: scanner.hpp.
 //
 //   .node   nodes [dimension = 3 [attributes = 0 [markers = 0]]]       id x y [z] attribute... [marker]
 //   .ele    cells [corners = dimension + 1 [attributes = 0]]           id corner... attribute...

@@ -303,8 +303,7 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
 
 /// Rows in a .vtu file: each point a cell of type VTK_VERTEX (z = 0 in dimension 2), the rest as point arrays: `cell`
 /// (Int64), `feature` (UInt8: 0 interior, 1 face, 2 edge, 3 vertex, 4 outside, 5 degenerate), `vtkValidPointMask`
-/// (Int8: 1 inside, 0 outside, as VTK's own probes name it), `distance` (Float64), the fields (Float64, any value) and
-/// what is carried through (Int64, Float64 or String).
+/// (Int8: 1 inside, 0 outside, as VTK's own probes name it), `distance`, the fields (Float64), what is carried.
 class VtuSink final : public TableSink {
 public:
     VtuSink(const std::string& path, const TableFormat& format) : path_(path), format_(format) {

@@ -74,8 +74,7 @@ using NumbersTo =
 /// Appends `count` numbers, of bytes that may be too few. From a number that is not exact on, others may stand there.
 NumberFault read_binary(std::string_view bytes, NumberType type, bool swapped, std::size_t count, NumbersTo values);
 
-/// The same from text, separated by white space; what has been read is taken off `text`. Decimal numbers are rounded to
-/// the nearest of their type, as VTK does. Memory grows with what has been read.
+/// The same from text, off which that is taken. Numbers are rounded to their type, as by VTK. Memory grows with them.
 NumberFault read_text(std::string_view& text, NumberType type, std::size_t count, NumbersTo values);
 
 /// Takes the next word off `text`; empty at the end.
