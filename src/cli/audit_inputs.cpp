@@ -24,7 +24,6 @@ fs::path data_folder() {
     return {};
 }
 
-/// A list as a table, and JSON.
 template <class Chosen, class Items, Result<Items> (*choose)(const Chosen&), std::string (*json)(const Items&),
           std::string (*text)(const Items&)>
 int list(Arguments<Chosen>& a) {

@@ -40,7 +40,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> of_rows{{
     {"FieldFile::Of::either", "--field"},
 }};
 
-/// The option that sets the member; empty if none does.
 std::string option_of(std::string_view member) {
     for (const auto& [name, option] : other_names) {
         if (name == member) return std::string(option);

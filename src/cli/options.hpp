@@ -158,7 +158,6 @@ public:
     /// Fields from files; `either`: the option whose rows may be of nodes or cells. `series`: where those in steps go.
     void field_files(std::vector<FieldFile>& files, Text either, std::vector<FieldFile>* series = nullptr) const;
     void size(RasterSize& size) const;
-    /// Where the camera stands. `what`: as above.
     void camera(ViewOptions& view, Text what) const;
 
 private:

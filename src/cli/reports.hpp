@@ -24,7 +24,6 @@ private:
     std::chrono::steady_clock::time_point last_{};
 };
 
-/// What a job's report says, in each of its forms.
 struct Told {
     /// By option, what goes into the file that it names. One that is not here is not written.
     std::map<std::string_view, std::function<Result<std::string>()>> files = {};
@@ -37,7 +36,6 @@ struct Told {
     Status written = Done{};  ///< of what the job wrote itself
 };
 
-/// The options of reports, and all that is done with them.
 class Reports {
 public:
     // Declared in the order of the help.

@@ -26,7 +26,6 @@ struct OptionEntry {
     std::vector<std::string> words;  ///< these
     bool files = false;              ///< names of files
 
-    /// The last of the names, the long one.
     const std::string& name() const { return names.back(); }
 };
 
@@ -72,7 +71,6 @@ std::vector<ManPage> man_pages(const CommandEntry& program, std::string_view ver
 
 // Completions for shells: commands, options, and their values where these are a few words or files.
 
-/// Each is a script for its shell, of one program.
 std::string bash_completion(const CommandEntry& program);
 std::string zsh_completion(const CommandEntry& program);
 std::string fish_completion(const CommandEntry& program);

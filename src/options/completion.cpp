@@ -11,7 +11,6 @@
 namespace barycert::cli {
 namespace {
 
-/// `text` in single quotes of bash and zsh.
 std::string in_quotes(std::string_view text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -12,7 +12,6 @@
 namespace barycert::cli {
 namespace {
 
-/// "a, b or c".
 std::string listed(const std::vector<std::string>& words) {
     if (words.size() < 2) return joined(words);
     return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());

@@ -11,7 +11,6 @@ namespace barycert {
 /// TetGen carved everything away. Throws TetGen's error codes, which are integers, and std::bad_alloc.
 Mesh make_mesh(const Plc& plc, std::string switches);
 
-/// What one of these codes means, and what to do about it.
 std::pair<std::string_view, std::string_view> meaning_of(int code);
 
 }  // namespace barycert

@@ -10,7 +10,6 @@
 
 namespace barycert::base {
 
-/// How many threads the arena of the caller has.
 int arena_threads();
 
 /// How many threads to use: those asked for, or all for 0; never more than the arena of the caller has.

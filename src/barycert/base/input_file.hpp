@@ -33,7 +33,6 @@ using Header = std::function<Status(std::string_view block, std::uint64_t size)>
 /// Whether `block`, the first of a file, can begin one: no NUL byte, a word that ends. A smaller block always can.
 Status check_beginning(std::string_view block, Text text, const std::string& path);
 
-/// What tells that a file was changed.
 struct FileState {
     std::uint64_t size = 0;  ///< in bytes
     timespec written{};
@@ -64,7 +63,6 @@ public:
     /// check_beginning() of its first block, and what the format says to it.
     Status check(Text text, const std::string& path, const Header& header = {}) const;
 
-    /// As base::read_at.
     Result<std::size_t> read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const {
         return base::read_at(file_.number, offset, bytes, path);
     }
@@ -72,7 +70,6 @@ public:
     /// In bytes, when it was opened.
     std::uint64_t size() const { return then_.size; }
 
-    /// Error: it has another size than when it was opened, or was written to.
     Status unchanged(const std::string& path) const { return base::unchanged(file_.number, then_, path); }
 
 private:
@@ -94,7 +91,6 @@ Error read_failure(const std::string& path, int error_number);
 /// That a text ends in a number and not in a line end: what is there may be cut, and 0.2 the beginning of 0.25.
 Error unended_number(std::string path, std::size_t line);
 
-/// That memory was short while the file was read.
 Error too_little_memory(std::string path);
 
 /// A regular file, read whole. At least one page of zero bytes follows the last byte, so that a scanner may look ahead,

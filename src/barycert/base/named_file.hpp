@@ -16,7 +16,6 @@ inline constexpr std::string_view step_place = "{step}", time_place = "{time}";
 /// True if both paths lead to one file, or would once it is made. An empty one names none; "-" is the standard stream.
 bool same_file(const std::string& a, const std::string& b);
 
-/// The paths, all called the same.
 std::vector<NamedFile> named_files(const std::string& what, std::vector<std::string> paths);
 
 /// Error: an output is an input, or two outputs are one file. Nothing is opened.

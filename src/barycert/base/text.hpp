@@ -66,7 +66,6 @@ inline void replace_all(std::string& text, std::string_view from, std::string_vi
 /// True if `text` matches the shell-style pattern: `*` any run, `?` any one character.
 bool glob_match(std::string_view pattern, std::string_view text);
 
-/// A character of UTF-8 (RFC 3629).
 struct Character {
     char32_t code = 0;
     std::size_t size = 0;  ///< bytes; 0: they are not UTF-8

@@ -122,7 +122,6 @@ bool is_tetgen_file(const std::string& path) {
     return tetgen_stem(path) != path;
 }
 
-/// By the name alone.
 std::optional<MeshFormat> format_by_suffix(const std::string& path) {
     if (is_tetgen_file(path)) return MeshFormat::tetgen;
     if (is_vtk_file(path)) return MeshFormat::vtk;
@@ -141,7 +140,6 @@ std::optional<MeshFormat> format_by_content(std::string_view head) {
     return std::nullopt;
 }
 
-/// A mesh of that stem in another format, or nothing.
 std::string with_another_suffix(const std::string& path) {
     for (const char* suffix : {".msh", ".vtu", ".vtk", ".pvtu", ".mesh", ".meshb"}) {
         if (exists(path + suffix)) return path + suffix;

@@ -21,7 +21,6 @@ Result<FileFormat> format_of_points(const std::string& path);
 
 using base::whole_number;
 
-/// Throws an Exception.
 [[noreturn]] void refuse_file(std::string file, std::string what, std::string expected = {}, std::string found = {},
                               std::string remedy = {});
 [[noreturn]] void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
@@ -75,13 +74,10 @@ std::string plain_or_packed(const std::string& path);
 bool has_suffix(std::string_view path, std::string_view suffix);
 bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes);
 
-/// The suffix of the path with its dot; empty if it has none.
 std::string suffix_of(const std::string& path);
 
-/// That the suffix of the path is another one.
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
-/// True if the path ends as those of VTK's files with meshes do.
 bool is_vtk_file(std::string_view path);
 
 // As open_points and open_table. Errors are thrown as Exceptions.
@@ -111,7 +107,6 @@ Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& 
 Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const StepChoice& choice,
                                 const std::string& path);
 
-/// That a step is chosen of what is no series.
 Error no_series(const std::string& path);
 
 enum class MeshFormat : std::uint8_t {
@@ -125,7 +120,6 @@ enum class MeshFormat : std::uint8_t {
 /// Of a mesh that is to be read: by its first bytes, else the end of its name. Error: none, or one of another format.
 Result<MeshFormat> mesh_format(const std::string& path);
 
-/// What meshio calls the format of a file that is MeshFormat::by_meshio.
 std::string meshio_format(const std::string& path);
 
 /// Of a mesh that is to be written: by the end of its name. Error: it is another one.
@@ -153,7 +147,6 @@ const OtherFormat* other_format_by_suffix(std::string_view path);
 /// By its first bytes; nullptr if they could be anything. `strict`: only what cannot be taken for another file.
 const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict);
 
-/// The first word of the text that is no comment.
 std::string_view first_word(std::string_view text, char comment);
 
 /// Compressed, or a .npy file, by its first bytes; else nullptr. No text begins so.
@@ -178,8 +171,6 @@ inline constexpr const char* formats_read =
 
 /// Reads a mesh by way of meshio, whose name of the format that is; notes its version and what it printed.
 Result<Mesh> read_converted(const std::string& path, const std::string& format);
-
-// Medit: .mesh and .meshb, .sol and .solb.
 
 /// By the first bytes of a file, behind a byte-order mark.
 bool is_medit(std::string_view head);

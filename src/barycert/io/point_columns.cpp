@@ -125,7 +125,6 @@ void keep_columns(const TableColumns& all, const std::vector<std::string>& keep,
     }
 }
 
-/// What nobody asked for.
 void note_the_others(const TableColumns& all, PointColumns& out) {
     if (out.zero && all.coordinates == 0)
         out.notes.push_back({Note::Kind::left_out,

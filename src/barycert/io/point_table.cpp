@@ -34,7 +34,6 @@ private:
     std::vector<Column> columns_;
 };
 
-/// Where the values of a column stand.
 struct Place {
     const Field* field = nullptr;  ///< else a coordinate or a label
     std::size_t component = 0;     ///< or the coordinate, or the label

@@ -21,7 +21,6 @@ struct TableColumns {
 /// column1, column2, ...
 std::string column_number(std::size_t column);
 
-/// What the columns are taken for.
 struct PointColumns {
     struct Kept {
         std::size_t column = 0;
@@ -51,7 +50,6 @@ bool are_places(const std::vector<std::string>& columns);
 /// By PointOptions. Errors: columns that are not there, or not clear; a coordinate that is to be carried through.
 PointColumns choose_columns(const TableColumns& all, int dimension, const PointOptions& options);
 
-/// The end of what to do with a point that is not finite.
 inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
 
 /// A z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.

@@ -15,7 +15,6 @@ base::NamedFile copy_of(const CheckJob& job) {
     return {"job.fix", job.fix};
 }
 
-/// What can be checked of files before the work.
 void check_job(const CheckJob& job) {
     const auto [member, copy] = copy_of(job);
     if (job.measures == "-")
@@ -89,7 +88,6 @@ Notes left_out_of(const std::string& path, const Mesh& mesh) {
     return notes;
 }
 
-/// Writes the repaired copy, reads it again and checks it.
 void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked) {
     checked.fixed = FixedMesh{.file = copy_of(job).path, .done = {}, .notes = {}, .after = {}};
     FixedMesh& fixed = *checked.fixed;

@@ -33,7 +33,6 @@ void add_fields(const std::vector<FieldFile>& files, Surface& surface);
 void give_each_a_name(Mesh& mesh);
 void give_each_a_name(std::vector<Field>& of_nodes, std::vector<Field>& of_cells);
 
-/// Adds the fields of all files, and gives each a name.
 void add_fields(const std::vector<FieldFile>& files, Mesh& mesh);
 
 /// The field of nodes or cells that a name means, one number each; in `made` where the mesh has none.

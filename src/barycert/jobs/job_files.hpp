@@ -64,13 +64,10 @@ struct Step {
 /// not all series have; all steps where there are none, or one output.
 std::vector<Step> find_steps(const SamplingJob& job);
 
-/// Whether each step has outputs of its own.
 bool has_step_place(const std::string& output);
 
-/// The path with the label of the step in its place.
 std::string output_of_step(const std::string& output, const Step& step);
 
-/// Tells what the job is doing, and how much of it is done.
 void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0);
 
 /// Reads the mesh of the job, and takes its cells as straight, as far as it may: `curved` says which are not.
@@ -87,7 +84,6 @@ void tell_once(Notes notes, MeshReport& report);
 /// Whether curved cells are taken by their maps; notes where cells are straight or linear though maps are asked for.
 void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report);
 
-/// What finds points in the mesh.
 BuildOptions build_options(const MeshJob& job, int threads, Prove prove = Prove::at_once);
 Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove = Prove::at_once);
 

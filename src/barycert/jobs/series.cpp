@@ -132,7 +132,6 @@ void check_places(const std::string& output) {
     }
 }
 
-/// Of all series; none if there is none.
 std::vector<Step> steps_of_series(const std::vector<FieldFile>& series) {
     std::vector<Step> steps;
     for (const FieldFile& one : series) {

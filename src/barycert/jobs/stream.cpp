@@ -30,7 +30,6 @@ struct Targets {
     std::vector<Table>* known = nullptr;
 };
 
-/// The rows of one mesh and step.
 class RowStream {
 public:
     RowStream(SampledMesh& mesh, const RowSource& source, const OpenRows& open, Targets targets)
@@ -86,7 +85,6 @@ private:
         block.nan_values = count_nan(rows.view());
     }
 
-    /// Each cell that holds a point has a row.
     void sample_all(Table& rows) const {
         Table all = mesh_.locator().locate_all(rows.points, options_.threads, options_.nonfinite_points).value();
         for (const Column& column : rows.carried) all.carried.push_back(mesh::repeated(column, all.point_begin));

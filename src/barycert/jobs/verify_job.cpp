@@ -220,7 +220,6 @@ bool are_floats(const Claims& claims) {
     return numbers > 0;
 }
 
-/// Does x have at most so many decimal digits?
 bool has_digits(double x, int digits) {
     std::array<char, 32> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::general, digits).ptr;

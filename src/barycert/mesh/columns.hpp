@@ -22,7 +22,6 @@ void move_values(Column& from, std::size_t first, std::size_t count, Column& to)
 /// Copies the values of columns to the end of those of `to`, of the same formats, which are made where there are none.
 void append(std::span<const Column> columns, std::vector<Column>& to);
 
-/// A copy of the values number `begin` to end - 1.
 Column part_of(const Column& column, std::size_t begin, std::size_t end);
 
 /// Copies of the values, each as often as it has rows: value i has the rows begin[i] to begin[i + 1] - 1.

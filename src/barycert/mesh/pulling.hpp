@@ -23,7 +23,6 @@ struct Shape {
 };
 /// Of VTK's type of that number; of curved simplices their corners.
 Shape shape_of(std::uint8_t type);
-/// Shape::faces.
 const std::vector<std::vector<Mesh::Index>>& rings_of(std::uint8_t type);
 
 /// Triangles and tetrahedra of order 2 to 4: VTK's quadratic and Lagrange ones, whose corners come first.

@@ -223,7 +223,6 @@ void check_complete(const Json& answer, const Mesh& mesh, const std::string& pat
     }
 }
 
-/// Each line that meshio printed, once.
 void tell_messages(const std::string& messages, const std::string& path, Notes& notes) {
     constexpr std::size_t most = 20, longest = 200;
     std::set<std::string_view> told;

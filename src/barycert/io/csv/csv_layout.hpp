@@ -50,7 +50,6 @@ public:
     /// The last field as a text: what stands between quotes with its blanks, and with doubled quotes made one.
     std::string text(std::string_view field) const { return quoted_ ? undoubled(inside_) : std::string(field); }
 
-    /// The same without blanks around it.
     std::string name(std::string_view field) const { return quoted_ ? undoubled(field) : std::string(field); }
 
 private:
@@ -105,7 +104,6 @@ struct LinePlace {
 /// Not blank and no comment. With tabs as separator a line of tabs is a row without values, and so not blank.
 bool holds_fields(std::string_view line, char separator);
 
-/// The separator and the fields of the first line that holds fields.
 struct CsvLine {
     char separator = ',';
     std::vector<std::string> fields{};

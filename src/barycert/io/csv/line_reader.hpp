@@ -14,7 +14,6 @@ public:
     /// The longest line, and so what the reader holds in memory.
     static constexpr std::size_t longest_line = std::size_t{1} << 20;
 
-    /// "-" is the standard input.
     explicit LineReader(const std::string& path);
 
     /// The next line without its end, valid until the next call; a byte after it may be read. False: there is none.
@@ -34,7 +33,6 @@ public:
     /// The number of the last line given or counted, from 1.
     std::size_t number() const { return number_; }
 
-    /// What messages call the file.
     const std::string& name() const { return name_; }
 
 private:

@@ -125,7 +125,6 @@ const ElementType* known(const Walk& walk, std::int64_t number) {
     return type;
 }
 
-/// Appends a block and moves over it.
 void append_block(Walk& walk, MshElements& elements, ElementBlock block) {
     Run& run = block.run;
     run.at = walk.at();
@@ -206,7 +205,6 @@ std::size_t count_alike(const MshFile& file, const Walk& walk, const LikeElement
     return alike;
 }
 
-/// The next elements of 2.x text that are alike.
 void find_rows_alike(const MshFile& file, Walk& walk, std::size_t most, MshElements& elements) {
     Walk row = walk;
     row.integer("the tag of an element");

@@ -68,7 +68,6 @@ std::vector<const ElementType*> choose(const MshFile& file, const TypeCounts& co
                 "or add -save_all");
 }
 
-/// VTK's number of the type of its corners.
 std::uint8_t linear_type(const ElementType& type) {
     constexpr std::array<std::uint8_t, 8> numbers{0, 0, 5, 9, 10, 12, 13, 14};
     return numbers[static_cast<std::size_t>(type.family)];
@@ -105,7 +104,6 @@ bool take_head(auto& row, int version, const ElementBlock& block, Head& head) {
     return true;
 }
 
-/// Where what is read goes.
 struct Target {
     const MshFile& file;
     const MshElements& elements;
@@ -113,7 +111,6 @@ struct Target {
     MshCells& cells;
     std::size_t mids;
 
-    /// What stands before the nodes of cell i.
     bool take_head_of(auto& row, const ElementBlock& block, std::size_t i) const {
         Head head;
         if (!take_head(row, file.version(), block, head)) return false;
@@ -260,7 +257,6 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
     keep_rows(cells.geometrical, 1, kept);
 }
 
-/// Marks the nodes of cells; counts the others.
 std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::size_t node_count) {
     std::vector<std::uint8_t> used(node_count);
     constexpr std::size_t step = std::size_t{1} << 16;

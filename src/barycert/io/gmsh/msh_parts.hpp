@@ -16,7 +16,6 @@ struct ElementType {
     int dimension() const;
 };
 
-/// nullptr if the type is not known.
 const ElementType* element_type(std::int64_t number);
 
 /// How many elements there are of each type, whose numbers are at most that.
@@ -87,7 +86,6 @@ struct MshNodes {
 /// Error: what the grammar does not have, a tag twice, a coordinate that is not finite.
 MshNodes read_msh_nodes(const MshFile& file);
 
-/// Elements of one type, one after the other.
 struct ElementBlock {
     const ElementType* type = nullptr;
     std::int64_t entity = 0;  ///< 4.x

@@ -7,7 +7,6 @@
 namespace barycert::io {
 namespace {
 
-/// What a line says, without quotes.
 std::string string_of(std::string_view line) {
     while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
     while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);

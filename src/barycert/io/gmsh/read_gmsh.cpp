@@ -147,7 +147,6 @@ void drop_what_says_nothing(MshCells& cells) {
     if (!any) cells.geometrical.clear();
 }
 
-/// The name of the group of each cell; empty where it has none.
 std::vector<std::string> group_names(const MshCells& cells, const MshGroups& groups) {
     std::vector<std::string> names;
     names.reserve(cells.physical.size());
@@ -202,7 +201,6 @@ void label_cells(const MshFile& file, const MshElements& elements, const MshGrou
     add_field("gmsh:geometrical", cells.geometrical);
 }
 
-/// What is in the file and has no place in a mesh.
 void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes& notes) {
     constexpr std::array<std::string_view, 11> read{"MeshFormat",  "PhysicalNames",   "Entities", "PartitionedEntities",
                                                     "Nodes",       "ParametricNodes", "Elements", "NodeData",

@@ -62,7 +62,6 @@ public:
         return after != nullptr;
     }
 
-    /// Back to where a step began.
     void back(const char* at) { at_ = at; }
     bool refuse(const RowFault& fault) {
         fault_ = fault;
@@ -141,7 +140,6 @@ public:
     const char* end() const { return end_; }
     /// Moves over rows: so many numbers or bytes each.
     void skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name);
-    /// White space and nothing else is left.
     void need_end();
 
     template <class... Parts>

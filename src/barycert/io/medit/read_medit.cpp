@@ -97,7 +97,6 @@ constexpr const char* cut_short = "the file may be cut short: write it again, or
 constexpr std::int64_t max_rows = INT32_MAX, max_fields = 1 << 16;
 constexpr std::int64_t code_of_dimension = 3, code_of_end = 54;
 
-/// Whether a keyword is this one, in any case.
 bool same_word(std::string_view word, std::string_view name) {
     return word.size() == name.size() && strncasecmp(word.data(), name.data(), name.size()) == 0;
 }
@@ -502,7 +501,6 @@ private:
         return numbers;
     }
 
-    /// Corners, nodes at mid-edges and references of a section of cells.
     struct Cells {
         std::vector<Mesh::Index> corners, mids;
         std::vector<std::int64_t> references;

@@ -57,7 +57,6 @@ struct NpyHeader {
     std::size_t size = 0;  ///< of the header, in bytes
 };
 
-/// Error: not an NPY file, another version, a header that is none.
 NpyHeader read_npy_header(const base::InputFile& file, const std::string& path);
 
 /// At most so many columns: more have no meaning for points.

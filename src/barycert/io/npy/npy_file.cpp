@@ -60,7 +60,6 @@ std::optional<std::string> npy_text(const char* at, const NpyType& type) {
     return text;
 }
 
-/// The columns and the bytes of a row of an array without fields.
 void make_simple(const NpyHeader& header, const std::string& file, NpyTable& table) {
     const auto type = npy_type(header.descr);
     if (!type || type->size == 0)

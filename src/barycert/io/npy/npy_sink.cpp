@@ -17,7 +17,6 @@ constexpr std::size_t feature_count = static_cast<std::size_t>(Feature::degenera
 /// The longest feature of a row: interior.
 constexpr std::size_t feature_size = 8;
 
-/// As a string of Python.
 std::string as_literal(std::string_view name) {
     std::string text = "'";
     for (const char c : name) {

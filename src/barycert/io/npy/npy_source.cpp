@@ -83,7 +83,6 @@ private:
         formats_.push_back(std::move(format));
     }
 
-    /// The next points, and what is carried through with them.
     void read_rows(std::span<double> points) {
         const auto name = [](const NpyColumn& column) { return "column " + base::quoted(column.name); };
         const std::size_t at_once = file_.rows_at_once(), taken = points.size() / dimension_;

@@ -17,7 +17,6 @@ public:
     const std::string& path() const { return path_; }
     std::string_view rest() const { return rest_; }
 
-    /// Goes to the next line that has words. False at the end of the file.
     bool next_line();
     /// As next_line(), but the end of the file is an error: `expected` says what is missing.
     void need_line(std::string_view expected);

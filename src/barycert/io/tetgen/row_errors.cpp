@@ -69,7 +69,6 @@ Complaint about_integer(std::string_view field) {
               "check that the files belong together and count from the same base");
 }
 
-/// Refuses a field that is no number of its kind, in range.
 void check_field(const TextTable& table, const Columns& columns, std::string_view field, std::size_t row) {
     const char* const end = field.data() + field.size();
     if (field.empty())

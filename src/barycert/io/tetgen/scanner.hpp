@@ -97,7 +97,6 @@ inline const char* scan_nonfinite(const char* at, const char* end, double& value
     return error == std::errc{} ? after : nullptr;
 }
 
-/// Why a field is no number, and what to do.
 struct Complaint {
     std::string expected, remedy;
 };
@@ -146,7 +145,6 @@ struct Scanner {
         return true;
     }
 
-    /// Moves over what stands between two fields.
     bool separator() {
         const char* const start = at;
         skip_blanks();

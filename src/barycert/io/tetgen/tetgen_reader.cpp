@@ -26,7 +26,6 @@ namespace {
 constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".neigh"};
 constexpr std::array node_header{"nodes", "dimensions", "attributes", "markers"};
 
-/// The numbers of a header, in quotes.
 std::string header_text(std::initializer_list<std::int64_t> numbers) {
     std::string text;
     for (const std::int64_t number : numbers) text += (text.empty() ? "\"" : " ") + std::to_string(number);

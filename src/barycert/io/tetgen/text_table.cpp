@@ -178,7 +178,6 @@ void parse_in_order(TextTable& table) {
     refuse_row(table, scanner.at, row);
 }
 
-/// The header, and where it and the body begin.
 void read_header(TextTable& table, std::span<const char* const> header_names) {
     if (const OtherFormat* packed = packed_format(table.bytes); packed != nullptr)
         throw Exception(other_format_error(*packed, table.file));

@@ -13,7 +13,6 @@
 
 namespace barycert::io {
 
-/// The largest count or index.
 inline constexpr std::int64_t max_count = INT32_MAX;
 
 enum class ColumnKind : std::uint8_t {
@@ -70,7 +69,6 @@ struct TextTable {
     }
     std::int64_t limit() const { return static_cast<std::int64_t>(rows); }
 
-    /// The first row's fields; empty if there is no row.
     std::vector<std::string_view> first_row() const;
 };
 
@@ -98,10 +96,8 @@ template <class... Parts>
 /// Row number `row` (from 0), which holds `at` and which the row parser refused.
 [[noreturn]] void refuse_row(const TextTable& table, const char* at, std::size_t row);
 
-/// The file ended after `found` rows.
 [[noreturn]] void refuse_end(const TextTable& table, std::size_t found);
 
-/// At `at` there is text after the last row.
 [[noreturn]] void refuse_surplus(const TextTable& table, const char* at);
 
 }  // namespace barycert::io

@@ -20,7 +20,6 @@ Status check_grid(const std::string& path, const VtiGrid& grid) {
     return Done{};
 }
 
-/// The file without arrays.
 OutFile layout_of(const VtiGrid& grid) {
     std::string extent = "Extent=\"", origin, spacing;
     for (std::size_t axis = 0; axis < 3; ++axis) {

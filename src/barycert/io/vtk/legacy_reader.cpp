@@ -53,7 +53,6 @@ public:
     }
     bool binary() const { return !file_.has_lines; }
 
-    /// The next word; empty at the end of the file.
     std::string take_word() { return std::string(next_word(rest_)); }
     /// The next word in capitals, as which keywords are compared.
     std::string take_keyword() { return capitals(next_word(rest_)); }
@@ -76,7 +75,6 @@ public:
         const std::string found = take_keyword();
         if (found != wanted) fail("a keyword of the format", wanted, shown(found));
     }
-    /// Lines up to an empty one.
     void skip_metadata() {
         rest_of_line();
         while (!rest_.empty() && !rest_of_line().empty()) {
@@ -155,7 +153,6 @@ protected:
         return take_bytes(length);
     }
 
-    /// Precondition: so many are left.
     std::string_view take_bytes(std::uint64_t count) {
         const std::string_view bytes = rest_.substr(0, static_cast<std::size_t>(count));
         rest_.remove_prefix(bytes.size());

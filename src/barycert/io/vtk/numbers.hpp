@@ -44,7 +44,6 @@ std::string_view xml_name(NumberType type);
 /// By this name, or that in legacy files, in capitals.
 std::optional<NumberType> type_of_name(std::string_view name);
 
-/// Bytes of a number; 1 for bit and text.
 std::size_t number_bytes(NumberType type);
 
 /// Bytes that `count` numbers take; nothing if they do not fit in 64 bits.

@@ -73,22 +73,18 @@ void write_as_text(const OutArray& array, std::size_t per_line, const std::funct
 /// given); nothing if no escape can do that: where it is not UTF-8, or has a character that XML excludes.
 std::optional<std::string> xml_attribute(std::string_view name);
 
-/// Where names are to stand.
 enum class Names : bool { legacy, xml };
 
 /// What is wrong with the names of fields, in one clause, or empty. VTK keeps but one array of a name.
 std::string fault_of_names(const std::vector<OutArray>& arrays, Names names);
 
-/// That `what` ("the mesh") cannot be written because of that fault.
 Error cannot_write(const std::string& what, const std::string& fault, const std::string& path);
 
 /// Error: a name that is empty, there twice, or that XML cannot hold; fewer than one component.
 Status check_arrays(const std::string& path, const std::vector<OutArray>& arrays);
 
-/// An error of what is to be written.
 Error wrong_in_memory(const std::string& path, std::string what, std::string expected, std::string found);
 
-/// Arrays below an element such as PointData.
 struct OutSection {
     std::string element;
     std::vector<OutArray> arrays;

@@ -34,7 +34,6 @@ using Json = nlohmann::json;
 /// Read, a file takes some ten times as much memory.
 constexpr std::size_t longest_series = std::size_t{64} << 20;
 
-/// Relative paths are taken from the folder of the collection.
 std::string path_beside(const std::string& collection, std::string_view name) {
     return (std::filesystem::path(collection).parent_path() / std::filesystem::path(name)).string();
 }
@@ -128,7 +127,6 @@ Kind kind_of(std::string_view& bytes) {
                 "check the path; unpack a compressed file first");
 }
 
-/// The first block has to show that the file is of VTK.
 void check_block(std::string_view block, const std::string& path) {
     const Kind kind = kind_of(block);
     if (kind == Kind::legacy) return check_legacy_head(block, path);
@@ -244,7 +242,6 @@ public:
         return grid;
     }
 
-    /// Whether a step is chosen of what is no series.
     bool step_left() const { return step_.made(); }
 
 private:

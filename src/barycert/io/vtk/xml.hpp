@@ -13,9 +13,7 @@ struct XmlElement {
     std::size_t begin = 0;              ///< where its opening tag begins in the file
     std::size_t end = 0;                ///< where its closing tag begins; `begin` if it has none
 
-    /// The value of the attribute; nothing if there is none.
     std::optional<std::string_view> attribute(std::string_view key) const;
-    /// The same, or `other`.
     std::string_view attribute_or(std::string_view key, std::string_view other) const {
         return attribute(key).value_or(other);
     }

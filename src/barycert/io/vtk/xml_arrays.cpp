@@ -248,7 +248,6 @@ private:
         return std::vector<std::uint64_t>(words.begin(), words.end());
     }
 
-    /// Where the bytes of a block begin among those of all.
     std::size_t block_at(std::size_t block) const {
         return static_cast<std::size_t>(block == packed_.size() ? size_ : block * block_);
     }

@@ -89,7 +89,6 @@ private:
         return static_cast<std::size_t>(*count);
     }
 
-    /// Those of the array in the section Points.
     void read_points(const XmlElement& piece, std::size_t count, RawGrid& grid) const {
         if (count == 0) return;
         const XmlElement* const array = child(child(&piece, "Points"), "DataArray");

@@ -7,7 +7,6 @@ namespace {
 
 constexpr std::string_view appended_tag = "<AppendedData";
 
-/// Collects elements in the order of their opening tags.
 class ElementParser {
 public:
     ElementParser() : parser_(XML_ParserCreate(nullptr)) {
@@ -37,7 +36,6 @@ public:
     bool finish() { return XML_Parse(parser_, nullptr, 0, XML_TRUE) == XML_STATUS_OK; }
 
     XML_Error fault() const { return XML_GetErrorCode(parser_); }
-    /// Where that is in the file.
     std::size_t place() const {
         const auto index = static_cast<std::size_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(parser_), 0));
         const auto behind = std::ranges::upper_bound(jumps_, index, {}, &Jump::fed);
