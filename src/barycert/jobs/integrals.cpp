@@ -1,4 +1,4 @@
-#include "barycert/jobs/resampled.hpp"
+#include "barycert/jobs/integrals.hpp"
 
 #include <cmath>
 #include <tuple>
