@@ -28,7 +28,7 @@ using base::whole_number;
 
 /// read() in the environment of exact results. Error: what it throws as an Exception; memory is short.
 template <class Read>
-auto read_guarded(const std::string& path, const Read& read) -> decltype(read()) {
+auto read_guarded(const std::string& path, const Read& read) -> decltype(Result(read())) {
     const ExactEnvironment environment;
     try {
         return read();

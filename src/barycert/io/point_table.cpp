@@ -148,8 +148,7 @@ PointSource::~PointSource() = default;
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension, const PointOptions& options) {
     if (dimension != 2 && dimension != 3)
         return file_error(path, "points can have 2 or 3 coordinates", "2 or 3", std::to_string(dimension));
-    return io::read_guarded(
-        path, [&]() -> Result<std::unique_ptr<PointSource>> { return io::open_any(path, dimension, options); });
+    return io::read_guarded(path, [&] { return io::open_any(path, dimension, options); });
 }
 
 }  // namespace barycert

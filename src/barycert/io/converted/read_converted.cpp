@@ -81,11 +81,6 @@ struct Process {
         return status;
     }
 
-    bool has_ended() const {
-        siginfo_t found{};
-        return ::waitid(P_PID, static_cast<id_t>(id), &found, WEXITED | WNOHANG | WNOWAIT) == 0 && found.si_pid == id;
-    }
-
     /// All that it prints, up to its end, whoever else holds the other ends. False: it takes too long.
     bool listen(std::string& text, std::string& errors) {
         std::array<pollfd, 2> open{{{answer.out.number, POLLIN, 0}, {messages.out.number, POLLIN, 0}}};
@@ -93,7 +88,9 @@ struct Process {
         while (open[0].fd >= 0 || open[1].fd >= 0) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
             if (left <= 0) return false;
-            const bool ended = has_ended();  // what it wrote before can be read now
+            siginfo_t found{};
+            const bool ended =  // what it wrote before can be read now
+                ::waitid(P_PID, static_cast<id_t>(id), &found, WEXITED | WNOHANG | WNOWAIT) == 0 && found.si_pid == id;
             const int ready = ::poll(open.data(), open.size(), ended ? 0 : static_cast<int>(std::min(left, tick)));
             if (ready <= 0 && ended) break;
             if (ready <= 0) continue;

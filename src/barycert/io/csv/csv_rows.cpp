@@ -17,13 +17,6 @@ namespace {
     refuse_file({}, what, c.expected, base::quoted(field), c.remedy);
 }
 
-[[noreturn]] void refuse_value(std::string_view field, const ColumnFormat& column) {
-    refuse_file(
-        {}, "bad value of column " + base::quoted(column.name),
-        column.type == Column::Type::integer ? "an integer, as in a first pass" : "a number, as in a first pass",
-        base::quoted(field), "do not change the file while it is read");
-}
-
 /// Appends the value of a carried column; false if it is none of its type.
 bool append_value(Column& column, const FieldCutter& cutter, std::string_view field) {
     if (auto* const texts = std::get_if<std::vector<std::string>>(&column.values)) {
@@ -64,7 +57,11 @@ void parse_line(std::string_view line, bool whole, const CsvLayout& layout, std:
         if (role < 0) continue;
         if (role >= CsvLayout::first_kept) {
             const auto k = static_cast<std::size_t>(role - CsvLayout::first_kept);
-            if (!append_value(carried[k], cutter, field)) refuse_value(field, layout.kept[k]);
+            const char* const kind = layout.kept[k].type == Column::Type::integer ? "an integer" : "a number";
+            if (!append_value(carried[k], cutter, field))
+                refuse_file({}, "bad value of column " + base::quoted(layout.kept[k].name),
+                            std::string(kind) + ", as in a first pass", base::quoted(field),
+                            "do not change the file while it is read");
             // A text may go on behind blanks, but not where these separate.
             at_cut = !whole && i + 1 == fields && !cutter.quoted() && (end == file_end || layout.separator != ' ');
             continue;

@@ -261,8 +261,7 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options, InSpace* sp
 }  // namespace
 
 Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& options, InSpace* space) {
-    return read_guarded(path,
-                        [&]() -> Result<Mesh> { return read_whole(MshFile(path, options.threads), options, space); });
+    return read_guarded(path, [&] { return read_whole(MshFile(path, options.threads), options, space); });
 }
 
 }  // namespace io
@@ -272,7 +271,7 @@ Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options) 
 }
 
 Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
-    return io::read_guarded(path, [&]() -> Result<std::vector<GmshStep>> {
+    return io::read_guarded(path, [&] {
         const io::MshFile file(path, 0);
         std::vector<GmshStep> steps;
         for (const io::MshView& v : io::find_msh_views(file)) {
@@ -285,7 +284,7 @@ Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
 Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimension, int threads) {
     if (dimension != 2 && dimension != 3)
         return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
-    return io::read_guarded(path, [&]() -> Result<std::vector<double>> {
+    return io::read_guarded(path, [&] {
         return io::to_points(io::read_msh_nodes(io::MshFile(path, threads)).points, dimension, path, {}, "node");
     });
 }

@@ -635,11 +635,11 @@ bool is_medit(std::string_view head) {
 }
 
 Result<Mesh> read_medit(const std::string& path, const ReadOptions& options, InSpace* space) {
-    return read_guarded(path, [&]() -> Result<Mesh> { return MeditReader(MeditFile(path), options, space).read(); });
+    return read_guarded(path, [&] { return MeditReader(MeditFile(path), options, space).read(); });
 }
 
 Result<Mesh> read_medit_fields(const std::string& path, int dimension) {
-    return read_guarded(path, [&]() -> Result<Mesh> {
+    return read_guarded(path, [&] {
         const MeditFile file(path);
         Mesh mesh;
         mesh.dimension = dimension;

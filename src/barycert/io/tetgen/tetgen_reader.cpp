@@ -240,8 +240,7 @@ std::vector<std::string> tetgen_files(const std::string& path) {
 }
 
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options) {
-    return io::read_guarded(path,
-                            [&]() -> Result<Mesh> { return io::TetgenReader(tetgen_stem(path), options).read(); });
+    return io::read_guarded(path, [&] { return io::TetgenReader(tetgen_stem(path), options).read(); });
 }
 
 }  // namespace barycert

@@ -107,13 +107,6 @@ struct CellNodes {
     }
 };
 
-std::vector<OutArray> point_arrays_of(const Mesh& mesh) {
-    std::vector<OutArray> arrays;
-    for (const Field& field : mesh.point_fields) arrays.push_back(array_of_field(field));
-    if (!mesh.point_markers.empty()) arrays.push_back(array_in_memory<std::int64_t>(marker_name, mesh.point_markers));
-    return arrays;
-}
-
 /// Arrays of cells: fields and labels. Texts go to `room`, which must outlive them.
 std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>& room) {
     std::vector<OutArray> arrays;
@@ -281,7 +274,7 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
         const std::size_t cells = mesh.whole_count();
         const Mesh rows = shaped ? mesh::rows_of_wholes(mesh) : Mesh();
         OutGrid grid{
-            .point_arrays = point_arrays_of(mesh),
+            .point_arrays = {},
             .cell_arrays = cell_arrays_of(shaped ? rows : mesh, room),
             .points = array_of_points(mesh.points, mesh.dimension),
             .connectivity = mesh.mid_nodes.empty()
@@ -291,6 +284,9 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
             .nodes = node.nodes,
             .type = node.type(),
             .shapes = shaped ? &mesh.shapes : nullptr};
+        for (const Field& field : mesh.point_fields) grid.point_arrays.push_back(array_of_field(field));
+        if (!mesh.point_markers.empty())
+            grid.point_arrays.push_back(array_in_memory<std::int64_t>(marker_name, mesh.point_markers));
         fault = fault_of_names(grid.point_arrays, names);
         if (fault.empty()) fault = fault_of_names(grid.cell_arrays, names);
         if (!fault.empty()) return cannot_write("the mesh", fault, path);
