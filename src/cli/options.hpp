@@ -63,8 +63,7 @@ public:
     /// `exit_code` is set by the subcommand that has run.
     Options(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}
 
-    /// The options of a subcommand below this one, and its arguments; work(arguments) does what it does, unless there
-    /// is a subcommand below it, and returns the exit code. `footer`: what its help ends with.
+    /// Options and arguments of a subcommand below; work(arguments), unless there is one below it, gives the exit code.
     template <class Arguments>
     std::pair<Options, Arguments&> command(std::string_view name, Text about, Text footer,
                                            int (*work)(Arguments&)) const {

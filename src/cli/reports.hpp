@@ -57,8 +57,7 @@ public:
     void begin(MeshJob& job);
     Progress& begin_progress();
 
-    /// Files first: whoever reads the table may stop reading (`| head`). One that cannot be written does not cost the
-    /// user the others. Returns the exit code.
+    /// Files first: whoever reads the table may stop reading (`| head`). One that fails costs no other.
     int write(Told told);
 
     /// The end of a job: its error, or its report by told(report), with options in the notes.

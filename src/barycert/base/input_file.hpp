@@ -50,8 +50,7 @@ inline constexpr const char* save_first = "save the data to a regular file first
 /// A regular file open for reading; closed at the end.
 class InputFile {
 public:
-    /// Errors: missing, unreadable, a folder, a pipe or device (for which `remedy` says what to do), packed and not
-    /// beginning as `text` says. `pipe`, if given, lets it be a pipe, and is set if it is one.
+    /// Error: no regular file, or packed and not beginning as `text`. `pipe`, if given, lets it be one; set if it is.
     static Result<InputFile> open(const std::string& path, const char* remedy = save_first, Text text = Text::none,
                                   bool* pipe = nullptr);
 
@@ -80,8 +79,7 @@ private:
 /// What is read of a pipe at most, for it does not tell its size: 256 MiB.
 inline constexpr std::size_t longest_pipe = std::size_t{1} << 28;
 
-/// All bytes of a regular file, or of a pipe up to its end. Errors: missing, unreadable, a folder, a device, a pipe
-/// that nobody writes to, one that holds more than `longest` bytes, one that does not begin as `text` and `header` say.
+/// All bytes of a regular file that begins as `text` and `header` say, or of a pipe up to its end, at most `longest`.
 Result<std::string> read_file(const std::string& path, std::size_t longest = longest_pipe, Text text = Text::none,
                               const Header& header = {});
 
@@ -99,8 +97,7 @@ Error too_little_memory(std::string path);
 /// The memory is the process's own: the system ends a process that touches bytes of a mapped file when they are gone.
 class MappedFile {
 public:
-    /// Reads on so many threads, 0: one per core. Errors: missing, unreadable, a folder, not a regular file, one that
-    /// does not begin as `text` and `header` say, changed while it was read, larger than the memory.
+    /// Reads on so many threads, 0: one per core. Errors: also, it was changed meanwhile, or is larger than the memory.
     static Result<MappedFile> open(const std::string& path, int threads = 1, Text text = Text::none,
                                    const Header& header = {});
 
@@ -139,8 +136,7 @@ void record_input(int descriptor, const std::string& path);
 const std::string* input_of_run(const std::string& path);
 
 /// Where `descriptor` is a regular file packed by gzip, it becomes one of the unpacked bytes, without a name, in
-/// memory. Error: it is damaged or cut off; unpacked it would take more than half of the machine's memory, or more than
-/// 200 times its size and 256 MiB, as no table of numbers does; it does not begin as `text`.
+/// memory. Error: it is damaged, too large (most_unpacked()), or does not begin as `text`.
 Status unpack(int& descriptor, const std::string& path, Text text);
 
 /// The first bytes of such a file, unpacked, or fewer where its first member ends. None: it is another, or damaged.

@@ -21,8 +21,7 @@ std::vector<NamedFile> named_files(const std::string& what, std::vector<std::str
 /// Error: an output is an input, or two outputs are one file. Nothing is opened.
 Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
-/// What can be known of outputs before the work. Error: an output is an input or another output, or cannot be written,
-/// or its name has a place for a step, of which there is none. Outputs without a path are passed over.
+/// As check_distinct() of outputs with a path; also one cannot be written, or has a place for a step that is not there.
 Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs);
 
 /// Error: one of these cannot be read. "-" is stdin.

@@ -6,8 +6,7 @@
 
 namespace barycert::base {
 
-// Names that a process has given to unfinished files, removed when a signal ends it. Most unfinished files have no name
-// at all. It takes one where the file system knows no nameless files, and to replace an older file.
+// Names that a process has given to unfinished files (see OutputFile), removed when a signal ends it.
 
 /// For the main function of a program: from now on SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE and SIGXCPU first remove
 /// the unfinished files of this process and then end it as they would have. A signal that is ignored stays ignored.
@@ -24,8 +23,7 @@ std::string resolved_path(std::string path);
 
 /// Writes to a file without a name in the target's folder, which commit() puts in the target's place: a process that is
 /// ended by whatever means, SIGKILL included, leaves the target as it was and nothing else. Without a commit() the
-/// destructor leaves nothing either. Errors (no space, no permission) are kept and told by close() and commit(); the
-/// first one counts.
+/// destructor leaves nothing either. The first error is kept, and told by close() and commit().
 ///
 /// Where the file system knows no nameless files (O_TMPFILE), the file is TARGET.tmp-<process>-<count> until the
 /// commit; an existing target is replaced by way of such a name in the last moment, too. A program that has called
@@ -50,8 +48,7 @@ public:
     /// True if bytes can be replaced before the commit: not for a device, a pipe or the standard output.
     bool can_replace() const { return nameless_ || begun_ != nullptr; }
 
-    /// Replaces bytes that were written, from byte `offset` on; later writes go on at the end. For what is known only
-    /// at the end, such as a count in a header. Precondition: can_replace(), and as many bytes stand there.
+    /// Replaces bytes from `offset` on, as a count in a header; writes go on at the end. Precondition: can_replace().
     void replace(std::uint64_t offset, std::string_view bytes);
 
     /// The first error so far. Bytes are gathered, so that an error may show only at a later call.

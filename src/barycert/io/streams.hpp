@@ -36,8 +36,7 @@ struct PointColumns {
     }
 };
 
-/// The places of x, y[, z], or of one of the other names that are known; nothing if none of them is there as a whole.
-/// In the plane also of the z that belongs to them. Error: two columns of one of these names.
+/// The places of x, y[, z] or other known names, in the plane also of a z beside them; or nothing. Error: a name twice.
 std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimension);
 
 /// The texts, each cut at its commas unless there are `count` of them.

@@ -38,8 +38,7 @@ void add_fields(const std::vector<FieldFile>& files, Mesh& mesh);
 /// The field of nodes or cells that a name means, one number each; in `made` where the mesh has none.
 FieldChoice field_of_numbers(const Mesh& mesh, const std::string& name, std::deque<Field>& made, Notes& notes);
 
-/// The names, with those of other(name) in the place of a name for which there are such. One text may hold several
-/// names, with commas between them; one of which none is replaced stays whole, as a name may have commas, too.
+/// The names, with those of other(name) where there are such. A text may hold several names, or a name commas.
 using OtherNames = std::function<std::optional<std::vector<std::string>>(const std::string& name)>;
 std::vector<std::string> with_other_names(const std::vector<std::string>& names, const OtherNames& other);
 

@@ -94,8 +94,7 @@ std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<b
 void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
                    std::vector<base::NamedFile> outputs);
 
-/// What can be known of files before the work, of these and the mesh and fields; who reads those `unread` tells what is
-/// wrong. Refused as by base::check_inputs and check_outputs.
+/// base::check_inputs and check_outputs of these and the mesh and fields; who reads `unread` tells what is wrong.
 void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
                  const std::vector<base::NamedFile>& unread = {});
 

@@ -188,8 +188,7 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
     });
 }
 
-/// Takes one row a node, and writes the mesh when all is there: VTK's files, or TetGen's by their stem. Refused:
-/// carried columns, for which meshes have no place. `notes` gets the names that a .node file cannot hold, once.
+/// Takes one row a node, and writes the mesh when all is there. Refused: carried columns.
 Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, Notes& notes) {
     if (!format.carried.empty())
         refuse(path, "a mesh has no labels of nodes", "fields", "label " + base::quoted(format.carried.front().name),

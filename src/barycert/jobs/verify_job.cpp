@@ -168,8 +168,7 @@ ClaimedColumns claimed_columns(const VerifyJob& job, const Mesh& mesh, const std
            "file: job.field_files NAME=FILE");
 }
 
-/// What the columns say. Cells are indices in the mesh: those that the file numbers otherwise are translated, and those
-/// that the mesh does not have are beyond its last one. Refused: a text that is no number, a cell that is no integer.
+/// What the columns say. Cells are as index_of() gives them. Refused: a text that is no number, a cell no integer.
 Claims claims_of(const ClaimedColumns& which, const std::vector<Column>& columns, const Mesh& mesh,
                  const VerifyJob& job, std::uint64_t first_row) {
     Claims out;

@@ -7,8 +7,7 @@
 
 namespace barycert::io {
 
-/// Reads in chunks. A byte-order mark of UTF-8 is passed over, one of UTF-16 refused. Errors are thrown as Exceptions:
-/// missing, unreadable, a folder, a line too long; or it was changed since it was opened.
+/// Reads in chunks. A byte-order mark of UTF-8 is passed over, one of UTF-16 refused. Errors are thrown as Exceptions.
 class LineReader {
 public:
     /// The longest line, and so what the reader holds in memory.
@@ -19,8 +18,7 @@ public:
     /// The next line without its end, valid until the next call; a byte after it may be read. False: there is none.
     bool next(std::string_view& line);
 
-    /// Several lines at once, whole ones but for the last of the file: one at least, and as many more as have come, up
-    /// to longest_line bytes. Valid, and false, as above. Whoever has counted them tells it by count().
+    /// Several lines at once, whole but for the last of the file: as many as have come. count() is to be told of them.
     bool next_lines(std::string_view& lines);
     void count(std::size_t lines) { number_ += lines; }
 

@@ -360,7 +360,7 @@ void note_cells(MshCells& cells, bool partitioned, const std::string& path) {
     };
     const std::string others = counted_types(cells.left_out, 0, cells.mesh.dimension - 1);
     // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result; to tell
-    // it each time would teach users to look away. Of a wire nothing would be left.
+    // it each time would teach users to look away. But of a wire nothing is left.
     if (!others.empty())
         left_out("elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
                  cells.apart);

@@ -179,11 +179,7 @@ MshGroups read_msh_groups(const MshFile& file) {
 /// fields of such names stay: the writer makes them where groups cannot say the same.
 void label_cells(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells) {
     Mesh& mesh = cells.mesh;
-    if (file.version() == 22) {
-        drop_what_says_nothing(cells);
-    } else {
-        fill_from_entities(file, elements, groups, cells);
-    }
+    file.version() == 22 ? drop_what_says_nothing(cells) : fill_from_entities(file, elements, groups, cells);
     bool in_sequence = true;
     for (std::size_t i = 0; i < cells.tags.size() && in_sequence; ++i)
         in_sequence = cells.tags[i] == std::int64_t{mesh.cell_number(static_cast<Mesh::Index>(i))} + 1;

@@ -556,11 +556,8 @@ private:
         const std::vector<std::int64_t> all = references(std::move(cells.references));
         const bool doubles = std::ranges::all_of(all, [](std::int64_t n) { return std::abs(n) <= 1LL << 53; });
         if (all.empty()) return;
-        if (doubles) {
-            mesh_.cell_fields.push_back({"medit:ref", 1, {all.begin(), all.end()}});
-        } else {
-            mesh_.cell_labels.push_back({"medit:ref", all});
-        }
+        doubles ? mesh_.cell_fields.push_back({"medit:ref", 1, {all.begin(), all.end()}})
+                : mesh_.cell_labels.push_back({"medit:ref", all});
     }
 
     void settle_order() {

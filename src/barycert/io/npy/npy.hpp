@@ -62,8 +62,7 @@ NpyHeader read_npy_header(const base::InputFile& file, const std::string& path);
 /// At most so many columns: more have no meaning for points.
 inline constexpr std::uint64_t most_npy_columns = std::uint64_t{1} << 16;
 
-/// A field NAME of several values is NAME.0, NAME.1, ...; fields that are structures, and unnamed ones, are passed
-/// over. An array without names has column1, column2, ...; one of shape (rows,) is one column.
+/// A field NAME of several values is NAME.0, ...; structures and unnamed ones are passed over. Or column1, ...
 struct NpyTable {
     std::uint64_t rows = 0;
     std::vector<NpyColumn> columns;

@@ -98,8 +98,7 @@ struct OutFile {
     std::vector<OutSection> sections;
 };
 
-/// Names must be such that check_arrays passes them. Compressed blocks are made on all threads, and the same for any
-/// number of them; memory for some of them is taken. On a pipe or device they are made twice.
+/// Names must pass check_arrays. Compressed blocks are made on all threads, in memory for some; on a pipe twice.
 Status write_xml(const OutFile& file, const std::string& path, VtkData data);
 
 // What stands around raw arrays, for those that write them themselves.

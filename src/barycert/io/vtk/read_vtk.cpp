@@ -137,8 +137,7 @@ void check_block(std::string_view block, const std::string& path) {
     base::check_beginning(block, text ? base::Text::all : base::Text::head, path).value();
 }
 
-/// Where the first block of an XML file leads up to raw data, these are left to be read to where they belong: then they
-/// are not twice in memory. False if it does not, or something is wrong, which is told of the whole file.
+/// Raw data to which the first block of XML leads are read to where they belong, not twice in memory. False: otherwise.
 bool read_beginning(VtkFile& file, const std::string& path) {
     if (file.input->size() <= base::first_block) return false;
     file.file = base::MappedFile::read(*file.input, path, base::first_block).value();
