@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include "barycert/base/text.hpp"
+
 namespace barycert::cli {
 namespace {
 
@@ -34,9 +36,7 @@ std::string summary(std::string_view text) {
 }
 
 std::string alternatives(const std::vector<std::string>& patterns) {
-    std::string text;
-    for (const std::string& pattern : patterns) text += (text.empty() ? "" : " | ") + in_quotes(pattern);
-    return text;
+    return base::joined(patterns, " | ", in_quotes);
 }
 
 std::string words_of(const OptionEntry& option) {

@@ -248,10 +248,7 @@ private:
         throw Exception(error);
     }
 
-    std::string normal_text() const {
-        const std::array<double, 3>& n = job_.plane->normal;
-        return fmt::format("{},{},{}", shortest(n[0]), shortest(n[1]), shortest(n[2]));
-    }
+    std::string normal_text() const { return base::joined(job_.plane->normal, ",", shortest); }
 
     void draw(const Surface& section) {
         Stopwatch watch;

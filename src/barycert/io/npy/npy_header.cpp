@@ -252,9 +252,8 @@ NpyHeader read_npy_header(const base::InputFile& file, const std::string& path) 
 }
 
 std::string as_tuple(const std::vector<std::uint64_t>& shape) {
-    std::string text = "(";
-    for (std::size_t i = 0; i < shape.size(); ++i) text += (i != 0 ? ", " : "") + std::to_string(shape[i]);
-    return text + (shape.size() == 1 ? ",)" : ")");
+    const auto number = [](std::uint64_t n) { return std::to_string(n); };
+    return "(" + base::joined(shape, ", ", number) + (shape.size() == 1 ? ",)" : ")");
 }
 
 std::string npy_header_of(const std::string& descr, const std::vector<std::uint64_t>& shape, std::size_t size) {

@@ -27,9 +27,7 @@ constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".n
 constexpr std::array node_header{"nodes", "dimensions", "attributes", "markers"};
 
 std::string header_text(std::initializer_list<std::int64_t> numbers) {
-    std::string text;
-    for (const std::int64_t number : numbers) text += (text.empty() ? "\"" : " ") + std::to_string(number);
-    return text + '"';
+    return '"' + base::joined(numbers, " ", [](std::int64_t number) { return std::to_string(number); }) + '"';
 }
 
 [[noreturn]] void refuse_meaning(const TextTable& table, const std::string& what, std::string expected,

@@ -1,7 +1,7 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
-#include "barycert/base/large_pages.hpp"
 #include "barycert/base/workers.hpp"
+#include "barycert/io/parallel.hpp"
 
 namespace barycert::io {
 namespace {
@@ -26,15 +26,14 @@ public:
         if (table.is_whole) return table.bytes.substr(from, to - from);
         constexpr std::size_t ahead = 128;
         const std::size_t size = to - from;
-        if (size_ < size + ahead) bytes_ = std::make_unique_for_overwrite<char[]>(size_ = size + ahead);
-        const std::size_t got = table.input.read_at(from, {bytes_.get(), size}, table.file).value();
-        std::fill(bytes_.get() + got, bytes_.get() + size + ahead, '\0');
-        return {bytes_.get(), size};
+        char* const bytes = room_.of(size + ahead);
+        const std::size_t got = table.input.read_at(from, {bytes, size}, table.file).value();
+        std::fill(bytes + got, bytes + size + ahead, '\0');
+        return {bytes, size};
     }
 
 private:
-    std::unique_ptr<char[]> bytes_;
-    std::size_t size_ = 0;
+    ByteRoom room_;
 };
 
 /// Behind the first line end at byte `from` or later.

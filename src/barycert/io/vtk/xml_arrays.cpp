@@ -35,25 +35,6 @@ bool decode_digits(const char* from, std::size_t quadruples, char* to) {
     return all >= 0;
 }
 
-/// Room for bytes, which hold anything until they are written.
-class ByteRoom {
-public:
-    /// `size` bytes; what stood there is lost.
-    char* of(std::size_t size) {
-        if (size_ < size) {
-            bytes_.reset();
-            bytes_ = std::make_unique_for_overwrite<char[]>(size);
-            base::ask_for_large_pages(bytes_.get(), size);
-            size_ = size;
-        }
-        return bytes_.get();
-    }
-
-private:
-    std::unique_ptr<char[]> bytes_;
-    std::size_t size_ = 0;
-};
-
 /// Bytes of a file as they stand or in base64: RFC 4648's, white space passed over. After padding it goes on with the
 /// next quadruple: VTK encodes the head of compressed data apart from the data. It ends at any other character.
 class Encoded {
