@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
 
+#include "barycert/io/formats.hpp"
 #include "options/command_table.hpp"
 
 namespace barycert::cli {
@@ -36,11 +36,10 @@ FieldFile field_file_of(Text option, FieldFile::Of of, Text text) {
     auto [name, rest] = assignment(option, "NAME=FILE", text);
     FieldFile file{of, std::move(name), std::move(rest)};
     // FILE:COLUMN, where the file is the shortest beginning that there is: both may have colons in their names.
-    std::error_code ignored;
-    const auto is_there = [&](const std::string& path) { return std::filesystem::exists(path, ignored); };
-    std::size_t colon = is_there(file.path) ? std::string::npos : file.path.find(':');
-    while (colon != std::string::npos && !is_there(file.path.substr(0, colon))) colon = file.path.find(':', colon + 1);
-    if (colon == std::string::npos && !is_there(file.path)) colon = file.path.rfind(':');  // for the message
+    std::size_t colon = io::exists(file.path) ? std::string::npos : file.path.find(':');
+    while (colon != std::string::npos && !io::exists(file.path.substr(0, colon)))
+        colon = file.path.find(':', colon + 1);
+    if (colon == std::string::npos && !io::exists(file.path)) colon = file.path.rfind(':');  // for the message
     if (colon != std::string::npos && colon != 0 && colon + 1 != file.path.size()) {
         file.column = file.path.substr(colon + 1);
         file.path.resize(colon);

@@ -75,7 +75,6 @@ bool has_suffix(std::string_view path, std::string_view suffix);
 bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes);
 
 std::string suffix_of(const std::string& path);
-
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
 bool is_vtk_file(std::string_view path);

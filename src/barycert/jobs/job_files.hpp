@@ -65,7 +65,6 @@ struct Step {
 std::vector<Step> find_steps(const SamplingJob& job);
 
 bool has_step_place(const std::string& output);
-
 std::string output_of_step(const std::string& output, const Step& step);
 
 void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0);

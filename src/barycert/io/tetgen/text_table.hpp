@@ -97,7 +97,6 @@ template <class... Parts>
 [[noreturn]] void refuse_row(const TextTable& table, const char* at, std::size_t row);
 
 [[noreturn]] void refuse_end(const TextTable& table, std::size_t found);
-
 [[noreturn]] void refuse_surplus(const TextTable& table, const char* at);
 
 }  // namespace barycert::io
