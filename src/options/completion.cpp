@@ -1,6 +1,5 @@
-// Completions for shells. That for bash is one function over tables of words, which needs bash alone and not the
-// package bash-completion; for zsh it is a function for each command, of specifications for _arguments; for fish a line
-// for each option, with the command it belongs to as its condition.
+// Completions for shells: for bash a function over tables of words, which needs no package bash-completion; for zsh one
+// for each command, of specifications for _arguments; for fish a line for each option, with its command as condition.
 
 #include "options/command_table.hpp"
 

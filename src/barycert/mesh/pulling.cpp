@@ -255,7 +255,6 @@ Shape shape_of(std::uint8_t type) {
         case 69:
             return {2, 3, "012"};
         case strip:
-            return {2, 0, {}};
         case 7:
             return {2, 0, {}};
         case 8:

@@ -23,14 +23,13 @@ bool append_value(Column& column, const FieldCutter& cutter, std::string_view fi
         texts->push_back(cutter.text(field));
         return true;
     }
-    if (auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values)) {
-        const auto value = integer_of(field);
-        if (value) integers->push_back(*value);
+    const auto append = [](auto& values, const auto& value) {
+        if (value) values.push_back(*value);
         return value.has_value();
-    }
-    const auto value = number_of(field);
-    if (value) std::get<std::vector<double>>(column.values).push_back(*value);
-    return value.has_value();
+    };
+    auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values);
+    return integers != nullptr ? append(*integers, integer_of(field))
+                               : append(std::get<std::vector<double>>(column.values), number_of(field));
 }
 
 /// Beside a mesh in the plane. A point that is not finite anyway may lie anywhere.

@@ -1,6 +1,4 @@
-/// A .msh file in memory: its format, and where its sections are.
-///
-/// Within the readers of .msh files an Error is thrown as an Exception, which read_guarded() makes a Result.
+/// A .msh file in memory: its format, and where its sections are. Errors are thrown as Exceptions.
 #pragma once
 
 #include "barycert/io/formats.hpp"

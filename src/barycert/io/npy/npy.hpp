@@ -1,7 +1,5 @@
 /// NPY files: the types of their items, the columns that the header makes of them, their rows. The format:
-/// numpy.org/doc/stable/reference/generated/numpy.lib.format.html
-///
-/// Errors are thrown as Exceptions.
+/// numpy.org/doc/stable/reference/generated/numpy.lib.format.html. Errors are thrown as Exceptions.
 #pragma once
 
 #include "barycert/base/input_file.hpp"
