@@ -50,7 +50,8 @@ inline constexpr const char* save_first = "save the data to a regular file first
 /// A regular file open for reading; closed at the end.
 class InputFile {
 public:
-    /// Error: no regular file, or packed and not beginning as `text`. `pipe`, if given, lets it be one; set if it is.
+    /// Errors: missing, unreadable, a folder, a pipe or device (for which `remedy` says what to do), packed and not
+    /// beginning as `text` says. `pipe`, if given, lets it be a pipe, and is set if it is one.
     static Result<InputFile> open(const std::string& path, const char* remedy = save_first, Text text = Text::none,
                                   bool* pipe = nullptr);
 
@@ -79,7 +80,8 @@ private:
 /// What is read of a pipe at most, for it does not tell its size: 256 MiB.
 inline constexpr std::size_t longest_pipe = std::size_t{1} << 28;
 
-/// All bytes of a regular file that begins as `text` and `header` say, or of a pipe up to its end, at most `longest`.
+/// All bytes of a regular file, or of a pipe up to its end. Errors: missing, unreadable, a folder, a device, a pipe
+/// that nobody writes to, one that holds more than `longest` bytes, one that does not begin as `text` and `header` say.
 Result<std::string> read_file(const std::string& path, std::size_t longest = longest_pipe, Text text = Text::none,
                               const Header& header = {});
 

@@ -21,8 +21,9 @@ std::string shortest(double x);
 std::string hexadecimal(double x);
 
 /// The double nearest to the number written in `text` (decimal or hexadecimal, all of it), ties to even, or nothing.
-/// "inf", "infinity" and "nan" in any case, signed or not, are what they say. A number too large for a double is
-/// nothing; one too small is zero if it is decimal, and nothing if hexadecimal.
+/// "inf", "infinity" and "nan" in any case, signed or not, are read as what they say: callers that need finite numbers
+/// check. A number too large for a double is nothing; one too small is rounded to zero if it is decimal, and nothing if
+/// it is hexadecimal, the form of exact numbers.
 std::optional<double> parse_double(std::string_view text);
 
 /// `text` as it may be shown on a terminal: what is not printable stands as \n, \t, \r or \x1b (its bytes), so that a

@@ -10,6 +10,7 @@
 namespace barycert::base {
 namespace {
 
+/// Half of the machine's memory, and no more than any table of numbers takes: 200 times its size and 256 MiB.
 std::size_t most_unpacked(std::size_t packed) {
     const auto memory =
         static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));

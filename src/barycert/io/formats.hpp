@@ -168,7 +168,9 @@ inline constexpr const char* formats_read =
     "a file of Gmsh (.msh), Medit (.mesh .meshb), VTK (.vtu .vtk .vtp .vti .vtr .vts .pvtu .vtm .pvd .vtu.series "
     ".vtp.series), TetGen or Triangle (.node .ele), or one that meshio reads";
 
-/// Reads a mesh by way of meshio, whose name of the format that is; notes its version and what it printed.
+/// Reads a mesh by way of meshio, whose name of the format is `format`: nodes and cells in its order, which is told
+/// with its version and what it printed. Error: run_meshio(); meshio cannot read the file; read_vtk(); what comes back
+/// differs from what meshio counted.
 Result<Mesh> read_converted(const std::string& path, const std::string& format);
 
 /// By the first bytes of a file, behind a byte-order mark.

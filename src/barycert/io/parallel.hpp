@@ -33,7 +33,8 @@ void in_parts(std::size_t count, std::size_t part, Work work) {
     in_parallel((count + part - 1) / part, [&](std::size_t i) { work(i * part, std::min(count, (i + 1) * part)); });
 }
 
-/// The first fault, or `count`; good(first, last): that of a part, or `last`. Parts behind one may be left out.
+/// good(first, last) of such parts tells where the first fault in it may be, or `last`; that of the first part with
+/// one, or `count`. Parts behind a fault may be left out.
 template <class Good>
 std::size_t first_bad(std::size_t count, std::size_t part, Good good) {
     std::atomic<std::size_t> least{count};

@@ -93,7 +93,9 @@ std::vector<base::NamedFile> input_files(const MeshJob& job, const std::vector<b
 void check_outputs(const MeshJob& job, const std::vector<base::NamedFile>& inputs,
                    std::vector<base::NamedFile> outputs);
 
-/// base::check_inputs and check_outputs of these and the mesh and fields; who reads `unread` tells what is wrong.
+/// What can be known of files before the work: of a job with those outputs and, besides the mesh and fields, those
+/// inputs; `unread`: inputs, too, but who reads them tells what is wrong. Refused: an output that is an input or
+/// another output, or cannot be written; an input that cannot be read.
 void check_files(const MeshJob& job, std::vector<base::NamedFile> more_inputs, std::vector<base::NamedFile> outputs,
                  const std::vector<base::NamedFile>& unread = {});
 

@@ -8,9 +8,10 @@
 
 namespace barycert::mesh {
 
-/// The cell across the facet opposite to each corner, dimension + 1 a cell; -1 where there is none. Facets of the same
-/// nodes are the same. Where more than two cells hold a facet, the two lowest are neighbours and the others have none.
-/// Precondition: the indices of the cells are in range. Time and memory as of FacetTable.
+/// The cell across the facet opposite to each corner, dimension + 1 a cell; -1 where there is none. Facets are the same
+/// if they have the same nodes; positions do not matter. Where more than two cells hold a facet, the two lowest are
+/// neighbours and the others have none. Precondition: the indices of the cells are in range. Time and memory O(cells +
+/// nodes) where the number of cells at a node is bounded; on all threads of the calling arena.
 std::vector<Mesh::Index> compute_neighbours(const Mesh& mesh);
 
 /// The facets without a neighbour, each as cell * (dimension + 1) + corner, ascending. `neighbours` as above.

@@ -1,4 +1,5 @@
-// Points from CSV: lines, read by the megabyte, are parsed on all threads, piece by piece; in their order.
+// Points from CSV: lines are read by the megabyte, cut into pieces at line ends and parsed on all threads. Pieces are
+// looked at in their order, so points and errors do not depend on the number of threads.
 
 #include <filesystem>
 

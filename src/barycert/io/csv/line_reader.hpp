@@ -18,11 +18,14 @@ public:
     /// The next line without its end, valid until the next call; a byte after it may be read. False: there is none.
     bool next(std::string_view& line);
 
-    /// Several lines at once, whole but for the last of the file: as many as have come. count() is to be told of them.
+    /// Several lines at once, whole ones with their ends but for the last of the file, which may lack its own: at least
+    /// one, and as many more as have come, at most longest_line bytes. Valid until the next call, and one byte after
+    /// them may be read. False as above. Whoever has counted the lines tells it by count().
     bool next_lines(std::string_view& lines);
     void count(std::size_t lines) { number_ += lines; }
 
-    /// Error: the regular file was changed since it was opened; a line that is wrong may be half of one.
+    /// Error: it is a regular file and was changed since it was opened, so that a line that is wrong may be half of
+    /// one. Looked at where the file ends.
     Status unchanged() const { return then_ ? base::unchanged(descriptor_, *then_, name_) : Status(Done{}); }
 
     /// The last line given ended with LF or CR, and not with the file.

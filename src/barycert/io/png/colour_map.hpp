@@ -2,9 +2,10 @@
 /// each as different from the next as any other, so that the picture shows the differences that the field has. In
 /// greys, and to eyes that tell few hues apart, the order stays.
 ///
-/// The map is ours. It is the curve in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020) with,
-/// for t from 0 to 1, lightness from 0.27 to 0.93 and hue from 305 to 108 degrees, both linear, and chroma 0.12, 0.10,
-/// 0.17 at t = 0, 1/2, 1, quadratic; divided into 255 pieces of equal length; in 8-bit sRGB.
+/// The map is ours. It is the curve in Oklab (B. Ottosson, "A perceptual color space for image processing", 2020)
+/// with, for t from 0 to 1, lightness from 0.27 to 0.93 and hue from 305 to 108 degrees, both linear, and chroma 0.12,
+/// 0.10, 0.17 at t = 0, 1/2, 1, quadratic; divided into 255 pieces of equal length; in 8-bit sRGB. A test computes it
+/// anew.
 #pragma once
 
 #include <array>

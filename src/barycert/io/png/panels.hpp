@@ -19,7 +19,8 @@ inline constexpr std::size_t text_width(std::size_t characters) {
     return characters == 0 ? 0 : glyph_advance * characters - (glyph_advance - glyph_width);
 }
 
-/// Characters of UTF-8; a byte that is none counts as one.
+/// How a picture writes a text: each byte that is not printable ASCII stands for a character that is not there, of
+/// several bytes in UTF-8 only the first.
 std::size_t character_count(std::string_view text);
 
 /// Draws line `line` of scale * glyph_height of the text into a row of RGBA pixels, where it must fit, from `left` on.

@@ -25,7 +25,8 @@ Status write_png_rows(const std::string& path, std::size_t width, std::size_t he
                       PngContent content = PngContent::few_colours);
 
 /// A small picture of few colours as the bytes of a PNG file. `pixels`: the index of each pixel's colour, row by row
-/// from the top. Preconditions: whole rows, 1 to 256 colours, indices of these.
+/// from the top. Error: libpng does not make it, as without memory. Preconditions: pixels.size() is a multiple of
+/// `width`, both > 0; 1 to 256 colours; indices are those of colours.
 Result<std::string> indexed_png(std::size_t width, std::span<const std::uint8_t> pixels,
                                 std::span<const Colour> colours);
 

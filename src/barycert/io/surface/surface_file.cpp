@@ -100,7 +100,8 @@ Result<SurfaceFile> write_ply(const Surface& s, const std::string& path) {
     return result;
 }
 
-/// VTK's PolyData: polygons, or lines at z = 0; fields as arrays of doubles; those of the mesh as "cell".
+/// VTK's PolyData: polygons, or lines at z = 0; fields as arrays of doubles; the cells of the mesh as the array "cell",
+/// where no field has that name. Error: a name that XML cannot hold, or is there twice.
 Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData data) {
     std::vector<OutArray> of_points, of_cells;
     for (const Field& f : s.point_fields) of_points.push_back(array_of_field(f));

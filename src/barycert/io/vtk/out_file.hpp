@@ -112,7 +112,8 @@ inline constexpr std::uint64_t appended_header = 8;
 /// Behind the last array.
 inline constexpr std::string_view appended_tail = "\n  </AppendedData>\n</VTKFile>\n";
 
-/// Rows into a .vtu file. It has array after array: up to commit() they are kept in files without names beside it.
+/// A sink of rows into a .vtu file. The format has one array after the other: rows are kept in files without names
+/// beside the target up to commit(), so that memory does not grow with them.
 Result<std::unique_ptr<TableSink>> open_vtu_sink(const std::string& path, const TableFormat& format);
 
 }  // namespace barycert::io
