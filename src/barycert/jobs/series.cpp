@@ -114,13 +114,6 @@ bool names_steps(const std::string& path) {
     return io::has_one_of(path, {".pvd", ".series"});
 }
 
-/// FILE.pvd, or FILE.pvd:COLUMN; also of .vtu.series.
-std::optional<FieldFile> file_of_steps(const FieldFile& series) {
-    if (names_steps(series.path)) return series;
-    const auto split = without_column(series);
-    return split && names_steps(split->path) ? split : std::nullopt;
-}
-
 /// Refuses a word in braces that is nearly one of the places of steps.
 void check_places(const std::string& output) {
     for (std::size_t open = output.find('{'); open != std::string::npos; open = output.find('{', open + 1)) {
@@ -135,8 +128,9 @@ void check_places(const std::string& output) {
 std::vector<Step> steps_of_series(const std::vector<FieldFile>& series) {
     std::vector<Step> steps;
     for (const FieldFile& one : series) {
-        const auto file = file_of_steps(one);
-        std::vector<Step> found = file ? steps_of_file(*file) : matches_of(one);
+        // FILE.pvd, or FILE.pvd:COLUMN; also of .vtu.series.
+        const auto file = names_steps(one.path) ? one : without_column(one);
+        std::vector<Step> found = file && names_steps(file->path) ? steps_of_file(*file) : matches_of(one);
         if (steps.empty()) {
             steps = std::move(found);
             continue;

@@ -68,11 +68,6 @@ std::vector<const ElementType*> choose(const MshFile& file, const TypeCounts& co
                 "or add -save_all");
 }
 
-std::uint8_t linear_type(const ElementType& type) {
-    constexpr std::array<std::uint8_t, 8> numbers{0, 0, 5, 9, 10, 12, 13, 14};
-    return numbers[static_cast<std::size_t>(type.family)];
-}
-
 /// Takes the tags of nodes and gives their positions.
 bool take_node(auto& row, const TagIndex& nodes, Mesh::Index& node) {
     std::int64_t tag = 0;
@@ -184,11 +179,12 @@ std::vector<std::size_t> kept_places(const ElementType& type) {
 /// Elements of several types, or none of which is a mesh's own: by their corners, but for curved simplices.
 void read_shapes(const Target& to, std::span<const Run> runs) {
     Mesh::Shapes& shapes = to.cells.mesh.shapes;
+    constexpr std::array<std::uint8_t, 8> linear_types{0, 0, 5, 9, 10, 12, 13, 14};  // VTK's
     for (const Run& run : runs) {
         const ElementType& own = *to.elements.blocks[run.id].type;
         const bool whole = !kept_places(own).empty();
-        const std::uint8_t linear = linear_type(own), curved = own.dimension() == 3 ? 71 : 69,
-                           type = whole ? curved : linear;
+        const std::uint8_t linear = linear_types[static_cast<std::size_t>(own.family)],
+                           curved = own.dimension() == 3 ? 71 : 69, type = whole ? curved : linear;
         const auto corners = static_cast<std::int64_t>(whole ? own.nodes : mesh::shape_of(type).corners);
         shapes.types.insert(shapes.types.end(), run.count, type);
         for (std::size_t i = 0; i < run.count; ++i)
