@@ -197,12 +197,6 @@ struct Plc {
 
 inline constexpr std::array<std::string_view, 6> plc_extensions{".poly", ".smesh", ".off", ".stl", ".ply", ".obj"};
 
-/// An error of a whole file.
-inline Error file_error(std::string file, std::string what, std::string expected = {}, std::string found = {},
-                        std::string remedy = {}) {
-    return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
-}
-
 /// The paths of the files that the PLC may be in: `path`, and STEM.node beside STEM.poly or STEM.smesh.
 std::vector<std::string> plc_files(const std::string& path);
 

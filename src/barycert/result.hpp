@@ -25,6 +25,12 @@ struct Error {
     std::string message() const;
 };
 
+/// An error of a whole file.
+inline Error file_error(std::string file, std::string what, std::string expected = {}, std::string found = {},
+                        std::string remedy = {}) {
+    return {std::move(what), std::move(file), 0, std::move(expected), std::move(found), std::move(remedy)};
+}
+
 /// Thrown by Result::value() when there is an error instead of a value.
 class Exception : public std::runtime_error {
 public:

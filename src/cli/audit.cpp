@@ -15,7 +15,6 @@ struct AuditArguments : Arguments<AuditJob> {
     const CLI::App* app = nullptr;
 };
 
-/// What can be known of files before the work.
 void check_files(const AuditArguments& a) {
     std::vector<base::NamedFile> inputs = library_files(a.job.kernels);
     for (const NamedMesh& mesh : a.job.meshes) {
@@ -75,7 +74,6 @@ int run_rules(AuditArguments& a, void (*run)(Audit&), std::string (*text)(const 
     });
 }
 
-/// The mutation score of the families.
 Told told_of_mutants(const MutantReport& report) {
     return {.files = {{"--json", [&] { return mutants_json(report); }}},
             .text = [&](bool colour) { return mutants_text(report, {.colour = colour, .command = command_name()}); },

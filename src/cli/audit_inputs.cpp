@@ -24,7 +24,6 @@ fs::path data_folder() {
     return {};
 }
 
-/// A list as a table, and JSON.
 template <class Chosen, class Items, Result<Items> (*choose)(const Chosen&), std::string (*json)(const Items&),
           std::string (*text)(const Items&)>
 int list(Arguments<Chosen>& a) {
@@ -48,10 +47,9 @@ Result<std::vector<NamedMesh>> meshes_or_own(const std::vector<std::string>& pat
     }
     // Some of them alone would be another audit.
     if (meshes.empty() || trouble)
-        return Error{.what = "barycert's own meshes are missing",
-                     .file = folder,
-                     .found = trouble ? trouble.message() : "no .node file",
-                     .remedy = "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources"};
+        return file_error(folder, "barycert's own meshes are missing", {},
+                          trouble ? trouble.message() : "no .node file",
+                          "name a mesh, or set BARYCERT_DATA_DIR to the folder `data` of barycert's sources");
     return meshes;
 }
 

@@ -31,7 +31,6 @@ inline std::vector<base::NamedFile> library_files(const KernelChoice& kernels) {
     return base::named_files("--kernel-library", kernels.libraries);
 }
 
-/// Lines that say which figures exceed their limits.
 std::string failures_of(const std::vector<Violation>& violations);
 
 }  // namespace barycert::cli

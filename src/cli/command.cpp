@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +40,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 3> of_rows{{
     {"FieldFile::Of::either", "--field"},
 }};
 
-/// The option that sets the member; empty if none does.
 std::string option_of(std::string_view member) {
     for (const auto& [name, option] : other_names) {
         if (name == member) return std::string(option);
@@ -95,17 +93,12 @@ std::string command_name() {
 }
 
 std::string with_command_name(std::string text) {
-    const std::string own = "`barycert ", named = '`' + command_name() + ' ';
-    for (std::size_t at = text.find(own); at != std::string::npos; at = text.find(own, at + named.size()))
-        text.replace(at, own.size(), named);
+    base::replace_all(text, "`barycert ", '`' + command_name() + ' ');
     return text;
 }
 
 std::string with_options(std::string text) {
-    for (const auto& [name, option] : of_rows) {
-        for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at))
-            text.replace(at, name.size(), option);
-    }
+    for (const auto& [name, option] : of_rows) base::replace_all(text, name, option);
     for (const std::string_view owner : {"job.", "options."}) {
         for (std::size_t at = text.find(owner); at != std::string::npos; at = text.find(owner, at + 1)) {
             const std::size_t begin = at + owner.size();

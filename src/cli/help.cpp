@@ -104,9 +104,8 @@ int explain(const CLI::App& app, const std::vector<std::string>& words) {
         const auto named = [&](const CLI::App* sub) { return sub->get_name() == word; };
         const auto found = command->get_subcommands(named);
         if (found.empty())
-            return fail({.what = "no such subcommand",
-                         .found = '"' + word + '"',
-                         .remedy = base::did_you_mean(word, command_names(*command), "`barycert help` lists them")});
+            return fail(file_error({}, "no such subcommand", {}, '"' + word + '"',
+                                   base::did_you_mean(word, command_names(*command), "`barycert help` lists them")));
         above += (above.empty() ? "" : " ") + command->get_name();
         command = found.front();
     }
@@ -124,10 +123,9 @@ int run_help(HelpArguments& a) {
     if (!pages && !script) return explain(app, a.words);
     const bool of_mesher = script && a.words == std::vector<std::string>{"mesh"};
     if ((!a.words.empty() && !of_mesher) || (pages && script))
-        return fail({.what = "manual pages and completions are of all subcommands",
-                     .expected = "--man DIR, --completion SHELL or subcommands",
-                     .found = "several of these",
-                     .remedy = "give one of them alone"});
+        return fail(file_error({}, "manual pages and completions are of all subcommands",
+                               "--man DIR, --completion SHELL or subcommands", "several of these",
+                               "give one of them alone"));
     const CommandEntry program = command_table(app, vocabulary(app));
     if (!script) return write_pages(program, a.folder);
     write_output("-", a.completion(a.words.empty() ? with_names_below_help(program) : mesher(program))).value();

@@ -41,11 +41,9 @@ int exec_mesh(int argc, char** argv) {
     const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / name;
     if (!ignored && fs::exists(beside, ignored)) execv(beside.c_str(), arguments.data());
     execvp(name, arguments.data());
-    return fail(
-        {.what = "cannot run barycert-tetgen",
-         .found = std::strerror(errno),
-         .remedy =
-             "install the package barycert-tetgen; among the sources use `./run barycert mesh ...`, which builds it"});
+    return fail(file_error(
+        {}, "cannot run barycert-tetgen", {}, std::strerror(errno),
+        "install the package barycert-tetgen; among the sources use `./run barycert mesh ...`, which builds it"));
 }
 
 int run(int argc, char** argv) {
@@ -92,9 +90,8 @@ in the baseline, a mutant is not caught, or a witness is not reproduced; 2 usage
 Tables go to stdout, everything else to stderr. `barycert help SUBCOMMAND` explains each.)"));
     const auto named_first = [&](const CLI::App* sub) { return sub->get_name() == first; };
     if (!first.empty() && first.front() != '-' && app.get_subcommands(named_first).empty())
-        return fail({.what = "no such subcommand",
-                     .found = '"' + std::string(first) + '"',
-                     .remedy = base::did_you_mean(first, command_names(app), "`barycert --help` lists them")});
+        return fail(file_error({}, "no such subcommand", {}, '"' + std::string(first) + '"',
+                               base::did_you_mean(first, command_names(app), "`barycert --help` lists them")));
     try {
         remember_command_line(argc, argv);
         app.parse(argc, argv);

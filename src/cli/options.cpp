@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
-#include <system_error>
 
+#include "barycert/io/formats.hpp"
 #include "options/command_table.hpp"
 
 namespace barycert::cli {
@@ -37,11 +36,10 @@ FieldFile field_file_of(Text option, FieldFile::Of of, Text text) {
     auto [name, rest] = assignment(option, "NAME=FILE", text);
     FieldFile file{of, std::move(name), std::move(rest)};
     // FILE:COLUMN, where the file is the shortest beginning that there is: both may have colons in their names.
-    std::error_code ignored;
-    const auto is_there = [&](const std::string& path) { return std::filesystem::exists(path, ignored); };
-    std::size_t colon = is_there(file.path) ? std::string::npos : file.path.find(':');
-    while (colon != std::string::npos && !is_there(file.path.substr(0, colon))) colon = file.path.find(':', colon + 1);
-    if (colon == std::string::npos && !is_there(file.path)) colon = file.path.rfind(':');  // for the message
+    std::size_t colon = io::exists(file.path) ? std::string::npos : file.path.find(':');
+    while (colon != std::string::npos && !io::exists(file.path.substr(0, colon)))
+        colon = file.path.find(':', colon + 1);
+    if (colon == std::string::npos && !io::exists(file.path)) colon = file.path.rfind(':');  // for the message
     if (colon != std::string::npos && colon != 0 && colon + 1 != file.path.size()) {
         file.column = file.path.substr(colon + 1);
         file.path.resize(colon);
@@ -70,7 +68,7 @@ std::optional<double> positive(std::string_view text) {
 }
 
 std::optional<std::int64_t> count_of(std::string_view text) {
-    const auto n = integer_of<std::int64_t>(text);
+    const auto n = base::whole_number<std::int64_t>(text);
     return n && *n >= 1 ? n : std::nullopt;
 }
 
@@ -164,7 +162,7 @@ void Options::step(StepChoice& step, bool* all) const {
               std::string("a number from 0, ") + (all != nullptr ? "all or last" : "or last"), [&step, all](Text text) {
                   if (all != nullptr && text == "all") return *all = true;
                   if (text == "last") return step.last = true;
-                  step.number = integer_of<std::size_t>(text);
+                  step.number = base::whole_number<std::size_t>(text);
                   return step.number.has_value();
               });
     parsed("--time", "T", "The step of exactly this time in the file", "a finite number", step.time, finite)

@@ -63,8 +63,7 @@ public:
     /// `exit_code` is set by the subcommand that has run.
     Options(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}
 
-    /// The options of a subcommand below this one, and its arguments; work(arguments) does what it does, unless there
-    /// is a subcommand below it, and returns the exit code. `footer`: what its help ends with.
+    /// Options and arguments of a subcommand below; work(arguments), unless there is one below it, gives the exit code.
     template <class Arguments>
     std::pair<Options, Arguments&> command(std::string_view name, Text about, Text footer,
                                            int (*work)(Arguments&)) const {
@@ -102,7 +101,7 @@ public:
     /// Any whole number of 64 bits. "-1" and 2^64 are refused: the parser would take both for 2^64 - 1.
     template <class N>
     CLI::Option* whole(Text name, N& n, Text help, Text type = "S") const {
-        return parsed(name, type, help, "a whole number from 0 to 2^64 - 1", n, integer_of<std::uint64_t>);
+        return parsed(name, type, help, "a whole number from 0 to 2^64 - 1", n, base::whole_number<std::uint64_t>);
     }
     /// A finite number of at least `least`.
     template <class X>
@@ -158,7 +157,6 @@ public:
     /// Fields from files; `either`: the option whose rows may be of nodes or cells. `series`: where those in steps go.
     void field_files(std::vector<FieldFile>& files, Text either, std::vector<FieldFile>* series = nullptr) const;
     void size(RasterSize& size) const;
-    /// Where the camera stands. `what`: as above.
     void camera(ViewOptions& view, Text what) const;
 
 private:

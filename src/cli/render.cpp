@@ -110,10 +110,8 @@ void add_render(const Options& program) {
     const auto scene = [&job = a.job, app = &o.app()](const std::string& word) {
         const std::vector<std::string> pictures = command_names(*app);
         if (!word.ends_with(".json") && std::find(pictures.begin(), pictures.end(), word) == pictures.end())
-            throw Exception({.what = "no such picture",
-                             .expected = picture_or_scene,
-                             .found = '"' + word + '"',
-                             .remedy = base::did_you_mean(word, pictures, pictures_remedy)});
+            throw Exception(file_error({}, "no such picture", picture_or_scene, '"' + word + '"',
+                                       base::did_you_mean(word, pictures, pictures_remedy)));
         job.scene = word;
         return true;
     };

@@ -65,8 +65,7 @@ int on_segment(const ContourArguments& a) {
         text = fmt::format("undetermined: both ends have the value {}: {}\n", base::shortest(a.values[0]),
                            all ? "so has every point" : "no point has the one looked for");
     } else {
-        text = "t " + base::shortest(t.t) + "\npoint ";
-        for (std::size_t k = 0; k < d; ++k) text += (k == 0 ? "" : ",") + base::shortest(point[k]);
+        text = "t " + base::shortest(t.t) + "\npoint " + base::joined(point, ",", base::shortest);
         text += t.t < 0 || t.t > 1 ? "\noutside the segment, on its line\n" : "\n";
     }
     write_output("-", text).value();

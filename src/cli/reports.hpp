@@ -24,7 +24,6 @@ private:
     std::chrono::steady_clock::time_point last_{};
 };
 
-/// What a job's report says, in each of its forms.
 struct Told {
     /// By option, what goes into the file that it names. One that is not here is not written.
     std::map<std::string_view, std::function<Result<std::string>()>> files = {};
@@ -37,7 +36,6 @@ struct Told {
     Status written = Done{};  ///< of what the job wrote itself
 };
 
-/// The options of reports, and all that is done with them.
 class Reports {
 public:
     // Declared in the order of the help.
@@ -59,8 +57,7 @@ public:
     void begin(MeshJob& job);
     Progress& begin_progress();
 
-    /// Files first: whoever reads the table may stop reading (`| head`). A file that could not be written does not cost
-    /// the user the others, the fruit of the whole run. Returns the exit code.
+    /// Files first: whoever reads the table may stop reading (`| head`). One that fails costs no other.
     int write(Told told);
 
     /// The end of a job: its error, or its report by told(report), with options in the notes.

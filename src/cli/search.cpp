@@ -100,7 +100,7 @@ void add_search(const Options& program) {
     o.taken("--exponents", "LOW:HIGH",
             "Keep coordinates within 2^LOW <= |x| < 2^(HIGH+1), or zero; default: -1074:1023, all doubles",
             "LOW:HIGH, integers from -1074 to 1023, such as -10:10", [&options](const std::string& text) {
-                const auto ends = numbers(':', integer_of<int>, 2, 2)(text);
+                const auto ends = numbers(':', base::whole_number<int>, 2, 2)(text);
                 if (ends) std::tie(options.min_exponent, options.max_exponent) = std::pair((*ends)[0], (*ends)[1]);
                 return ends.has_value();
             });

@@ -26,7 +26,6 @@ struct OptionEntry {
     std::vector<std::string> words;  ///< these
     bool files = false;              ///< names of files
 
-    /// The last of the names, the long one.
     const std::string& name() const { return names.back(); }
 };
 
@@ -46,7 +45,6 @@ bool is_type_of_files(std::string_view type);
 
 /// Types of values, by which their words are found: parts between |. Those in small letters are words themselves (up to
 /// a [; with their = where one follows), names of files are completed as such, others are looked up in the vocabulary.
-/// `above`: the path of the command that this one is of.
 CommandEntry command_table(const CLI::App& app, const Vocabulary& vocabulary, const std::string& above = {});
 
 /// Calls visit(command) for the command, and for all below it, depth first.
@@ -67,14 +65,12 @@ struct Variable {
     std::string name, text;
 };
 
-/// A page for the program and one for each command below it. `version`: "barycert 0.1.0". `environment`: what the
-/// page of the program says of each variable. `date`: as YYYY-MM-DD, or empty.
+/// A page for the program, which has the environment, and one for each command below it. `date`: YYYY-MM-DD, or empty.
 std::vector<ManPage> man_pages(const CommandEntry& program, std::string_view version,
                                const std::vector<Variable>& environment, std::string_view date);
 
 // Completions for shells: commands, options, and their values where these are a few words or files.
 
-/// Each is a script for its shell, of one program.
 std::string bash_completion(const CommandEntry& program);
 std::string zsh_completion(const CommandEntry& program);
 std::string fish_completion(const CommandEntry& program);

@@ -1,6 +1,5 @@
-// Completions for shells. That for bash is one function over tables of words, which needs bash alone and not the
-// package bash-completion; for zsh it is a function for each command, of specifications for _arguments; for fish a line
-// for each option, with the command it belongs to as its condition.
+// Completions for shells: for bash a function over tables of words, which needs no package bash-completion; for zsh one
+// for each command, of specifications for _arguments; for fish a line for each option, with its command as condition.
 
 #include "options/command_table.hpp"
 
@@ -8,10 +7,11 @@
 
 #include <algorithm>
 
+#include "barycert/base/text.hpp"
+
 namespace barycert::cli {
 namespace {
 
-/// `text` in single quotes of bash and zsh.
 std::string in_quotes(std::string_view text) {
     std::string out = "'";
     for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -35,9 +35,7 @@ std::string summary(std::string_view text) {
 }
 
 std::string alternatives(const std::vector<std::string>& patterns) {
-    std::string text;
-    for (const std::string& pattern : patterns) text += (text.empty() ? "" : " | ") + in_quotes(pattern);
-    return text;
+    return base::joined(patterns, " | ", in_quotes);
 }
 
 std::string words_of(const OptionEntry& option) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 
 #include "barycert/base/nearest_name.hpp"
@@ -13,7 +12,6 @@
 namespace barycert::cli {
 namespace {
 
-/// "a, b or c".
 std::string listed(const std::vector<std::string>& words) {
     if (words.size() < 2) return joined(words);
     return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());

@@ -3,8 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <charconv>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,18 +18,9 @@ std::string joined(const std::vector<std::string>& words);
 
 /// What the parser's message says, with a remedy: `did you mean "--output"? ` before the rest for the first word that
 /// looks like an option and is none of the command it was given to; the rest alone if there is no such word, or no
-/// option near. An option that is given twice is told, and with the words of the command line one that has two values.
-/// A message that says what is expected of a value stands alone.
+/// option near. Options given twice are told, and by the words those with two values.
 std::string usage_error(const CLI::App& app, const std::exception& error, const std::string& rest,
                         std::span<const char* const> words = {});
-
-template <class N>
-std::optional<N> integer_of(std::string_view text) {
-    N n = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return n;
-}
 
 std::vector<std::string> command_names(const CLI::App& app);
 

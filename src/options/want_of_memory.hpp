@@ -10,8 +10,7 @@ int fail_for_want_of_memory() noexcept;
 /// needs memory all the same (CLI11, std::filesystem, nlohmann::json). Unfinished files are removed.
 void expect_want_of_memory() noexcept;
 
-/// From now on it ends so at once, with no exception: nlohmann::json before 3.11.3 destroys what it had no memory to
-/// make.
+/// From now on at once, with no exception: nlohmann::json before 3.11.3 destroys what it had no memory to make.
 void end_for_want_of_memory() noexcept;
 
 }  // namespace barycert::cli

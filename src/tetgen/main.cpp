@@ -27,7 +27,6 @@
 namespace barycert {
 namespace {
 
-/// What can be known before TetGen starts.
 void check_output(const Options& options, const Plc& plc) {
     std::vector<base::NamedFile> inputs{{"the PLC", options.input}};
     if (plc.nodes_apart) inputs.push_back({"the PLC's nodes", plc_files(options.input).back()});

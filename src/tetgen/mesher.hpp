@@ -1,7 +1,6 @@
 /// TetGen behind one call. Only mesher.cpp sees TetGen's header.
 ///
-/// TetGen prints to stdout, throws integers, calls exit() and may crash or never end: call make_mesh() in a child
-/// process (child.hpp).
+/// TetGen prints, throws integers, calls exit(), may crash or never end: call make_mesh() in a child (child.hpp).
 #pragma once
 
 #include "barycert/io.hpp"
@@ -12,7 +11,6 @@ namespace barycert {
 /// TetGen carved everything away. Throws TetGen's error codes, which are integers, and std::bad_alloc.
 Mesh make_mesh(const Plc& plc, std::string switches);
 
-/// What one of these codes means, and what to do about it.
 std::pair<std::string_view, std::string_view> meaning_of(int code);
 
 }  // namespace barycert

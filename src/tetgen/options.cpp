@@ -46,7 +46,7 @@ double number_in(const char* option, const std::string& text, double low, double
 std::string default_output(const std::string& input) {
     std::filesystem::path stem = std::filesystem::path(input).replace_extension();
     const std::string last = stem.extension().string();
-    const auto number = cli::integer_of<int>(std::string_view(last).substr(last.empty() ? 0 : 1));
+    const auto number = base::whole_number<int>(std::string_view(last).substr(last.empty() ? 0 : 1));
     if (!number || *number < 0 || *number == std::numeric_limits<int>::max()) return stem.string() + ".1";
     return stem.replace_extension().string() + "." + std::to_string(*number + 1);
 }

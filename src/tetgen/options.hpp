@@ -32,8 +32,7 @@ struct Options {
     std::string described() const;
 };
 
-/// Tells the parser the options, which must live as long as it. `barycert` explains and completes them for its
-/// subcommand mesh, so TetGen has no part in this.
+/// Tells the parser the options, which must live as long as it. `barycert` explains them, too: no part of TetGen here.
 void add_options(CLI::App& app, Options& options);
 
 /// Sets the options, or returns the code to exit with, after --help or --version. Throws what is wrong with them.

@@ -107,8 +107,8 @@ Result<std::vector<Kernel>> choose_kernels(const KernelChoice& choice) {
 
 Result<Kernel> choose_kernel(const KernelChoice& choice) {
     if (choice.names.empty() == choice.libraries.empty())
-        return base::misfit("which kernel", "the name of one kernel, or job.kernel_library FILE",
-                            choice.names.empty() ? "neither" : "both", "`barycert kernels` lists the names");
+        return file_error({}, "which kernel", "the name of one kernel, or job.kernel_library FILE",
+                          choice.names.empty() ? "neither" : "both", "`barycert kernels` lists the names");
     if (!choice.libraries.empty()) {
         const Result<std::vector<Kernel>> one = choose_kernels(choice);
         return one ? one->front() : Result<Kernel>(one.error());
@@ -193,8 +193,8 @@ Result<Witness> make_witness(const CaseJob& job, const std::vector<Kernel>& kern
 Status check_search_rules(const std::vector<Threshold>& rules) {
     for (const Threshold& rule : rules) {
         if (!figure({}, rule.name))
-            return base::misfit("a rule on a figure that a search does not measure",
-                                "any, a class of finding, worst_weight_ulp or worst_value_ulp", rule.name);
+            return file_error({}, "a rule on a figure that a search does not measure",
+                              "any, a class of finding, worst_weight_ulp or worst_value_ulp", rule.name);
     }
     return Done{};
 }
@@ -228,8 +228,8 @@ Result<GapsLimit> parse_gaps_limit(std::string_view text) {
         if (name(fault) == limit.name && limit.most) return GapsLimit{fault, *limit.most};
         names.emplace_back(name(fault));
     }
-    return base::misfit("unknown rule", "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
-                        '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
+    return file_error({}, "unknown rule", "gaps, several, wrong, wrong_first or outside_claimed, perhaps >NUMBER",
+                      '"' + std::string(text) + '"', base::did_you_mean(limit.name, names));
 }
 
 }  // namespace barycert

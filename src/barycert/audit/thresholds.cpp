@@ -60,10 +60,11 @@ Result<Threshold> parse_threshold(std::string_view text) {
     if (!figure_named(rule.name)) {
         std::string names;
         for (const std::string& name : threshold_names()) names += (names.empty() ? "" : ", ") + name;
-        return base::misfit("unknown rule", "NAME or NAME>NUMBER with NAME one of " + names,
-                            '"' + std::string(text) + '"', base::did_you_mean(rule.name, threshold_names()));
+        return file_error({}, "unknown rule", "NAME or NAME>NUMBER with NAME one of " + names,
+                          '"' + std::string(text) + '"', base::did_you_mean(rule.name, threshold_names()));
     }
-    if (!limit.most) return base::misfit("bad limit in a rule", "a number >= 0 after >", '"' + std::string(text) + '"');
+    if (!limit.most)
+        return file_error({}, "bad limit in a rule", "a number >= 0 after >", '"' + std::string(text) + '"');
     rule.limit = *limit.most;
     return rule;
 }

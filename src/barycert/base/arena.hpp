@@ -10,14 +10,12 @@
 
 namespace barycert::base {
 
-/// How many threads the arena of the caller has.
 int arena_threads();
 
 /// How many threads to use: those asked for, or all for 0; never more than the arena of the caller has.
 int threads_of(int threads);
 
-/// work() in an arena of threads_of(threads) threads. To wake a thread, and to wait for it, takes as long as some
-/// thousand cells or points: `pieces` says how many there are.
+/// work() in an arena of threads_of(threads). To wake and await a thread costs as much as some thousand of `pieces`.
 void run_in_arena(int threads, std::size_t pieces, const std::function<void()>& work);
 
 /// The same, with what work() returns.
@@ -49,8 +47,7 @@ void parallel_for_each(std::size_t count, std::size_t grain, const Work& work) {
 }
 
 /// What join(all, part) makes of the parts of such ranges, each made by work(begin, end, part) from a copy of `empty`.
-/// Parts come in any order: what threads decide must not show in what join() makes, and joining `empty` changes
-/// nothing.
+/// Parts come in any order, which must not show in what join() makes; joining `empty` changes nothing.
 template <class Part, class Work, class Join>
 Part parallel_reduce(std::size_t count, std::size_t grain, const Part& empty, Work work, Join join) {
     std::mutex mutex;

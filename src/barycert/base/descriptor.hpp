@@ -14,7 +14,6 @@
 
 namespace barycert::base {
 
-/// Closed at the end.
 struct Descriptor {
     int number = -1;  ///< -1: none
 
@@ -44,7 +43,6 @@ struct Descriptor {
     }
 };
 
-/// The folder in which that file is.
 inline std::string folder_of(const std::string& path) {
     const std::size_t slash = path.rfind('/');
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);

@@ -58,8 +58,7 @@ bool rounds_correctly() {
     return base::measured_rounding() == "nearest" && !base::measured_flush_to_zero();
 }
 
-/// FE_DFL_ENV is the environment in which a process starts; by IEC 60559 (Annex F of the C standard) it rounds to
-/// nearest, keeps subnormals and masks exceptions.
+/// FE_DFL_ENV, in which a process starts, rounds to nearest, keeps subnormals and masks exceptions (Annex F of C).
 void ExactEnvironment::set() {
     std::fesetenv(FE_DFL_ENV);
 }

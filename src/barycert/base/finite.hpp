@@ -10,8 +10,7 @@
 
 namespace barycert::base {
 
-/// Differences of finite numbers with themselves are zero, all others NaN, and stay that in a sum. Eight sums, for one
-/// would wait for each addition.
+/// x - x is zero of finite numbers, else NaN, and stays that in a sum. Eight sums: one would wait for each addition.
 inline bool all_finite(std::span<const double> numbers) {
     std::array<double, 8> sums{};
     std::size_t i = 0;
@@ -28,14 +27,9 @@ inline std::size_t first_not_finite(std::span<const double> numbers) {
     return static_cast<std::size_t>(bad - numbers.begin());
 }
 
-/// An error of what is given.
-inline Error misfit(std::string what, std::string expected, std::string found = {}, std::string remedy = {}) {
-    return {std::move(what), {}, 0, std::move(expected), std::move(found), std::move(remedy)};
-}
-
 /// That `what`, which is x, is not.
 inline Error not_finite(std::string what, double x, std::string remedy = {}) {
-    return misfit(std::move(what), "a finite number", std::to_string(x), std::move(remedy));
+    return file_error({}, std::move(what), "a finite number", std::to_string(x), std::move(remedy));
 }
 
 }  // namespace barycert::base

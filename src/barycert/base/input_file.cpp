@@ -15,9 +15,7 @@ namespace {
 
 thread_local RunFiles* run_of_thread = nullptr;
 
-Error unfit(const std::string& path, std::string expected, const char* found, const char* remedy) {
-    return {"cannot read the file", path, 0, std::move(expected), found, remedy};
-}
+constexpr const char* cannot_read = "cannot read the file";
 
 /// Opens and looks: without O_NONBLOCK a named pipe without a writer would hang here.
 Result<Descriptor> open_without_waiting(const std::string& path, struct stat& status) {
@@ -38,22 +36,21 @@ Error read_failure(const std::string& path, int error_number) {
     if (error_number == EACCES) remedy = "ask for permission to read it";
     if (error_number == ENOMEM) remedy = "free some memory, or use a machine with more";
     if (error_number == EISDIR) remedy = "name a file inside the folder";
-    return {.what = "cannot read the file", .file = path, .found = std::strerror(error_number), .remedy = remedy};
+    return file_error(path, cannot_read, {}, std::strerror(error_number), remedy);
 }
 
 Error unended_number(std::string path, std::size_t line) {
-    return {.what = "the last row has no line end, so the file may be cut short",
-            .file = std::move(path),
-            .line = line,
-            .expected = "a line end",
-            .found = "the end of the file",
-            .remedy = "if nothing is missing, end the last line, as echo >> FILE does"};
+    return {"the last row has no line end, so the file may be cut short",
+            std::move(path),
+            line,
+            "a line end",
+            "the end of the file",
+            "if nothing is missing, end the last line, as echo >> FILE does"};
 }
 
 Error too_little_memory(std::string path) {
-    return {.what = "too little memory to read the file",
-            .file = std::move(path),
-            .remedy = "free some memory, or check whether the file is damaged"};
+    return file_error(std::move(path), "too little memory to read the file", {}, {},
+                      "free some memory, or check whether the file is damaged");
 }
 
 Result<InputFile> InputFile::open(const std::string& path, const char* remedy, Text text, bool* pipe) {
@@ -64,9 +61,10 @@ Result<InputFile> InputFile::open(const std::string& path, const char* remedy, T
     file.file_ = std::move(*opened);
     const char* const expected = pipe != nullptr ? "a regular file or a pipe" : "a regular file";
     const bool is_pipe = pipe != nullptr && S_ISFIFO(status.st_mode);
-    if (S_ISDIR(status.st_mode)) return unfit(path, expected, "a folder", "name a file inside the folder");
+    if (S_ISDIR(status.st_mode))
+        return file_error(path, cannot_read, expected, "a folder", "name a file inside the folder");
     if (!is_pipe && !S_ISREG(status.st_mode))
-        return unfit(path, expected, pipe != nullptr ? "a device" : "a pipe or device", remedy);
+        return file_error(path, cannot_read, expected, pipe != nullptr ? "a device" : "a pipe or device", remedy);
     // From now on a pipe waits for those who have it open, and has ended if nobody has.
     if (is_pipe && ::fcntl(file.file_.number, F_SETFL, 0) != 0) return read_failure(path, errno);
     if (Status plain = unpack(file.file_.number, path, text); !plain) return plain.error();
@@ -97,13 +95,11 @@ Status unchanged(int descriptor, const FileState& then, const std::string& path)
     struct stat now {};
     if (::fstat(descriptor, &now) != 0) return read_failure(path, errno);
     const auto size = static_cast<std::uint64_t>(now.st_size);
-    if (size == then.size && now.st_mtim.tv_sec == then.written.tv_sec && now.st_mtim.tv_nsec == then.written.tv_nsec)
-        return Done{};
-    return Error{.what = "the file was changed while it was read",
-                 .file = path,
-                 .expected = size == then.size ? "" : std::to_string(then.size) + " bytes, as when it was opened",
-                 .found = size == then.size ? "" : std::to_string(size),
-                 .remedy = "read it again when its writer has finished"};
+    const bool same = size == then.size;
+    if (same && now.st_mtim.tv_sec == then.written.tv_sec && now.st_mtim.tv_nsec == then.written.tv_nsec) return Done{};
+    return file_error(path, "the file was changed while it was read",
+                      same ? "" : std::to_string(then.size) + " bytes, as when it was opened",
+                      same ? "" : std::to_string(size), "read it again when its writer has finished");
 }
 
 Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char> bytes, const std::string& path) {
@@ -145,11 +141,8 @@ Status check_beginning(std::string_view block, Text text, const std::string& pat
     } else {
         return Done{};
     }
-    return Error{.what = "the file does not begin as text",
-                 .file = path,
-                 .expected = "words",
-                 .found = std::move(found),
-                 .remedy = "check the path, or write the file again"};
+    return file_error(path, "the file does not begin as text", "words", std::move(found),
+                      "check the path, or write the file again");
 }
 
 Status InputFile::check(Text text, const std::string& path, const Header& header) const {
@@ -180,11 +173,12 @@ Result<std::string> read_file(const std::string& path, std::size_t longest, Text
         if (got == 0) break;
         have += static_cast<std::size_t>(got);
         if (pipe && have > longest)
-            return unfit(path, "at most " + std::to_string(longest) + " bytes from a pipe", "more", save_first);
+            return file_error(path, cannot_read, "at most " + std::to_string(longest) + " bytes from a pipe", "more",
+                              save_first);
     }
     if (pipe && have == 0)
-        return unfit(path, "data", "nothing: a pipe that nobody writes to",
-                     "start its writer first, or name a regular file");
+        return file_error(path, cannot_read, "data", "nothing: a pipe that nobody writes to",
+                          "start its writer first, or name a regular file");
     bytes.resize(have);
     return bytes;
 }

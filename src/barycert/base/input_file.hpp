@@ -1,9 +1,8 @@
 /// Files that are read, opened without waiting, and told apart from folders, pipes and devices in one place.
 ///
-/// The rule. A file that is read at once or by places (meshes, NPY, maps, kernel libraries) is a regular file. One that
-/// is read whole and once (PLCs, witnesses) may be a pipe, too, such as a shell makes for <(...). Neither waits for
-/// somebody to open the other end of a named pipe. What gzip packed is unpacked (unpack.hpp). Streams of points are no
-/// such files: see io/csv/line_reader.hpp.
+/// A file that is read at once or by places (meshes, NPY, maps, kernel libraries) is a regular file; one that is read
+/// whole and once (PLCs, witnesses) may be a pipe, as of <(...). Neither waits for the other end of a named pipe. What
+/// gzip packed is unpacked (unpack.hpp). Streams of points: io/csv/line_reader.hpp.
 #pragma once
 
 #include <sys/types.h>
@@ -18,8 +17,7 @@
 
 namespace barycert::base {
 
-/// What a file that is to be read is asked for by its first block, so that gigabytes of zeros or of something else are
-/// an error at once.
+/// What the first block of a file must be, so that gigabytes of zeros or of something else are an error at once.
 enum class Text : std::uint8_t {
     none,   ///< nothing
     words,  ///< something but blanks
@@ -29,14 +27,12 @@ enum class Text : std::uint8_t {
 };
 inline constexpr std::size_t first_block = std::size_t{1} << 16;
 
-/// What the format says to the first block of a larger file, of `size` bytes: the error of its header, if it has one
-/// there. A NUL follows the block.
+/// What the format says to the first block of a larger file, of `size` bytes: an error of its header. A NUL follows.
 using Header = std::function<Status(std::string_view block, std::uint64_t size)>;
 
 /// Whether `block`, the first of a file, can begin one: no NUL byte, a word that ends. A smaller block always can.
 Status check_beginning(std::string_view block, Text text, const std::string& path);
 
-/// What tells that a file was changed.
 struct FileState {
     std::uint64_t size = 0;  ///< in bytes
     timespec written{};
@@ -45,8 +41,7 @@ struct FileState {
 /// Error: the file has another state than then.
 Status unchanged(int descriptor, const FileState& then, const std::string& path);
 
-/// Fills `bytes` from `offset` on and returns how many there were: fewer only where the file ends. `path`: for the
-/// Error if it cannot be read.
+/// Fills `bytes` from `offset` on and returns how many there were: fewer only where the file ends. `path`: for errors.
 Result<std::size_t> read_at(int descriptor, std::uint64_t offset, std::span<char> bytes, const std::string& path);
 
 /// What to do about a pipe or device where only a regular file will do.
@@ -68,7 +63,6 @@ public:
     /// check_beginning() of its first block, and what the format says to it.
     Status check(Text text, const std::string& path, const Header& header = {}) const;
 
-    /// As base::read_at.
     Result<std::size_t> read_at(std::uint64_t offset, std::span<char> bytes, const std::string& path) const {
         return base::read_at(file_.number, offset, bytes, path);
     }
@@ -76,7 +70,6 @@ public:
     /// In bytes, when it was opened.
     std::uint64_t size() const { return then_.size; }
 
-    /// Error: it has another size than when it was opened, or was written to.
     Status unchanged(const std::string& path) const { return base::unchanged(file_.number, then_, path); }
 
 private:
@@ -98,7 +91,6 @@ Error read_failure(const std::string& path, int error_number);
 /// That a text ends in a number and not in a line end: what is there may be cut, and 0.2 the beginning of 0.25.
 Error unended_number(std::string path, std::size_t line);
 
-/// That memory was short while the file was read.
 Error too_little_memory(std::string path);
 
 /// A regular file, read whole. At least one page of zero bytes follows the last byte, so that a scanner may look ahead,
@@ -107,8 +99,7 @@ Error too_little_memory(std::string path);
 /// The memory is the process's own: the system ends a process that touches bytes of a mapped file when they are gone.
 class MappedFile {
 public:
-    /// Reads on so many threads, 0: one per core. Errors: missing, unreadable, a folder, not a regular file, one that
-    /// does not begin as `text` and `header` say, changed while it was read, larger than the memory.
+    /// Reads on so many threads, 0: one per core. Errors: also, it was changed meanwhile, or is larger than the memory.
     static Result<MappedFile> open(const std::string& path, int threads = 1, Text text = Text::none,
                                    const Header& header = {});
 
@@ -146,14 +137,11 @@ void record_input(int descriptor, const std::string& path);
 /// The path by which the run of this thread has opened the file that `path` leads to; nullptr if it has not.
 const std::string* input_of_run(const std::string& path);
 
-/// Where `descriptor` is a regular file packed by gzip, of one member or several, it becomes one of the unpacked bytes,
-/// which are in memory and have no name. Error: it is damaged or cut off; unpacked it would take more than half of the
-/// machine's memory, or more than 200 times its size and 256 MiB, as no table of numbers does; it does not begin as
-/// `text` says, which is asked before.
+/// Where `descriptor` is a regular file packed by gzip, it becomes one of the unpacked bytes, without a name, in
+/// memory. Error: it is damaged, too large (most_unpacked()), or does not begin as `text`.
 Status unpack(int& descriptor, const std::string& path, Text text);
 
-/// Where `descriptor` is such a file, its first bytes, unpacked, as many as that or fewer where its first member ends.
-/// None: it is no such file, or is damaged.
+/// The first bytes of such a file, unpacked, or fewer where its first member ends. None: it is another, or damaged.
 std::optional<std::string> unpacked_head(int descriptor, std::size_t size);
 
 }  // namespace barycert::base

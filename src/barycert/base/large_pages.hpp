@@ -19,8 +19,7 @@ inline void ask_for_large_pages([[maybe_unused]] void* start, [[maybe_unused]] s
 #endif
 }
 
-/// values.resize(count) of an empty vector on large pages: half the time of a large read would else go into page
-/// faults.
+/// resize(count) of an empty vector on large pages: half the time of a large read would else go into page faults.
 template <class T>
 void resize_large(std::vector<T>& values, std::size_t count) {
     values.reserve(count);

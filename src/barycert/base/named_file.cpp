@@ -62,15 +62,13 @@ Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<Na
         const std::string path = out.path == "-" ? "/dev/stdout" : out.path;
         for (const NamedFile& in : inputs) {
             if (!can_be_overwritten(path) || !same_file(path, in.path == "-" ? "/dev/stdin" : in.path)) continue;
-            return Error{.what = out.what + " would overwrite " + in.what,
-                         .file = out.path,
-                         .remedy = "choose another name for the output"};
+            return file_error(out.path, out.what + " would overwrite " + in.what, {}, {},
+                              "choose another name for the output");
         }
         for (std::size_t k = 0; k < i; ++k) {
             if (!same_file(out.path, outputs[k].path)) continue;
-            return Error{.what = outputs[k].what + " and " + out.what + " name the same output",
-                         .file = out.path,
-                         .remedy = "choose two different names"};
+            return file_error(out.path, outputs[k].what + " and " + out.what + " name the same output", {}, {},
+                              "choose two different names");
         }
     }
     return Done{};
@@ -89,13 +87,11 @@ Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile
     for (const NamedFile& out : outputs) {
         for (const std::string_view place : {step_place, time_place}) {
             if (out.path.find(place) == std::string::npos) continue;
-            return Error{.what = out.what + " has a place for a step, and there are no steps to fill it",
-                         .file = out.path,
-                         .expected = "a name without " + std::string(place),
-                         .remedy =
-                             "files of steps are job.output of sample and resample, of a series as mesh or field: "
-                             "a .pvd or .vtu.series file, or job.field_files NAME@'step-*.npy'; elsewhere choose one "
-                             "step by job.step or job.time"};
+            return file_error(out.path, out.what + " has a place for a step, and there are no steps to fill it",
+                              "a name without " + std::string(place), {},
+                              "files of steps are job.output of sample and resample, of a series as mesh or field: a "
+                              ".pvd or .vtu.series file, or job.field_files NAME@'step-*.npy'; elsewhere choose one "
+                              "step by job.step or job.time");
         }
         if (Status ok = check_writable(out.path); !ok) return ok;
     }
@@ -109,10 +105,8 @@ Status check_inputs(const std::vector<NamedFile>& inputs) {
                 return Error{.what = "cannot read the standard input", .found = std::strerror(errno)};
         } else if (access(in.path.c_str(), R_OK) != 0) {
             if (errno == ENOENT) return read_failure(in.path, errno);
-            return Error{.what = "cannot read the file",
-                         .file = in.path,
-                         .found = std::strerror(errno),
-                         .remedy = "check the name and the permissions"};
+            return file_error(in.path, "cannot read the file", {}, std::strerror(errno),
+                              "check the name and the permissions");
         }
     }
     return Done{};

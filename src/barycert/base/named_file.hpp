@@ -13,18 +13,15 @@ struct NamedFile {
 /// What the name of an output has where each step of a series has a file of its own.
 inline constexpr std::string_view step_place = "{step}", time_place = "{time}";
 
-/// True if both paths lead to one file (device and inode: through links and other names), or would once it is made.
-/// An empty path names no file; "-" is the standard stream, which only "-" names.
+/// True if both paths lead to one file, or would once it is made. An empty one names none; "-" is the standard stream.
 bool same_file(const std::string& a, const std::string& b);
 
-/// The paths, all called the same.
 std::vector<NamedFile> named_files(const std::string& what, std::vector<std::string> paths);
 
 /// Error: an output is an input, or two outputs are one file. Nothing is opened.
 Status check_distinct(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
-/// What can be known of outputs before the work. Error: an output is an input or another output, or cannot be written,
-/// or its name has a place for a step, of which there is none. Outputs without a path are passed over.
+/// As check_distinct() of outputs with a path; also one cannot be written, or has a place for a step that is not there.
 Status check_outputs(const std::vector<NamedFile>& inputs, std::vector<NamedFile> outputs);
 
 /// Error: one of these cannot be read. "-" is stdin.

@@ -9,13 +9,11 @@
 
 namespace barycert::base {
 
-/// Letters to insert, to leave out, to replace, or to swap with the next, that turn one word into the other; a swapped
-/// pair is not changed again. Letters of ASCII count as the same in both cases.
+/// Letters to insert, leave out, replace, or swap with the next (a pair once), in any case, to make the other word.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The name of least edit distance from the word, the first of several; a name counts as what follows its last dot as
-/// well. Empty where none is near: more than a third of the letters of the word differ, or all of them, or the word has
-/// more than 100 bytes.
+/// well. Empty where more than a third of the letters differ, or all, or the word has more than 100 bytes.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 /// `did you mean "NAME"? ` and the rest, which is alone where no name is near: a remedy for Error::remedy.

@@ -18,9 +18,7 @@
 
 namespace barycert::base {
 
-/// Of an unfinished file, from before it exists until it is renamed or removed. In a list that only grows: a signal
-/// handler may walk it at any moment, in any thread, without a lock. Some tens of bytes for each file that needed a
-/// name.
+/// Of an unfinished file, in a list that only grows: a signal handler may walk it at any moment, without a lock.
 struct BegunName {
     const std::string path;
     std::atomic<bool> live{true};
@@ -101,10 +99,8 @@ std::string resolved_path(std::string path) {
 
 OutputFile::OutputFile(std::string target) : target_(std::move(target)), real_path_(resolved_path(target_)) {
     if (target_.ends_with(".gz")) {
-        error_ = {.what = "files are not packed when they are written",
-                  .file = target_,
-                  .expected = "a name without .gz",
-                  .remedy = "leave .gz out, then pack the file with gzip"};
+        error_ = file_error(target_, "files are not packed when they are written", "a name without .gz", {},
+                            "leave .gz out, then pack the file with gzip");
         return;
     }
     struct stat status {};
@@ -229,10 +225,8 @@ bool OutputFile::give_name() {
 void OutputFile::refuse_input() {
     const std::string* const input = input_of_run(real_path_);
     if (input == nullptr || !error_.what.empty()) return;
-    error_ = {.what = "the output would overwrite a file that is read",
-              .file = target_,
-              .found = *input,
-              .remedy = "choose another name for the output"};
+    error_ = file_error(target_, "the output would overwrite a file that is read", {}, *input,
+                        "choose another name for the output");
 }
 
 Status OutputFile::commit() {
@@ -254,8 +248,8 @@ Status OutputFile::commit() {
 }
 
 void OutputFile::fail(const char* what, int error_number) {
-    if (!error_.what.empty()) return;
-    error_ = {.what = what, .file = target_, .found = std::strerror(error_number), .remedy = remedy_for(error_number)};
+    if (error_.what.empty())
+        error_ = file_error(target_, what, {}, std::strerror(error_number), remedy_for(error_number));
 }
 
 void remove_begun_files() noexcept {

@@ -6,14 +6,11 @@
 
 namespace barycert::base {
 
-// Names that a process has given to unfinished files, removed when a signal ends it. Most unfinished files have no name
-// at all. A name exists where the file system knows no nameless files, and for the moment in which a finished file
-// replaces an older one.
+// Names that a process has given to unfinished files (see OutputFile), removed when a signal ends it.
 
 /// For the main function of a program: from now on SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGPIPE and SIGXCPU first remove
 /// the unfinished files of this process and then end it as they would have. A signal that is ignored stays ignored.
-/// `tell`: SIGINT, SIGTERM and SIGHUP say on stderr that they ended it. A library must not decide about signals, so
-/// nothing else calls this.
+/// `tell`: SIGINT, SIGTERM and SIGHUP say on stderr that they ended it. A library must not call it.
 void remove_begun_files_on_signals(bool tell = false);
 
 /// Removes the unfinished files of this process that have names, for a program that ends without its destructors.
@@ -26,8 +23,7 @@ std::string resolved_path(std::string path);
 
 /// Writes to a file without a name in the target's folder, which commit() puts in the target's place: a process that is
 /// ended by whatever means, SIGKILL included, leaves the target as it was and nothing else. Without a commit() the
-/// destructor leaves nothing either. Errors (no space, no permission) are kept and told by close() and commit(); the
-/// first one counts.
+/// destructor leaves nothing either. The first error is kept, and told by close() and commit().
 ///
 /// Where the file system knows no nameless files (O_TMPFILE), the file is TARGET.tmp-<process>-<count> until the
 /// commit; an existing target is replaced by way of such a name in the last moment, too. A program that has called
@@ -52,15 +48,13 @@ public:
     /// True if bytes can be replaced before the commit: not for a device, a pipe or the standard output.
     bool can_replace() const { return nameless_ || begun_ != nullptr; }
 
-    /// Replaces bytes that were written, from byte `offset` on; later writes go on at the end. For what is known only
-    /// at the end, such as a count in a header. Precondition: can_replace(), and as many bytes stand there.
+    /// Replaces bytes from `offset` on, as a count in a header; writes go on at the end. Precondition: can_replace().
     void replace(std::uint64_t offset, std::string_view bytes);
 
     /// The first error so far. Bytes are gathered, so that an error may show only at a later call.
     Status status() const;
 
-    /// Hands everything to the system but leaves the target as it was. For sets of files that are to change together:
-    /// close() all, and commit() only when none has failed.
+    /// Hands all to the system; the target stays. Of files that change together close() all, commit() if all is well.
     Status close();
 
     /// close() if that is still to do, then the rename.

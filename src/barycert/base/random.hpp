@@ -31,7 +31,6 @@ class Random {
 public:
     explicit constexpr Random(std::uint64_t seed) : state_(seed) {}
 
-    /// An independent generator for the pair (a, b).
     static constexpr Random stream(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
         return Random(mix64(mix64(mix64(seed + golden) ^ a) + b * golden));
     }
@@ -49,7 +48,6 @@ public:
         return static_cast<std::uint64_t>((static_cast<Wide>(bits()) * n) >> 64);
     }
 
-    /// An integer in [lo, hi].
     constexpr int integer(int lo, int hi) {
         return lo + static_cast<int>(below(static_cast<std::uint64_t>(hi - lo) + 1));
     }

@@ -24,10 +24,8 @@ Descriptor nameless_file(const std::string& folder) {
 }  // namespace
 
 Error Spool::failure(const char* what, int error_number) const {
-    return {.what = what,
-            .file = target_,
-            .found = std::strerror(error_number),
-            .remedy = "free some space there, or in the folder for temporary files (TMPDIR)"};
+    return file_error(target_, what, {}, std::strerror(error_number),
+                      "free some space there, or in the folder for temporary files (TMPDIR)");
 }
 
 Status Spool::spill() {

@@ -8,8 +8,7 @@
 
 namespace barycert::base {
 
-/// Bytes, in memory while they are few, then in a file without a name beside the target, or else in the folder for
-/// temporary files. They are gone with the object.
+/// Bytes, in memory while few, then in a nameless file beside the target or in TMPDIR. They are gone with the object.
 class Spool {
 public:
     /// `target`: of what is to be written in the end.

@@ -1,6 +1,5 @@
-/// Refuses to compile where the compiler may change what is computed, or forbids it to. Included by all exact
-/// code, before what computes. The build takes such flags back itself (cmake/BarycertFlags.cmake): this is for those
-/// who compile the sources in another way.
+/// Refuses to compile where the compiler may change what is computed, or forbids it to. Included by all exact code,
+/// before what computes, for those who compile without cmake/BarycertFlags.cmake.
 ///
 /// GCC tells of every such flag by a macro: __GCC_IEC_559 is 0 under any part of -ffast-math that touches results.
 /// Clang tells of -ffast-math and -ffinite-math-only alone; of the others (-funsafe-math-optimizations,
@@ -26,8 +25,7 @@ static_assert(FLT_EVAL_METHOD == 0, "barycert needs doubles evaluated as doubles
 
 namespace barycert::base {
 
-/// Returns x. A barrier beside an ExactEnvironment: compilers move neither the computation of x nor what depends on the
-/// result across this call.
+/// x. Beside an ExactEnvironment: compilers move neither the computation of x nor what depends on it across this call.
 template <class T>
 [[gnu::always_inline]] inline T held(T x) {
     __asm__ volatile("" : "+m"(x) : : "memory");

@@ -1,7 +1,6 @@
 #include "barycert/base/text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <array>
+#include <charconv>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace barycert::base {
 
@@ -30,10 +35,38 @@ std::string printable(std::string_view text);
 /// A word from a file as it stands in messages: printable, in quotes, at most 40 bytes of it.
 std::string quoted(std::string_view word);
 
+/// The integer that is all of the text, without a plus; nothing if it is none of that type.
+template <class Integer, int base = 10>
+std::optional<Integer> whole_number(std::string_view text) {
+    Integer value = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, value, base);
+    return error == std::errc{} && end == last ? std::optional(value) : std::nullopt;
+}
+
+/// text(item) of each, with `between` between them.
+template <class Items, class Text>
+std::string joined(const Items& items, std::string_view between, Text text) {
+    std::string all;
+    bool first = true;
+    for (const auto& item : items)
+        all.append(std::exchange(first, false) ? "" : between).append(std::invoke(text, item));
+    return all;
+}
+
+/// "1 row", "2 rows".
+inline std::string counted(std::uint64_t n, const std::string& what) {
+    return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+}
+
+inline void replace_all(std::string& text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+}
+
 /// True if `text` matches the shell-style pattern: `*` any run, `?` any one character.
 bool glob_match(std::string_view pattern, std::string_view text);
 
-/// A character of UTF-8 (RFC 3629).
 struct Character {
     char32_t code = 0;
     std::size_t size = 0;  ///< bytes; 0: they are not UTF-8

@@ -10,6 +10,7 @@
 namespace barycert::base {
 namespace {
 
+/// Half of the machine's memory, and no more than any table of numbers takes: 200 times its size and 256 MiB.
 std::size_t most_unpacked(std::size_t packed) {
     const auto memory =
         static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
@@ -17,8 +18,7 @@ std::size_t most_unpacked(std::size_t packed) {
     return std::min(memory / 2, least + 200 * std::min(packed, memory / 200));
 }
 
-/// All members, one after the other, and how many bytes that made. The file has room for so many, in memory as far as
-/// they are filled.
+/// All members, one after the other, and how many bytes that made. The file has `room`, memory as far as it is filled.
 libdeflate_result unpack_members(std::string_view packed, int plain, std::size_t room, std::size_t& size) {
     const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> own(
         libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
@@ -90,16 +90,10 @@ Status unpack(int& descriptor, const std::string& path, Text text) {
         return Done{};
     }
     if (result == LIBDEFLATE_INSUFFICIENT_SPACE)
-        return Error{.what = "the file is packed by gzip, and takes too much memory once it is unpacked",
-                     .file = path,
-                     .expected = "at most " + std::to_string(most) + " bytes",
-                     .found = "more",
-                     .remedy = "unpack it before, if you trust it"};
-    return Error{.what = "the file is packed by gzip, and cannot be unpacked",
-                 .file = path,
-                 .expected = "whole members, each with its checksum",
-                 .found = "others",
-                 .remedy = "copy it again, or pack it again"};
+        return file_error(path, "the file is packed by gzip, and takes too much memory once it is unpacked",
+                          "at most " + std::to_string(most) + " bytes", "more", "unpack it before, if you trust it");
+    return file_error(path, "the file is packed by gzip, and cannot be unpacked",
+                      "whole members, each with its checksum", "others", "copy it again, or pack it again");
 }
 
 }  // namespace barycert::base

@@ -1,10 +1,11 @@
+#include "barycert/io/formats.hpp"
+
 #include <cctype>
 #include <filesystem>
 #include <limits>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/io/medit/medit_file.hpp"
 #include "barycert/mesh/pulling.hpp"
 
 namespace barycert::io {
@@ -121,7 +122,6 @@ bool is_tetgen_file(const std::string& path) {
     return tetgen_stem(path) != path;
 }
 
-/// By the name alone.
 std::optional<MeshFormat> format_by_suffix(const std::string& path) {
     if (is_tetgen_file(path)) return MeshFormat::tetgen;
     if (is_vtk_file(path)) return MeshFormat::vtk;
@@ -140,20 +140,15 @@ std::optional<MeshFormat> format_by_content(std::string_view head) {
     return std::nullopt;
 }
 
-/// A mesh of that stem in another format, or nothing.
-std::string with_another_suffix(const std::string& path) {
-    for (const char* suffix : {".msh", ".vtu", ".vtk", ".pvtu", ".mesh", ".meshb"}) {
-        if (exists(path + suffix)) return path + suffix;
-    }
-    return {};
-}
-
 Error missing(const std::string& path) {
     Error error{.what = "no such file", .file = path};
+    for (const char* suffix : {".msh", ".vtu", ".vtk", ".pvtu", ".mesh", ".meshb"}) {
+        if (!exists(path + suffix)) continue;
+        error.remedy = "there is " + path + suffix + ": name it with its suffix";
+        return error;
+    }
     const OtherFormat* const other = other_format_by_suffix(path);
-    if (const std::string found = with_another_suffix(path); !found.empty()) {
-        error.remedy = "there is " + found + ": name it with its suffix";
-    } else if (const std::string near = base::near_file(path); !near.empty() && fs::path(path).has_extension()) {
+    if (const std::string near = base::near_file(path); !near.empty() && fs::path(path).has_extension()) {
         error.remedy = "did you mean " + near + "?";
     } else if (other != nullptr && other->meshio == nullptr) {
         error.remedy = std::string("check the path; it would not be read (") + other->what +

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <new>
-#include <system_error>
 
 #include "barycert/base/input_file.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io.hpp"
 
@@ -17,11 +16,11 @@ enum class FileFormat : std::uint8_t { csv, npy, node, vtu };
 /// By the suffix, in any case: .csv .npy .node .vtu; "-" is CSV. Returns an Error that lists them for another suffix.
 Result<FileFormat> format_of(const std::string& path);
 
-/// The same for points: .txt .dat .xyz .tsv are CSV, and so is a pipe or device of any name; a file without a suffix is
-/// told by its first bytes.
+/// The same for points: .txt .dat .xyz .tsv are CSV, as pipes and devices; first bytes tell a file without a suffix.
 Result<FileFormat> format_of_points(const std::string& path);
 
-/// Throws an Exception.
+using base::whole_number;
+
 [[noreturn]] void refuse_file(std::string file, std::string what, std::string expected = {}, std::string found = {},
                               std::string remedy = {});
 [[noreturn]] void refuse_line(std::string file, std::size_t line, std::string what, std::string expected = {},
@@ -29,7 +28,7 @@ Result<FileFormat> format_of_points(const std::string& path);
 
 /// read() in the environment of exact results. Error: what it throws as an Exception; memory is short.
 template <class Read>
-auto read_guarded(const std::string& path, const Read& read) -> decltype(read()) {
+auto read_guarded(const std::string& path, const Read& read) -> decltype(Result(read())) {
     const ExactEnvironment environment;
     try {
         return read();
@@ -51,19 +50,9 @@ Status status_of(const F& f) {
     return Done{};
 }
 
-/// The fields of a line, parted by blanks or by a separator with blanks around it; an empty field where a separator has
-/// no neighbour.
+/// The fields of a line, parted by blanks or a separator with blanks around it; empty where it has no neighbour.
 void cut_fields(std::string_view line, std::string_view blanks, std::string_view separators,
                 std::vector<std::string_view>& fields);
-
-/// The integer that is all of the text, without a plus; nothing if it is none of that type.
-template <class Integer>
-std::optional<Integer> whole_number(std::string_view text, int base = 10) {
-    Integer value = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, value, base);
-    return error == std::errc{} && end == last ? std::optional(value) : std::nullopt;
-}
 
 /// The line of a text in which `at` lies, from 1.
 inline std::size_t line_of(std::string_view text, const char* at) {
@@ -85,18 +74,12 @@ std::string plain_or_packed(const std::string& path);
 bool has_suffix(std::string_view path, std::string_view suffix);
 bool has_one_of(std::string_view path, std::initializer_list<std::string_view> suffixes);
 
-/// The suffix of the path with its dot; empty if it has none.
 std::string suffix_of(const std::string& path);
-
-/// That the suffix of the path is another one.
 Error unknown_suffix(const std::string& path, std::string what, std::string expected, std::string remedy);
 
-/// True if the path ends as those of VTK's files with meshes do: .vtu .vtk .vtp .vti .vtr .vts, .pvtu .pvtp .vtm .vtpd
-/// .vtpc .pvd.
 bool is_vtk_file(std::string_view path);
 
-// `path`, `options` and `format` are as for open_points and open_table.
-// Errors are thrown as Exceptions.
+// As open_points and open_table. Errors are thrown as Exceptions.
 using Source = std::unique_ptr<PointSource>;
 Source open_csv_source(const std::string& path, int dimension, const PointOptions& options);
 Source open_npy_source(const std::string& path, int dimension, const PointOptions& options);
@@ -123,7 +106,6 @@ Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& 
 Result<std::size_t> chosen_step(const std::vector<SeriesStep>& steps, const StepChoice& choice,
                                 const std::string& path);
 
-/// That a step is chosen of what is no series.
 Error no_series(const std::string& path);
 
 enum class MeshFormat : std::uint8_t {
@@ -134,11 +116,9 @@ enum class MeshFormat : std::uint8_t {
     by_meshio,  ///< converted: io/converted
 };
 
-/// Of a mesh that is to be read: by its first bytes if they tell, else by the end of its name; stems of TetGen's files
-/// have none. Error: it is not there; it is a file of another format, which is named.
+/// Of a mesh that is to be read: by its first bytes, else the end of its name. Error: none, or one of another format.
 Result<MeshFormat> mesh_format(const std::string& path);
 
-/// What meshio calls the format of a file that is MeshFormat::by_meshio.
 std::string meshio_format(const std::string& path);
 
 /// Of a mesh that is to be written: by the end of its name. Error: it is another one.
@@ -147,12 +127,10 @@ Result<MeshFormat> mesh_output_format(const std::string& path);
 /// Tells that so many cells are taken by their corners, if there are such.
 void note_by_corners(std::size_t cells, const std::string& path, Notes& notes);
 
-/// Cuts the shapes of a mesh whose cell numbers, fields and labels have a row for each shape, and tells it; nothing if
-/// it has no shapes. Error: a polyhedron that is not closed.
+/// As mesh::cut_into_simplices(), and notes it; nothing without shapes. Throws: a polyhedron that is not closed.
 void cut_into_simplices(Mesh& mesh, const std::string& path);
 
-/// Adds to `notes`, once, which of these names a .node or .ele file does not have: its columns have no names, and are
-/// read as attribute0, attribute1, ...
+/// Adds to `notes`, once, which of these names are lost in a .node or .ele file: it has attribute0, attribute1, ...
 void note_lost_names(const std::vector<std::string>& columns, const char* file, Notes& notes);
 
 struct OtherFormat {
@@ -168,7 +146,6 @@ const OtherFormat* other_format_by_suffix(std::string_view path);
 /// By its first bytes; nullptr if they could be anything. `strict`: only what cannot be taken for another file.
 const OtherFormat* other_format_by_content(std::string_view head, std::string_view path, bool strict);
 
-/// The first word of the text that is no comment.
 std::string_view first_word(std::string_view text, char comment);
 
 /// Compressed, or a .npy file, by its first bytes; else nullptr. No text begins so.
@@ -180,8 +157,7 @@ Error other_format_error(const OtherFormat& format, const std::string& path);
 /// How to cut the cells of a file of VTK into simplices.
 std::string to_simplices(const std::string& path);
 
-/// Whether all points x, y, z lie in that plane; and what to do where they do not in z = 0. `path`: of a file of linear
-/// triangles; else empty.
+/// Whether all points lie in that plane; what to do where it is not z = 0. `path`: if it holds linear triangles.
 bool in_plane(std::span<const double> points, double z = 0);
 std::string plane_remedy(std::span<const double> points, const std::string& path);
 
@@ -197,6 +173,26 @@ inline constexpr const char* formats_read =
 /// differs from what meshio counted.
 Result<Mesh> read_converted(const std::string& path, const std::string& format);
 
+/// By the first bytes of a file, behind a byte-order mark.
+bool is_medit(std::string_view head);
+
+/// Reads .mesh and .meshb of version 1 to 4.
+///
+/// - Tetrahedra make a mesh of dimension 3, and its Triangles are the faces, with their references as markers. Where
+///   there are no cells of dimension 3, triangles make one of dimension 2; then z is 0, if there is one. If all are of
+///   order 2 (TetrahedraP2, TrianglesP2), their mid-edge nodes are told by the points.
+/// - Hexahedra, Prisms, Pyramids, Quadrilaterals, and cells of several sections or of a higher order are taken by their
+///   corners and cut into simplices; cells count on from section to section.
+/// - References of nodes are point markers, those of cells the cell field "medit:ref"; absent where all are 0.
+/// - SolAt... are fields, as in read_medit_fields.
+/// - What else there is is left out, with a Note.
+///
+/// Error: what the format does not have; a coordinate not finite; an unknown node; no cells; polygons off the plane.
+Result<Mesh> read_medit(const std::string& path, const ReadOptions& options, InSpace* space = nullptr);
+
+/// Notes and fields of .sol and .solb files, solution0, solution1, ..., for a mesh of that dimension, in an empty one.
+Result<Mesh> read_medit_fields(const std::string& path, int dimension);
+
 /// The path and, of XDMF, the file of numbers that lies beside it.
 std::vector<std::string> converted_files(const std::string& path);
 
@@ -209,8 +205,7 @@ struct PointTable : PointData {
 /// As open_points chooses among columns: the coordinates x, y[, z]; NAME, or NAME.0, NAME.1, ... of each field; labels.
 Source points_of_table(PointTable table, const std::string& file, int dimension, const PointOptions& options);
 
-/// Points and point arrays: integers of one component and texts as labels, all others as fields. Without `arrays` those
-/// of XML files are not read, and their names are in PointTable::unread.
+/// Points and point arrays: integers of one component and texts as labels. Without `arrays` those of XML are unread.
 Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
                                   NonfinitePoints nonfinite = NonfinitePoints::error);
 
@@ -222,9 +217,8 @@ Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
 /// they are. Blank lines, and what follows a #, are passed over. With `column`, CSV, whose first line settles the
 /// separator as in files of points: the column of that name or number (from 1), or NAME.0, NAME.1, ... NPY (by the
 /// suffix): an array of shape (rows,) or (rows, components) of floats or integers, of either byte order and either
-/// order of axes; with `column` a field of a structured array, or the number of a column from 1. Errors: it cannot be
-/// read; a word that is no number; rows of different lengths; an integer that is no double; no such column; another
-/// array.
+/// order of axes; with `column` a field of a structured array, or the number of a column from 1. Errors: a word that is
+/// no number; rows of different lengths; an integer that is no double; no such column or array.
 Result<Field> read_field_file(const std::string& name, const std::string& path, const std::string& column,
                               Notes& notes);
 

@@ -1,6 +1,5 @@
 #include <filesystem>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {

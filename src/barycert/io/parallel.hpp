@@ -48,6 +48,25 @@ std::size_t first_bad(std::size_t count, std::size_t part, Good good) {
     return least;
 }
 
+/// Room for bytes, which hold anything until they are written.
+class ByteRoom {
+public:
+    /// `size` bytes; what stood there is lost.
+    char* of(std::size_t size) {
+        if (size_ < size) {
+            bytes_.reset();
+            bytes_ = std::make_unique_for_overwrite<char[]>(size);
+            base::ask_for_large_pages(bytes_.get(), size);
+            size_ = size;
+        }
+        return bytes_.get();
+    }
+
+private:
+    std::unique_ptr<char[]> bytes_;
+    std::size_t size_ = 0;
+};
+
 /// Room for `count` more values, and at least twice what there was where it has to move.
 template <class T>
 void make_room(std::vector<T>& values, std::size_t count) {

@@ -1,9 +1,9 @@
 #include "barycert/io/streams.hpp"
 
+#include <ranges>
 #include <set>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {
@@ -125,7 +125,6 @@ void keep_columns(const TableColumns& all, const std::vector<std::string>& keep,
     }
 }
 
-/// What nobody asked for.
 void note_the_others(const TableColumns& all, PointColumns& out) {
     if (out.zero && all.coordinates == 0)
         out.notes.push_back({Note::Kind::left_out,
@@ -137,11 +136,10 @@ void note_the_others(const TableColumns& all, PointColumns& out) {
         if (!kept && !out.is_coordinate(c)) others.push_back(c);
     }
     if (others.empty()) return;
-    std::string text = others.size() == 1 ? "column " : "columns ", names;
-    for (std::size_t i = 0; i < std::min(others.size(), most_listed); ++i) {
-        text += (i == 0 ? "" : ", ") + all.names[others[i]];
-        names += (i == 0 ? "" : ",") + all.names[others[i]];
-    }
+    const auto name = [&](std::size_t column) { return all.names[column]; };
+    const auto some = others | std::views::take(most_listed);
+    std::string text = (others.size() == 1 ? "column " : "columns ") + base::joined(some, ", ", name),
+                names = base::joined(some, ",", name);
     if (others.size() > most_listed) {
         text += " and " + std::to_string(others.size() - most_listed) + " more";
         names = "all";
@@ -157,9 +155,7 @@ std::string column_number(std::size_t column) {
 }
 
 std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(most_listed, names.size()); ++i)
-        text += (i != 0 ? ", " : "") + base::quoted(names[i]);
+    const std::string text = base::joined(names | std::views::take(most_listed), ", ", base::quoted);
     return names.empty() ? "none" : text + (names.size() > most_listed ? ", ..." : "");
 }
 
@@ -231,12 +227,12 @@ PointColumns choose_columns(const TableColumns& all, int dimension, const PointO
 }
 
 Error off_plane(const std::string& file, std::size_t line, const std::string& row, const std::string& found) {
-    return {.what = "a point off the plane z = 0" + (row.empty() ? row : ": " + row),
-            .file = file,
-            .line = line,
-            .expected = "z = 0, for the mesh is 2D",
-            .found = found,
-            .remedy = "options.columns x,y leaves z out of account"};
+    return {"a point off the plane z = 0" + (row.empty() ? row : ": " + row),
+            file,
+            line,
+            "z = 0, for the mesh is 2D",
+            found,
+            "options.columns x,y leaves z out of account"};
 }
 
 }  // namespace barycert::io

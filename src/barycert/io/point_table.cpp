@@ -1,7 +1,5 @@
-#include <cmath>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 
@@ -36,7 +34,6 @@ private:
     std::vector<Column> columns_;
 };
 
-/// Where the values of a column stand.
 struct Place {
     const Field* field = nullptr;  ///< else a coordinate or a label
     std::size_t component = 0;     ///< or the coordinate, or the label
@@ -151,8 +148,7 @@ PointSource::~PointSource() = default;
 Result<std::unique_ptr<PointSource>> open_points(const std::string& path, int dimension, const PointOptions& options) {
     if (dimension != 2 && dimension != 3)
         return file_error(path, "points can have 2 or 3 coordinates", "2 or 3", std::to_string(dimension));
-    return io::read_guarded(
-        path, [&]() -> Result<std::unique_ptr<PointSource>> { return io::open_any(path, dimension, options); });
+    return io::read_guarded(path, [&] { return io::open_any(path, dimension, options); });
 }
 
 }  // namespace barycert

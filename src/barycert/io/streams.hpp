@@ -1,5 +1,4 @@
-/// What sources of points with carried columns have alike: which columns are what, and how they are read. What sinks of
-/// rows have alike. Errors are thrown as Exceptions.
+/// What sources of points with carried columns have alike, and sinks of rows. Errors are thrown as Exceptions.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +21,6 @@ struct TableColumns {
 /// column1, column2, ...
 std::string column_number(std::size_t column);
 
-/// What the columns are taken for.
 struct PointColumns {
     struct Kept {
         std::size_t column = 0;
@@ -38,8 +36,7 @@ struct PointColumns {
     }
 };
 
-/// The places of x, y[, z], or of one of the other names that are known; nothing if none of them is there as a whole.
-/// In the plane also of the z that belongs to them. Error: two columns of one of these names.
+/// The places of x, y[, z] or other known names, in the plane also of a z beside them; or nothing. Error: a name twice.
 std::optional<PointColumns> find_coordinates(const TableColumns& all, int dimension);
 
 /// The texts, each cut at its commas unless there are `count` of them.
@@ -52,7 +49,6 @@ bool are_places(const std::vector<std::string>& columns);
 /// By PointOptions. Errors: columns that are not there, or not clear; a coordinate that is to be carried through.
 PointColumns choose_columns(const TableColumns& all, int dimension, const PointOptions& options);
 
-/// The end of what to do with a point that is not finite.
 inline constexpr const char* or_nan_for_it = ", or take NaN for its values: options.nonfinite_points nan";
 
 /// A z that is not 0 beside a mesh in the plane. `row`: of which point, or empty.
@@ -110,8 +106,7 @@ protected:
     /// Puts the rows [first, last) there; the place after them. Called on all threads.
     virtual char* put_rows(const TableView& rows, std::size_t first, std::size_t last, char* at) const = 0;
 
-    /// put(value, k) for all that a row has, in the order of the columns: doubles, the cell, the feature, then the
-    /// value of each carried column k.
+    /// put(value, k) for all that a row has, in the order of its columns; k: the number of a carried one.
     template <class Put>
     void put_row(const TableView& rows, std::size_t row, const Put& put) const {
         const auto dimension = static_cast<std::size_t>(format_.dimension);

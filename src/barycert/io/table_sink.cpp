@@ -1,6 +1,5 @@
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"
 #include "barycert/io/streams.hpp"

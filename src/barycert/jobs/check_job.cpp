@@ -1,7 +1,5 @@
 // A mesh checked, its measures written, and a repaired copy of it.
 
-#include <algorithm>
-
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/triangles.hpp"
 #include "barycert/jobs/job_files.hpp"
@@ -17,7 +15,6 @@ base::NamedFile copy_of(const CheckJob& job) {
     return {"job.fix", job.fix};
 }
 
-/// What can be checked of files before the work.
 void check_job(const CheckJob& job) {
     const auto [member, copy] = copy_of(job);
     if (job.measures == "-")
@@ -68,8 +65,7 @@ Status write_measures(const CheckJob& job, const CheckReport& report, Mesh mesh)
     return write_vtu(mesh, job.measures, job.vtk_data.value_or(VtkData::raw));
 }
 
-/// What of the mesh the file has no place for: names of fields, labels of cells, faces. What follows from the cells, as
-/// neighbours do, is not among it.
+/// What of the mesh the file has no place for, but for what follows from the cells, as neighbours do.
 Notes left_out_of(const std::string& path, const Mesh& mesh) {
     const io::MeshFormat format = *io::mesh_output_format(path);
     Notes notes;
@@ -92,7 +88,6 @@ Notes left_out_of(const std::string& path, const Mesh& mesh) {
     return notes;
 }
 
-/// Writes the repaired copy, reads it again and checks it.
 void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked) {
     checked.fixed = FixedMesh{.file = copy_of(job).path, .done = {}, .notes = {}, .after = {}};
     FixedMesh& fixed = *checked.fixed;

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/base/strict_math.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/io/formats.hpp"
@@ -250,10 +248,7 @@ private:
         throw Exception(error);
     }
 
-    std::string normal_text() const {
-        const std::array<double, 3>& n = job_.plane->normal;
-        return fmt::format("{},{},{}", shortest(n[0]), shortest(n[1]), shortest(n[2]));
-    }
+    std::string normal_text() const { return base::joined(job_.plane->normal, ",", shortest); }
 
     void draw(const Surface& section) {
         Stopwatch watch;

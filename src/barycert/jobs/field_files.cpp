@@ -1,13 +1,9 @@
 #include "barycert/jobs/field_files.hpp"
 
-#include <algorithm>
 #include <filesystem>
-#include <system_error>
 
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
-#include "barycert/io/medit/medit_file.hpp"
 #include "barycert/jobs/job_files.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/mesh/part.hpp"
@@ -21,7 +17,6 @@ constexpr std::string_view cell_prefix = "cell:", point_prefix = "point:";
 constexpr const char* say_which =
     "say which: FieldFile::Of::points or FieldFile::Of::cells instead of FieldFile::Of::either";
 
-/// Whether the rows of the field are for cells.
 bool is_of_cells(const FieldFile& file, std::size_t rows, std::size_t nodes, std::size_t cells) {
     const bool fits_nodes = rows == nodes && file.of != FieldFile::Of::cells;
     const bool fits_cells = rows == cells && file.of != FieldFile::Of::points;

@@ -10,8 +10,7 @@ namespace barycert::jobs {
 /// True for names that outputs have besides fields: x, y, z, cell, feature, distance, vtkValidPointMask.
 bool is_name_of_rows(const std::string& name);
 
-/// Whether fields are read from such a file as arrays of a mesh: by its suffix, else by what it is. Files that end as
-/// tables do are none: .dat, which is Tecplot's, too, among them.
+/// Whether fields are read as arrays of a mesh: by the suffix (.dat is a table, if Tecplot's, too), else the content.
 bool is_file_of_a_mesh(const std::string& path);
 
 struct FieldPlace {
@@ -19,8 +18,7 @@ struct FieldPlace {
     std::size_t number = 0;
 };
 
-/// The field in the file, any number of rows. file.of becomes what it is of, where the file tells. Refused: what
-/// read_field_file and read_mesh refuse; an array that is not there.
+/// The field in the file, any number of rows. file.of becomes what it is of, where the file tells.
 Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes);
 
 /// Of a field of cells that is not of a file of a mesh, which was cut like this one, rows of whole cells become rows of
@@ -28,12 +26,10 @@ Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes);
 void by_parts(const Mesh& mesh, const FieldFile& file, Field& field);
 
 /// Adds the field of a file to the mesh, and to its notes what is to be told of it; with `replace`, in the place of one
-/// of that name. Refused: what read_field refuses; a name that there is already; a number of rows that is that of
-/// neither nodes nor cells, or, where it is not said which, of both.
+/// of that name. Refused: a name twice; rows that fit neither nodes nor cells, or both unsaid.
 FieldPlace add_field(const FieldFile& file, Mesh& mesh, bool replace);
 
-/// Adds the fields of all files to the surface: a row of numbers for each node, or for each cell as users count them.
-/// Refused: as for meshes; an array of another file than of a surface.
+/// Adds the fields of all files to the surface: a row for each node, or for each cell as users count them.
 void add_fields(const std::vector<FieldFile>& files, Surface& surface);
 
 /// So that columns have one name each, a field of cells that has the name of one of nodes is called cell:NAME from then
@@ -41,20 +37,17 @@ void add_fields(const std::vector<FieldFile>& files, Surface& surface);
 void give_each_a_name(Mesh& mesh);
 void give_each_a_name(std::vector<Field>& of_nodes, std::vector<Field>& of_cells);
 
-/// Adds the fields of all files, and gives each a name.
 void add_fields(const std::vector<FieldFile>& files, Mesh& mesh);
 
 /// The field of nodes or cells that a name means, one number each; in `made` where the mesh has none.
 FieldChoice field_of_numbers(const Mesh& mesh, const std::string& name, std::deque<Field>& made, Notes& notes);
 
-/// The names, with those of other(name) in the place of a name for which there are such. One text may hold several
-/// names, with commas between them; one of which none is replaced stays whole, as a name may have commas, too.
+/// The names, with those of other(name) where there are such. A text may hold several names, or a name commas.
 using OtherNames = std::function<std::optional<std::vector<std::string>>(const std::string& name)>;
 std::vector<std::string> with_other_names(const std::vector<std::string>& names, const OtherNames& other);
 
 /// The labels that are named, in their order; they are removed from `names`. A field goes before a label of its name;
-/// cell:NAME may stand for NAME. Refused: a label named twice; one that does not fit the mesh; one with the
-/// integer that stands for "outside".
+/// cell:NAME may stand for NAME. Refused: one named twice, that does not fit, or has mesh::no_label.
 std::vector<const Column*> take_labels(const Mesh& mesh, std::vector<std::string>& names);
 
 }  // namespace barycert::jobs

@@ -1,11 +1,9 @@
-#include "barycert/jobs/resampled.hpp"
+#include "barycert/jobs/integrals.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "barycert/base/arena.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/check/stages.hpp"
 #include "barycert/core/scaled_double.hpp"
 #include "barycert/sample/quantity/quantities.hpp"

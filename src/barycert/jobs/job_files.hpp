@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "barycert/base/named_file.hpp"
+#include "barycert/base/text.hpp"
 #include "barycert/jobs.hpp"
 
 namespace barycert::jobs {
@@ -42,18 +43,10 @@ template <class... Parts>
 /// text(item) of each, with commas between them.
 template <class Items, class Text>
 std::string listed(const Items& items, Text text, const char* if_empty = "none") {
-    std::string all;
-    for (const auto& item : items) {
-        if (&item != &items.front()) all += ", ";
-        all += std::invoke(text, item);
-    }
-    return items.empty() ? if_empty : all;
+    return items.empty() ? if_empty : base::joined(items, ", ", text);
 }
 
-/// "1 row", "2 rows".
-inline std::string counted(std::uint64_t n, const std::string& what) {
-    return std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
-}
+using base::counted;
 
 // Series: fields of which there is a file for each step.
 
@@ -67,18 +60,13 @@ struct Step {
 
 /// The steps of all series of fields of a job in natural order (2 before 10), or that of a .pvd file; where it has
 /// none, the steps of its mesh that are to have outputs of their own. A path may end in :COLUMN; of a mesh file the
-/// array of the field's name is read without it. Refused: a pattern without exactly one *, or that no file matches;
-/// what read_series refuses; a step that not all series have; all steps asked for where there are none, or where the
-/// outputs have one name.
+/// array of the field's name is read without it. Refused: a pattern that matches no file, or has not one *; a step that
+/// not all series have; all steps where there are none, or one output.
 std::vector<Step> find_steps(const SamplingJob& job);
 
-/// Whether each step has outputs of its own.
 bool has_step_place(const std::string& output);
-
-/// The path with the label of the step in its place.
 std::string output_of_step(const std::string& output, const Step& step);
 
-/// Tells what the job is doing, and how much of it is done.
 void tell_stage(const MeshJob& job, const std::string& what, std::uint64_t done = 0);
 
 /// Reads the mesh of the job, and takes its cells as straight, as far as it may: `curved` says which are not.
@@ -92,11 +80,9 @@ void report_mesh(const MeshJob& job, const Mesh& mesh, int threads, MeshReport& 
 /// Notes in the report what is not there yet.
 void tell_once(Notes notes, MeshReport& report);
 
-/// Whether curved cells are taken by their maps; and, noted, where cells are straight or linear though these are asked
-/// for.
+/// Whether curved cells are taken by their maps; notes where cells are straight or linear though maps are asked for.
 void report_maps(const MeshJob& job, const Locator& locator, MeshReport& report);
 
-/// What finds points in the mesh.
 BuildOptions build_options(const MeshJob& job, int threads, Prove prove = Prove::at_once);
 Locator build_locator(const MeshJob& job, const Mesh& mesh, int threads, Prove prove = Prove::at_once);
 

@@ -134,7 +134,6 @@ void set_clip(Scene& scene) {
     s.end_panel();
 }
 
-/// What the job draws where that is no file.
 Scene small_picture(const RenderJob& job) {
     Scene scene;
     scene.size = job.view.size;

@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <system_error>
-
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
@@ -118,13 +114,6 @@ bool names_steps(const std::string& path) {
     return io::has_one_of(path, {".pvd", ".series"});
 }
 
-/// FILE.pvd, or FILE.pvd:COLUMN; also of .vtu.series.
-std::optional<FieldFile> file_of_steps(const FieldFile& series) {
-    if (names_steps(series.path)) return series;
-    const auto split = without_column(series);
-    return split && names_steps(split->path) ? split : std::nullopt;
-}
-
 /// Refuses a word in braces that is nearly one of the places of steps.
 void check_places(const std::string& output) {
     for (std::size_t open = output.find('{'); open != std::string::npos; open = output.find('{', open + 1)) {
@@ -136,12 +125,12 @@ void check_places(const std::string& output) {
     }
 }
 
-/// Of all series; none if there is none.
 std::vector<Step> steps_of_series(const std::vector<FieldFile>& series) {
     std::vector<Step> steps;
     for (const FieldFile& one : series) {
-        const auto file = file_of_steps(one);
-        std::vector<Step> found = file ? steps_of_file(*file) : matches_of(one);
+        // FILE.pvd, or FILE.pvd:COLUMN; also of .vtu.series.
+        const auto file = names_steps(one.path) ? one : without_column(one);
+        std::vector<Step> found = file && names_steps(file->path) ? steps_of_file(*file) : matches_of(one);
         if (steps.empty()) {
             steps = std::move(found);
             continue;
@@ -200,9 +189,7 @@ bool has_step_place(const std::string& output) {
 std::string output_of_step(const std::string& output, const Step& step) {
     std::string path = output;
     for (const auto& [place, text] : {std::pair(step_place, step.label), std::pair(time_place, step.time)}) {
-        if (text.empty()) continue;
-        for (std::size_t at = path.find(place); at != std::string::npos; at = path.find(place, at + text.size()))
-            path.replace(at, place.size(), text);
+        if (!text.empty()) base::replace_all(path, place, text);
     }
     return path;
 }

@@ -2,13 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <set>
-#include <system_error>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/npz/weights_file.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/map.hpp"
@@ -34,7 +30,6 @@ struct Targets {
     std::vector<Table>* known = nullptr;
 };
 
-/// The rows of one mesh and step.
 class RowStream {
 public:
     RowStream(SampledMesh& mesh, const RowSource& source, const OpenRows& open, Targets targets)
@@ -90,7 +85,6 @@ private:
         block.nan_values = count_nan(rows.view());
     }
 
-    /// Each cell that holds a point has a row.
     void sample_all(Table& rows) const {
         Table all = mesh_.locator().locate_all(rows.points, options_.threads, options_.nonfinite_points).value();
         for (const Column& column : rows.carried) all.carried.push_back(mesh::repeated(column, all.point_begin));
@@ -204,9 +198,8 @@ SampleOptions without_refusal(SampleOptions options) {
 }
 
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file) {
-    std::string at;
-    for (const double x : where) at += (at.empty() ? "(" : ", ") + base::shortest(x);
-    return file_error(file, what + ", counted from 0, is outside the mesh", "", at + ")",
+    return file_error(file, what + ", counted from 0, is outside the mesh", "",
+                      "(" + base::joined(where, ", ", base::shortest) + ")",
                       "choose what points outside get: job.outside nan, fill=V, nearest or extrapolate");
 }
 

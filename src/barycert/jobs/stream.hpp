@@ -19,7 +19,6 @@ struct Block {
     Verdicts found;                      ///< of results that are verified
 };
 
-/// Where rows come from.
 struct RowSource {
     bool located = false;  ///< whether cells and features come with the points
     bool counted = false;  ///< whether the report has these rows already
@@ -33,7 +32,6 @@ struct RowSource {
 /// Points that are to be located, to be read once. They must stay.
 RowSource rows_of_points(std::unique_ptr<PointSource>& points);
 
-/// Whether the file is standard input, a pipe, or else no regular file.
 bool is_read_once(const std::string& path);
 
 /// The rows of a source, which must stay, in blocks: few enough that all `threads` (0: as many as the machine has) have
@@ -53,9 +51,8 @@ public:
     /// Prepares the locator for all points; from now on blocks are as large as its mesh asks for.
     void locate_in(const Locator& locator);
 
-    /// Three stages at once: blocks are read one after the other, worked on side by side, and written in the order in
-    /// which they were read. At most one block a thread, and two more, are in memory, and filled again. What is thrown
-    /// ends it all: the first in the order of blocks is thrown on.
+    /// Three stages at once: blocks are read one after the other, worked on side by side, and written in their order.
+    /// At most one block a thread, and two more, are in memory. What the first block throws ends it all.
     void run(const Stage& work, const Stage& write);
 
 private:
@@ -94,7 +91,6 @@ using OpenFormat = std::function<Sink(const TableFormat& format)>;
 Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
                     const OpenFormat& open);
 
-/// A sink of two functions.
 template <class Write, class Commit>
 Sink sink_of(Write write, Commit commit) {
     struct Functions final : TableSink {
@@ -126,7 +122,6 @@ SampleOptions without_refusal(SampleOptions options);
 /// That `what` ("point 7"), at `where`, is outside, and none may be.
 Error outside_error(const std::string& what, std::span<const double> where, const std::string& file);
 
-/// How many values of rows inside are NaN.
 std::uint64_t count_nan(const TableView& rows);
 
 }  // namespace barycert::jobs

@@ -17,15 +17,13 @@ std::vector<Mesh::Index> compute_neighbours(const Mesh& mesh);
 /// The facets without a neighbour, each as cell * (dimension + 1) + corner, ascending. `neighbours` as above.
 std::vector<std::int64_t> hull_facets(const Mesh& mesh, const std::vector<Mesh::Index>& neighbours);
 
-/// The corners of the facet opposite to a corner of a positive cell, in the order that turns normals outward (2D: two,
-/// the cell to their left).
+/// The corners of the facet opposite to a corner of a positive cell, normals outward (2D: two, the cell to their left).
 inline std::array<std::size_t, 3> outward_corners(int dimension, std::size_t corner) {
     constexpr std::array<std::array<std::size_t, 3>, 4> faces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
     return dimension == 3 ? faces[corner] : std::array{(corner + 1) % 3, (corner + 2) % 3, std::size_t{0}};
 }
 
-/// A facet as one cell has it, without its lowest node, by which facets are gathered. In 2D that one stands for the
-/// middle node again.
+/// A facet of a cell without its lowest node, by which facets are gathered; in 2D that stands for the middle one.
 struct CellFacet {
     Mesh::Index middle = 0;
     Mesh::Index highest = 0;
@@ -37,18 +35,15 @@ struct CellFacet {
     }
 };
 
-/// Time and memory O(cells + nodes) where the number of cells at a node is bounded. The work is shared among the
-/// threads of the calling arena, and the outcome does not depend on them.
+/// Time and memory O(cells + nodes) where cells at a node are bounded; on all threads, whose number does not show.
 class FacetTable {
 public:
-    /// The facets of the cells for which use[cell] is not 0; of all if it is empty. Precondition: the indices of these
-    /// cells are in range.
+    /// Of the cells for which use[cell] is not 0; of all if it is empty. Precondition: their indices are in range.
     explicit FacetTable(const Mesh& mesh, std::span<const std::uint8_t> use = {});
 
     std::size_t node_count() const { return begin_.size() - 1; }
 
-    /// group(span of CellFacet) for each set of equal facets whose lowest node is in [first, last); in a set by cell,
-    /// then corner.
+    /// group(facets) for each set of equal ones whose lowest node is in [first, last), by cell, then corner.
     template <class F>
     void for_each_group(std::size_t first, std::size_t last, F&& group) const {
         for (std::size_t node = first; node < last; ++node) {

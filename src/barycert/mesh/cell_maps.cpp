@@ -1,7 +1,5 @@
 #include "barycert/mesh/cell_maps.hpp"
 
-#include <algorithm>
-
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/mesh/pulling.hpp"
 

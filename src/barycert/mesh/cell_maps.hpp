@@ -1,8 +1,6 @@
 /// Which cells are images of reference cells, and by which nodes.
 #pragma once
 
-#include <span>
-
 #include "barycert/core/isoparametric/inverse.hpp"
 #include "barycert/mesh.hpp"
 

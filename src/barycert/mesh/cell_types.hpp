@@ -1,9 +1,6 @@
 /// Types of cells by VTK's numbers (vtkCellType.h), and how cells of any of them become those of a mesh.
 #pragma once
 
-#include <span>
-#include <string>
-
 #include "barycert/mesh/pulling.hpp"
 
 namespace barycert::mesh {
@@ -52,8 +49,7 @@ std::span<const Mesh::Index> corners_of(const CellType& type, std::span<const Me
 /// Appends the rings of a polygon, by its corners; those of a strip are triangles.
 void add_rings(const CellType& type, std::span<const Mesh::Index> nodes, std::vector<std::vector<Mesh::Index>>& rings);
 
-/// Appends a cell to mesh.shapes, by its corners; simplices up to order 4 keep all of their nodes. Faces are the
-/// caller's. False: nodes were left out.
+/// Appends a cell to mesh.shapes by its corners, no faces; simplices up to order 4 whole. False: nodes are left out.
 bool add_shape(Mesh& mesh, std::uint8_t type, std::span<const Mesh::Index> nodes);
 
 }  // namespace barycert::mesh

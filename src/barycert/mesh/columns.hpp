@@ -7,8 +7,7 @@
 
 namespace barycert::mesh {
 
-/// The number of characters of well-formed UTF-8: no stray or missing continuation, no longer form than needed, no
-/// surrogate, nothing above U+10FFFF. -1 for other bytes.
+/// The number of characters of well-formed UTF-8, see base::first_character; -1 for other bytes.
 std::ptrdiff_t count_characters(std::string_view text);
 
 /// The format of the column, with the lengths of its longest text.
@@ -17,14 +16,12 @@ ColumnFormat format_of(const Column& column);
 /// Makes `columns` empty ones of these formats; what memory they have is kept.
 void begin_columns(const std::vector<ColumnFormat>& formats, std::vector<Column>& columns);
 
-/// Moves `count` values of `from`, of the same type, from number `first` on to the end of `to`. Those left behind are
-/// not to be read any more.
+/// Moves `count` values, from number `first` on, to the end of `to`, of the same type. `from` is not to be read there.
 void move_values(Column& from, std::size_t first, std::size_t count, Column& to);
 
 /// Copies the values of columns to the end of those of `to`, of the same formats, which are made where there are none.
 void append(std::span<const Column> columns, std::vector<Column>& to);
 
-/// A copy of the values number `begin` to end - 1.
 Column part_of(const Column& column, std::size_t begin, std::size_t end);
 
 /// Copies of the values, each as often as it has rows: value i has the rows begin[i] to begin[i + 1] - 1.

@@ -1,7 +1,5 @@
 #include "barycert/mesh/consistency.hpp"
 
-#include <algorithm>
-
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -112,15 +110,12 @@ Status check_field(const Field* field, std::size_t rows, const char* of) {
     if (field == nullptr) return Error{.what = "a field is missing"};
     const std::string name = "field \"" + field->name + '"';
     if (field->components < 1)
-        return Error{.what = "number of components of " + name,
-                     .expected = "at least 1",
-                     .found = std::to_string(field->components)};
+        return file_error({}, "number of components of " + name, "at least 1", std::to_string(field->components));
     const std::size_t expected = rows * static_cast<std::size_t>(field->components);
     if (field->data.size() == expected) return Done{};
-    return Error{
-        .what = "size of " + name,
-        .expected = std::to_string(expected) + " numbers, " + std::to_string(field->components) + " for each " + of,
-        .found = std::to_string(field->data.size())};
+    return file_error({}, "size of " + name,
+                      std::to_string(expected) + " numbers, " + std::to_string(field->components) + " for each " + of,
+                      std::to_string(field->data.size()));
 }
 
 }  // namespace barycert::mesh

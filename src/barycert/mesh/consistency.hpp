@@ -12,8 +12,7 @@ enum class FieldValues : bool { finite, any };
 
 inline constexpr const char* not_listed = "the nodes and cells of a grid are not listed (ReadOptions::list_grids)";
 
-/// What is wrong with the sizes, indices or numbers of the mesh, in one clause; nullptr if nothing is. A mesh that
-/// passes can be written, and what is written can be read.
+/// What is wrong with sizes, indices or numbers, in one clause, or nullptr: then it can be written, and read again.
 const char* inconsistency(const Mesh& mesh, FieldValues values = FieldValues::finite);
 
 /// All of it but what belongs to faces: their markers and nodes at mid-edges. What check_mesh certifies passes.

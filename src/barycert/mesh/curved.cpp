@@ -49,8 +49,7 @@ LastPlace last_place(const std::vector<double>& coordinates) {
 }
 
 constexpr double max_rounded_part = 1e-3;  ///< of an edge: units beyond it would not resolve the edge
-/// Of an edge: what a mesher's own arithmetic leaves where it puts nodes on straight lines (Gmsh: up to 2e-12), and a
-/// motion there and back (4e-13).
+/// Of an edge: what arithmetic leaves of nodes on lines (Gmsh: up to 2e-12), and a motion there and back (4e-13).
 constexpr double computed_part = 1e-10;
 
 /// Adds the deviation of one node to those of its cell. Returns whether it is one by a curve.
@@ -153,13 +152,8 @@ std::string message(const CurvedCells& curved) {
 Result<CurvedCells> measure_curved(const Mesh& mesh, const std::string& file, Curved curved) {
     const CurvedCells found = curved_cells(mesh);
     if (curved != Curved::refuse || found.cells == 0) return found;
-    return Error{.what = "the mesh is curved",
-                 .file = file,
-                 .expected = "every mid-edge node at the middle of its edge",
-                 .found = deviations(found),
-                 .remedy =
-                     "mesh it with straight sides, or let them be taken as straight: `straight` in place of "
-                     "`refuse`"};
+    return file_error(file, "the mesh is curved", "every mid-edge node at the middle of its edge", deviations(found),
+                      "mesh it with straight sides, or let them be taken as straight: `straight` in place of `refuse`");
 }
 
 }  // namespace barycert

@@ -22,9 +22,8 @@ struct MidEdgeVote {
 };
 
 /// The order in which mesh.mid_nodes stand, told by the points: each cell votes for the order in which every node is
-/// nearest to the midpoint of its own edge. It abstains where two midpoints are equally near (degenerate cells).
-/// Nothing if fewer than half of the votes agree on a known order; TetGen's or Triangle's own, as a guess, if no cell
-/// votes.
+/// nearest to the midpoint of its own edge. It abstains where two are equally near (degenerate cells). Nothing if no
+/// order has more than half of them; TetGen's or Triangle's, as a guess, if no cell votes.
 std::optional<MidEdgeVote> detect_mid_edge_order(const Mesh& mesh);
 
 /// Brings mesh.mid_nodes from mesh.mid_edge_order into the order `vtk`.

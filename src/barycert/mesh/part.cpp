@@ -29,8 +29,7 @@ Part part_of(const Mesh& mesh, std::vector<Mesh::Index> cells) {
         append_rows_of(mesh.mid_nodes, mids, part.cells, part.mesh.mid_nodes);
         part.mesh.mid_edge_order = mesh.mid_edge_order;
     }
-    // A bit for each node of the part, and how many there are before each word: few cells have few nodes, and the whole
-    // mesh many.
+    // A bit for each node of the part, and how many there are before each word: few cells have few nodes of many.
     std::vector<std::uint64_t> used((mesh.point_count() + 63) / 64, 0);
     const std::array<std::span<Mesh::Index>, 2> uses{part.mesh.cells, part.mesh.mid_nodes};
     for (const auto& nodes : uses) {

@@ -30,7 +30,6 @@ public:
 
     const std::vector<std::vector<Index>>& rings() const { return rings_; }
 
-    /// Whether a face has all of these.
     bool share(std::initializer_list<Index> nodes) const {
         return std::ranges::any_of(of(*nodes.begin()), [&](std::size_t ring) {
             return std::all_of(nodes.begin() + 1, nodes.end(),
@@ -256,7 +255,6 @@ Shape shape_of(std::uint8_t type) {
         case 69:
             return {2, 3, "012"};
         case strip:
-            return {2, 0, {}};
         case 7:
             return {2, 0, {}};
         case 8:

@@ -6,11 +6,7 @@
 /// depend on the cell; a face that has the cell's lowest node is cut from it, as it is the lowest of that face, too.
 #pragma once
 
-#include <array>
 #include <bit>
-#include <optional>
-#include <span>
-#include <string_view>
 
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
@@ -27,7 +23,6 @@ struct Shape {
 };
 /// Of VTK's type of that number; of curved simplices their corners.
 Shape shape_of(std::uint8_t type);
-/// Shape::faces.
 const std::vector<std::vector<Mesh::Index>>& rings_of(std::uint8_t type);
 
 /// Triangles and tetrahedra of order 2 to 4: VTK's quadratic and Lagrange ones, whose corners come first.
@@ -49,8 +44,7 @@ constexpr int simplex_order(int dimension, std::size_t nodes) {
 /// there is one: each edge must be one of two faces. Precondition: nodes in range, as many as the types have.
 std::optional<std::size_t> pull(Mesh& mesh);
 
-/// The same of a mesh whose cell numbers, fields and labels have a row for each shape; then they have one for each
-/// cell.
+/// The same; cell numbers, fields and labels have a row for each shape before, for each cell then.
 std::optional<std::size_t> cut_into_simplices(Mesh& mesh);
 
 /// The shape that each cell is a part of.

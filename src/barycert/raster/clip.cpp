@@ -68,13 +68,13 @@ struct Segment {
 
 Status check(const Segment& s) {
     if (s.dimension < 1 || s.dimension > 3)
-        return base::misfit("dimension of a segment", "1, 2 or 3", std::to_string(s.dimension),
-                            "choose another dimension");
+        return file_error({}, "dimension of a segment", "1, 2 or 3", std::to_string(s.dimension),
+                          "choose another dimension");
     if (s.a.size() != s.b.size() || s.a.size() < static_cast<std::size_t>(s.dimension))
-        return base::misfit("the ends of a segment",
-                            std::to_string(s.dimension) + " coordinates and as many attributes at both ends",
-                            std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
-                            "give a number for each coordinate and attribute of each end");
+        return file_error({}, "the ends of a segment",
+                          std::to_string(s.dimension) + " coordinates and as many attributes at both ends",
+                          std::to_string(s.a.size()) + " and " + std::to_string(s.b.size()) + " numbers",
+                          "give a number for each coordinate and attribute of each end");
     const std::size_t i = base::first_not_finite(s.a), k = base::first_not_finite(s.b);
     if (i == s.a.size() && k == i) return Done{};
     return base::not_finite(
@@ -231,8 +231,8 @@ unsigned beyond(const double* vertex) {
 
 Status check_rows(std::span<const double> vertices) {
     if (vertices.size() < 12 || vertices.size() % 3 != 0)
-        return base::misfit(
-            "a triangle of other than three vertices", "three rows of x, y, z, w and attributes, of equal length",
+        return file_error(
+            {}, "a triangle of other than three vertices", "three rows of x, y, z, w and attributes, of equal length",
             std::to_string(vertices.size()) + " numbers", "give a number for each attribute of each vertex");
     const std::size_t i = base::first_not_finite(vertices), row = vertices.size() / 3;
     if (i == vertices.size()) return Done{};

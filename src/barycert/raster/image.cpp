@@ -17,11 +17,11 @@ std::string by(std::int64_t width, std::int64_t height) {
 
 Status check_sides(std::int64_t width, std::int64_t height) {
     if (width < 1 || height < 1)
-        return base::misfit("an image of that size cannot be", "at least 1 pixel a side", by(width, height),
-                            "choose another size");
+        return file_error({}, "an image of that size cannot be", "at least 1 pixel a side", by(width, height),
+                          "choose another size");
     if (width > max_image_pixels / height)
-        return base::misfit("the image is too large", "at most " + std::to_string(max_image_pixels) + " pixels",
-                            by(width, height), "choose a smaller size");
+        return file_error({}, "the image is too large", "at most " + std::to_string(max_image_pixels) + " pixels",
+                          by(width, height), "choose a smaller size");
     return Done{};
 }
 
@@ -40,9 +40,9 @@ Status check_image(const Image& image) {
     if (Status good = check_sides(image.width, image.height); !good) return good;
     const std::size_t bytes = image.offset(0, image.height);
     if (image.data.size() == bytes) return Done{};
-    return base::misfit("the data of the image do not fit its size",
-                        std::to_string(bytes) + " bytes for " + by(image.width, image.height) + " pixels",
-                        std::to_string(image.data.size()), "give four bytes a pixel");
+    return file_error({}, "the data of the image do not fit its size",
+                      std::to_string(bytes) + " bytes for " + by(image.width, image.height) + " pixels",
+                      std::to_string(image.data.size()), "give four bytes a pixel");
 }
 
 Result<Image> read_png(const std::string& path) {
@@ -156,9 +156,9 @@ Result<Image> checkerboard(std::int32_t cells, std::int32_t texels) {
     constexpr Rgba dark{40, 60, 90, 255}, light{240, 235, 220, 255};
     const std::int64_t side = std::int64_t{cells} * texels;
     if (cells < 1 || texels < 1)
-        return base::misfit("a checkerboard of that size cannot be",
-                            "at least 1 square a side and 1 texel a side of a square",
-                            std::to_string(cells) + " and " + std::to_string(texels), "choose larger numbers");
+        return file_error({}, "a checkerboard of that size cannot be",
+                          "at least 1 square a side and 1 texel a side of a square",
+                          std::to_string(cells) + " and " + std::to_string(texels), "choose larger numbers");
     if (Status good = check_sides(side, side); !good) return good.error();
     Image image = blank_image(static_cast<std::int32_t>(side), static_cast<std::int32_t>(side), dark).value();
     for (std::int32_t j = 0; j < image.height; ++j) {

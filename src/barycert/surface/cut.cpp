@@ -266,8 +266,8 @@ Result<Cut> cut_field(int dimension, const Mesh& mesh, const Field& field, doubl
                       int component) {
     if (Status fits = mesh::check_field(&field, mesh.point_count(), "node"); !fits) return fits.error();
     if (component < 0 || component >= field.components)
-        return base::misfit("no such component of field \"" + field.name + '"',
-                            "0 to " + std::to_string(field.components - 1), std::to_string(component));
+        return file_error({}, "no such component of field \"" + field.name + '"',
+                          "0 to " + std::to_string(field.components - 1), std::to_string(component));
     if (!std::isfinite(value))
         return Error{.what = "the value to cut at", .expected = "a finite number", .found = base::shortest(value)};
     return on_good_input(mesh, dimension, options,
@@ -295,9 +295,9 @@ Result<Cut> slice(const Mesh& mesh, const Plane& plane, const CutOptions& option
     const ExactEnvironment environment;
     const auto& n = plane.normal;
     if (!std::isfinite(plane.offset) || !base::all_finite(n) || (n[0] == 0 && n[1] == 0 && n[2] == 0))
-        return base::misfit("the plane", "four finite numbers, the normal not zero",
-                            base::shortest(n[0]) + ", " + base::shortest(n[1]) + ", " + base::shortest(n[2]) + ", " +
-                                base::shortest(plane.offset));
+        return file_error({}, "the plane", "four finite numbers, the normal not zero",
+                          base::shortest(n[0]) + ", " + base::shortest(n[1]) + ", " + base::shortest(n[2]) + ", " +
+                              base::shortest(plane.offset));
     return surface::on_good_input(mesh, 3, options,
                                   [&] { return surface::cut_at(mesh, surface::PlaneLevel(mesh, plane), options); });
 }

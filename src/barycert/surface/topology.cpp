@@ -109,8 +109,8 @@ public:
         gather_ends();
         const std::size_t points = first_.back();
         if (std::max(points, part_count_) > INT32_MAX)
-            return base::misfit("the surface is too large", "at most 2147483647 points and cells",
-                                std::to_string(std::max(points, part_count_)), "cut a part of the mesh");
+            return file_error({}, "the surface is too large", "at most 2147483647 points and cells",
+                              std::to_string(std::max(points, part_count_)), "cut a part of the mesh");
         write_edges(points, surface, counts);
         write_parts(surface, counts);
         return Done{};

@@ -1,5 +1,5 @@
 // Medit's files, text and binary: meshes, and fields alone. The first byte: which.
-#include "barycert/io/medit/medit_file.hpp"
+#include "barycert/io/formats.hpp"
 
 #include "fuzz/files.hpp"
 #include "fuzz/same.hpp"

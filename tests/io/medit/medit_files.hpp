@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "barycert/base/text.hpp"
-#include "barycert/io/medit/medit_file.hpp"
+#include "barycert/io/formats.hpp"
 #include "io/gmsh/msh_files.hpp"
 
 namespace barycert::testing {

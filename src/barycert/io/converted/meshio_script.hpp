@@ -5,9 +5,8 @@ namespace barycert::io {
 
 /// Arguments: the path, meshio's name of the format, bytes of memory and of output at most, seconds.
 ///
-/// Descriptor 3 is for the mesh as a .vtu file, whose numbers are those of meshio to the bit; stdout for what was read,
-/// one object of JSON; all that meshio prints goes to stderr. The end of stdin is that of the program that asked: then
-/// it ends, too. Modules come from no folder that the working directory decides.
+/// Descriptor 3 is for the mesh as a .vtu file, to the bit; stdout for what was read, in JSON; stderr for what meshio
+/// prints. It ends with stdin, the program that asked. Modules come from no folder that the working directory decides.
 inline constexpr const char* meshio_script = R"python(
 import sys
 sys.path = [p for p in sys.path if p]

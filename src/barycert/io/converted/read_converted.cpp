@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/converted/meshio_script.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
@@ -82,11 +81,6 @@ struct Process {
         return status;
     }
 
-    bool has_ended() const {
-        siginfo_t found{};
-        return ::waitid(P_PID, static_cast<id_t>(id), &found, WEXITED | WNOHANG | WNOWAIT) == 0 && found.si_pid == id;
-    }
-
     /// All that it prints, up to its end, whoever else holds the other ends. False: it takes too long.
     bool listen(std::string& text, std::string& errors) {
         std::array<pollfd, 2> open{{{answer.out.number, POLLIN, 0}, {messages.out.number, POLLIN, 0}}};
@@ -94,7 +88,9 @@ struct Process {
         while (open[0].fd >= 0 || open[1].fd >= 0) {
             const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
             if (left <= 0) return false;
-            const bool ended = has_ended();  // what it wrote before can be read now
+            siginfo_t found{};
+            const bool ended =  // what it wrote before can be read now
+                ::waitid(P_PID, static_cast<id_t>(id), &found, WEXITED | WNOHANG | WNOWAIT) == 0 && found.si_pid == id;
             const int ready = ::poll(open.data(), open.size(), ended ? 0 : static_cast<int>(std::min(left, tick)));
             if (ready <= 0 && ended) break;
             if (ready <= 0) continue;
@@ -134,8 +130,7 @@ struct MeshioFile {
 /// Has `path` read as what meshio calls `format`, by the Python of BARYCERT_MESHIO, else python3 or /usr/bin/python3.
 ///
 /// The process is started without fork(), in a session of its own, with limits of time, memory and output; it is ended
-/// as a whole, also by the end of this process, and leaves no file. Error: there is no meshio, it may not be used, it
-/// did not come to its end.
+/// as a whole, also by the end of this process, and leaves no file. Error: no meshio, or none that may be used or ends.
 MeshioFile run_meshio(const std::string& path, const std::string& format) {
     const char* const named = std::getenv("BARYCERT_MESHIO");
     if (named != nullptr && *named == '\0')
@@ -199,12 +194,6 @@ Error not_read(const Json& answer, const std::string& messages, const std::strin
                        : "install the Python module " + module + " beside meshio");
 }
 
-/// The text with the path of the file where the intermediate one is named.
-void rename_in(std::string& text, const std::string& from, const std::string& to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
-}
-
 /// That the file is complete: what meshio counted, against what was read.
 void check_complete(const Json& answer, const Mesh& mesh, const std::string& path) {
     const auto need = [&](const std::string& what, std::size_t counted, std::size_t read) {
@@ -231,7 +220,6 @@ void check_complete(const Json& answer, const Mesh& mesh, const std::string& pat
     }
 }
 
-/// Each line that meshio printed, once.
 void tell_messages(const std::string& messages, const std::string& path, Notes& notes) {
     constexpr std::size_t most = 20, longest = 200;
     std::set<std::string_view> told;
@@ -258,14 +246,15 @@ Mesh checked(const Json& answer, const MeshioFile& file, const std::string& path
     if (!read) {
         Error error = read.error();
         const std::string stem = path.substr(0, path.size() - suffix_of(path).size());
+        // They name the intermediate file.
         for (std::string* part : {&error.what, &error.file, &error.found, &error.remedy}) {
-            for (const char* more : {"-", "."}) rename_in(*part, file.vtu + more, stem + more);
-            rename_in(*part, file.vtu, path);
+            for (const char* more : {"-", "."}) base::replace_all(*part, file.vtu + more, stem + more);
+            base::replace_all(*part, file.vtu, path);
         }
         throw Exception(error);
     }
     Mesh& mesh = *read;
-    for (Note& note : mesh.notes) rename_in(note.file, file.vtu, path);
+    for (Note& note : mesh.notes) base::replace_all(note.file, file.vtu, path);
     check_complete(answer, mesh, path);
     Notes notes{{Note::Kind::converted,
                  "by meshio " + answer.at("meshio").get<std::string>() + ", as " + format +

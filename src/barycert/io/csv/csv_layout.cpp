@@ -3,7 +3,6 @@
 #include <iterator>
 #include <limits>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/tetgen/scanner.hpp"
@@ -33,15 +32,7 @@ bool is_header(const TableColumns& all, int dimension, const PointOptions& optio
     });
 }
 
-/// Where lines end with a separator, the field after it is empty in every line.
-std::size_t empty_at_the_end(const TableColumns& all, int dimension) {
-    const auto first = all.names.begin() + std::min<std::ptrdiff_t>(dimension, std::ssize(all.names));
-    const bool empty = std::all_of(first, all.names.end(), [](const std::string& name) { return name.empty(); });
-    return empty ? static_cast<std::size_t>(all.names.end() - first) : 0;
-}
-
-/// True if the text is a decimal number that no double holds: `value`, the nearest one, is another number when it is
-/// written with as many digits.
+/// True if no double holds the decimal number: `value`, the nearest, written with as many digits, is another one.
 bool is_rounded(std::string_view text, double value) {
     // A double holds 15 digits, unless it is subnormal, and has 767 at most.
     constexpr std::size_t held = 15, most = 767;
@@ -106,7 +97,10 @@ CsvLayout settle_csv_layout(std::string_view line, int dimension, const PointOpt
     layout.any_point = options.nonfinite_points == NonfinitePoints::nan;
     layout.role_of.assign(all.names.size(), CsvLayout::passed_over);
     if (!layout.header && options.columns.empty()) {
-        const std::size_t empty = empty_at_the_end(all, dimension);
+        // Where lines end with a separator, the field after it is empty in every line.
+        const auto first = all.names.begin() + std::min<std::ptrdiff_t>(dimension, std::ssize(all.names));
+        const bool none = std::all_of(first, all.names.end(), [](const std::string& name) { return name.empty(); });
+        const auto empty = static_cast<std::size_t>(none ? all.names.end() - first : 0);
         all.names.resize(all.names.size() - empty);
         std::fill_n(layout.role_of.rbegin(), empty, CsvLayout::must_be_empty);
         layout.plain = empty == 0;

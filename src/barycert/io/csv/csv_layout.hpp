@@ -1,5 +1,4 @@
-/// What the first line of a CSV file tells about the others, and rows that are read so. Errors are thrown as
-/// Exceptions.
+/// What the first line of a CSV file tells about the others, and rows read so. Errors are thrown as Exceptions.
 #pragma once
 
 #include "barycert/io.hpp"
@@ -15,8 +14,7 @@ public:
     FieldCutter(std::string_view line, char separator)
         : at_(line.data()), end_(line.data() + line.size()), separator_(separator) {}
 
-    /// The next field, without quotes around it but with doubled quotes in it. False after the last, and at a quote
-    /// that is not closed or not followed by a separator: see malformed().
+    /// The next field, without quotes around it but doubled ones in it. False: after the last, or malformed().
     bool next(std::string_view& field) {
         if (!more_) return false;
         skip_blanks();
@@ -52,7 +50,6 @@ public:
     /// The last field as a text: what stands between quotes with its blanks, and with doubled quotes made one.
     std::string text(std::string_view field) const { return quoted_ ? undoubled(inside_) : std::string(field); }
 
-    /// The same without blanks around it.
     std::string name(std::string_view field) const { return quoted_ ? undoubled(field) : std::string(field); }
 
 private:
@@ -83,8 +80,7 @@ private:
 };
 
 struct CsvLayout {
-    /// What a field is: a coordinate (0, 1, 2; in the plane 2 is a z that must be 0), one of these, or first_kept + k
-    /// for the carried column k.
+    /// A coordinate (0, 1, 2; in the plane 2 is a z that must be 0), one of these, or carried column first_kept + k.
     enum Role : int { passed_over = -1, must_be_empty = -2, first_kept = 3 };
 
     char separator = ',';              ///< ',' ';' '\t', or ' ' for blanks
@@ -108,7 +104,6 @@ struct LinePlace {
 /// Not blank and no comment. With tabs as separator a line of tabs is a row without values, and so not blank.
 bool holds_fields(std::string_view line, char separator);
 
-/// The separator and the fields of the first line that holds fields.
 struct CsvLine {
     char separator = ',';
     std::vector<std::string> fields{};
@@ -135,16 +130,13 @@ struct CsvPiece {
     std::optional<Error> fault;   ///< of that one, without file and number of the line
 };
 
-/// Parses `text` up to its end or the first bad line. The byte after the text must be readable. Keeps the memory of
-/// `piece`.
+/// Parses `text` up to its end or the first bad line. The byte after it must be readable. Keeps the memory of `piece`.
 void parse_csv(std::string_view text, const CsvLayout& layout, int dimension, CsvPiece& piece);
 
-/// The integer in its shortest decimal form, as whoever writes integers writes it: no +, no leading zero, so that 007
-/// stays a text; nothing for other texts, and for integers beyond 64 bits.
+/// The integer of 64 bits in its shortest decimal form: no +, no leading zero, so that 007 stays a text; or nothing.
 std::optional<std::int64_t> integer_of(std::string_view field);
 
-/// The number, in decimal form without leading zeros; nan and inf in any case; NaN of an empty text. Nothing for other
-/// texts, and for integers that no double represents.
+/// The decimal number without leading zeros, nan or inf; NaN of an empty text. Nothing: another, or an inexact integer.
 std::optional<double> number_of(std::string_view field);
 
 /// True if the text is an integer, in digits alone, and no double represents it; `value` is the nearest one.

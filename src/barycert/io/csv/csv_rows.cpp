@@ -1,5 +1,4 @@
 // Rows of CSV: what they say, and why they are refused, in words.
-#include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/streams.hpp"
@@ -18,27 +17,19 @@ namespace {
     refuse_file({}, what, c.expected, base::quoted(field), c.remedy);
 }
 
-[[noreturn]] void refuse_value(std::string_view field, const ColumnFormat& column) {
-    refuse_file(
-        {}, "bad value of column " + base::quoted(column.name),
-        column.type == Column::Type::integer ? "an integer, as in a first pass" : "a number, as in a first pass",
-        base::quoted(field), "do not change the file while it is read");
-}
-
 /// Appends the value of a carried column; false if it is none of its type.
 bool append_value(Column& column, const FieldCutter& cutter, std::string_view field) {
     if (auto* const texts = std::get_if<std::vector<std::string>>(&column.values)) {
         texts->push_back(cutter.text(field));
         return true;
     }
-    if (auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values)) {
-        const auto value = integer_of(field);
-        if (value) integers->push_back(*value);
+    const auto append = [](auto& values, const auto& value) {
+        if (value) values.push_back(*value);
         return value.has_value();
-    }
-    const auto value = number_of(field);
-    if (value) std::get<std::vector<double>>(column.values).push_back(*value);
-    return value.has_value();
+    };
+    auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values);
+    return integers != nullptr ? append(*integers, integer_of(field))
+                               : append(std::get<std::vector<double>>(column.values), number_of(field));
 }
 
 /// Beside a mesh in the plane. A point that is not finite anyway may lie anywhere.
@@ -65,7 +56,11 @@ void parse_line(std::string_view line, bool whole, const CsvLayout& layout, std:
         if (role < 0) continue;
         if (role >= CsvLayout::first_kept) {
             const auto k = static_cast<std::size_t>(role - CsvLayout::first_kept);
-            if (!append_value(carried[k], cutter, field)) refuse_value(field, layout.kept[k]);
+            const char* const kind = layout.kept[k].type == Column::Type::integer ? "an integer" : "a number";
+            if (!append_value(carried[k], cutter, field))
+                refuse_file({}, "bad value of column " + base::quoted(layout.kept[k].name),
+                            std::string(kind) + ", as in a first pass", base::quoted(field),
+                            "do not change the file while it is read");
             // A text may go on behind blanks, but not where these separate.
             at_cut = !whole && i + 1 == fields && !cutter.quoted() && (end == file_end || layout.separator != ' ');
             continue;
@@ -80,8 +75,7 @@ void parse_line(std::string_view line, bool whole, const CsvLayout& layout, std:
     if (is_off_plane(layout, point)) throw Exception(off_plane({}, 0, "", base::quoted(height)));
 }
 
-/// The common case: nothing but numbers, each with the separator or the end of the line right behind it. Then
-/// parse_line finds the same fields and the same values. False: nothing is known.
+/// The common case: numbers, the separator or line end right behind each; parse_line finds the same. False: not known.
 bool parse_plain(std::string_view line, const CsvLayout& layout, std::array<double, 3>& point) {
     const char* at = line.data();
     const char* const end = at + line.size();

@@ -7,8 +7,7 @@
 namespace barycert::io {
 namespace {
 
-/// The longest text of a double is -2.2250738585072014e-308, and those of integers and features are shorter; and a
-/// comma or line end.
+/// The longest value is -2.2250738585072014e-308; and a comma or line end.
 constexpr std::size_t longest_value = 24 + 1;
 
 char* put(char* at, double x) {
@@ -17,19 +16,15 @@ char* put(char* at, double x) {
     return std::to_chars(at, at + longest_value, x).ptr;
 }
 
-/// Whether a name or text would not be read as it is: readers settle the separator by the header, and pass over blanks
-/// around fields.
-bool needs_quotes(std::string_view text) {
-    return text.find_first_of(",;\"\r\n\t") != std::string_view::npos || text.starts_with(' ') || text.ends_with(' ');
-}
-
 /// A name or text as a field of CSV takes this much at most.
 std::size_t longest_field(std::string_view text) {
     return 2 * text.size() + 2 + 1;
 }
 
 char* put(char* at, std::string_view text) {
-    if (!needs_quotes(text)) return std::copy(text.begin(), text.end(), at);
+    // Else it would not be read as it is: the header settles the separator, and blanks around fields are passed over.
+    const bool quotes = text.find_first_of(",;\"\r\n\t") != std::string_view::npos;
+    if (!quotes && !text.starts_with(' ') && !text.ends_with(' ')) return std::copy(text.begin(), text.end(), at);
     *at++ = '"';
     for (const char c : text) {
         if (c == '"') *at++ = c;

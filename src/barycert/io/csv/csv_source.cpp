@@ -17,8 +17,7 @@ constexpr std::size_t text_a_piece = std::size_t{1} << 16;
 
 class CsvSource final : public ColumnSource {
 public:
-    /// Reads up to the header or over the first point. `kept`: the formats of the carried columns, where they are
-    /// known.
+    /// Reads up to the header or over the first point. `kept`: the formats of the carried columns, if known.
     CsvSource(const std::string& path, int dimension, const PointOptions& options,
               const std::vector<ColumnFormat>* kept = nullptr)
         : ColumnSource(dimension), lines_(path) {
@@ -69,8 +68,7 @@ private:
         return taken;
     }
 
-    /// Parses the next pieces; false at the end of the file. The error of a line is kept. Precondition: all pieces have
-    /// been given.
+    /// Parses the next pieces; false at the end of the file. The error of a line is kept. Precondition: all are given.
     bool parse_more() {
         piece_ = piece_count_ = given_ = 0;
         std::string_view text;

@@ -88,8 +88,7 @@ bool LineReader::next_lines(std::string_view& lines) {
 }
 
 bool LineReader::take_lines() {
-    // As much as there is room for: a pipe gives little at a time. But a line is not kept waiting for others that may
-    // be long in coming.
+    // As much as there is room for, as a pipe gives little; but no line waits for others that may be long in coming.
     const auto held = [&] { return std::string_view(buffer_.data() + begin_, end_ - begin_); };
     const auto would_wait = [&] {
         pollfd asked{.fd = descriptor_, .events = POLLIN, .revents = 0};

@@ -1,26 +1,21 @@
 /// Lines of a text file, pipe or the standard input, in bounded memory.
 #pragma once
 
-#include <optional>
-
 #include "barycert/base/descriptor.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/result.hpp"
 
 namespace barycert::io {
 
-/// Reads in chunks. A byte-order mark of UTF-8 is passed over, one of UTF-16 refused. Errors are thrown as Exceptions:
-/// missing, unreadable, a folder, a line too long; or it was changed since it was opened.
+/// Reads in chunks. A byte-order mark of UTF-8 is passed over, one of UTF-16 refused. Errors are thrown as Exceptions.
 class LineReader {
 public:
     /// The longest line, and so what the reader holds in memory.
     static constexpr std::size_t longest_line = std::size_t{1} << 20;
 
-    /// "-" is the standard input.
     explicit LineReader(const std::string& path);
 
-    /// The next line without its LF or CR LF; valid until the next call, and one byte after it may be read.
-    /// False at the end of the file.
+    /// The next line without its end, valid until the next call; a byte after it may be read. False: there is none.
     bool next(std::string_view& line);
 
     /// Several lines at once, whole ones with their ends but for the last of the file, which may lack its own: at least
@@ -39,7 +34,6 @@ public:
     /// The number of the last line given or counted, from 1.
     std::size_t number() const { return number_; }
 
-    /// What messages call the file.
     const std::string& name() const { return name_; }
 
 private:

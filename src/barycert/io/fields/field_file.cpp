@@ -1,5 +1,4 @@
 #include "barycert/base/nearest_name.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/csv/csv_layout.hpp"
 #include "barycert/io/csv/line_reader.hpp"
 #include "barycert/io/formats.hpp"
@@ -61,8 +60,7 @@ void take_line(std::string_view line, bool whole, const CsvLayout& layout, const
 }
 
 /// Adds the data of the column of that name or number (from 1), or of the columns NAME.0, NAME.1, ... The first line
-/// settles the separator as in files of points. Errors: no such column; a value that is no number, an integer that no
-/// double represents, a line with more or fewer fields than the first.
+/// settles the separator as in files of points.
 Field read_csv_column(Field field, const std::string& path, const std::string& column) {
     LineReader lines(path);
     std::optional<CsvLayout> layout;

@@ -23,8 +23,7 @@ struct BlockHeader {
     std::int64_t count = 0;
 };
 
-/// Calls add(header) for each block of 4.x, which moves over its rows. `what`: "nodes"; `kind`: what BlockHeader::kind
-/// is; `found`: how many rows there are so far.
+/// Calls add(header) for each block of 4.x, which moves over its rows, `found` so far. `kind`: of BlockHeader.
 template <class Add>
 void walk_blocks(Walk& walk, int version, const std::string& what, const char* kind, const std::size_t& found,
                  const Add& add) {
@@ -71,8 +70,7 @@ void add_rows(Walk& walk, int version, std::int64_t count, std::size_t passed, N
     rows.count += static_cast<std::size_t>(count);
 }
 
-/// Rows differ in length: dimension and entity follow the coordinates, and then as many parameters as the dimension
-/// says, but none where it is 3.
+/// Rows differ in length: behind the coordinates stand dimension, entity and as many parameters, but none of 3.
 void find_parametric_rows(const MshFile& file, Walk& walk, std::int64_t count, NodeRows& rows) {
     Walk(walk).skip_rows(count, 6, 1, "nodes");
     while (rows.count < static_cast<std::size_t>(count)) {
@@ -127,7 +125,6 @@ const ElementType* known(const Walk& walk, std::int64_t number) {
     return type;
 }
 
-/// Appends a block and moves over it.
 void append_block(Walk& walk, MshElements& elements, ElementBlock block) {
     Run& run = block.run;
     run.at = walk.at();
@@ -208,7 +205,6 @@ std::size_t count_alike(const MshFile& file, const Walk& walk, const LikeElement
     return alike;
 }
 
-/// The next elements of 2.x text that are alike.
 void find_rows_alike(const MshFile& file, Walk& walk, std::size_t most, MshElements& elements) {
     Walk row = walk;
     row.integer("the tag of an element");

@@ -68,12 +68,6 @@ std::vector<const ElementType*> choose(const MshFile& file, const TypeCounts& co
                 "or add -save_all");
 }
 
-/// VTK's number of the type of its corners.
-std::uint8_t linear_type(const ElementType& type) {
-    constexpr std::array<std::uint8_t, 8> numbers{0, 0, 5, 9, 10, 12, 13, 14};
-    return numbers[static_cast<std::size_t>(type.family)];
-}
-
 /// Takes the tags of nodes and gives their positions.
 bool take_node(auto& row, const TagIndex& nodes, Mesh::Index& node) {
     std::int64_t tag = 0;
@@ -105,7 +99,6 @@ bool take_head(auto& row, int version, const ElementBlock& block, Head& head) {
     return true;
 }
 
-/// Where what is read goes.
 struct Target {
     const MshFile& file;
     const MshElements& elements;
@@ -113,7 +106,6 @@ struct Target {
     MshCells& cells;
     std::size_t mids;
 
-    /// What stands before the nodes of cell i.
     bool take_head_of(auto& row, const ElementBlock& block, std::size_t i) const {
         Head head;
         if (!take_head(row, file.version(), block, head)) return false;
@@ -187,11 +179,12 @@ std::vector<std::size_t> kept_places(const ElementType& type) {
 /// Elements of several types, or none of which is a mesh's own: by their corners, but for curved simplices.
 void read_shapes(const Target& to, std::span<const Run> runs) {
     Mesh::Shapes& shapes = to.cells.mesh.shapes;
+    constexpr std::array<std::uint8_t, 8> linear_types{0, 0, 5, 9, 10, 12, 13, 14};  // VTK's
     for (const Run& run : runs) {
         const ElementType& own = *to.elements.blocks[run.id].type;
         const bool whole = !kept_places(own).empty();
-        const std::uint8_t linear = linear_type(own), curved = own.dimension() == 3 ? 71 : 69,
-                           type = whole ? curved : linear;
+        const std::uint8_t linear = linear_types[static_cast<std::size_t>(own.family)],
+                           curved = own.dimension() == 3 ? 71 : 69, type = whole ? curved : linear;
         const auto corners = static_cast<std::int64_t>(whole ? own.nodes : mesh::shape_of(type).corners);
         shapes.types.insert(shapes.types.end(), run.count, type);
         for (std::size_t i = 0; i < run.count; ++i)
@@ -260,7 +253,6 @@ void drop_repeats(MshCells& cells, std::size_t corners, std::size_t mids) {
     keep_rows(cells.geometrical, 1, kept);
 }
 
-/// Marks the nodes of cells; counts the others.
 std::vector<std::uint8_t> mark_nodes(const MshFile& file, MshCells& cells, std::size_t node_count) {
     std::vector<std::uint8_t> used(node_count);
     constexpr std::size_t step = std::size_t{1} << 16;
@@ -363,9 +355,8 @@ void note_cells(MshCells& cells, bool partitioned, const std::string& path) {
         cells.mesh.notes.push_back({Note::Kind::left_out, std::move(text), path, important});
     };
     const std::string others = counted_types(cells.left_out, 0, cells.mesh.dimension - 1);
-    // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result, and to
-    // tell it each time would teach users to look away. What has nodes of its own is another matter: a wire or a shell
-    // beside the cells, of which nothing is left.
+    // Gmsh writes points, lines and triangles of the boundary beside nearly all meshes. That changes no result; to tell
+    // it each time would teach users to look away. But of a wire nothing is left.
     if (!others.empty())
         left_out("elements of a lower dimension: " + others + (cells.apart ? "; some have nodes that no cell has" : ""),
                  cells.apart);

@@ -3,7 +3,6 @@
 #include <cstring>
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
 
 namespace barycert::io {
@@ -25,8 +24,7 @@ bool in_word(char c) {
     return static_cast<unsigned char>(c) > ' ';
 }
 
-/// How many words begin in [at, end); the byte before is read. 64 bytes at a time: sums of bytes, which compilers make
-/// vectors of, overflow after 255 rounds.
+/// How many words begin in [at, end); the byte before is read. Sums of bytes, in vectors, overflow after 255 rounds.
 std::size_t count_words(const char* at, const char* end) {
     std::size_t total = 0;
     while (end - at >= 64) {

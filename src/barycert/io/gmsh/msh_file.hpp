@@ -1,6 +1,4 @@
-/// A .msh file in memory: its format, and where its sections are.
-///
-/// Within the readers of .msh files an Error is thrown as an Exception, which read_guarded() makes a Result.
+/// A .msh file in memory: its format, and where its sections are. Errors are thrown as Exceptions.
 #pragma once
 
 #include "barycert/io/formats.hpp"
@@ -33,10 +31,8 @@ public:
     /// Looks at all of the text once, on several threads. The text must outlive the index.
     WordIndex(std::string_view text, int threads);
 
-    /// The lines that begin with '$'.
     const std::vector<const char*>& marked() const { return marked_; }
 
-    /// How many words begin before `at`.
     std::size_t before(const char* at) const;
 
     /// The beginning of the word before which `number` others begin. Precondition: there is one.
@@ -75,7 +71,6 @@ public:
     const char* end() const { return bytes_.data() + bytes_.size(); }
 
     const std::vector<MshSection>& sections() const { return sections_; }
-    /// The only section of that name; nullptr if there is none.
     const MshSection* find(std::string_view name) const;
 
     /// The runs in parts that take a thread some hundred microseconds.
@@ -111,7 +106,6 @@ private:
 /// The next line from `at`, without its end (LF or CR LF); moves `at` to the line after it, at most to `end`.
 std::string_view take_line(const char*& at, const char* end);
 
-/// The word of a line at `at`, in quotes, for messages.
 std::string word_at(const char* at, const char* end);
 
 }  // namespace barycert::io

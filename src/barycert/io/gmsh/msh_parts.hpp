@@ -16,7 +16,6 @@ struct ElementType {
     int dimension() const;
 };
 
-/// nullptr if the type is not known.
 const ElementType* element_type(std::int64_t number);
 
 /// How many elements there are of each type, whose numbers are at most that.
@@ -87,7 +86,6 @@ struct MshNodes {
 /// Error: what the grammar does not have, a tag twice, a coordinate that is not finite.
 MshNodes read_msh_nodes(const MshFile& file);
 
-/// Elements of one type, one after the other.
 struct ElementBlock {
     const ElementType* type = nullptr;
     std::int64_t entity = 0;  ///< 4.x
@@ -116,8 +114,7 @@ struct MshCells {
     std::size_t repeated = 0;    ///< elements of further groups; 2.x only
 };
 
-/// Those of the highest dimension; unless all are simplices of one type, they are shapes that are not cut yet. Error:
-/// an element that names a node that there is not.
+/// Those of the highest dimension: shapes, not cut yet, unless all are simplices of one type. Error: an unknown node.
 MshCells read_msh_cells(const MshFile& file, const MshElements& elements, const MshNodes& nodes);
 
 /// Tells which elements are not among the cells, and which nodes are of no cell. `partitioned`: entities are.
@@ -142,8 +139,7 @@ struct ViewTargets {
     const char* many;   ///< "nodes"
 };
 
-/// Appends one field for each name among the views `of` nodes or elements, and tells in `notes` what is missing.
-/// `step`: of each field; not set: its first.
+/// Appends a field for each name among these views, and notes what is missing. `step`: of each; not set: its first.
 void read_msh_fields(const MshFile& file, const std::vector<MshView>& views, MshView::Of of, const ViewTargets& targets,
                      std::optional<std::int64_t> step, std::vector<Field>& fields, Notes& notes);
 

@@ -2,13 +2,11 @@
 // Integers count, integers: step, components, rows, perhaps a partition. All this is text. Rows: tag value...
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 
 namespace barycert::io {
 namespace {
 
-/// What a line says, without quotes.
 std::string string_of(std::string_view line) {
     while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
     while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);

@@ -1,7 +1,6 @@
 // Groups of cells, what a file has beside the mesh, and the mesh as a whole.
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/gmsh/msh_parts.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/mid_edges.hpp"
@@ -148,7 +147,6 @@ void drop_what_says_nothing(MshCells& cells) {
     if (!any) cells.geometrical.clear();
 }
 
-/// The name of the group of each cell; empty where it has none.
 std::vector<std::string> group_names(const MshCells& cells, const MshGroups& groups) {
     std::vector<std::string> names;
     names.reserve(cells.physical.size());
@@ -177,16 +175,11 @@ MshGroups read_msh_groups(const MshFile& file) {
     return groups;
 }
 
-/// Appends the fields "gmsh:physical" and "gmsh:geometrical", and the labels "gmsh:tag" and "gmsh:physical_name". A
-/// cell field of one of these names that is there already stays: the writer makes such where groups cannot say the
-/// same.
+/// Appends the fields "gmsh:physical" and "gmsh:geometrical", and the labels "gmsh:tag" and "gmsh:physical_name". Cell
+/// fields of such names stay: the writer makes them where groups cannot say the same.
 void label_cells(const MshFile& file, const MshElements& elements, const MshGroups& groups, MshCells& cells) {
     Mesh& mesh = cells.mesh;
-    if (file.version() == 22) {
-        drop_what_says_nothing(cells);
-    } else {
-        fill_from_entities(file, elements, groups, cells);
-    }
+    file.version() == 22 ? drop_what_says_nothing(cells) : fill_from_entities(file, elements, groups, cells);
     bool in_sequence = true;
     for (std::size_t i = 0; i < cells.tags.size() && in_sequence; ++i)
         in_sequence = cells.tags[i] == std::int64_t{mesh.cell_number(static_cast<Mesh::Index>(i))} + 1;
@@ -204,7 +197,6 @@ void label_cells(const MshFile& file, const MshElements& elements, const MshGrou
     add_field("gmsh:geometrical", cells.geometrical);
 }
 
-/// What is in the file and has no place in a mesh.
 void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes& notes) {
     constexpr std::array<std::string_view, 11> read{"MeshFormat",  "PhysicalNames",   "Entities", "PartitionedEntities",
                                                     "Nodes",       "ParametricNodes", "Elements", "NodeData",
@@ -213,10 +205,9 @@ void note_sections(const MshFile& file, const std::vector<MshView>& views, Notes
     for (const MshSection& section : file.sections()) {
         if (std::find(read.begin(), read.end(), section.name) == read.end()) others.insert(section.name);
     }
-    std::string text;
-    for (const std::string_view name : others)
-        text += (text.empty() ? "section $" : ", $") + base::printable(name.substr(0, 40));
-    if (!text.empty()) notes.push_back({Note::Kind::left_out, text, file.path()});
+    const auto shown = [](std::string_view name) { return base::printable(name.substr(0, 40)); };
+    if (!others.empty())
+        notes.push_back({Note::Kind::left_out, "section $" + base::joined(others, ", $", shown), file.path()});
     std::set<std::string> names;
     for (const MshView& view : views) {
         if (view.of != MshView::Of::element_nodes || !names.insert(view.field).second) continue;
@@ -266,8 +257,7 @@ Mesh read_whole(const MshFile& file, const GmshReadOptions& options, InSpace* sp
 }  // namespace
 
 Result<Mesh> read_gmsh_in_space(const std::string& path, const GmshReadOptions& options, InSpace* space) {
-    return read_guarded(path,
-                        [&]() -> Result<Mesh> { return read_whole(MshFile(path, options.threads), options, space); });
+    return read_guarded(path, [&] { return read_whole(MshFile(path, options.threads), options, space); });
 }
 
 }  // namespace io
@@ -277,7 +267,7 @@ Result<Mesh> read_gmsh(const std::string& path, const GmshReadOptions& options) 
 }
 
 Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
-    return io::read_guarded(path, [&]() -> Result<std::vector<GmshStep>> {
+    return io::read_guarded(path, [&] {
         const io::MshFile file(path, 0);
         std::vector<GmshStep> steps;
         for (const io::MshView& v : io::find_msh_views(file)) {
@@ -290,7 +280,7 @@ Result<std::vector<GmshStep>> gmsh_steps(const std::string& path) {
 Result<std::vector<double>> read_gmsh_points(const std::string& path, int dimension, int threads) {
     if (dimension != 2 && dimension != 3)
         return file_error(path, "the dimension of points", "2 or 3", std::to_string(dimension));
-    return io::read_guarded(path, [&]() -> Result<std::vector<double>> {
+    return io::read_guarded(path, [&] {
         return io::to_points(io::read_msh_nodes(io::MshFile(path, threads)).points, dimension, path, {}, "node");
     });
 }

@@ -1,23 +1,12 @@
 #include "barycert/io/gmsh/rows.hpp"
 
-#include "barycert/base/text.hpp"
-
 namespace barycert::io {
 
-Walk::Walk(const MshFile& file, const MshSection& section, bool text, const char* bad)
-    : file_(&file),
-      name_(section.name),
-      text_(text),
-      bad_(bad),
-      at_(section.body.data()),
-      end_(at_ + section.body.size()) {}
-
 void Walk::refuse_word(std::string expected, std::string found) const {
-    file_->refuse(at_, std::string(bad_) + " $" + std::string(name_), std::move(expected), std::move(found));
+    file_->refuse(at_, std::string(bad_) + " $" + std::string(section_->name), std::move(expected), std::move(found));
 }
 
-/// A number in binary form may reach beyond the section: into its end, "$End..." and its name, which has 9 bytes or
-/// more.
+/// A number in binary form may reach into the end of the section, "$End..." and its name, which has 9 bytes or more.
 template <class Take>
 void Walk::step(const char* name, const Take& take) {
     const auto from = [&](auto row) {
@@ -25,7 +14,7 @@ void Walk::step(const char* name, const Take& take) {
             at_ = row.at();
             refuse_word(name, word_at(at_, file_->end()));
         }
-        if (row.at() > end_) refuse("the section ends too early", name, "the end of the section");
+        if (row.at() > end()) refuse("the section ends too early", name, "the end of the section");
         at_ = row.at();
     };
     text_ ? from(Row<true>(*file_, at_)) : from(Row<false>(*file_, at_));
@@ -66,7 +55,7 @@ std::int64_t Walk::count_line(const char* name) {
 
 void Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name) {
     const auto count = static_cast<std::uint64_t>(rows);
-    const auto room = static_cast<std::uint64_t>(end_ - at_);
+    const auto room = static_cast<std::uint64_t>(end() - at_);
     // In any layout a row has a byte or more: with no more rows than bytes products do not overflow.
     if (!text_ && count <= room && count * bytes <= room) return move_to(at_ + count * bytes);
     std::string found = "fewer";
@@ -75,11 +64,11 @@ void Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, 
         const WordIndex& index = file_->words();
         const std::size_t wanted = count * numbers;
         const std::size_t words =
-            wanted <= few_words ? wanted : std::min(wanted, index.before(end_) - index.before(at_));
+            wanted <= few_words ? wanted : std::min(wanted, index.before(end()) - index.before(at_));
         const std::size_t passed = words <= few_words ? 0 : words - 1;
         std::size_t rest = words - passed;
         const char* const from = passed == 0 ? at_ : index.find(index.before(at_) + passed);
-        const char* const after = skip_words(from, end_, rest);
+        const char* const after = skip_words(from, end(), rest);
         if (passed + rest == wanted) return move_to(after);
         found = std::to_string((passed + rest) / numbers);
     }
@@ -88,10 +77,10 @@ void Walk::skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, 
 }
 
 void Walk::need_end() {
-    while (at_ != end_ && (is_blank(*at_) || *at_ == '\n' || *at_ == '\r')) ++at_;
-    if (at_ != end_)
+    while (at_ != end() && (is_blank(*at_) || *at_ == '\n' || *at_ == '\r')) ++at_;
+    if (at_ != end())
         refuse("more than its header tells", "the end of the section",
-               text_ ? word_at(at_, end_) : std::to_string(end_ - at_) + " more bytes",
+               text_ ? word_at(at_, end()) : std::to_string(end() - at_) + " more bytes",
                "mend the numbers at the beginning of the section");
 }
 

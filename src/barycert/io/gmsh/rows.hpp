@@ -62,7 +62,6 @@ public:
         return after != nullptr;
     }
 
-    /// Back to where a step began.
     void back(const char* at) { at_ = at; }
     bool refuse(const RowFault& fault) {
         fault_ = fault;
@@ -123,9 +122,9 @@ void parse_runs(const MshFile& file, std::string_view section, std::span<const R
 /// A section from its beginning: headers number by number, rows passed over. What is not there is refused.
 class Walk {
 public:
-    /// `text`: the numbers are text, as those of some headers are in binary files too. `bad`: what errors call a word
-    /// that is no number.
-    Walk(const MshFile& file, const MshSection& section, bool text, const char* bad = "bad number in");
+    /// `text`: numbers are text, as those of some headers in binary files. `bad`: what errors call a word that is none.
+    Walk(const MshFile& file, const MshSection& section, bool text, const char* bad = "bad number in")
+        : file_(&file), section_(&section), text_(text), bad_(bad), at_(section.body.data()) {}
     Walk(const MshFile& file, const MshSection& section) : Walk(file, section, !file.binary()) {}
 
     std::int64_t integer(const char* name);  ///< int
@@ -135,19 +134,18 @@ public:
     /// A number on a line of its own, which is text in binary files too; not negative.
     std::int64_t count_line(const char* name);
     /// The rest of the line, which is text in any file, without its end.
-    std::string_view line() { return take_line(at_, end_); }
+    std::string_view line() { return take_line(at_, end()); }
 
     bool text() const { return text_; }
     const char* at() const { return at_; }
-    const char* end() const { return end_; }
+    const char* end() const { return section_->body.data() + section_->body.size(); }
     /// Moves over rows: so many numbers or bytes each.
     void skip_rows(std::int64_t rows, std::size_t numbers, std::size_t bytes, const char* name);
-    /// White space and nothing else is left.
     void need_end();
 
     template <class... Parts>
     [[noreturn]] void refuse(const std::string& what, Parts&&... parts) const {
-        file_->refuse(at_, what + " in $" + std::string(name_), std::forward<Parts>(parts)...);
+        file_->refuse(at_, what + " in $" + std::string(section_->name), std::forward<Parts>(parts)...);
     }
     /// Refuses what stands here as a word that is no number.
     [[noreturn]] void refuse_word(std::string expected, std::string found) const;
@@ -159,11 +157,9 @@ private:
     void step(const char* name, const Take& take);
 
     const MshFile* file_;
-    std::string_view name_;
+    const MshSection* section_;
     bool text_;
-    const char* bad_;
-    const char* at_;
-    const char* end_;  // of the section
+    const char *bad_, *at_;
 };
 
 }  // namespace barycert::io

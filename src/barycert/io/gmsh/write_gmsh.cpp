@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/row_output.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -62,7 +61,6 @@ std::vector<std::int64_t> element_tags(const Mesh& mesh) {
     return tags;
 }
 
-/// Makes an entity of each pair of an entity and a group.
 void split_entities(CellGroups& groups, std::size_t cells) {
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> parts;
     std::vector<std::int32_t> entity(cells);

@@ -1,11 +1,6 @@
 /// NPY files: the types of their items, the columns that the header makes of them, their rows. The format:
-/// numpy.org/doc/stable/reference/generated/numpy.lib.format.html
-///
-/// Errors are thrown as Exceptions.
+/// numpy.org/doc/stable/reference/generated/numpy.lib.format.html. Errors are thrown as Exceptions.
 #pragma once
-
-#include <optional>
-#include <span>
 
 #include "barycert/base/input_file.hpp"
 #include "barycert/mesh.hpp"
@@ -60,14 +55,12 @@ struct NpyHeader {
     std::size_t size = 0;  ///< of the header, in bytes
 };
 
-/// Error: not an NPY file, another version, a header that is none.
 NpyHeader read_npy_header(const base::InputFile& file, const std::string& path);
 
 /// At most so many columns: more have no meaning for points.
 inline constexpr std::uint64_t most_npy_columns = std::uint64_t{1} << 16;
 
-/// A field NAME of several values is NAME.0, NAME.1, ...; fields that are structures, and unnamed ones, are passed
-/// over. An array without names has column1, column2, ...; one of shape (rows,) is one column.
+/// A field NAME of several values is NAME.0, ...; structures and unnamed ones are passed over. Or column1, ...
 struct NpyTable {
     std::uint64_t rows = 0;
     std::vector<NpyColumn> columns;
@@ -83,8 +76,7 @@ public:
 
     const NpyHeader& header() const { return header_; }
 
-    /// Columns can be read afterwards. Error: a type of unknown size, or Python objects; a shape that is no table; a
-    /// file of another size.
+    /// Columns can be read afterwards. Error: a type of unknown size, Python objects, a shape or size of no table.
     const NpyTable& make_table();
 
     /// How many rows of the table are read at once: some hundred kilobytes, or one.
@@ -93,12 +85,10 @@ public:
     /// Reads `count` rows from row `first` on; of a table by columns nothing, yet.
     void go_to(std::uint64_t first, std::size_t count);
 
-    /// The numbers of a column in these rows, to out[0], out[stride], ...; `what` is the column in messages. Error: an
-    /// integer that is no double. Precondition: a column of numbers.
+    /// The numbers of a column in these rows, to out[0], out[stride], ... Error, of `what`: an integer is no double.
     void numbers(const NpyColumn& column, const std::string& what, double* out, std::size_t stride);
 
-    /// Appends them to `out`, a column of integers, numbers or texts, as the type is. Error: an integer beyond int64; a
-    /// text that is not of characters.
+    /// Appends the values to `out`, a column of their type. Error: an integer beyond int64; a text not of characters.
     void values(const NpyColumn& column, const std::string& what, Column& out);
 
     void read(std::uint64_t offset, std::span<char> bytes) const;

@@ -1,4 +1,3 @@
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/streams.hpp"
@@ -28,8 +27,7 @@ NumberType number_type(const NpyType& type) {
 }
 
 /// The numbers of `count` items, each `step` bytes behind the one before, to out[0], out[stride], ..., up to the first
-/// that is none of that type (an integer that is no double, or beyond int64); how many there were. Precondition:
-/// is_number(), and for integers is_integer().
+/// that is none of that type (an integer that is no double, or beyond int64); how many there were.
 template <class To>  // double, std::int64_t
 std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, const NpyType& type, To* out,
                         std::size_t stride) {
@@ -45,8 +43,7 @@ std::size_t npy_numbers(const char* at, std::size_t step, std::size_t count, con
                             [&]<class From>() { return all.template operator()<From>([](From x) { return x; }); });
 }
 
-/// The text at `at`, in UTF-8 if it is of characters, without the zeros at its end; nothing if one is no character.
-/// Precondition: is_text().
+/// The text at `at` without zeros at its end, characters in UTF-8; nothing if one is none. Precondition: is_text().
 std::optional<std::string> npy_text(const char* at, const NpyType& type) {
     if (type.kind == 'S') {
         std::size_t size = type.size;
@@ -63,7 +60,6 @@ std::optional<std::string> npy_text(const char* at, const NpyType& type) {
     return text;
 }
 
-/// The columns and the bytes of a row of an array without fields.
 void make_simple(const NpyHeader& header, const std::string& file, NpyTable& table) {
     const auto type = npy_type(header.descr);
     if (!type || type->size == 0)

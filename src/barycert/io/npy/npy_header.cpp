@@ -1,4 +1,3 @@
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 
@@ -36,7 +35,7 @@ bool take_escape(std::string_view& rest, std::string& value) {
     }
     const std::size_t digits = c == 'x' ? 2 : c == 'u' ? 4 : c == 'U' ? 8 : 0;
     if (digits == 0 || rest.size() < digits) return false;
-    const std::optional<std::uint32_t> code = whole_number<std::uint32_t>(rest.substr(0, digits), 16);
+    const std::optional<std::uint32_t> code = whole_number<std::uint32_t, 16>(rest.substr(0, digits));
     rest.remove_prefix(digits);
     return code && append_utf8(value, *code);
 }
@@ -130,8 +129,7 @@ void add_field(const std::string& name, NpyType type, std::uint64_t at, bool arr
     columns.push_back({name, std::move(type), at, 0});
 }
 
-/// The fields of a structured type and the bytes of an item; false if these are not known. A field is (name, type) or
-/// (name, type, shape); the name may be (title, name).
+/// Fields of a structured type, (name, type) or (name, type, shape), name or (title, name); and the bytes of an item.
 bool take_fields(const Literal& list, std::vector<NpyColumn>& columns, std::uint64_t& size, int depth) {
     if (list.kind != '[' || depth > deepest) return false;
     size = 0;
@@ -254,9 +252,8 @@ NpyHeader read_npy_header(const base::InputFile& file, const std::string& path) 
 }
 
 std::string as_tuple(const std::vector<std::uint64_t>& shape) {
-    std::string text = "(";
-    for (std::size_t i = 0; i < shape.size(); ++i) text += (i != 0 ? ", " : "") + std::to_string(shape[i]);
-    return text + (shape.size() == 1 ? ",)" : ")");
+    const auto number = [](std::uint64_t n) { return std::to_string(n); };
+    return "(" + base::joined(shape, ", ", number) + (shape.size() == 1 ? ",)" : ")");
 }
 
 std::string npy_header_of(const std::string& descr, const std::vector<std::uint64_t>& shape, std::size_t size) {

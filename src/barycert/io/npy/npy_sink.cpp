@@ -5,7 +5,6 @@
 #include <set>
 #include <type_traits>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/streams.hpp"
@@ -18,7 +17,6 @@ constexpr std::size_t feature_count = static_cast<std::size_t>(Feature::degenera
 /// The longest feature of a row: interior.
 constexpr std::size_t feature_size = 8;
 
-/// As a string of Python.
 std::string as_literal(std::string_view name) {
     std::string text = "'";
     for (const char c : name) {

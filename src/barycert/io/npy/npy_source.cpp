@@ -1,7 +1,6 @@
 // Points from an NPY file.
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/npy/npy.hpp"
 #include "barycert/io/parallel.hpp"
@@ -84,7 +83,6 @@ private:
         formats_.push_back(std::move(format));
     }
 
-    /// The next points, and what is carried through with them.
     void read_rows(std::span<double> points) {
         const auto name = [](const NpyColumn& column) { return "column " + base::quoted(column.name); };
         const std::size_t at_once = file_.rows_at_once(), taken = points.size() / dimension_;

@@ -50,8 +50,7 @@ std::string_view bytes_of(std::span<const T> numbers) {
 
 }  // namespace
 
-/// Arrays one after the other, stored without compression; of any size, by ZIP64 where it takes that. The file appears
-/// whole at commit(), or not at all.
+/// Arrays one after the other, not compressed, of any size. The file appears whole at commit(), or not at all.
 class NpzWriter {
 public:
     explicit NpzWriter(const std::string& path) : file_(path) {}

@@ -16,7 +16,6 @@ namespace barycert::io {
 
 using Colour = std::array<std::uint8_t, 3>;  ///< red, green, blue, sRGB
 
-/// Sets an RGBA pixel, without transparency.
 inline void put_pixel(const Colour& colour, std::uint8_t* pixel) {
     for (std::size_t k = 0; k < 3; ++k) pixel[k] = colour[k];
     pixel[3] = 255;

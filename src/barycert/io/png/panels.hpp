@@ -1,5 +1,4 @@
-/// Text in pictures (printable ASCII, each character five dots wide and seven high), and white panels beside and under
-/// them, row by row from the top, 4 bytes a pixel.
+/// Text in pictures, and white panels beside and under them, row by row from the top, 4 bytes a pixel.
 #pragma once
 
 #include <string>
@@ -24,9 +23,7 @@ inline constexpr std::size_t text_width(std::size_t characters) {
 /// several bytes in UTF-8 only the first.
 std::size_t character_count(std::string_view text);
 
-/// Draws line `line` of the text, scaled up, from `left` on into a row of RGBA pixels; other pixels stay, and all if
-/// the text has no such line: it has scale * glyph_height. What is not printable ASCII is a box. Precondition: `left` +
-/// scale * text_width(character_count(text)) pixels in the row.
+/// Draws line `line` of scale * glyph_height of the text into a row of RGBA pixels, where it must fit, from `left` on.
 void draw_text(std::string_view text, std::size_t scale, std::size_t line, std::size_t left, std::uint8_t* pixels);
 
 /// Largest of 1, 2 and 5 times a power of ten that is at most `limit`. Precondition: limit > 0, finite.
@@ -35,8 +32,7 @@ double round_length(double limit);
 /// Under a picture: a title and the scale of lengths.
 class Caption {
 public:
-    /// For a picture `width` pixels wide, of which the first `drawn` have the length `pixel_length` each (0: no scale);
-    /// `dot` pixels for each dot of the text. A title that is too long for the place is cut.
+    /// For a picture of that width, `drawn` pixels of it so long (0: no scale). A title that is too long is cut.
     Caption(const std::string& title, double pixel_length, std::size_t drawn, std::size_t width, std::size_t dot);
 
     std::size_t height() const { return height_; }  ///< 0 if there is nothing to say

@@ -111,7 +111,6 @@ bool decode(Decoder& d, std::uint64_t max_pixels) {
     return true;
 }
 
-/// False if libpng gave up.
 bool encode(Encoder& e) {
     if (setjmp(png_jmpbuf(e.png)) != 0) return false;
     png_set_write_fn(e.png, &e, write_png_bytes, flush_png);

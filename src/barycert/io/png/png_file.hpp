@@ -35,9 +35,7 @@ struct PngPixels {
     std::vector<std::uint8_t> rows;  ///< 8-bit RGBA, 4 * width bytes a row, from the top
 };
 
-/// Reads a PNG file of any kind, see read_png in raster.hpp. Memory is that of the file, 4 bytes a pixel, of which
-/// there are at most max_pixels, and libpng's own, which limits keep below a few MiB. Errors: missing, unreadable, no
-/// PNG, damaged, cut short, too many pixels.
+/// Reads a PNG file of any kind, see read_png in raster.hpp. Memory: the file, 4 bytes a pixel, a few MiB of libpng.
 Result<PngPixels> read_png_pixels(const std::string& path, std::uint64_t max_pixels);
 
 }  // namespace barycert::io

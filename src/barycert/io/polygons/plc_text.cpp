@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 
 namespace barycert::io {

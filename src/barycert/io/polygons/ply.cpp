@@ -113,7 +113,6 @@ private:
     std::string_view bytes_;
 };
 
-/// Vertices: coordinates, and other properties as fields.
 void read_vertices(PlcText& in, Numbers& numbers, const Element& element, Polygons& all) {
     std::vector<std::size_t> to;  // the axis; 3 and on: the fields
     for (const Property& property : element.properties) {
@@ -137,7 +136,6 @@ void read_vertices(PlcText& in, Numbers& numbers, const Element& element, Polygo
     }
 }
 
-/// Faces: the list of their corners, and other properties as fields.
 void read_faces(PlcText& in, Numbers& numbers, const Element& element, Polygons& all) {
     const auto is_corners = [](const Property& p) {
         return p.count && (p.name == "vertex_indices" || p.name == "vertex_index");

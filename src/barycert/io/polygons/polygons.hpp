@@ -1,5 +1,4 @@
-/// Polygons in space as files of surfaces have them: .off .stl .ply .obj, and the words of such files and of .poly and
-/// .smesh. Errors are thrown as Exceptions.
+/// Polygons of .off .stl .ply .obj; the words of such files, of .poly and .smesh. Errors are thrown as Exceptions.
 #pragma once
 
 #include <functional>
@@ -11,15 +10,13 @@ namespace barycert::io {
 /// The lines of a file as words, with errors that know where they are.
 class PlcText {
 public:
-    /// Both texts must outlive the object. Words are parted by blanks and commas; `#` starts a comment. `size`: of the
-    /// file, of which the text may be the beginning.
+    /// Both texts must outlive it. Blanks and commas part words; `#` starts a comment. `size`: of the whole file.
     PlcText(const std::string& path, std::string_view text, std::size_t size)
         : path_(path), rest_(text), end_(text.data() + text.size()), size_(size) {}
 
     const std::string& path() const { return path_; }
     std::string_view rest() const { return rest_; }
 
-    /// Goes to the next line that has words. False at the end of the file.
     bool next_line();
     /// As next_line(), but the end of the file is an error: `expected` says what is missing.
     void need_line(std::string_view expected);
@@ -57,8 +54,7 @@ private:
     std::size_t at_ = 0;
 };
 
-/// The whole file as text. `check`: of a beginning in whole lines, and the file's size, throws what is wrong there
-/// already. Throws an Exception if the file cannot be read.
+/// The whole file as text. `check` throws what is wrong with its beginning, whole lines of it.
 std::string read_surface_text(const std::string& path, const std::function<void(PlcText&)>& check);
 
 struct Polygons {
@@ -84,8 +80,7 @@ Polygons read_ply(PlcText& in);
 /// The whole file, which is any of these by the end of its path; `counts` is empty if all are triangles.
 Polygons read_polygons(const std::string& path);
 
-/// The beginning of a file of `size` bytes that may be read so: whether it has binary data, in which a zero byte is no
-/// fault.
+/// By the beginning of a file of `size` bytes: whether it has binary data, in which a zero byte is no fault.
 bool is_binary_surface(std::string_view path, std::string_view beginning, std::size_t size);
 
 /// Polygons that name no point, or a count that the file cannot hold.

@@ -8,8 +8,7 @@ namespace {
 constexpr std::size_t header_bytes = 84;  // 80 bytes of text and a count
 constexpr std::size_t record_bytes = 50;  // normal and three corners as floats, two bytes of padding
 
-/// Corners of a triangle soup: those of equal coordinates are one point. A table of open addresses: the next free place
-/// is taken.
+/// Corners of a triangle soup: those of equal coordinates are one point. A table of open addresses.
 class Joined {
 public:
     explicit Joined(std::size_t corners) : table_(std::bit_ceil(std::max<std::size_t>(16, corners)), -1) {}
@@ -155,8 +154,7 @@ Polygons read_off(PlcText& in) {
     return all;
 }
 
-/// Wavefront's format: lines `v x y z` and `f a b c ...`, where a corner is a number from 1, or from the last point
-/// back if it is negative, with more behind a slash. All else is passed over.
+/// Wavefront: lines `v x y z` and `f a b c ...`, corners from 1, or from the last point back, with more behind a slash.
 Polygons read_obj(PlcText& in) {
     Polygons all;
     all.index_base = 1;
@@ -181,11 +179,8 @@ Polygons read_obj(PlcText& in) {
             others.emplace_back(key);
         }
     }
-    if (!others.empty()) {
-        std::string list;
-        for (const std::string& key : others) list += (list.empty() ? "" : " ") + key;
-        all.notes.push_back({Note::Kind::left_out, "lines other than v and f: " + list, in.path()});
-    }
+    const std::string list = base::joined(others, " ", std::identity());
+    if (!list.empty()) all.notes.push_back({Note::Kind::left_out, "lines other than v and f: " + list, in.path()});
     return all;
 }
 

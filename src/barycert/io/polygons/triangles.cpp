@@ -1,7 +1,5 @@
 #include "barycert/io/polygons/triangles.hpp"
 
-#include "barycert/base/text.hpp"
-
 namespace barycert::io {
 namespace {
 
@@ -12,7 +10,6 @@ void add(Surface& surface, std::size_t facet, const surface::FacetTriangles& cut
     }
 }
 
-/// Forgets the facets if each is one triangle.
 void settle(Surface& surface, std::size_t facets) {
     surface.facet_count = facets;
     if (surface.facets.size() == facets && std::ranges::adjacent_find(surface.facets) == surface.facets.end())

@@ -7,7 +7,6 @@
 
 namespace barycert::io {
 
-/// The facets of a PLC cut into triangles.
 struct PlcTriangles {
     struct Fault {
         std::size_t facet;
@@ -23,7 +22,6 @@ bool is_plc_file(const std::string& path);
 
 PlcTriangles triangles_of(const Plc& plc);
 
-/// Of a mesh of triangles.
 Surface surface_of(Mesh mesh, InSpace space);
 
 /// What cannot be cut is left out, and noted.

@@ -66,8 +66,7 @@ Result<SurfaceFile> write_off(const Surface& s, const std::string& path) {
 
 static_assert(std::endian::native == std::endian::little, "PLY files are written as numbers stand in memory");
 
-/// The properties of all fields, one a component. Their names have no character that a program may take for an end, and
-/// are none that is `taken`.
+/// The properties of all fields, one a component. Names have no character that may pass for an end, and differ.
 std::string properties_of(const std::vector<Field>& fields, std::set<std::string> taken,
                           std::vector<std::string>& renamed) {
     std::string text;

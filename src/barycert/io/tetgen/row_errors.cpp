@@ -1,7 +1,5 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
-#include "barycert/base/text.hpp"
-
 namespace barycert::io {
 namespace {
 
@@ -10,19 +8,15 @@ template <class... Parts>
     refuse_line(table.file, line_of(table.bytes, at), std::forward<Parts>(parts)...);
 }
 
-std::string plural(std::size_t count, const std::string& name) {
-    return std::to_string(count) + " " + name + (count == 1 ? "" : "s");
-}
-
 /// "5 columns: id, 3 coordinates, 1 marker".
 std::string described_columns(const TextTable& table) {
     std::string text;
     for (const Columns& columns : table.columns) {
         if (columns.count == 0) continue;
         text += text.empty() ? ": " : ", ";
-        text += columns.kind == ColumnKind::id ? columns.name : plural(columns.count, columns.name);
+        text += columns.kind == ColumnKind::id ? columns.name : base::counted(columns.count, columns.name);
     }
-    return plural(table.column_count(), "column") + text;
+    return base::counted(table.column_count(), "column") + text;
 }
 
 /// Digits, and nothing but digits and what else is allowed.
@@ -75,7 +69,6 @@ Complaint about_integer(std::string_view field) {
               "check that the files belong together and count from the same base");
 }
 
-/// Refuses a field that is no number of its kind, in range.
 void check_field(const TextTable& table, const Columns& columns, std::string_view field, std::size_t row) {
     const char* const end = field.data() + field.size();
     if (field.empty())
@@ -171,7 +164,7 @@ void refuse_row(const TextTable& table, const char* at, std::size_t row) {
 }
 
 void refuse_end(const TextTable& table, std::size_t found) {
-    refuse_at(table, table.end(), "the file ends too early", plural(table.rows, "row") + " as the header tells",
+    refuse_at(table, table.end(), "the file ends too early", base::counted(table.rows, "row") + " as the header tells",
               std::to_string(found), "the file may be cut short: write it again, or mend the header");
 }
 
@@ -182,7 +175,7 @@ void refuse_surplus(const TextTable& table, const char* at) {
     const bool another_row = scan_integer(at, value) == field.data() + field.size() &&
                              value == table.base + static_cast<std::int64_t>(table.rows);
     if (another_row)
-        refuse_at(table, at, "more rows than the header tells", plural(table.rows, "row"),
+        refuse_at(table, at, "more rows than the header tells", base::counted(table.rows, "row"),
                   "a row " + base::quoted(field), "mend the header or remove the row");
     refuse_at(table, at, "text after the last row", "the end of the file or a comment", base::quoted(field),
               "remove the text, put # before it, or mend the number of rows in the header");

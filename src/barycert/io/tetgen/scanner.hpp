@@ -97,13 +97,11 @@ inline const char* scan_nonfinite(const char* at, const char* end, double& value
     return error == std::errc{} ? after : nullptr;
 }
 
-/// Why a field is no number, and what to do.
 struct Complaint {
     std::string expected, remedy;
 };
 
-/// Of a field that scan_real() refuses. `finite`: what to do about nan and inf; `separators`: about what is nothing
-/// known.
+/// Of a field that scan_real() refuses. `finite`: the remedy for nan and inf; `separators`: for what is nothing known.
 Complaint about_real(std::string_view field, const std::string& finite, const std::string& separators);
 
 /// A place in the text, moved by each success and left near the fault by a failure.
@@ -147,7 +145,6 @@ struct Scanner {
         return true;
     }
 
-    /// Moves over what stands between two fields.
     bool separator() {
         const char* const start = at;
         skip_blanks();
@@ -209,8 +206,7 @@ private:
     }
 };
 
-/// Reads exactly Count integers of at most 8 digits, separated by spaces and ended by LF within 64 bytes; the place
-/// after the LF, or nullptr for any other row. Precondition: 72 bytes can be read.
+/// As plain_row_end(), of exactly Count integers of at most 8 digits, which it reads.
 template <std::size_t Count>
 const char* scan_plain_row(const char* at, std::array<std::uint32_t, Count>& values) {
     const ByteMasks masks(at);

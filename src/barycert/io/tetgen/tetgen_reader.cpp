@@ -1,6 +1,5 @@
 // The grammar accepted. Each file is a header line and then rows, one a line. '#' starts a comment that goes to the end
-// of the line; blank and comment lines may stand anywhere. Fields and separators: see scanner.hpp. A byte-order mark at
-// the beginning is passed over.
+// of the line; blank and comment lines may stand anywhere. Fields and separators: scanner.hpp.
 //
 //   .node   nodes [dimension = 3 [attributes = 0 [markers = 0]]]       id x y [z] attribute... [marker]
 //   .ele    cells [corners = dimension + 1 [attributes = 0]]           id corner... attribute...
@@ -27,11 +26,8 @@ namespace {
 constexpr std::array<std::string_view, 4> suffixes{".node", ".ele", ".face", ".neigh"};
 constexpr std::array node_header{"nodes", "dimensions", "attributes", "markers"};
 
-/// The numbers of a header, in quotes.
 std::string header_text(std::initializer_list<std::int64_t> numbers) {
-    std::string text;
-    for (const std::int64_t number : numbers) text += (text.empty() ? "\"" : " ") + std::to_string(number);
-    return text + '"';
+    return '"' + base::joined(numbers, " ", [](std::int64_t number) { return std::to_string(number); }) + '"';
 }
 
 [[noreturn]] void refuse_meaning(const TextTable& table, const std::string& what, std::string expected,
@@ -39,8 +35,7 @@ std::string header_text(std::initializer_list<std::int64_t> numbers) {
     refuse_header(table, what + " in the header", std::move(expected), std::to_string(found), std::move(remedy));
 }
 
-/// Sets the columns and the base of a .node file of that dimension, by its header and its first row, and makes room for
-/// their values.
+/// Sets the columns and the base of a .node file by its header and first row, and makes room for their values.
 void settle_node_columns(TextTable& table, std::int64_t dimension, std::vector<double>& points,
                          std::vector<Field>& fields, std::vector<std::int64_t>& markers_of_nodes) {
     const std::int64_t attributes = table.header_field(2, 0), markers = table.header_field(3, 0);
@@ -243,8 +238,7 @@ std::vector<std::string> tetgen_files(const std::string& path) {
 }
 
 Result<Mesh> read_tetgen(const std::string& path, const ReadOptions& options) {
-    return io::read_guarded(path,
-                            [&]() -> Result<Mesh> { return io::TetgenReader(tetgen_stem(path), options).read(); });
+    return io::read_guarded(path, [&] { return io::TetgenReader(tetgen_stem(path), options).read(); });
 }
 
 }  // namespace barycert

@@ -1,8 +1,7 @@
 #include "barycert/io/tetgen/text_table.hpp"
 
-#include "barycert/base/large_pages.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/base/workers.hpp"
+#include "barycert/io/parallel.hpp"
 
 namespace barycert::io {
 namespace {
@@ -27,15 +26,14 @@ public:
         if (table.is_whole) return table.bytes.substr(from, to - from);
         constexpr std::size_t ahead = 128;
         const std::size_t size = to - from;
-        if (size_ < size + ahead) bytes_ = std::make_unique_for_overwrite<char[]>(size_ = size + ahead);
-        const std::size_t got = table.input.read_at(from, {bytes_.get(), size}, table.file).value();
-        std::fill(bytes_.get() + got, bytes_.get() + size + ahead, '\0');
-        return {bytes_.get(), size};
+        char* const bytes = room_.of(size + ahead);
+        const std::size_t got = table.input.read_at(from, {bytes, size}, table.file).value();
+        std::fill(bytes + got, bytes + size + ahead, '\0');
+        return {bytes, size};
     }
 
 private:
-    std::unique_ptr<char[]> bytes_;
-    std::size_t size_ = 0;
+    ByteRoom room_;
 };
 
 /// Behind the first line end at byte `from` or later.
@@ -90,8 +88,7 @@ bool append_blocks(const TextTable& table, std::vector<Block>& blocks) {
     return blocks.size() != begin || table.rows == 0;
 }
 
-/// The commonest row of all: an id and the corners of a linear cell. False: the scanner has not moved, and nothing is
-/// known.
+/// The commonest row of all: an id and the corners of a linear cell. False: nothing is known, nothing has moved.
 template <std::size_t Corners>
 bool parse_plain_cell(const TextTable& table, Scanner& scanner, std::size_t row) {
     std::array<std::uint32_t, Corners + 1> values{};
@@ -116,8 +113,7 @@ std::size_t plain_corners(const TextTable& table) {
     return table.columns[1].count == count - 1 && table.columns[1].step == count - 1 ? count - 1 : 0;
 }
 
-/// Moves from the first field of row number `row` over its end, and puts the values where they belong. False: the row
-/// is not as it should be.
+/// Moves from the first field of the row over its end, and puts values where they belong. False: it is a bad row.
 bool parse_row(const TextTable& table, Scanner& scanner, std::size_t row) {
     for (const Columns& c : table.columns) {
         for (std::size_t k = 0; k < c.count; ++k) {
@@ -181,7 +177,6 @@ void parse_in_order(TextTable& table) {
     refuse_row(table, scanner.at, row);
 }
 
-/// The header, and where it and the body begin.
 void read_header(TextTable& table, std::span<const char* const> header_names) {
     if (const OtherFormat* packed = packed_format(table.bytes); packed != nullptr)
         throw Exception(other_format_error(*packed, table.file));

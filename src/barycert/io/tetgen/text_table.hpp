@@ -13,7 +13,6 @@
 
 namespace barycert::io {
 
-/// The largest count or index.
 inline constexpr std::int64_t max_count = INT32_MAX;
 
 enum class ColumnKind : std::uint8_t {
@@ -24,8 +23,7 @@ enum class ColumnKind : std::uint8_t {
     real,
 };
 
-/// Some columns alike. Their values go to one of these vectors, value k of row r to r * step + k, or to a field of each
-/// column. Without a place for them they are checked alone.
+/// Columns alike. Values go to one of these vectors, k of row r to r * step + k, or a field each, or are checked alone.
 struct Columns {
     ColumnKind kind = ColumnKind::id;
     std::size_t count = 0;
@@ -71,7 +69,6 @@ struct TextTable {
     }
     std::int64_t limit() const { return static_cast<std::int64_t>(rows); }
 
-    /// The first row's fields; empty if there is no row.
     std::vector<std::string_view> first_row() const;
 };
 
@@ -99,10 +96,7 @@ template <class... Parts>
 /// Row number `row` (from 0), which holds `at` and which the row parser refused.
 [[noreturn]] void refuse_row(const TextTable& table, const char* at, std::size_t row);
 
-/// The file ended after `found` rows.
 [[noreturn]] void refuse_end(const TextTable& table, std::size_t found);
-
-/// At `at` there is text after the last row.
 [[noreturn]] void refuse_surplus(const TextTable& table, const char* at);
 
 }  // namespace barycert::io

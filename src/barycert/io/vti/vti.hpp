@@ -15,23 +15,18 @@ struct VtiGrid {
 };
 
 /// A file whose arrays are handed over in blocks of any size, each array from its first point to its last; arrays may
-/// take turns. Nothing but 256 KiB is held in memory, so that a file may be larger than memory. Numbers are appended
-/// raw, uncompressed, with sizes of 64 bits: they read back to the same bits, and the same arrays give the same bytes
-/// whatever the blocks.
+/// take turns. Nothing but 256 KiB is held in memory, so that a file may be larger than memory. Numbers read back to
+/// the same bits; blocks do not show in the file.
 ///
-/// The file appears whole on commit(), or not at all. Arrays that take turns go to their places in the file, block by
-/// block: blocks below some 64 KiB cost a system call each. On a pipe or device only one array after the other can be
-/// written. Data that are not raw are kept in nameless files up to the commit, then compressed or written as text.
+/// The file appears whole on commit(), or not at all. Arrays that take turns go to their places block by block; on a
+/// pipe they must stand in their order. Data that are not raw are kept in nameless files up to the commit.
 class VtiWriter {
 public:
-    /// Error: counts, origin or spacing that are none; more than 2^63 bytes; a name that is empty, twice there, or that
-    /// XML cannot hold (not UTF-8, or control characters but for tab and line breaks); fewer than one component; the
-    /// file cannot be made.
+    /// Error: what check_arrays refuses; counts, origin or spacing that are none; more than 2^63 bytes.
     static Result<std::unique_ptr<VtiWriter>> open(const std::string& path, const VtiGrid& grid,
                                                    const std::vector<ArrayFormat>& arrays, VtkData data = VtkData::raw);
 
-    /// The next bytes of arrays[array], in the order of this machine.
-    /// Error: there is no such array; more bytes than it has; on a pipe, not its turn; the file cannot be written.
+    /// The next bytes of arrays[array], as in memory. Error: more bytes than it has; on a pipe, not its turn.
     Status write(std::size_t array, std::span<const std::byte> bytes);
 
     /// Error: an array has not got all its bytes; the file cannot be written.

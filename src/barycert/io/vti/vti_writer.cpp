@@ -20,18 +20,13 @@ Status check_grid(const std::string& path, const VtiGrid& grid) {
     return Done{};
 }
 
-/// The file without arrays.
 OutFile layout_of(const VtiGrid& grid) {
-    std::string extent = "Extent=\"", origin, spacing;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const char* const between = axis == 0 ? "" : " ";
-        extent += between + ("0 " + std::to_string(grid.counts[axis] - 1));
-        origin += between + base::shortest(grid.origin[axis]);
-        spacing += between + base::shortest(grid.spacing[axis] == 0 ? 1 : grid.spacing[axis]);
-    }
-    extent += '"';
+    const auto range = [](std::int64_t count) { return "0 " + std::to_string(count - 1); };
+    const auto step = [](double spacing) { return base::shortest(spacing == 0 ? 1 : spacing); };
+    const std::string extent = "Extent=\"" + base::joined(grid.counts, " ", range) + '"';
     return {.data_set = "ImageData",
-            .attributes = " Whole" + extent + " Origin=\"" + origin + "\" Spacing=\"" + spacing + '"',
+            .attributes = " Whole" + extent + " Origin=\"" + base::joined(grid.origin, " ", base::shortest) +
+                          "\" Spacing=\"" + base::joined(grid.spacing, " ", step) + '"',
             .piece = " " + extent,
             .sections = {{"PointData", {}}, {"CellData", {}}}};
 }
@@ -75,8 +70,7 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
     return writer;
 }
 
-/// In its place, or in order where that is its turn and the bytes are few, which are gathered, or the file has no
-/// places. False if it has none and it is not its turn.
+/// In its place, or in order, as few bytes, which are gathered, and on a pipe. False: there it is not its turn.
 bool VtiWriter::put(std::uint64_t at, std::string_view bytes) {
     constexpr std::size_t many = std::size_t{1} << 16;
     if (at == end_ && (bytes.size() < many || !file_.can_replace())) {

@@ -1,6 +1,5 @@
 // VTK's legacy files: words and numbers of them, sections made of these.
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io {
@@ -30,8 +29,7 @@ std::string decoded(std::string_view word) {
     return text;
 }
 
-/// A place in a legacy file. Words are separated by white space; in a binary file the numbers of an array stand in
-/// big-endian order behind the end of the line that announces it.
+/// A place in a legacy file: words; in a binary file big-endian numbers behind the line that announces an array.
 class LegacyText {
 public:
     LegacyText(std::string_view bytes, const std::string& path) : file_{bytes, path}, rest_(bytes) {}
@@ -55,7 +53,6 @@ public:
     }
     bool binary() const { return !file_.has_lines; }
 
-    /// The next word; empty at the end of the file.
     std::string take_word() { return std::string(next_word(rest_)); }
     /// The next word in capitals, as which keywords are compared.
     std::string take_keyword() { return capitals(next_word(rest_)); }
@@ -78,7 +75,6 @@ public:
         const std::string found = take_keyword();
         if (found != wanted) fail("a keyword of the format", wanted, shown(found));
     }
-    /// Lines up to an empty one.
     void skip_metadata() {
         rest_of_line();
         while (!rest_.empty() && !rest_of_line().empty()) {
@@ -129,8 +125,7 @@ public:
             value = std::floor(255 * value + 0.5);
         }
     }
-    /// Strings of an array: a line each, or in a binary file, but for variants (`in_lines`), their length and bytes.
-    /// `texts`: where they go, if they are wanted.
+    /// Strings of an array: lines, or in a binary file, but for variants (`in_lines`), lengths and bytes.
     void take_strings(const std::string& what, bool in_lines, std::uint64_t count, std::vector<std::string>* texts) {
         rest_of_line();
         for (std::uint64_t i = 0; i < count; ++i) {
@@ -158,7 +153,6 @@ protected:
         return take_bytes(length);
     }
 
-    /// Precondition: so many are left.
     std::string_view take_bytes(std::uint64_t count) {
         const std::string_view bytes = rest_.substr(0, static_cast<std::size_t>(count));
         rest_.remove_prefix(bytes.size());

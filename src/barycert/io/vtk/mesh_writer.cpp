@@ -26,8 +26,7 @@ struct OutGrid {
     std::uint8_t type_of(std::size_t cell) const { return shapes == nullptr ? type : shapes->types[cell]; }
 };
 
-/// The faces of each polyhedron: how many, then how many nodes and these, face after face; where each ends goes to
-/// `ends`, -1 of other cells.
+/// As RawFaces has them. `ends`: where those of each polyhedron end, -1 of other cells.
 std::vector<std::int64_t> face_streams(const Mesh::Shapes& shapes, std::vector<std::int64_t>& ends) {
     std::vector<std::int64_t> stream;
     std::int64_t face = 0, node = 0;
@@ -107,13 +106,6 @@ struct CellNodes {
         return nodes == corners ? vtk_tetra : vtk_quadratic_tetra;
     }
 };
-
-std::vector<OutArray> point_arrays_of(const Mesh& mesh) {
-    std::vector<OutArray> arrays;
-    for (const Field& field : mesh.point_fields) arrays.push_back(array_of_field(field));
-    if (!mesh.point_markers.empty()) arrays.push_back(array_in_memory<std::int64_t>(marker_name, mesh.point_markers));
-    return arrays;
-}
 
 /// Arrays of cells: fields and labels. Texts go to `room`, which must outlive them.
 std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>& room) {
@@ -282,7 +274,7 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
         const std::size_t cells = mesh.whole_count();
         const Mesh rows = shaped ? mesh::rows_of_wholes(mesh) : Mesh();
         OutGrid grid{
-            .point_arrays = point_arrays_of(mesh),
+            .point_arrays = {},
             .cell_arrays = cell_arrays_of(shaped ? rows : mesh, room),
             .points = array_of_points(mesh.points, mesh.dimension),
             .connectivity = mesh.mid_nodes.empty()
@@ -292,6 +284,9 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
             .nodes = node.nodes,
             .type = node.type(),
             .shapes = shaped ? &mesh.shapes : nullptr};
+        for (const Field& field : mesh.point_fields) grid.point_arrays.push_back(array_of_field(field));
+        if (!mesh.point_markers.empty())
+            grid.point_arrays.push_back(array_in_memory<std::int64_t>(marker_name, mesh.point_markers));
         fault = fault_of_names(grid.point_arrays, names);
         if (fault.empty()) fault = fault_of_names(grid.cell_arrays, names);
         if (!fault.empty()) return cannot_write("the mesh", fault, path);
@@ -304,8 +299,7 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
 
 /// Rows in a .vtu file: each point a cell of type VTK_VERTEX (z = 0 in dimension 2), the rest as point arrays: `cell`
 /// (Int64), `feature` (UInt8: 0 interior, 1 face, 2 edge, 3 vertex, 4 outside, 5 degenerate), `vtkValidPointMask`
-/// (Int8: 1 inside, 0 outside, as VTK's own probes name it), `distance` (Float64), the fields (Float64, any value) and
-/// what is carried through (Int64, Float64 or String).
+/// (Int8: 1 inside, 0 outside, as VTK's own probes name it), `distance`, the fields (Float64), what is carried.
 class VtuSink final : public TableSink {
 public:
     VtuSink(const std::string& path, const TableFormat& format) : path_(path), format_(format) {

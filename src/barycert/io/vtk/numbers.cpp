@@ -2,7 +2,6 @@
 
 #include <fast_float/fast_float.h>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/io/parallel.hpp"
 
@@ -75,8 +74,7 @@ constexpr std::array<std::string_view, 12> type_names{"Bit BIT",
                                                       "Float64 DOUBLE",
                                                       "String STRING UTF8_STRING VARIANT"};
 
-// Numbers as text, on all threads: parts that begin and end between words are read into values of their own, which are
-// put together in the order of the file.
+// Numbers as text, on all threads: parts of the text, cut between words, are read, then put together in their order.
 
 /// Reads words as numbers of the type that the file has, into one that holds them all: integers by their limits.
 template <class Wide>

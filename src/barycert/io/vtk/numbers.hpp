@@ -44,7 +44,6 @@ std::string_view xml_name(NumberType type);
 /// By this name, or that in legacy files, in capitals.
 std::optional<NumberType> type_of_name(std::string_view name);
 
-/// Bytes of a number; 1 for bit and text.
 std::size_t number_bytes(NumberType type);
 
 /// Bytes that `count` numbers take; nothing if they do not fit in 64 bits.
@@ -71,12 +70,10 @@ using NumbersTo =
     std::variant<std::reference_wrapper<std::vector<double>>, std::reference_wrapper<std::vector<std::int64_t>>,
                  std::reference_wrapper<std::vector<std::int32_t>>, std::reference_wrapper<std::vector<std::uint8_t>>>;
 
-/// Appends `count` numbers to `values`, of bytes that may be too few. From a number that is not exact on, others may
-/// stand there. float32 becomes double exactly.
+/// Appends `count` numbers, of bytes that may be too few. From a number that is not exact on, others may stand there.
 NumberFault read_binary(std::string_view bytes, NumberType type, bool swapped, std::size_t count, NumbersTo values);
 
-/// The same from text, separated by white space; what has been read is taken off `text`. Decimal numbers are rounded to
-/// the nearest of their type, as VTK does. Memory grows with what has been read.
+/// The same from text, off which that is taken. Numbers are rounded to their type, as by VTK. Memory grows with them.
 NumberFault read_text(std::string_view& text, NumberType type, std::size_t count, NumbersTo values);
 
 /// Takes the next word off `text`; empty at the end.

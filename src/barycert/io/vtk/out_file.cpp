@@ -1,6 +1,5 @@
 #include "barycert/io/vtk/out_file.hpp"
 
-#include <charconv>
 #include <set>
 
 #include "barycert/base/output_file.hpp"
@@ -33,7 +32,6 @@ bool is_xml(char32_t code) {
     return code < 0xD800 || (code >= 0xE000 && code < 0xFFFE) || (code >= 0x10000 && code < 0x110000);
 }
 
-/// A name that two of the arrays have; nullptr if there is none.
 const std::string* name_twice(const std::vector<OutArray>& arrays) {
     std::set<std::string_view> names;
     for (const OutArray& array : arrays)

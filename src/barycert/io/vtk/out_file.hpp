@@ -73,23 +73,18 @@ void write_as_text(const OutArray& array, std::size_t per_line, const std::funct
 /// given); nothing if no escape can do that: where it is not UTF-8, or has a character that XML excludes.
 std::optional<std::string> xml_attribute(std::string_view name);
 
-/// Where names are to stand.
 enum class Names : bool { legacy, xml };
 
-/// What is wrong with the names of fields, in one clause; empty if every name can be written and is the only one: VTK
-/// keeps but one array of a name.
+/// What is wrong with the names of fields, in one clause, or empty. VTK keeps but one array of a name.
 std::string fault_of_names(const std::vector<OutArray>& arrays, Names names);
 
-/// That `what` ("the mesh") cannot be written because of that fault.
 Error cannot_write(const std::string& what, const std::string& fault, const std::string& path);
 
 /// Error: a name that is empty, there twice, or that XML cannot hold; fewer than one component.
 Status check_arrays(const std::string& path, const std::vector<OutArray>& arrays);
 
-/// An error of what is to be written.
 Error wrong_in_memory(const std::string& path, std::string what, std::string expected, std::string found);
 
-/// Arrays below an element such as PointData.
 struct OutSection {
     std::string element;
     std::vector<OutArray> arrays;
@@ -103,8 +98,7 @@ struct OutFile {
     std::vector<OutSection> sections;
 };
 
-/// Names must be such that check_arrays passes them. Compressed blocks are made on all threads, and the same for any
-/// number of them; memory for some of them is taken. On a pipe or device they are made twice.
+/// Names must pass check_arrays. Compressed blocks are made on all threads, in memory for some; on a pipe twice.
 Status write_xml(const OutFile& file, const std::string& path, VtkData data);
 
 // What stands around raw arrays, for those that write them themselves.

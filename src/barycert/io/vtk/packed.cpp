@@ -64,8 +64,7 @@ std::uint64_t max_unpacked(Compressor compressor, std::uint64_t packed) {
     // Deflate gives at most 1032 bytes for one (258 for two bits), LZ4 255. LZMA gives at most 273 bytes for a match,
     // which takes 14 binary decisions. A probability of 11 bits, moved by a 32nd of what is left, stays within 31 and
     // 2017 of 2048, so a decision leaves at most 2017/2048 + 2^-19 of the range: 0.0220 bits. 273 bytes for 0.308 bits
-    // are 7,091 for a byte. Headers of chunks (2 MiB at most) pay for the bytes that the coder has ahead. 6,856 have
-    // been reached.
+    // are 7,091 for a byte. Headers of chunks (2 MiB at most) pay for what the coder has ahead. Reached: 6,856.
     constexpr std::uint64_t all = std::numeric_limits<std::uint64_t>::max();
     constexpr std::array<std::uint64_t, 4> ratios{all, 1040, 256, 7200};
     std::uint64_t most = 0;

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "barycert/base/text.hpp"
 #include "barycert/io/streams.hpp"
 #include "barycert/io/vtk/xml.hpp"
 
@@ -35,7 +34,6 @@ using Json = nlohmann::json;
 /// Read, a file takes some ten times as much memory.
 constexpr std::size_t longest_series = std::size_t{64} << 20;
 
-/// Relative paths are taken from the folder of the collection.
 std::string path_beside(const std::string& collection, std::string_view name) {
     return (std::filesystem::path(collection).parent_path() / std::filesystem::path(name)).string();
 }
@@ -50,8 +48,7 @@ const Json& member_of(const Json& object, const char* name) {
     return object.is_object() && object.contains(name) ? object[name] : none;
 }
 
-/// What the root of a .pvtu, .pvtp, .vtm, .vtpd, .vtpc or .pvd names; nothing if it is another. Error: an entry without
-/// a file, or a time that is none.
+/// What the root of a file of collection_types names; nothing if it is another. Error: an entry without file or time.
 std::optional<Collection> files_of(const XmlTree& tree) {
     const std::string_view type = tree.root().attribute_or("type", "");
     if (tree.root().name != "VTKFile" || !has_word(collection_types, type) || tree.child(&tree.root(), type) == nullptr)
@@ -130,7 +127,6 @@ Kind kind_of(std::string_view& bytes) {
                 "check the path; unpack a compressed file first");
 }
 
-/// The first block has to show that the file is of VTK.
 void check_block(std::string_view block, const std::string& path) {
     const Kind kind = kind_of(block);
     if (kind == Kind::legacy) return check_legacy_head(block, path);
@@ -141,8 +137,7 @@ void check_block(std::string_view block, const std::string& path) {
     base::check_beginning(block, text ? base::Text::all : base::Text::head, path).value();
 }
 
-/// Where the first block of an XML file leads up to raw data, these are left to be read to where they belong: then they
-/// are not twice in memory. False if it does not, or something is wrong, which is told of the whole file.
+/// Raw data to which the first block of XML leads are read to where they belong, not twice in memory. False: otherwise.
 bool read_beginning(VtkFile& file, const std::string& path) {
     if (file.input->size() <= base::first_block) return false;
     file.file = base::MappedFile::read(*file.input, path, base::first_block).value();
@@ -162,8 +157,7 @@ bool read_beginning(VtkFile& file, const std::string& path) {
     return true;
 }
 
-/// By the first word. Throws an Exception: a file that is not of VTK, as the first block shows; one that names none
-/// where it should.
+/// By the first word. Throws an Exception: a file that is not of VTK, or names none where it should.
 VtkFile open_vtk(const std::string& path) {
     const auto check = [&](std::string_view block, std::uint64_t) {
         return status_of([&] { check_block(block, path); });
@@ -247,7 +241,6 @@ public:
         return grid;
     }
 
-    /// Whether a step is chosen of what is no series.
     bool step_left() const { return step_.made(); }
 
 private:
@@ -295,8 +288,7 @@ private:
     std::set<std::string> seen_;
 };
 
-/// `arrays`: those too, of these names or all. `labels`: integers of one component that int64 holds are labels, and
-/// there is a remedy for points that are not finite.
+/// `arrays`: too, of these names or all. `labels`: such are integers of one component; points not finite have a remedy.
 Result<PointTable> read_table(const std::string& path, int dimension, bool arrays,
                               const std::vector<std::string>* names, bool labels, bool finite) {
     return read_guarded(path, [&]() -> Result<PointTable> {

@@ -13,9 +13,7 @@ struct XmlElement {
     std::size_t begin = 0;              ///< where its opening tag begins in the file
     std::size_t end = 0;                ///< where its closing tag begins; `begin` if it has none
 
-    /// The value of the attribute; nothing if there is none.
     std::optional<std::string_view> attribute(std::string_view key) const;
-    /// The same, or `other`.
     std::string_view attribute_or(std::string_view key, std::string_view other) const {
         return attribute(key).value_or(other);
     }
@@ -43,8 +41,7 @@ struct XmlTree : FileText {
 
     /// Takes what the root says of all arrays. Error: a byte order, type of header or compressor unknown to VTK.
     void take_layout();
-    /// Appends the numbers of the array, exactly `count`; once the layout is taken. `what` names it in errors.
-    /// `inexact` as in FileText::check.
+    /// Appends the `count` numbers of the array; once the layout is taken. `what`, `inexact`: as in FileText::check.
     void take_numbers(const XmlElement& array, const std::string& what, std::uint64_t count, NumbersTo values,
                       NumberFault* inexact = nullptr) const;
     /// The texts of an array of strings, exactly `count`; likewise.
@@ -60,8 +57,7 @@ struct XmlTree : FileText {
 /// a document type (whose entities might expand without bound), another encoding of appended data.
 XmlTree parse_xml(std::string_view bytes, const std::string& path);
 
-/// The data set of one file: UnstructuredGrid or PolyData; where only points are wanted, ImageData, RectilinearGrid or
-/// StructuredGrid as well.
+/// The data set of one file: UnstructuredGrid, PolyData, ImageData, RectilinearGrid or StructuredGrid.
 RawGrid read_xml(XmlTree tree, Part part);
 
 }  // namespace barycert::io

@@ -35,25 +35,6 @@ bool decode_digits(const char* from, std::size_t quadruples, char* to) {
     return all >= 0;
 }
 
-/// Room for bytes, which hold anything until they are written.
-class ByteRoom {
-public:
-    /// `size` bytes; what stood there is lost.
-    char* of(std::size_t size) {
-        if (size_ < size) {
-            bytes_.reset();
-            bytes_ = std::make_unique_for_overwrite<char[]>(size);
-            base::ask_for_large_pages(bytes_.get(), size);
-            size_ = size;
-        }
-        return bytes_.get();
-    }
-
-private:
-    std::unique_ptr<char[]> bytes_;
-    std::size_t size_ = 0;
-};
-
 /// Bytes of a file as they stand or in base64: RFC 4648's, white space passed over. After padding it goes on with the
 /// next quadruple: VTK encodes the head of compressed data apart from the data. It ends at any other character.
 class Encoded {
@@ -61,8 +42,7 @@ public:
     /// Those in base64 are in memory, the others if the tree does not read parts.
     Encoded(std::string_view bytes, bool base64, const XmlTree& tree) : left_(bytes), base64_(base64), tree_(tree) {}
 
-    /// The next `count` bytes: of the file itself, or read or decoded into `room`, which must live as long as the view.
-    /// Nothing if there are fewer.
+    /// The next `count` bytes, or nothing: of the file, or in `room`, which must live as long as they.
     std::optional<std::string_view> take(std::uint64_t count, ByteRoom& room) {
         if (count > left()) return std::nullopt;
         const auto size = static_cast<std::size_t>(count);
@@ -91,8 +71,7 @@ public:
         return std::string_view(to, size);
     }
 
-    /// The next `count` bytes where they stand in the file or, if is_unread(), would stand in memory: read_part() reads
-    /// them. Precondition: there are so many; no base64.
+    /// The next bytes where they stand or, if is_unread(), would. Precondition: so many, no base64.
     std::string_view take_as_they_stand(std::size_t count) {
         const std::string_view taken = left_.substr(0, count);
         left_.remove_prefix(count);
@@ -191,8 +170,7 @@ public:
 
     std::uint64_t size() const { return size_; }
 
-    /// As read_binary of numbers.hpp, of exactly size() bytes. Blocks are unpacked on all threads, some at a time, so
-    /// that memory grows with what the file really has.
+    /// As read_binary, of size() bytes. Blocks are unpacked some at a time: memory grows with what the file really has.
     template <class To>
     NumberFault read(NumberType type, std::size_t count, std::vector<To>& values) {
         if (tree_.compressor == Compressor::none && packed_.empty()) {
@@ -210,8 +188,7 @@ public:
         // Numbers across the bounds of waves: another size of block than any writer is known to choose.
         const bool at_once = type == NumberType::bit || per_wave * block_ % number != 0;
         if (at_once) per_wave = packed_.size();
-        // No block holds more than its bytes can. Those of lzma could hold a hundred times what data ever have: memory
-        // grows with what there is.
+        // No block holds more than its bytes can; of lzma a hundred times what data ever have: there memory grows.
         constexpr std::uint64_t likely = 64;
         const bool honest = tree_.compressor != Compressor::lzma;
         make_room(values,
@@ -252,7 +229,6 @@ private:
         return std::vector<std::uint64_t>(words.begin(), words.end());
     }
 
-    /// Where the bytes of a block begin among those of all.
     std::size_t block_at(std::size_t block) const {
         return static_cast<std::size_t>(block == packed_.size() ? size_ : block * block_);
     }
@@ -333,9 +309,8 @@ void XmlTree::take_layout() {
         const std::string_view value = root().attribute_or(key, values.front());
         const auto found = std::ranges::find(values, value);
         if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
-        std::string names;
-        for (const std::string_view name : values) names.append(names.empty() ? "" : ", ").append(name);
-        refuse_at(root(), std::string("the attribute ") + key + " of the file", names, in_quotes(value));
+        refuse_at(root(), std::string("the attribute ") + key + " of the file",
+                  base::joined(values, ", ", std::identity()), in_quotes(value));
     };
     swap_bytes = (choose("byte_order", orders) == 0) != (std::endian::native == std::endian::little);
     header_bytes = choose("header_type", headers) == 0 ? 4 : 8;

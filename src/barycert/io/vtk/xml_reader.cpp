@@ -2,8 +2,6 @@
 
 #include <set>
 
-#include "barycert/base/text.hpp"
-
 namespace barycert::io {
 namespace {
 
@@ -91,7 +89,6 @@ private:
         return static_cast<std::size_t>(*count);
     }
 
-    /// Those of the array in the section Points.
     void read_points(const XmlElement& piece, std::size_t count, RawGrid& grid) const {
         if (count == 0) return;
         const XmlElement* const array = child(child(&piece, "Points"), "DataArray");
@@ -102,8 +99,7 @@ private:
         take_numbers(*array, "the coordinates", std::uint64_t{3} * count, grid.points);
     }
 
-    /// The only piece of a structured grid. Error: an extent that is none, or not that of the whole; more points than a
-    /// mesh can have, or than the file has numbers for.
+    /// The only piece of a structured grid. Error: an extent that is none, or not that of the whole; too many points.
     void read_structured(const XmlElement& data, const XmlElement& piece, const std::string& type,
                          RawGrid& grid) const {
         const std::string_view whole_text = data.attribute_or("WholeExtent", ""),

@@ -7,7 +7,6 @@ namespace {
 
 constexpr std::string_view appended_tag = "<AppendedData";
 
-/// Collects elements in the order of their opening tags.
 class ElementParser {
 public:
     ElementParser() : parser_(XML_ParserCreate(nullptr)) {
@@ -23,8 +22,7 @@ public:
     std::vector<XmlElement> elements;
     bool at_appended_data = false, has_doctype = false, out_of_memory = false;
 
-    /// Bytes `first` to `last` - 1 of the file, which may leave out text between tags. False where it ends: at an
-    /// error, or at appended data.
+    /// Bytes `first` to `last` - 1 of the file; text between tags may be left out. False: an error, or appended data.
     bool parse(std::string_view file, std::size_t first, std::size_t last) {
         jumps_.push_back({fed_, first});
         constexpr std::size_t chunk = std::size_t{1} << 24;  // expat takes lengths of 31 bits
@@ -38,7 +36,6 @@ public:
     bool finish() { return XML_Parse(parser_, nullptr, 0, XML_TRUE) == XML_STATUS_OK; }
 
     XML_Error fault() const { return XML_GetErrorCode(parser_); }
-    /// Where that is in the file.
     std::size_t place() const {
         const auto index = static_cast<std::size_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(parser_), 0));
         const auto behind = std::ranges::upper_bound(jumps_, index, {}, &Jump::fed);
