@@ -246,7 +246,7 @@ TEST(Pulling, CellsOfAllTypesAgreeOnTheirCommonFace) {
 
 // Their base is seen from inside, that of VTK's linear wedge from outside.
 TEST(Pulling, WedgesOfLagrangeAreTurned) {
-    for (const std::uint8_t type : {73, 80}) {
+    for (const std::uint8_t type : {std::uint8_t{73}, std::uint8_t{80}}) {
         Mesh mesh;
         mesh::add_shape(mesh, type, first_numbers(6));
         EXPECT_EQ(mesh.shapes.types, std::vector<std::uint8_t>{13});

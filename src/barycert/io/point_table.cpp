@@ -1,3 +1,4 @@
+#include <cmath>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/io/formats.hpp"

@@ -1,5 +1,7 @@
 #include <tbb/parallel_pipeline.h>
 
+#include <algorithm>
+#include <atomic>
 #include <exception>
 
 #include "barycert/base/arena.hpp"

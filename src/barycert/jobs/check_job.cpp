@@ -1,5 +1,7 @@
 // A mesh checked, its measures written, and a repaired copy of it.
 
+#include <algorithm>
+
 #include "barycert/io/formats.hpp"
 #include "barycert/io/polygons/triangles.hpp"
 #include "barycert/jobs/job_files.hpp"

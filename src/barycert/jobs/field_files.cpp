@@ -1,6 +1,8 @@
 #include "barycert/jobs/field_files.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"

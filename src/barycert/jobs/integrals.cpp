@@ -1,5 +1,6 @@
 #include "barycert/jobs/integrals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 

@@ -1,6 +1,7 @@
 // Fields on a regular grid, or at the nodes of another mesh.
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "barycert/base/finite.hpp"
 #include "barycert/base/output_file.hpp"

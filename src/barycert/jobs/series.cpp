@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <system_error>
+
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "barycert/io/npz/weights_file.hpp"
 #include "barycert/locate/batch.hpp"

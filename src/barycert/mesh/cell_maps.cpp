@@ -1,5 +1,7 @@
 #include "barycert/mesh/cell_maps.hpp"
 
+#include <algorithm>
+
 #include "barycert/mesh/mid_edges.hpp"
 #include "barycert/mesh/pulling.hpp"
 

@@ -1,6 +1,8 @@
 /// Which cells are images of reference cells, and by which nodes.
 #pragma once
 
+#include <span>
+
 #include "barycert/core/isoparametric/inverse.hpp"
 #include "barycert/mesh.hpp"
 

@@ -1,5 +1,7 @@
 #include "barycert/mesh/consistency.hpp"
 
+#include <algorithm>
+
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
 #include "barycert/mesh/mid_edges.hpp"

@@ -6,7 +6,11 @@
 /// depend on the cell; a face that has the cell's lowest node is cut from it, as it is the lowest of that face, too.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <optional>
+#include <span>
+#include <string_view>
 
 #include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"

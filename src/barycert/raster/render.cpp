@@ -11,7 +11,7 @@ namespace barycert {
 namespace raster {
 namespace {
 
-Error file_error({}, const std::string& what, const std::string& expected, const std::string& found) {
+Error misfit(const std::string& what, const std::string& expected, const std::string& found) {
     return {.what = what, .expected = expected, .found = found, .remedy = "correct the scene"};
 }
 
@@ -20,9 +20,9 @@ Status check_array(const std::vector<double>& numbers, std::size_t per_vertex, s
                    const std::string& what) {
     if (numbers.empty()) return Done{};
     if (numbers.size() != per_vertex * vertices)
-        return file_error({}, "the " + what + "s of the scene",
-                          std::to_string(per_vertex) + " numbers for each of " + std::to_string(vertices) + " vertices",
-                          std::to_string(numbers.size()) + " numbers");
+        return misfit("the " + what + "s of the scene",
+                      std::to_string(per_vertex) + " numbers for each of " + std::to_string(vertices) + " vertices",
+                      std::to_string(numbers.size()) + " numbers");
     const std::size_t i = base::first_not_finite(numbers);
     if (i == numbers.size()) return Done{};
     return base::not_finite(
@@ -34,39 +34,38 @@ Status check_choices(const Scene& s) {
     if (s.texture) {
         if (Status good = check_image(s.texture->image); !good) return good;
         if (s.texture_coordinates.empty() && !s.positions.empty())
-            return file_error({}, "a texture", "texture coordinates at the vertices", "none");
+            return misfit("a texture", "texture coordinates at the vertices", "none");
     }
     if (s.rounding == Rounding::plain) return Done{};
     if (s.method != FillMethod::barycentric)
-        return file_error({}, "correct rounding", "method barycentric", "a method of steps or auxiliary lines");
+        return misfit("correct rounding", "method barycentric", "a method of steps or auxiliary lines");
     if (s.interpolation == Interpolation::projected_z)
-        return file_error({}, "correct rounding", "perspective or affine interpolation",
-                          "projected z, which is wrong as such");
+        return misfit("correct rounding", "perspective or affine interpolation", "projected z, which is wrong as such");
     return Done{};
 }
 
 Status check(const Scene& s) {
     if (Status good = check_raster_size(s.size); !good) return good;
     if (std::int64_t{s.size.width} * s.size.height > max_image_pixels)
-        return file_error({}, "the picture is too large", "at most " + std::to_string(max_image_pixels) + " pixels",
-                          std::to_string(s.size.width) + " by " + std::to_string(s.size.height));
+        return misfit("the picture is too large", "at most " + std::to_string(max_image_pixels) + " pixels",
+                      std::to_string(s.size.width) + " by " + std::to_string(s.size.height));
     if (s.positions.size() % 4 != 0)
-        return file_error({}, "the positions of the scene", "x, y, z, w of each vertex",
-                          std::to_string(s.positions.size()) + " numbers");
+        return misfit("the positions of the scene", "x, y, z, w of each vertex",
+                      std::to_string(s.positions.size()) + " numbers");
     const std::size_t vertices = s.positions.size() / 4;
     if (Status good = check_array(s.positions, 4, vertices, "position"); !good) return good;
     if (Status good = check_array(s.colours, 3, vertices, "colour"); !good) return good;
     if (Status good = check_array(s.texture_coordinates, 2, vertices, "texture coordinate"); !good) return good;
     if (s.triangles.size() % 3 != 0)
-        return file_error({}, "the triangles of the scene", "three vertices each",
-                          std::to_string(s.triangles.size()) + " indices");
+        return misfit("the triangles of the scene", "three vertices each",
+                      std::to_string(s.triangles.size()) + " indices");
     for (std::size_t i = 0; i < s.triangles.size(); ++i) {
         if (s.triangles[i] < 0 || static_cast<std::size_t>(s.triangles[i]) >= vertices)
-            return file_error({}, "vertex " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
-                              "an index below " + std::to_string(vertices), std::to_string(s.triangles[i]));
+            return misfit("vertex " + std::to_string(i % 3) + " of triangle " + std::to_string(i / 3),
+                          "an index below " + std::to_string(vertices), std::to_string(s.triangles[i]));
     }
     if (const std::size_t i = base::first_not_finite(s.to_clip.m); i != s.to_clip.m.size())
-        return file_error({}, "the matrix of the scene", "finite numbers", std::to_string(s.to_clip.m[i]));
+        return misfit("the matrix of the scene", "finite numbers", std::to_string(s.to_clip.m[i]));
     return check_choices(s);
 }
 
@@ -80,8 +79,8 @@ Result<std::vector<double>> clip_positions(const Scene& s) {
             clip[i + r] = s.rounding == Rounding::correct ? core::exact_dot(m, p, 4)
                                                           : m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3] * p[3];
             if (!std::isfinite(clip[i + r]))
-                return file_error({}, "vertex " + std::to_string(i / 4),
-                                  "coordinates that do not overflow in clip space", std::to_string(clip[i + r]));
+                return misfit("vertex " + std::to_string(i / 4), "coordinates that do not overflow in clip space",
+                              std::to_string(clip[i + r]));
         }
     }
     return clip;

@@ -1,6 +1,8 @@
 /// Lines of a text file, pipe or the standard input, in bounded memory.
 #pragma once
 
+#include <optional>
+
 #include "barycert/base/descriptor.hpp"
 #include "barycert/base/input_file.hpp"
 #include "barycert/result.hpp"

@@ -1,6 +1,9 @@
 /// Weights of points as a sparse matrix in an NPZ file, which scipy.sparse.load_npz reads.
 #pragma once
 
+#include <memory>
+#include <span>
+
 #include "barycert/base/spool.hpp"
 #include "barycert/mesh.hpp"
 

@@ -1,5 +1,6 @@
 #include "barycert/io/vtk/out_file.hpp"
 
+#include <charconv>
 #include <set>
 
 #include "barycert/base/output_file.hpp"
