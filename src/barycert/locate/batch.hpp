@@ -110,11 +110,11 @@ bool for_chunks(const LocatorData& data, const NodeRecord* nodes, std::span<cons
 class MappedOwners {
 public:
     MappedOwners(const LocatorData& data, Location* to)
-        : data_(data), to_(to), lanes_(*data.mapped, {}, 0, Use{this}) {}
+        : data_(data), to_(to), lanes_(*data.mapped, {}, {.first = data.index.nodes.data()}, Use{this}) {}
 
     void push(const PointRecord& point, const Location& in_parts, const Place* owner, std::size_t count) {
-        data_.fetch_maps(owner, count);
-        if (!lanes_.push(in_parts, point, false)) settle(point, in_parts);
+        data_.fetch_maps(owner, count, data_.index.nodes.data());
+        if (count == 0 || !lanes_.push(in_parts, point, *owner, false)) settle(point, in_parts);
     }
     void flush() { lanes_.flush(); }
 
@@ -123,8 +123,7 @@ private:
         MappedOwners* owners;
         void operator()(const MappedCells::Batch& batch, std::size_t lane, bool inside, bool) const {
             if (!inside) return owners->settle(batch.record(lane), batch.at[lane]);
-            owners->to_[batch.numbers[lane]] = {owners->data_.mapped->first_part_of(batch.at[lane].cell),
-                                                Feature::interior};
+            owners->to_[batch.numbers[lane]] = {batch.first[lane], Feature::interior};
         }
     };
     void settle(const PointRecord& point, const Location& in_parts) {

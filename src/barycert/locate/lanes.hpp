@@ -12,6 +12,24 @@ struct alignas(32) PointRecord {
     std::uint32_t number;  ///< where its results go
 };
 
+/// Four further components of the values of a node: one aligned load, as a NodeRecord.
+struct alignas(32) ValueRecord {
+    std::array<double, 4> value;
+};
+
+/// What is read of a node: its coordinates and component 0 side by side, then components in fours.
+struct NodeValues {
+    const NodeRecord* first = nullptr;
+    /// Component c >= 1 of a node: more[(c - 1) / 4 * node_count + node], (c - 1) % 4.
+    const ValueRecord* more = nullptr;
+    std::size_t node_count = 0;
+    std::size_t components = 0;
+
+    double at(std::size_t node, std::size_t c) const {
+        return c == 0 ? first[node].value : more[(c - 1) / 4 * node_count + node].value[(c - 1) % 4];
+    }
+};
+
 class SortedPoints;
 class Occupancy;
 

@@ -34,7 +34,7 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
         const bool products = options.interpolation == CellInterpolation::multilinear;
         if (data->grid == nullptr &&
             (products || (!options.straight_sides && (!mesh.mid_nodes.empty() || !mesh.shapes.types.empty()))))
-            data->mapped = locate::MappedCells::make(mesh, products, !options.straight_sides);
+            data->mapped = locate::MappedCells::make(mesh, data->index, products, !options.straight_sides);
         if (!later) data->prove(stage);
     });
     return Locator(std::move(data));

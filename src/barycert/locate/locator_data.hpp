@@ -57,13 +57,11 @@ struct LocatorData {
 
     /// Its location, by that in straight simplices or parts of cells; none if it is not finite. Precondition: mapped.
     Location settle(const double* point, Location in_parts) const;
-    /// Asks memory for what is read of maps of the owners that follow the first.
-    void fetch_maps(const Place* owner, std::size_t count) const {
+    /// Asks memory for what is read of maps of the owners that follow the first, of these nodes.
+    void fetch_maps(const Place* owner, std::size_t count, const NodeRecord* nodes) const {
         constexpr std::size_t apart = 8;
-        for (std::size_t step = 0, ahead = MappedCells::fetch_steps * apart; ahead != 0; ++step, ahead -= apart) {
-            if (ahead < count && owner[ahead] >= 0)
-                mapped->fetch(index.original[static_cast<std::size_t>(owner[ahead])], step);
-        }
+        for (std::size_t step = 0, ahead = MappedCells::fetch_steps * apart; ahead != 0; ++step, ahead -= apart)
+            if (ahead < count && owner[ahead] >= 0) mapped->fetch(owner[ahead], step, nodes);
     }
     mutable CellIndex index;  ///< links of its cells are set by prove(), and read by those who found proved()
 

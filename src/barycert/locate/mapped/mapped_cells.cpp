@@ -13,10 +13,11 @@ namespace barycert::locate {
 
 namespace iso = core::isoparametric;
 
-std::unique_ptr<MappedCells> MappedCells::make(const Mesh& mesh, bool products, bool curves) {
+std::unique_ptr<MappedCells> MappedCells::make(const Mesh& mesh, const CellIndex& index, bool products, bool curves) {
     auto cells = std::unique_ptr<MappedCells>(new MappedCells(mesh, products, curves));
     const bool none = std::ranges::all_of(cells->sign_, [](std::int8_t s) { return s == 0; });
     if (none && cells->unproved_ == 0) return nullptr;
+    if (cells->products_) cells->arrange(index);
     return cells;
 }
 
@@ -40,8 +41,8 @@ MappedCells::MappedCells(const Mesh& mesh, bool products, bool curves)
 }
 
 std::size_t MappedCells::bytes() const {
-    return whole_.size() * sizeof(Mesh::Index) + sign_.size() +
-           warped_.size() * (sizeof(Warped) + 2 * sizeof(index::Box)) +
+    return (whole_.size() + lane_cell_.size()) * sizeof(Mesh::Index) + sign_.size() + lane_nodes_.bytes() +
+           lane_part_.size() + warped_.size() * (sizeof(Warped) + 2 * sizeof(index::Box)) +
            curved_.size() * (sizeof(Mesh::Index) + 2 * sizeof(index::Box));
 }
 
@@ -185,7 +186,7 @@ Mesh::Index MappedCells::inside_on_lanes(const double* point) const {
     batch.element = iso::LaneElement::tetrahedron;
     const PointRecord record{{point[0], point[1], point[2]}, 0};
     curved_tree_->for_each(index::box_of(3, &point, 1), [&](std::uint32_t i) {
-        add({first_part(static_cast<std::size_t>(curved_[i])), Feature::interior}, record, {}, batch);
+        add({first_part(static_cast<std::size_t>(curved_[i])), Feature::interior}, record, -1, {}, {}, batch);
         return batch.count < Batch::max;
     });
     const iso::LanesProved proved = iso::evaluate_lanes({.count = batch.count,
@@ -257,54 +258,96 @@ iso::Evaluated MappedCells::evaluate(Mesh::Index cell, Feature feature, const do
     return iso::evaluate(*reference, maps_.places(whole(cell)), point, active, scratch.data(), components, out);
 }
 
-void MappedCells::fetch(Mesh::Index cell, std::size_t step) const {
-    if (!has_shapes()) return;
-    if (step == 0) return __builtin_prefetch(&whole_[static_cast<std::size_t>(cell)]);
-    const std::size_t own = whole(cell);
-    if (step == 1) {
-        __builtin_prefetch(&sign_[own]);
-        __builtin_prefetch(&mesh_.shapes.types[own]);
-        __builtin_prefetch(&mesh_.shapes.ends[own == 0 ? 0 : own - 1]);
-    } else if (step == 2) {
-        __builtin_prefetch(shape_nodes(own));
-        __builtin_prefetch(shape_nodes(own) + 7);
-    } else if (mesh_.shapes.types[own] <= 14) {
-        for (const Mesh::Index* node = shape_nodes(own); node != shape_nodes(own + 1); ++node)
-            __builtin_prefetch(at(*node));
-    }
-}
+// On lanes.
 
-bool MappedCells::add(const Location& at, const PointRecord& point, const std::vector<const Field*>& fields,
-                      Batch& to) const {
+void MappedCells::arrange(const CellIndex& index) {
     /// Of voxels, hexahedra, wedges and pyramids.
     constexpr std::array<std::array<std::uint8_t, 8>, 4> corners{
         {{0, 1, 3, 2, 4, 5, 7, 6}, {0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 0, 3, 4, 5, 3}, {0, 1, 2, 3, 4, 4, 4, 4}}};
-    using iso::LaneElement;
-    if (!is_mapped(at.cell) || at.feature == Feature::vertex) return false;
-    const std::size_t own = whole(at.cell), count = lane_nodes(to.element);
-    const bool curved = to.element == LaneElement::tetrahedron;
-    std::array<Mesh::Index, 10> nodes{};
-    if (curved) {
-        const iso::Reference& reference = *maps_.reference(own);
-        if (reference.element != iso::Element::tetrahedron || reference.nodes != count) return false;
-        std::copy_n(has_shapes() ? shape_nodes(own) : &mesh_.cells[4 * own], has_shapes() ? 10 : 4, nodes.begin());
-        if (!has_shapes()) std::copy_n(&mesh_.mid_nodes[6 * own], 6, nodes.begin() + 4);
-    } else {
-        const std::uint8_t type = has_shapes() ? mesh_.shapes.types[own] : std::uint8_t{0};
-        if (type < 11 || type > 14 || (type == 13) != (to.element == LaneElement::wedge)) return false;
-        for (std::size_t i = 0; i < count; ++i) nodes[i] = shape_nodes(own)[corners[type - 11U][i]];
+    const auto is_on_lanes = [&](std::size_t whole) {
+        return sign_[whole] != 0 && mesh_.shapes.types[whole] >= 11 && mesh_.shapes.types[whole] <= 14;
+    };
+    std::size_t count = 0;
+    for (std::size_t whole = 0; whole < whole_count(); ++whole) count += is_on_lanes(whole) ? 1 : 0;
+    std::vector<Place> place_of_node(mesh_.point_count(), -1);
+    for (std::size_t place = 0; place < index.original_node.size(); ++place)
+        place_of_node[static_cast<std::size_t>(index.original_node[place])] = static_cast<Place>(place);
+    lane_nodes_ = Buffer<LaneNodes>(count);
+    lane_cell_.assign(index.cell_count(), -1);
+    lane_part_.assign(index.cell_count(), 0);
+    std::vector<std::int32_t> number(whole_count(), -1);
+    std::int32_t next = 0;
+    for (std::size_t place = 0; place < lane_cell_.size(); ++place) {
+        const std::size_t own = whole(index.original[place]);
+        if (number[own] < 0 && is_on_lanes(own)) {
+            const std::uint8_t type = mesh_.shapes.types[own];
+            for (std::size_t i = 0; i < 8; ++i)
+                lane_nodes_[static_cast<std::size_t>(next)].at[i] =
+                    place_of_node[static_cast<std::size_t>(shape_nodes(own)[corners[type - 11U][i]])];
+            number[own] = 2 * next++ + (type == 13 ? 1 : 0);
+        }
+        lane_cell_[place] = number[own];
+        lane_part_[place] = static_cast<std::uint8_t>(index.original[place] - first_part(own));
     }
+}
+
+void MappedCells::fetch(Place place, std::size_t step, const NodeRecord* nodes) const {
+    if (lane_cell_.empty() || lane_cell_[static_cast<std::size_t>(place)] < 0) return;
+    const LaneNodes& own = lane_nodes_[static_cast<std::size_t>(lane_cell_[static_cast<std::size_t>(place)] / 2)];
+    if (step == 0) return __builtin_prefetch(&own);
+    for (const Place node : own.at) __builtin_prefetch(&nodes[node]);
+}
+
+bool MappedCells::add(const Location& at, const PointRecord& point, Place place,
+                      const std::vector<const Field*>& fields, const NodeValues& values, Batch& to) const {
+    if (at.feature == Feature::vertex || at.cell < 0) return false;
+    const bool curved = to.element == iso::LaneElement::tetrahedron;
+    if (curved ? !is_mapped(at.cell) || !add_tetrahedron(whole(at.cell), point, fields, to)
+               : !add_product(place, values, to))
+        return false;
+    for (std::size_t k = 0; k < 3; ++k) to.point[k * Batch::max + to.count] = point.at[k];
+    to.first[to.count] = curved ? first_part(whole(at.cell)) : at.cell - lane_part_[static_cast<std::size_t>(place)];
+    to.numbers[to.count] = point.number;
+    to.at[to.count++] = at;
+    return true;
+}
+
+bool MappedCells::add_product(Place place, const NodeValues& values, Batch& to) const {
+    const std::int32_t own = lane_cell_.empty() ? -1 : lane_cell_[static_cast<std::size_t>(place)];
+    if (own < 0 || (own % 2 == 1) != (to.element == iso::LaneElement::wedge)) return false;
+    const std::size_t components = to.out.size() / Batch::max;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const auto node = static_cast<std::size_t>(lane_nodes_[static_cast<std::size_t>(own / 2)].at[i]);
+        const NodeRecord& record = values.first[node];
+        for (std::size_t k = 0; k < 3; ++k) to.places[(3 * i + k) * Batch::max + to.count] = record.at[k];
+        for (std::size_t c = 0; c < components; ++c) {
+            const double x = values.at(node, c);
+            if (!std::isfinite(x)) return false;
+            to.values[(8 * c + i) * Batch::max + to.count] = x;
+        }
+    }
+    return true;
+}
+
+bool MappedCells::add_tetrahedron(std::size_t own, const PointRecord& point, const std::vector<const Field*>& fields,
+                                  Batch& to) const {
+    constexpr std::size_t count = 10;
+    const iso::Reference& reference = *maps_.reference(own);
+    if (reference.element != iso::Element::tetrahedron || reference.nodes != count) return false;
+    std::array<Mesh::Index, count> nodes{};
+    std::copy_n(has_shapes() ? shape_nodes(own) : &mesh_.cells[4 * own], has_shapes() ? 10 : 4, nodes.begin());
+    if (!has_shapes()) std::copy_n(&mesh_.mid_nodes[6 * own], 6, nodes.begin() + 4);
     for (std::size_t i = 0; i < count; ++i) {
         const double *place = this->at(nodes[i]), *other = place;
-        if (curved && std::equal(place, place + 3, point.at.begin())) return false;
-        if (curved && i >= 4 && !has_shapes() && (maps_.curved_edges(own) >> (i - 4) & 1U) == 0) {
+        if (std::equal(place, place + 3, point.at.begin())) return false;
+        if (i >= 4 && !has_shapes() && (maps_.curved_edges(own) >> (i - 4) & 1U) == 0) {
             const auto& edge = mesh::edges_of(3)[i - 4];
             place = this->at(nodes[edge[0]]);
             other = this->at(nodes[edge[1]]);
         }
         for (std::size_t k = 0; k < 3; ++k) {
             to.places[(3 * i + k) * Batch::max + to.count] = place[k];
-            if (curved && i >= 4) to.others[(3 * (i - 4) + k) * Batch::max + to.count] = other[k];
+            if (i >= 4) to.others[(3 * (i - 4) + k) * Batch::max + to.count] = other[k];
         }
         std::size_t c = i;
         for (const Field* const field : fields) {
@@ -316,9 +359,6 @@ bool MappedCells::add(const Location& at, const PointRecord& point, const std::v
             }
         }
     }
-    for (std::size_t k = 0; k < 3; ++k) to.point[k * Batch::max + to.count] = point.at[k];
-    to.numbers[to.count] = point.number;
-    to.at[to.count++] = at;
     return true;
 }
 

@@ -39,7 +39,7 @@ public:
 
     /// nullptr if no cell has a map, and no node is off a middle. `products`: those of Mesh::shapes. `curves`:
     /// simplices of a higher order. On the threads of the calling arena.
-    static std::unique_ptr<MappedCells> make(const Mesh& mesh, bool products, bool curves);
+    static std::unique_ptr<MappedCells> make(const Mesh& mesh, const CellIndex& index, bool products, bool curves);
 
     /// Cells that have no map, though others of their types have: it is not proved that it would be injective.
     std::uint64_t unproved() const { return unproved_; }
@@ -60,7 +60,6 @@ public:
         settle_all(point, at_sides(point), in_parts);
     }
 
-    Mesh::Index first_part_of(Mesh::Index cell) const { return first_part(whole(cell)); }
     /// The part of a mapped cell that holds the point, or the first.
     Mesh::Index part_at(Mesh::Index cell, const double* point) const;
 
@@ -80,18 +79,21 @@ public:
         std::vector<double> values, out;
         std::array<std::uint32_t, max> numbers{};  ///< of the points' records
         std::array<Location, max> at{};
-        std::array<bool, max> settled{};  ///< of MappedLanes::push()
+        std::array<Mesh::Index, max> first{};  ///< part of the cell
+        std::array<bool, max> settled{};       ///< of MappedLanes::push()
 
         PointRecord record(std::size_t lane) const {
             return {{point[lane], point[max + lane], point[2 * max + lane]}, numbers[lane]};
         }
     };
 
-    /// Asks memory for what add() will read of a cell, in calls some points apart: with step 0 first, with 3 last.
-    void fetch(Mesh::Index cell, std::size_t step) const;
-    static constexpr std::size_t fetch_steps = 4;
-    /// Adds a case; false for cells of other elements, at a node, and where a value is not finite.
-    bool add(const Location& at, const PointRecord& point, const std::vector<const Field*>& fields, Batch& to) const;
+    /// Asks memory for what add() will read at a place, in calls some points apart: with step 0 first, then 1.
+    void fetch(Place place, std::size_t step, const NodeRecord* nodes) const;
+    static constexpr std::size_t fetch_steps = 2;
+    /// Adds a case, which lies at a place of the index; false for cells of other elements, at a node, and where a value
+    /// is not finite. `values`: of all components of the fields.
+    bool add(const Location& at, const PointRecord& point, Place place, const std::vector<const Field*>& fields,
+             const NodeValues& values, Batch& to) const;
     /// Nodes of a mapped cell, and its shape functions at the point, each rounded once; none if they are not found.
     mesh::CellMaps::Nodes weights(Mesh::Index cell, const double* point, double* out) const;
 
@@ -129,6 +131,10 @@ private:
     const double* at(Mesh::Index node) const {
         return &mesh_.points[static_cast<std::size_t>(node) * static_cast<std::size_t>(mesh_.dimension)];
     }
+    void arrange(const CellIndex& index);
+    bool add_product(Place place, const NodeValues& values, Batch& to) const;
+    bool add_tetrahedron(std::size_t whole, const PointRecord& point, const std::vector<const Field*>& fields,
+                         Batch& to) const;
     PointBits bits_of(const double* point) const;
     const Location* node_at(const double* point) const;
 
@@ -155,7 +161,15 @@ private:
     bool products_, curves_;
     std::vector<Mesh::Index> whole_;  ///< shape of each cell
     std::vector<std::int8_t> sign_;   ///< of each Jacobian; 0: no map
-    std::vector<Warped> warped_;      ///< products with such sides
+    // Of cells on lanes but for simplices, in the order of space, places of their nodes in the index; and of each place
+    // of a cell there twice its number among them, and one more of a wedge: -1, it is none.
+    struct alignas(32) LaneNodes {
+        std::array<Place, 8> at;
+    };
+    Buffer<LaneNodes> lane_nodes_;
+    std::vector<std::int32_t> lane_cell_;
+    std::vector<std::uint8_t> lane_part_;  ///< which of its cell's parts is at that place
+    std::vector<Warped> warped_;           ///< products with such sides
     std::unique_ptr<index::BoxTree> tree_;
     std::vector<Mesh::Index> curved_;  ///< wholes
     std::unique_ptr<index::BoxTree> curved_tree_;
@@ -167,8 +181,9 @@ private:
 template <class Use>
 class MappedLanes {
 public:
-    MappedLanes(const MappedCells& cells, std::vector<const Field*> fields, std::size_t components, Use use)
-        : cells_(cells), fields_(std::move(fields)), use_(std::move(use)) {
+    MappedLanes(const MappedCells& cells, std::vector<const Field*> fields, const NodeValues& values, Use use)
+        : cells_(cells), fields_(std::move(fields)), values_(values), use_(std::move(use)) {
+        const std::size_t components = fields_.empty() ? 0 : values.components;
         for (std::size_t i = 0; i < batches_.size(); ++i) {
             batches_[i].element = static_cast<core::isoparametric::LaneElement>(i);
             batches_[i].values.assign(core::isoparametric::lane_nodes(batches_[i].element) * Batch::max * components,
@@ -177,13 +192,13 @@ public:
         }
     }
     /// False, and nothing done, for what is no such case. `settled`: that is its owner, not only that of a part.
-    bool push(const Location& at, const PointRecord& point, bool settled) {
+    bool push(const Location& at, const PointRecord& point, Place place, bool settled) {
         for (Batch& batch : batches_) {
             batch.settled[batch.count] = settled;
             // On a side, or what would be one if the cell were straight.
             const bool curved = batch.element == core::isoparametric::LaneElement::tetrahedron;
             if (at.feature != Feature::interior && settled == curved) continue;
-            if (!cells_.add(at, point, fields_, batch)) continue;
+            if (!cells_.add(at, point, place, fields_, values_, batch)) continue;
             if (batch.count == Batch::max) flush(batch);
             return true;
         }
@@ -206,6 +221,7 @@ private:
 
     const MappedCells& cells_;
     std::vector<const Field*> fields_;
+    NodeValues values_;
     Use use_;
     std::array<Batch, 3> batches_;  ///< by element
 };

@@ -158,14 +158,14 @@ void set_rest_of_row(const SamplerData& data, Rounding rounding, Mesh::Index cel
 ChunkSampler::ChunkSampler(const SamplerData& data, const SampleOptions& options, const BlockRows& rows, bool in_parts)
     : data_(data), options_(options), rows_(rows), in_parts_(in_parts) {
     if (data.located().mapped)
-        lanes_.emplace(*data.located().mapped, data.point_fields, data.point_components, UseLane{this});
+        lanes_.emplace(*data.located().mapped, data.point_fields, data.node_values(), UseLane{this});
 }
 
 void ChunkSampler::push(const locate::PointRecord& point, locate::Place owner, Feature feature) {
     if (!lanes_) return push_straight(point, owner, feature);
     const Location at{owner < 0 ? -1 : data_.index().original[static_cast<std::size_t>(owner)], feature};
     if (!in_parts_) return settled(point, at);
-    if (!lanes_->push(at, point, false)) settled(point, data_.located().settle(point.at.data(), at));
+    if (!lanes_->push(at, point, owner, false)) settled(point, data_.located().settle(point.at.data(), at));
     settle_rest();
 }
 
@@ -192,7 +192,7 @@ void ChunkSampler::UseLane::operator()(const locate::MappedCells::Batch& batch, 
     Location at = batch.at[lane];
     if (!batch.settled[lane]) {
         if (!inside) return static_cast<void>(sampler->not_here_.emplace_back(point, at));
-        at = {sampler->data_.located().mapped->first_part_of(at.cell), Feature::interior};
+        at = {batch.first[lane], Feature::interior};
     }
     if (!proved) return sampler->settled(point, at, false);
     sampler->set_row(point, at, &batch.out[lane], batch.max);
@@ -205,7 +205,8 @@ void ChunkSampler::settled(const locate::PointRecord& point, const Location& at,
     if (mapped.evaluates(at.cell, point.at.data())) {
         using core::isoparametric::Certainty;
         if (data_.point_components == 0) return set_row(point, at, nullptr, 1);
-        if (on_lanes && lanes_->push(at, point, true)) return;
+        const auto place = [&] { return data_.located().places()[static_cast<std::size_t>(at.cell)]; };
+        if (on_lanes && lanes_->push(at, point, place(), true)) return;
         values_.resize(std::max(values_.size(), data_.point_components));
         const auto found =
             mapped.evaluate(at.cell, at.feature, point.at.data(), data_.point_fields, scratch_, values_.data());

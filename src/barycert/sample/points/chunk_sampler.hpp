@@ -41,7 +41,7 @@ public:
                     const Feature* feature) {
         if (!lanes_) return straight(points, count, owner, feature);
         for (std::size_t i = 0; i < count; ++i) {
-            data_.located().fetch_maps(owner + i, count - i);
+            data_.located().fetch_maps(owner + i, count - i, data_.node_values().first);
             push(points[i], owner[i], feature[i]);
         }
     }

@@ -61,10 +61,7 @@ struct SamplerData {
     /// Whether rows have more than the values of point fields.
     bool has_rest() const { return !cell_fields.empty() || !at_points.empty(); }
     /// Component c of the point fields at a node, by place.
-    double value_at(std::size_t node, std::size_t c) const {
-        if (c == 0) return nodes[node].value;
-        return more[(c - 1) / 4 * index().original_node.size() + node].value[(c - 1) % 4];
-    }
+    double value_at(std::size_t node, std::size_t c) const { return node_values().at(node, c); }
 };
 
 /// Sets cells, features, values and counts of rows as large as there are points, in a grid whose cells are not listed.

@@ -7,19 +7,7 @@
 
 namespace barycert::sample {
 
-/// Four further components of the values of a node: one aligned load, as a NodeRecord.
-struct alignas(32) ValueRecord {
-    std::array<double, 4> value;
-};
-
-/// What is read of a node: its coordinates and component 0 side by side, then components in fours.
-struct NodeValues {
-    const locate::NodeRecord* first = nullptr;
-    /// Component c >= 1 of a node: more[(c - 1) / 4 * node_count + node], (c - 1) % 4.
-    const ValueRecord* more = nullptr;
-    std::size_t node_count = 0;
-    std::size_t components = 0;  ///< at least 1
-};
+using locate::NodeValues, locate::ValueRecord;
 
 /// Points in their cells. Component c of the value of a point goes to out[stride * number + c], with the number in the
 /// record of the point.
