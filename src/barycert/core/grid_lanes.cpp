@@ -297,7 +297,7 @@ HWY_INLINE hn::Mask<D> values_of_some(D tag, const AxisGrid& grid, const GridPoi
     const GridLanes<D> lanes(tag, grid, of.points.data() + grid.dimension * first, found, at);
     hn::Mask<D> sure = lanes.certain;
     HWY_ALIGN double value[width];
-    const Mesh::Index* const cells = of.cells + first;
+    const std::int32_t* const cells = of.cells + first;
     double* const to = of.values + of.width * first;
     const auto set_all = [&](const auto& value_of) HWY_ATTR {
         for (std::size_t c = 0; c < of.fields.size(); ++c) {
@@ -344,11 +344,11 @@ namespace barycert::core {
 
 HWY_EXPORT(sample_all);
 
-AxisGrid::AxisGrid(const Mesh& mesh) : dimension(static_cast<std::size_t>(mesh.dimension)) {
+AxisGrid::AxisGrid(int d, const std::array<std::vector<double>, 3>& axes) : dimension(static_cast<std::size_t>(d)) {
     static constexpr std::array<double, 2> unit{0, 1};
     std::size_t nodes = 1;
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::span<const double> own = k < dimension ? std::span<const double>(mesh.axes[k]) : unit;
+        const std::span<const double> own = k < dimension ? std::span<const double>(axes[k]) : unit;
         planes[k] = own.data();
         cells[k] = own.size() - 1;
         cells_per_unit[k] = static_cast<double>(cells[k]) / (own.back() - own.front());

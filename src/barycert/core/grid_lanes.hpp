@@ -1,15 +1,14 @@
 /// Cells of a grid along axes that hold points, and values there, many at a time.
 #pragma once
 
-#include "barycert/mesh.hpp"
 #include "barycert/simplex.hpp"
 
 namespace barycert::core {
 
 /// Cells between planes across the axes, the first axis running fastest.
 struct AxisGrid {
-    /// Precondition: mesh.axes, which must stay, has increasing coordinates, at least two along each axis.
-    explicit AxisGrid(const Mesh& mesh);
+    /// Precondition: coordinates, which must stay, increase, and are at least two along each axis.
+    AxisGrid(int dimension, const std::array<std::vector<double>, 3>& axes);
 
     std::size_t dimension;
     std::array<const double*, 3> planes{};  ///< in the plane, 0 and 1 along the third axis
@@ -32,7 +31,7 @@ struct NodeComponent {
 
 struct GridPoints {
     std::span<const double> points;
-    Mesh::Index* cells;  ///< the lowest cell that holds point i, or -1
+    std::int32_t* cells;  ///< the lowest cell that holds point i, or -1
     Feature* features;
     std::span<const NodeComponent> fields = {};
     bool multilinear = false;  ///< else linear on the parts of each cell, cut at its lowest node (pulling)

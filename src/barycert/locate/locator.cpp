@@ -16,7 +16,7 @@ Result<Locator> Locator::build(const Mesh& mesh, const BuildOptions& options) {
     auto data = std::make_unique<locate::LocatorData>();
     data->mesh = &mesh;
     if (!mesh.is_listed()) {
-        data->grid = std::make_unique<core::AxisGrid>(mesh);
+        data->grid = std::make_unique<core::AxisGrid>(mesh.dimension, mesh.axes);
         data->multilinear = options.interpolation == CellInterpolation::multilinear;
     }
     data->method = options.prove == Prove::never ? Method::candidates : Method::walk;
