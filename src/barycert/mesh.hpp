@@ -159,7 +159,8 @@ std::string message(const CurvedCells& curved);
 /// What becomes of curved cells.
 enum class Curved : std::uint8_t { isoparametric, straight, refuse };
 
-/// Error, with Curved::refuse: there are curved cells. `file` is what the user calls the mesh.
+/// Error, with Curved::refuse: there are curved cells, or simplices of order 2 to 4 among Mesh::shapes. `file` is what
+/// the user calls the mesh.
 Result<CurvedCells> measure_curved(const Mesh& mesh, const std::string& file, Curved curved);
 
 }  // namespace barycert

@@ -103,6 +103,25 @@ TEST(Shapes, MapsAreOfOneInterpolation) {
     }
 }
 
+TEST(Shapes, CurvedSimplicesBesideOthersAreRefused) {
+    const Scratch scratch;
+    std::string text = "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 18 double\n";
+    for (int i = 0; i < 8; ++i)
+        text += std::to_string((i + 1) / 2 % 2) + " " + std::to_string(i / 2 % 2) + " " + std::to_string(i / 4) + "\n";
+    text +=
+        "4 0 0 6 0 0 4 2 0 4 0 2 5 0 0 5 1 0 4 1 0 4 0 1 5 0 1 4 1 1\nCELLS 2 20\n8 0 1 2 3 4 5 6 7\n"
+        "10 8 9 10 11 12 13 14 15 16 17\nCELL_TYPES 2\n12 24\n";
+    const Words sample{"sample",   scratch.put("two.vtk", text),
+                       "--points", scratch.put("p.csv", "x,y,z\n0.5,0.5,0.5\n"),
+                       "--output", "-",
+                       "--quiet"};
+    EXPECT_EQ(run(sample).code, 0);
+    const Ended refused = run(plus(sample, {"--curved", "refuse"}));
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(contains(refused.err, "simplices of a higher order, which may be curved")) << refused.err;
+    EXPECT_EQ(run(plus(sample, {"--curved", "straight"})).code, 0);
+}
+
 // Parts of a quadrilateral and of a polygon of the same nodes are alike, what is taken there is not.
 TEST(Shapes, MapsAreOfCellsOfOneType) {
     const Scratch scratch;

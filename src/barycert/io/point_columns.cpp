@@ -1,7 +1,7 @@
 #include "barycert/io/streams.hpp"
 
-#include <ranges>
 #include <set>
+#include <span>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"
@@ -137,7 +137,7 @@ void note_the_others(const TableColumns& all, PointColumns& out) {
     }
     if (others.empty()) return;
     const auto name = [&](std::size_t column) { return all.names[column]; };
-    const auto some = others | std::views::take(most_listed);
+    const std::span some = std::span(others).first(std::min(most_listed, others.size()));
     std::string text = (others.size() == 1 ? "column " : "columns ") + base::joined(some, ", ", name),
                 names = base::joined(some, ",", name);
     if (others.size() > most_listed) {
@@ -155,7 +155,8 @@ std::string column_number(std::size_t column) {
 }
 
 std::string listed(const std::vector<std::string>& names) {
-    const std::string text = base::joined(names | std::views::take(most_listed), ", ", base::quoted);
+    const std::string text =
+        base::joined(std::span(names).first(std::min(most_listed, names.size())), ", ", base::quoted);
     return names.empty() ? "none" : text + (names.size() > most_listed ? ", ..." : "");
 }
 

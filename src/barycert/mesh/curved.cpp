@@ -11,6 +11,7 @@
 #include "barycert/base/arena.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/mesh/mid_edges.hpp"
+#include "barycert/mesh/pulling.hpp"
 
 namespace barycert {
 namespace {
@@ -151,7 +152,11 @@ std::string message(const CurvedCells& curved) {
 
 Result<CurvedCells> measure_curved(const Mesh& mesh, const std::string& file, Curved curved) {
     const CurvedCells found = curved_cells(mesh);
-    if (curved != Curved::refuse || found.cells == 0) return found;
+    if (curved != Curved::refuse) return found;
+    if (std::ranges::any_of(mesh.shapes.types, mesh::is_curved_simplex))
+        return file_error(file, "simplices of a higher order, which may be curved", "cells with straight sides", {},
+                          "let them be taken as straight: `straight` in place of `refuse`");
+    if (found.cells == 0) return found;
     return file_error(file, "the mesh is curved", "every mid-edge node at the middle of its edge", deviations(found),
                       "mesh it with straight sides, or let them be taken as straight: `straight` in place of `refuse`");
 }

@@ -233,8 +233,6 @@ Status IndexedPiece::build(const Shape& shape) {
                                                  .interpolation = shape.interpolation,
                                                  .straight_sides = shape.curved == Curved::straight});
     if (!made) return made.error();
-    if (shape.curved == Curved::refuse && made->has_curved_cells())
-        return Error{.what = "it has cells of a higher order, which may be curved"};
     locator = std::move(*made);
     some_cells = size_of_some_cells(mesh);
     return Done{};
