@@ -98,7 +98,8 @@ HWY_INLINE void find_some(D tag, const AxisGrid& grid, const GridPoints& of, std
         const V x = hn::IfThenElse(inside, p[k], hn::Set(tag, planes[0]));
         const V about = (x - hn::Set(tag, planes[0])) * hn::Set(tag, grid.cells_per_unit[k]);
         const V last = hn::Set(tag, static_cast<double>(grid.cells[k] - 1));
-        V i = hn::Floor(hn::Min(hn::Max(about, zero), last)), a, b;
+        // Not a number where the axis is longer than the largest double, or than none: 0.
+        V i = hn::Floor(hn::Min(hn::IfThenElseZero(hn::Gt(about, zero), about), last)), a, b;
         HWY_ALIGN std::int64_t plane[width];
         hn::Store(hn::ConvertTo(integers, i), integers, plane);
         asm("" : "+m"(plane));  // they are to be read from memory: to extract them takes longer

@@ -56,7 +56,7 @@ bool needs_listed_grids(const SamplingJob& job) {
     const auto asks_for_cells = [](const std::string& field) {
         return field.find("grad(") != std::string::npos || field.find("mean(") != std::string::npos;
     };
-    return !job.weights.empty() || gives_distances(job.options.outside) ||
+    return !job.weights.empty() || gives_distances(job.options.outside) || job.options.rounding == Rounding::plain ||
            std::ranges::any_of(job.fields, asks_for_cells);
 }
 

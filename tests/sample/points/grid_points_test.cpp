@@ -254,6 +254,35 @@ TEST(GridPoints, V1ExtremeSteps) {
     }
 }
 
+// Axes whose length, or the number of cells a unit, no double holds: the first guess of a plane is any.
+TEST(GridPoints, V1AxesBeyondDoubles) {
+    base::Random random(6);
+    for (const auto& [low, step] : {std::pair(0.0, 0x1p-1074), {-0x1.8p1023, 0x1p1023}}) {
+        Axes axes(3);
+        for (std::vector<double>& axis : axes) {
+            axis = {low};
+            for (int i = 0; i < 3; ++i) axis.push_back(axis.back() + step);
+        }
+        const Grids g = make_grids(axes, false, random);
+        std::vector<double> points;
+        for (int i = 0; i < 300; ++i) {  // halves of subnormal numbers round
+            const double middle = axes[0][random.below(4)] / 2 + axes[0][random.below(4)] / 2;
+            points.push_back(std::clamp(middle, axes[0].front(), axes[0].back()));
+        }
+        for (const CellInterpolation how : {CellInterpolation::linear, CellInterpolation::multilinear}) {
+            const auto sampler = Sampler::build(g.unlisted, {"three"}, {.interpolation = how, .progress = {}});
+            ASSERT_TRUE(sampler) << sampler.error().message();
+            const Table rows = sampler->sample(points).value();
+            EXPECT_EQ(rows.counts.locations.outside, 0U);
+            for (std::size_t i = 0; i < rows.row_count(); ++i) {
+                const bool multilinear = how == CellInterpolation::multilinear;
+                const Rational exact = value_of(g, g.unlisted.point_fields[1], 1, &points[3 * i], multilinear);
+                ASSERT_EQ(rows.value(i, 1), second_path::nearest(exact)) << i << multilinear << step;
+            }
+        }
+    }
+}
+
 TEST(GridPoints, E1WhatAsksForListsOfCells) {
     base::Random random(1);
     const Mesh mesh = make_grids({{0, 1, 2}, {0, 1}, {0, 1}}, false, random).unlisted;
@@ -267,6 +296,7 @@ TEST(GridPoints, E1WhatAsksForListsOfCells) {
     expect_refused(locator.locate_all(point));
     expect_refused(locator.nearest(point.data(), 1));
     expect_refused(sampler.sample(point, {.outside = {.kind = Outside::nearest}}));
+    expect_refused(sampler.sample(point, {.rounding = Rounding::plain}));
     Table rows = locator.locate(point).value();
     rows.points = point;
     expect_refused(node_weights(locator, rows.view()));

@@ -369,7 +369,7 @@ Mesh to_mesh(RawGrid grid, const std::string& path, InSpace* space, bool list_gr
     leave_out(!grid.loose_arrays.empty(),
               "arrays of neither points nor cells (field data): " + list_of(grid.loose_arrays), false);
     leave_out(grid.has_steps, "all steps but the first of arrays with several time steps", true);
-    if (!mesh.shapes.types.empty()) cut_into_simplices(mesh, path);
+    cut_into_simplices(mesh, path);
     return mesh;
 }
 

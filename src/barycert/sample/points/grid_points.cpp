@@ -128,6 +128,7 @@ private:
 Status sample_on_grid(const SamplerData& data, std::span<const double> points, const SampleOptions& options,
                       Table& out) {
     if (gives_distances(options.outside)) return locate::not_listed("the nearest cell");
+    if (options.rounding == Rounding::plain) return locate::not_listed("values in plain double");
     const std::size_t d = data.index().dimension(), count = out.cells.size();
     out.values.resize(data.width * count);
     const GridSampler sampler(data, options);

@@ -65,7 +65,7 @@ struct SamplerData {
 };
 
 /// Sets cells, features, values and counts of rows as large as there are points, in a grid whose cells are not listed.
-/// Error: a policy that asks for the nearest cell.
+/// Error: a policy that asks for the nearest cell; Rounding::plain.
 Status sample_on_grid(const SamplerData& data, std::span<const double> points, const SampleOptions& options,
                       Table& out);
 
