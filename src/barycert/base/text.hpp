@@ -44,13 +44,14 @@ std::optional<Integer> whole_number(std::string_view text) {
     return error == std::errc{} && end == last ? std::optional(value) : std::nullopt;
 }
 
-/// text(item) of each, with `between` between them.
+/// text(item) of each, with `between` between them; empty ones are left out.
 template <class Items, class Text>
 std::string joined(const Items& items, std::string_view between, Text text) {
     std::string all;
-    bool first = true;
-    for (const auto& item : items)
-        all.append(std::exchange(first, false) ? "" : between).append(std::invoke(text, item));
+    for (const auto& item : items) {
+        const std::string one(std::invoke(text, item));
+        if (!one.empty()) all.append(all.empty() ? "" : between).append(one);
+    }
     return all;
 }
 

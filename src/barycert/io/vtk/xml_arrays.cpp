@@ -309,9 +309,8 @@ void XmlTree::take_layout() {
         const std::string_view value = root().attribute_or(key, values.front());
         const auto found = std::ranges::find(values, value);
         if (found != values.end()) return static_cast<std::size_t>(found - values.begin());
-        const auto named = values.subspan(values.front().empty() ? 1 : 0);
         refuse_at(root(), std::string("the attribute ") + key + " of the file",
-                  base::joined(named, ", ", std::identity()), in_quotes(value));
+                  base::joined(values, ", ", std::identity()), in_quotes(value));
     };
     swap_bytes = (choose("byte_order", orders) == 0) != (std::endian::native == std::endian::little);
     header_bytes = choose("header_type", headers) == 0 ? 4 : 8;

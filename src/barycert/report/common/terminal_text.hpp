@@ -51,15 +51,7 @@ inline std::string percent(std::uint64_t part, std::uint64_t whole) {
     return fmt::format("{:.{}f}", p, p < 0.1 ? 3 : p < 10 ? 2 : 1);
 }
 
-/// The texts of all items with `between` between them; empty ones are left out.
-std::string joined(const auto& items, std::string_view between, auto text) {
-    std::string out;
-    for (const auto& item : items) {
-        const std::string one(text(item));
-        if (!one.empty()) out.append(out.empty() ? "" : between).append(one);
-    }
-    return out;
-}
+using base::joined;
 
 /// "2 snapped; 3 extrapolated": how many of each; those of which there are none are left out.
 inline std::string clauses(const std::vector<std::pair<std::uint64_t, std::string>>& all,
