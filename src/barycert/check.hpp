@@ -388,6 +388,12 @@ struct VolumeReport {
 struct MapReport {
     std::uint64_t cells = 0, positive = 0, negative = 0, changing = 0, unknown = 0;
     std::vector<Mesh::Index> examples;  ///< the first that are changing or unknown
+    /// Facets of curved simplices that have a cell on both sides, and those of them that are not the same in both: a
+    /// node of the facet lies elsewhere in the other cell, or the facet is curved in one alone. There cells overlap, or
+    /// leave a gap. Pieces of the boundary far from each other are not compared.
+    std::uint64_t curved_facets = 0, split_facets = 0;
+    double max_gap = 0;                             ///< between the two places of such a node
+    std::vector<std::array<Mesh::Index, 2>> split;  ///< the cells of the first
 };
 
 /// A field with values that are NaN or infinite.

@@ -1,15 +1,131 @@
-// The isoparametric maps of cells: where their Jacobians are positive, or not.
+// The isoparametric maps of cells: where their Jacobians are positive, or not, and whether they agree at facets.
+#include <cmath>
+
 #include "barycert/check/stages.hpp"
 #include "barycert/mesh/cell_maps.hpp"
 #include "barycert/mesh/consistency.hpp"
+#include "barycert/mesh/pulling.hpp"
 
 namespace barycert::check {
+namespace {
+
+namespace iso = core::isoparametric;
+
+/// A cell of the mesh, and its map if that is one of a curved simplex.
+struct Curved {
+    std::span<const Mesh::Index> corners;
+    const iso::Reference* reference = nullptr;
+    mesh::CellMaps::Nodes nodes = {};
+    iso::Places places = {};
+
+    Curved(const Mesh& mesh, const mesh::CellMaps& maps, std::size_t cell, Mesh::Index whole)
+        : corners(nodes_of(mesh, cell)) {
+        const auto w = static_cast<std::size_t>(whole);
+        const iso::Reference* const of = maps.reference(w);
+        if (of == nullptr || !of->is_simplex()) return;
+        reference = of;
+        nodes = maps.nodes(w);
+        places = maps.places(w);
+    }
+
+    /// nullptr: where it would be in the straight cell.
+    const double* place(std::size_t node) const { return places.other[node] != nullptr ? nullptr : places.at[node]; }
+
+    /// The node with as much of the corners as one of a cell with the same reference, all of which this one has.
+    std::size_t node_like(const Curved& other, std::size_t node) const {
+        std::array<std::uint8_t, 4> index{};
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const auto own = std::ranges::find(nodes.all().first(corners.size()), other.nodes.at[i]);
+            if (own != nodes.all().end())
+                index[static_cast<std::size_t>(own - nodes.all().begin())] = other.reference->indices[node][i];
+        }
+        return static_cast<std::size_t>(std::ranges::find(reference->indices, index) - reference->indices.begin());
+    }
+
+    /// The largest distance between places of a node of the common facet in both cells. Beside a straight one, or one
+    /// of another order, it should be where it is in a straight cell, up to rounding.
+    double gap(const Curved& beyond) const {
+        double most = 0;
+        for (std::size_t node = corners.size(); node < reference->nodes; ++node) {
+            const auto& index = reference->indices[node];
+            bool common = true;
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                common &= index[i] == 0 || std::ranges::count(beyond.corners, nodes.at[i]) != 0;
+            if (!common) continue;
+            const double* const p = place(node);
+            const double* const q =
+                beyond.reference == reference ? beyond.place(beyond.node_like(*this, node)) : nullptr;
+            std::array<double, 3> off{};
+            double largest = 0;
+            for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+                double straight = 0;
+                for (std::size_t i = 0; i < corners.size(); ++i) {
+                    straight += index[i] * (places.at[i][k] / reference->order);
+                    largest = std::max(largest, std::fabs(places.at[i][k]));
+                }
+                off[k] = (p != nullptr ? p[k] : straight) - (q != nullptr ? q[k] : straight);
+            }
+            const double distance = std::hypot(off[0], off[1], off[2]);
+            if (distance > (p != nullptr && q != nullptr ? 0 : 0x1p-48 * largest)) most = std::max(most, distance);
+        }
+        return most;
+    }
+};
+
+/// Facets between a curved simplex and any other cell.
+struct FacetsCompared {
+    std::uint64_t facets = 0, split = 0;
+    double gap = 0;
+    std::vector<std::array<Mesh::Index, 2>> cells = {};
+
+    void add(double distance, std::array<Mesh::Index, 2> sides) {
+        ++facets;
+        if (distance == 0) return;
+        ++split;
+        gap = std::max(gap, distance);
+        cells.push_back(sides);
+    }
+};
+
+void compare_facets(const Checked& c, const mesh::CellMaps& maps, MapReport& report) {
+    const Mesh& mesh = c.mesh;
+    const std::vector<Mesh::Index> wholes = mesh::whole_of_parts(mesh);
+    const auto curved = [&](Mesh::Index cell) {
+        const auto i = static_cast<std::size_t>(cell);
+        return Curved(mesh, maps, i, wholes.empty() ? cell : wholes[i]);
+    };
+    in_blocks(
+        mesh.cell_count(), 1024, FacetsCompared{},
+        [&](std::size_t first, std::size_t last, FacetsCompared& part) {
+            for (auto cell = static_cast<Mesh::Index>(first); cell < static_cast<Mesh::Index>(last); ++cell) {
+                const Curved own = curved(cell);
+                if (own.reference == nullptr) continue;
+                for (std::size_t i = 0; i < mesh.corners(); ++i) {
+                    const Mesh::Index other = c.neighbours[mesh.corners() * static_cast<std::size_t>(cell) + i];
+                    if (other < 0) continue;
+                    const Curved beyond = curved(other);
+                    const bool both = beyond.reference != nullptr;
+                    if (both && other < cell) continue;
+                    part.add(std::max(own.gap(beyond), both ? beyond.gap(own) : 0), {cell, other});
+                }
+            }
+        },
+        [&](const FacetsCompared& part) {
+            report.curved_facets += part.facets;
+            report.split_facets += part.split;
+            report.max_gap = std::max(report.max_gap, part.gap);
+            for (const auto& sides : part.cells)
+                if (report.split.size() < c.options.examples) report.split.push_back(sides);
+        });
+}
+
+}  // namespace
 
 std::optional<MapReport> check_maps(const Checked& c) {
     if ((c.mesh.shapes.types.empty() && c.mesh.mid_nodes.empty()) ||
         mesh::inconsistency_of_cells(c.mesh, mesh::FieldValues::any) != nullptr)
         return std::nullopt;
-    using core::isoparametric::JacobianSign;
+    using iso::JacobianSign;
     const mesh::CellMaps maps(c.mesh, true, true);
     const std::vector<Mesh::Index>& parts = c.mesh.shapes.parts;
     std::vector<std::int8_t> signs(c.mesh.whole_count());
@@ -18,7 +134,7 @@ std::optional<MapReport> check_maps(const Checked& c) {
         const auto* const reference = maps.reference(whole);
         if (reference == nullptr) return;
         mapped[whole] = 1;
-        signs[whole] = static_cast<std::int8_t>(core::isoparametric::jacobian_sign(*reference, maps.places(whole)));
+        signs[whole] = static_cast<std::int8_t>(iso::jacobian_sign(*reference, maps.places(whole)));
     });
     MapReport report;
     std::vector<std::int8_t>& of_cells = c.report.measures.jacobian;
@@ -39,6 +155,7 @@ std::optional<MapReport> check_maps(const Checked& c) {
         if (!good && report.examples.size() < c.options.examples)
             report.examples.push_back(static_cast<Mesh::Index>(first));
     }
+    if (report.cells != 0 && c.neighbours.size() == c.mesh.cells.size()) compare_facets(c, maps, report);
     return report.cells == 0 ? std::nullopt : std::optional(report);
 }
 

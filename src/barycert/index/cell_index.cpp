@@ -84,6 +84,7 @@ void sort_by_key(Buffer<KeyedPlace>& items, int bits) {
 struct Cells {
     std::span<const double> points;
     std::span<const Mesh::Index> cells;
+    std::span<const Mesh::Index> wholes = {};  ///< Mesh::Shapes::parts
 };
 
 /// The nodes that cells have, ascending: others may lie anywhere.
@@ -138,25 +139,40 @@ Buffer<Place> place_nodes(const Cells& mesh, const std::vector<Mesh::Index>& use
     return place;
 }
 
-/// The cells along the curve, by the middles of their corners in whole numbers of the quantizer.
+/// The cells along the curve, by the middles of their corners in whole numbers of the quantizer. Parts of a whole cell
+/// stay together: there are fewer to sort, and they have most of their facets in common.
 template <std::size_t d, std::size_t corners>
 Buffer<KeyedPlace> order_cells(const Cells& mesh, const Bins& bins) {
     Buffer<std::array<std::int32_t, d>> nodes(mesh.points.size() / d);
     base::parallel_for_each(nodes.size(), grain, [&](std::size_t i) {
         for (std::size_t k = 0; k < d; ++k) nodes[i][k] = bins.quantizer().at(k, mesh.points[d * i + k]);
     });
-    Buffer<KeyedPlace> cells(mesh.cells.size() / corners);
-    base::parallel_for_each(cells.size(), grain, [&](std::size_t c) {
-        const Mesh::Index* const corner = mesh.cells.data() + corners * c;
+    const std::size_t count = mesh.cells.size() / corners;
+    const auto first_of = [&](std::size_t i) {
+        return mesh.wholes.empty() ? i : static_cast<std::size_t>(mesh.wholes[i]);
+    };
+    constexpr std::size_t ahead = 12 * corners;
+    Buffer<KeyedPlace> wholes(mesh.wholes.empty() ? count : mesh.wholes.size() - 1);
+    base::parallel_for_each(wholes.size(), grain, [&](std::size_t c) {
+        const std::size_t begin = corners * first_of(c), end = corners * first_of(c + 1);
         std::array<std::int64_t, d> sum{};
-        for (std::size_t i = 0; i < corners; ++i) {
-            const auto& node = nodes[static_cast<std::size_t>(corner[i])];
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + ahead < mesh.cells.size())
+                __builtin_prefetch(&nodes[static_cast<std::size_t>(mesh.cells[i + ahead])]);
+            const auto& node = nodes[static_cast<std::size_t>(mesh.cells[i])];
             for (std::size_t k = 0; k < d; ++k) sum[k] += node[k];
         }
-        for (std::size_t k = 0; k < d; ++k) sum[k] /= static_cast<std::int64_t>(corners);
-        cells[c] = {bins.of_quantized(sum), static_cast<Place>(c)};
+        for (std::size_t k = 0; k < d; ++k) sum[k] /= static_cast<std::int64_t>(end - begin);
+        wholes[c] = {bins.of_quantized(sum), static_cast<Place>(c)};
     });
-    sort_by_key(cells, bins.bits());
+    sort_by_key(wholes, bins.bits());
+    if (mesh.wholes.empty()) return wholes;
+    Buffer<KeyedPlace> cells(count);
+    std::size_t next = 0;
+    for (const KeyedPlace& whole : std::span<const KeyedPlace>(wholes)) {
+        const auto w = static_cast<std::size_t>(whole.place);
+        for (Mesh::Index c = mesh.wholes[w]; c != mesh.wholes[w + 1]; ++c) cells[next++] = {whole.key, c};
+    }
     return cells;
 }
 
@@ -197,8 +213,9 @@ void build(const Cells& mesh, const std::vector<Mesh::Index>& used, CellIndex& i
 
 }  // namespace
 
-CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::span<const Mesh::Index> cells) {
-    const Cells mesh{points, cells};
+CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::span<const Mesh::Index> cells,
+                          std::span<const Mesh::Index> wholes) {
+    const Cells mesh{points, cells, wholes};
     CellIndex index;
     index.simplex = simplex;
     const std::size_t count = mesh.cells.size() / index.corners();
@@ -212,8 +229,8 @@ CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::
     }
     // A surface goes through few of the bins of its box.
     const bool surface = simplex == Simplex::triangle3d;
-    index.bins =
-        Bins(index.dimension(), index.low.data(), index.high.data(), count << (surface ? 7 : CellIndex::part_bits));
+    index.bins = Bins(index.dimension(), index.low.data(), index.high.data(),
+                      (wholes.empty() ? count : wholes.size() - 1) << (surface ? 7 : CellIndex::part_bits));
     if (!surface) index.first.resize((index.bins.count() >> CellIndex::part_bits) + 2);
     simplex == Simplex::triangle     ? build<2, 3>(mesh, used, index)
     : simplex == Simplex::triangle3d ? build<3, 3>(mesh, used, index)
@@ -236,7 +253,7 @@ std::array<double, 12> vertices_of(const CellIndex& index, Place cell) {
 
 CellIndex make_cell_index(const Mesh& mesh) {
     const Simplex simplex = mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
-    CellIndex index = make_cell_index(simplex, mesh.points, mesh.cells);
+    CellIndex index = make_cell_index(simplex, mesh.points, mesh.cells, mesh.shapes.parts);
     if (!mesh.shapes.inside.empty()) index.inside = mesh.shapes.inside.data();
     return index;
 }

@@ -75,7 +75,8 @@ std::array<double, 12> vertices_of(const CellIndex& index, Place cell);
 CellIndex make_cell_index(const Mesh& mesh);
 
 /// The same of cells without a mesh, or triangles in space. Precondition: their corners are points, and these are
-/// finite.
-CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::span<const Mesh::Index> cells);
+/// finite. `wholes`: as Mesh::Shapes::parts, or empty.
+CellIndex make_cell_index(Simplex simplex, std::span<const double> points, std::span<const Mesh::Index> cells,
+                          std::span<const Mesh::Index> wholes = {});
 
 }  // namespace barycert::index

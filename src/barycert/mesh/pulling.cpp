@@ -1,5 +1,7 @@
 #include "barycert/mesh/pulling.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <numeric>
 #include <unordered_map>
@@ -142,10 +144,13 @@ Parts cut_polygon(std::uint8_t type, std::vector<Index> nodes, Rank rank) {
     return parts;
 }
 
+/// Cells that are cut alike, by type and which nodes are lowest.
+using KnownParts = std::unordered_map<std::uint64_t, Parts>;
+
 /// Cuts cells one after the other. What is cut alike is cut once.
 class Cutter {
 public:
-    explicit Cutter(const Mesh& mesh) : mesh_(mesh) {}
+    Cutter(const Mesh& mesh, KnownParts& known) : mesh_(mesh), known_(known) {}
 
     std::vector<Index> cells, counts;
     std::vector<std::uint16_t> inside;
@@ -228,11 +233,12 @@ private:
     template <class Node>
     void add(const Parts& parts, Node node) {
         const std::size_t corners = mesh_.corners(), before = inside.size();
-        for (std::size_t i = 0; i < parts.corners.size(); ++i) {
-            const auto& part = parts.corners[i];
-            for (std::size_t k = 0; k < corners; ++k) cells.push_back(node(part[k]));
-            inside.push_back(parts.inside[i]);
+        cells.resize(corners * (before + parts.corners.size()));
+        Index* next = cells.data() + corners * before;
+        for (const auto& part : parts.corners) {
+            for (std::size_t k = 0; k < corners; ++k) *next++ = node(part[k]);
         }
+        inside.insert(inside.end(), parts.inside.begin(), parts.inside.end());
         // A cell that is flat has one degenerate part, so that it is counted.
         if (inside.size() == before) {
             cells.resize(cells.size() + corners, any_);
@@ -243,7 +249,7 @@ private:
 
     const Mesh& mesh_;
     Index any_ = 0;  ///< a node of the cell
-    std::unordered_map<std::uint64_t, Parts> known_;
+    KnownParts& known_;
 };
 
 }  // namespace
@@ -306,27 +312,29 @@ std::optional<std::size_t> pull(Mesh& mesh) {
     constexpr std::size_t step = std::size_t{1} << 14;
     Mesh::Shapes& shapes = mesh.shapes;
     const std::size_t count = shapes.count(), blocks = (count + step - 1) / step;
-    std::vector<Cutter> cutters(blocks, Cutter(mesh));
+    tbb::enumerable_thread_specific<KnownParts> known;
+    std::vector<std::optional<Cutter>> cutters(blocks);
     base::parallel_for(blocks, [&](std::size_t b) {
-        for (std::size_t cell = b * step; cell < std::min(count, (b + 1) * step); ++cell) cutters[b].cut(cell);
+        Cutter& cutter = cutters[b].emplace(mesh, known.local());
+        for (std::size_t cell = b * step; cell < std::min(count, (b + 1) * step); ++cell) cutter.cut(cell);
     });
     std::vector<std::size_t> first(blocks + 1);
-    for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + cutters[b].inside.size();
+    for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + cutters[b]->inside.size();
     mesh.cells.resize(first[blocks] * mesh.corners());
     shapes.inside.resize(first[blocks]);
     shapes.parts.resize(count + 1);
     base::parallel_for(blocks, [&](std::size_t b) {
-        std::ranges::copy(cutters[b].cells, mesh.cells.data() + first[b] * mesh.corners());
-        std::ranges::copy(cutters[b].inside, shapes.inside.data() + first[b]);
+        std::ranges::copy(cutters[b]->cells, mesh.cells.data() + first[b] * mesh.corners());
+        std::ranges::copy(cutters[b]->inside, shapes.inside.data() + first[b]);
         auto next = static_cast<Index>(first[b]);
-        for (std::size_t i = 0; i < cutters[b].counts.size(); ++i) {
+        for (std::size_t i = 0; i < cutters[b]->counts.size(); ++i) {
             shapes.parts[b * step + i] = next;
-            next += cutters[b].counts[i];
+            next += cutters[b]->counts[i];
         }
         if (b + 1 == blocks) shapes.parts[count] = next;
     });
-    const auto open = std::ranges::find_if(cutters, [](const Cutter& c) { return c.open.has_value(); });
-    return open == cutters.end() ? std::nullopt : open->open;
+    const auto open = std::ranges::find_if(cutters, [](const auto& cutter) { return cutter->open.has_value(); });
+    return open == cutters.end() ? std::nullopt : (*open)->open;
 }
 
 std::vector<Index> whole_of_parts(const Mesh& mesh) {

@@ -206,7 +206,15 @@ void tell_whole_mesh(Document& d, const CheckReport& r) {
         if (!first.empty())
             text += fmt::format("; cells {}{}", fmt::join(first, ", "),
                                 m.changing + m.unknown > m.examples.size() ? ", ..." : "");
-        d.name("maps", text, first.empty() ? Tone::plain : Tone::strong);
+        if (m.split_facets != 0)
+            text += fmt::format("; {} of {} at curved cells NOT the same in both cells, up to {:.2g} apart",
+                                m.split_facets, counted(m.curved_facets, "facet"), m.max_gap);
+        else if (m.curved_facets != 0)
+            text += fmt::format("; {} at curved cells, the same in both cells", counted(m.curved_facets, "facet"));
+        if (!m.split.empty())
+            text += fmt::format(", the first between cells {} and {}", r.cell_number(m.split[0][0]),
+                                r.cell_number(m.split[0][1]));
+        d.name("maps", text, first.empty() && m.split_facets == 0 ? Tone::plain : Tone::strong);
     }
     if (r.delaunay) d.add(Named{"Delaunay", delaunay_sentences(r)});
     if (r.conformity) d.add(Named{"PLC", conformity_sentences(r, 40)}, For::terminal);
