@@ -70,9 +70,11 @@ struct SampleCounts {
     std::uint64_t snapped = 0;  ///< points outside that got the value of the nearest point
     std::uint64_t extrapolated = 0;
     std::uint64_t without_value = 0;  ///< points outside that got NaN, or the number to fill in
-    /// Points in cells with a map whose values are not proved to be those of the map, rounded once: they are one of two
-    /// neighbouring doubles, or those of the cell's parts.
-    std::uint64_t unproved = 0;
+    /// Points in cells with a map where 1,200 bits do not tell how a value rounds.
+    std::uint64_t undecided = 0;
+    double max_off = 0;  ///< no value there is farther from the one that is rounded correctly: as a rule an ulp
+    /// Points in cells with a map whose reference coordinates were not found: they have the values of the cell's parts.
+    std::uint64_t unmapped = 0;
     double farthest = 0;  ///< max distance of those snapped or extrapolated
 
     void add(const SampleCounts& other);

@@ -173,6 +173,26 @@ TEST_P(Isoparametric, V1TiesOnLatticesAreRoundedToEven) {
     EXPECT_GT(exact, 200U);
 }
 
+/// The field 3 x at x = 1 + 2^-52, between two doubles, where reference coordinates are no fractions.
+TEST(IsoparametricValues, V1TiesThatNoPrecisionTellsHaveABound) {
+    const std::array<std::array<double, 2>, 4> nodes{{{0, 0}, {4, 0}, {3, 3}, {0, 2}}};
+    Places places{};
+    std::array<double, 8> values{};  // another component that is decided
+    for (std::size_t i = 0; i < 4; ++i) {
+        places.at[i] = nodes[i].data();
+        values[2 * i] = 3 * nodes[i][0];
+        values[2 * i + 1] = nodes[i][0];
+    }
+    const std::array<double, 2> point{1 + 0x1p-52, 1};
+    std::array<double, 2> out{};
+    const Evaluated found = evaluate(*linear_reference(9), places, point.data(), 0b1111, values.data(), 2, out.data());
+    EXPECT_EQ(found.certainty, Certainty::undecided);
+    EXPECT_EQ(found.tier, Tier::exact);
+    EXPECT_EQ(found.off, 0x1p-51);
+    EXPECT_TRUE(out[0] == 3 + 0x1p-51 || out[0] == 3 + 0x1p-50) << out[0];
+    EXPECT_EQ(out[1], point[0]);
+}
+
 TEST_P(Isoparametric, ValuesOfAllSizesAndKinds) {
     const Reference& reference = *linear_reference(GetParam());
     for (int i = 0; i < 400; ++i) {

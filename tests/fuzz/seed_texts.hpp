@@ -110,6 +110,66 @@ inline const std::vector<SeedText> seed_texts{
     {"medit", "second_order",
      std::string("\0", 1) + "MeshVersionFormatted 1\nDimension\n2\nVertices 6 0 0 0 2 0 0 0 2 0 1 0 0 1 1 0 0 1 0\n"
                             "TrianglesP2 1 1 2 3 4 5 6 9\nSolAtTriangles 1 1 1 .5\n"},
+    {"vtk_legacy", "shapes",
+     "# vtk DataFile Version 3.0\ns\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 11 double\n0 0 0 1 0 0 1 1 0 0 1 0\n"
+     "0 0 1 1 0 1 1 1 1 0 1 1.5\n.5 .5 2 2 0 0 2 0 1\nCELLS 4 27\n8 0 1 2 3 4 5 6 7\n6 1 9 2 5 10 6\n5 4 5 6 7 8\n"
+     "4 0 1 3 4\nCELL_TYPES 4\n12 13 14 10\nPOINT_DATA 11\nSCALARS T double\nLOOKUP_TABLE default\n"
+     "0 1 2 3 4 5 6 7 8 9 10\nCELL_DATA 4\nSCALARS q double\nLOOKUP_TABLE default\n1 2 3 4\n"},
+    {"vtk_legacy", "flat_shapes",
+     "# vtk DataFile Version 3.0\ns\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n0 0 0 1 0 0 1 1 0 0 1 0\n"
+     "2 0 0 2 1 0 3 0 0 3 2 0\nCELLS 4 19\n4 0 1 2 3\n4 1 4 2 5\n5 4 6 7 5 2\n2 0 1\nCELL_TYPES 4\n9 8 7 3\n"},
+    {"vtk_legacy", "strip",
+     "# vtk DataFile Version 3.0\ns\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n0 0 0 0 1 0 1 0 0 1 1 0 2 0 0\n"
+     "CELLS 1 6\n5 0 1 2 3 4\nCELL_TYPES 1\n6\n"},
+    {"vtk_legacy", "image",
+     "# vtk DataFile Version 3.0\ni\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 2 2\nORIGIN 0 0 -1\n"
+     "SPACING .5 1 2\nPOINT_DATA 12\nSCALARS T double\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 7 8 9 10 11\n"},
+    {"vtk_legacy", "rectilinear",
+     "# vtk DataFile Version 3.0\nr\nASCII\nDATASET RECTILINEAR_GRID\nDIMENSIONS 3 2 1\nX_COORDINATES 3 double\n"
+     "0 1 4\nY_COORDINATES 2 float\n-1 1\nZ_COORDINATES 1 double\n0\nCELL_DATA 2\nSCALARS q double\n"
+     "LOOKUP_TABLE default\n1 2\n"},
+    {"vtk_legacy", "structured",
+     "# vtk DataFile Version 3.0\ns\nASCII\nDATASET STRUCTURED_GRID\nDIMENSIONS 2 2 2\nPOINTS 8 double\n0 0 0 1 0 0\n"
+     "0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 2\n"},
+    {"vtk_xml", "polyhedron",
+     R"(<VTKFile type="UnstructuredGrid" version="1.0"><UnstructuredGrid><Piece NumberOfPoints="5" NumberOfCells="1">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 1 1 0 0 1 0 0 0 1</DataArray></Points>
+<Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2 3 4</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">5</DataArray><DataArray type="UInt8" Name="types" format="ascii">42
+</DataArray><DataArray type="Int64" Name="faces" format="ascii">5 4 0 1 2 3 3 0 1 4 3 1 2 4 3 2 3 4 3 3 0 4</DataArray>
+<DataArray type="Int64" Name="faceoffsets" format="ascii">22</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>)"},
+    {"vtk_xml", "lagrange",
+     R"(<VTKFile type="UnstructuredGrid" version="1.0"><UnstructuredGrid><Piece NumberOfPoints="10" NumberOfCells="1">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 3 0 0 0 3 0 1 0 0 2 -.5 0 2 1 0 1 2 0 0 2 0
+0 1 0 1 1 0</DataArray></Points><Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2 3 4 5 6 7 8 9
+</DataArray><DataArray type="Int64" Name="offsets" format="ascii">10</DataArray><DataArray type="UInt8" Name="types"
+format="ascii">69</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>)"},
+    {"vtk_xml", "vti",
+     R"(<VTKFile type="ImageData" version="1.0"><ImageData WholeExtent="0 2 0 1 1 2" Origin="0 0 0" Spacing="1 .5 2">
+<Piece Extent="0 2 0 1 1 2"><PointData><DataArray type="Float64" Name="T" format="ascii">0 1 2 3 4 5 6 7 8 9 10 11
+</DataArray></PointData></Piece></ImageData></VTKFile>)"},
+    {"vtk_xml", "vtr",
+     R"(<VTKFile type="RectilinearGrid" version="1.0"><RectilinearGrid WholeExtent="0 2 0 1 0 0"><Piece Extent="0 2 0 1 0 0">
+<CellData><DataArray type="Int32" Name="q" format="ascii">5 6</DataArray></CellData><Coordinates>
+<DataArray type="Float64" Name="x" format="ascii">0 1 3</DataArray><DataArray type="Float64" Name="y" format="ascii">0 2
+</DataArray><DataArray type="Float64" Name="z" format="ascii">0</DataArray></Coordinates></Piece></RectilinearGrid></VTKFile>)"},
+    {"vtk_xml", "vts",
+     R"(<VTKFile type="StructuredGrid" version="1.0"><StructuredGrid WholeExtent="0 1 0 1 0 1"><Piece Extent="0 1 0 1 0 1">
+<Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 2
+</DataArray></Points></Piece></StructuredGrid></VTKFile>)"},
+    {"gmsh", "shapes",
+     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n11\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n"
+     "8 0 1 1.5\n9 .5 .5 2\n10 2 0 0\n11 2 0 1\n$EndNodes\n$Elements\n3\n1 5 2 0 1 1 2 3 4 5 6 7 8\n"
+     "2 6 2 0 1 2 10 3 6 11 7\n3 7 2 0 1 5 6 7 8 9\n$EndElements\n"},
+    {"gmsh", "third_order",
+     "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 10 1 10\n2 1 0 10\n1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n0 0 0\n3 0 0\n"
+     "0 3 0\n1 0 0\n2 -.5 0\n2 1 0\n1 2 0\n0 2 0\n0 1 0\n1 1 0\n$EndNodes\n$Elements\n1 1 1 1\n2 1 21 1\n"
+     "1 1 2 3 4 5 6 7 8 9 10\n$EndElements\n"},
+    {"medit", "shapes",
+     std::string("\0", 1) +
+         "MeshVersionFormatted 2\nDimension 3\nVertices\n11\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n"
+         "1 1 1 0\n0 1 1.5 0\n.5 .5 2 0\n2 0 0 0\n2 0 1 0\nHexahedra 1\n1 2 3 4 5 6 7 8 1\nPrisms 1\n2 10 3 6 11 7 2\n"
+         "Pyramids 1\n5 6 7 8 9 3\nTetrahedra 1\n1 2 4 5 4\nEnd\n"},
     {"medit", "fields",
      "\1MeshVersionFormatted 2\nDimension 3\nSolAtVertices 2\n3 1 2 3\n1 2 3 4 5 6 7 8 9 nan\n1 2 3 4 5 6 7 8 9 "
      "-inf\nEnd\n"},

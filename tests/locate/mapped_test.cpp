@@ -134,6 +134,27 @@ std::vector<const double*> nodes_of(const Mesh& mesh, std::size_t shape, std::ve
     return nodes;
 }
 
+/// The tie of IsoparametricValues, as the summary counts it, beside a point that is decided.
+TEST(MappedCells, V1UndecidedValuesAreCounted) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.points = {0, 0, 4, 0, 3, 3, 0, 2};
+    mesh.shapes.types = {9};
+    mesh.shapes.ends = {4};
+    mesh.shapes.nodes = {0, 1, 2, 3};
+    mesh.point_fields = {{"f", 1, {0, 12, 9, 0}}};
+    cut(mesh);
+    const std::vector<double> points{1 + 0x1p-52, 1, 1, 1, 5, 5};
+    const Table rows = Sampler::build(mesh, {}, {.interpolation = CellInterpolation::multilinear, .progress = {}})
+                           .value()
+                           .sample(points)
+                           .value();
+    EXPECT_EQ(rows.counts.undecided, 1U);
+    EXPECT_EQ(rows.counts.unmapped, 0U);
+    EXPECT_EQ(rows.counts.max_off, 0x1p-51);
+    EXPECT_EQ(rows.values[1], 3);
+}
+
 TEST(MappedCells, L1V1CellsWithCurvedSides) {
     std::mt19937 random(4);
     for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -147,7 +168,7 @@ TEST(MappedCells, L1V1CellsWithCurvedSides) {
             points.push_back(std::uniform_real_distribution(-0.2, 4.2)(random));
         const Table rows = sampler.sample(points).value();
         const Table linear = Sampler::build(mesh).value().sample(points).value();
-        EXPECT_EQ(rows.counts.unproved, 0U);
+        EXPECT_EQ(rows.counts.undecided + rows.counts.unmapped, 0U);
         std::size_t inside = 0, moved = 0;
         for (std::size_t i = 0; i < rows.row_count(); ++i) {
             Index owner = -1;

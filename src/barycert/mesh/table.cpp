@@ -35,12 +35,15 @@ void LocationCounts::add(const LocationCounts& other) {
 
 void SampleCounts::add(const SampleCounts& other) {
     add_members(*this, other, &SampleCounts::snapped, &SampleCounts::extrapolated, &SampleCounts::without_value,
-                &SampleCounts::unproved);
+                &SampleCounts::undecided, &SampleCounts::unmapped);
     locations.add(other.locations);
     values.add(other.values);
     // Bits of numbers that are not negative compare as they do, whatever the environment does to subnormal ones.
-    farthest = std::bit_cast<double>(
-        std::max(std::bit_cast<std::uint64_t>(farthest), std::bit_cast<std::uint64_t>(other.farthest)));
+    const auto larger = [](double a, double b) {
+        return std::bit_cast<double>(std::max(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)));
+    };
+    farthest = larger(farthest, other.farthest);
+    max_off = larger(max_off, other.max_off);
 }
 
 std::vector<std::string> column_names(const std::vector<TableField>& fields) {

@@ -48,13 +48,18 @@ void tell_values(Document& d, const SampleReport& s) {
     if (t.cases() != 0)
         text += fmt::format("; decided by the filter {}, by double-double {}, by integers {}", t.filter,
                             t.double_double, t.exact);
-    if (s.counts.unproved != 0)
-        text += fmt::format("; {} not proved", counted(s.counts.unproved, "point is", "points are"));
+    if (s.counts.undecided != 0)
+        text += fmt::format("; of {} undecided how they round, off by at most {:.2g}",
+                            counted(s.counts.undecided, "point"), s.counts.max_off);
+    if (s.counts.unmapped != 0)
+        text += fmt::format("; {} got the values of the parts of cells: not found in their maps",
+                            counted(s.counts.unmapped, "point"));
     if (s.rounding == Rounding::plain) text = "plain double, by --rounding plain; cells and features are exact";
     if (s.columns.empty()) text = "none: the mesh has no fields, and --field was not given";
     d.figure("values",
              record("rounding", s.rounding == Rounding::correct ? "correct" : "plain",
-                    MEMBERS(t, filter, double_double, exact), "nan", s.nan_values),
+                    MEMBERS(t, filter, double_double, exact), MEMBERS(s.counts, undecided, max_off, unmapped), "nan",
+                    s.nan_values),
              "values", text);
     if (s.nan_values != 0)
         d.name("NaN",

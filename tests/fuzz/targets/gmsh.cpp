@@ -65,6 +65,7 @@ BARYCERT_FUZZ_TARGET(gmsh) {
     const Mesh once = written(*mesh, options), twice = written(once, options);
     const Payload payload = binary ? Payload::kept : Payload::lost;
     expect_same(once, twice, payload);
+    if (!mesh->shapes.types.empty()) return;  // it was written as simplices
     Mesh first = *mesh, second = once;
     first.cell_fields = comparable(mesh->cell_fields, mesh->cell_fields);
     second.cell_fields = comparable(once.cell_fields, mesh->cell_fields);

@@ -10,6 +10,7 @@ struct Component {
     std::array<double, max_nodes> values{};
     int exponent = 0;
     bool finite = true;
+    double off = 0;  ///< Evaluated::off
 };
 
 template <class T>
@@ -31,18 +32,20 @@ std::optional<double> value_of(const Ball<TwoDoubles>& b, int exponent) {
     return value;
 }
 
+/// Rounded, the exact value and the middle lie between the ends of the ball.
 template <unsigned bits>
-std::optional<double> value_of(const Ball<Wide<bits>>& b, int exponent, double* middle) {
-    const auto end = [&](double off) {
-        return rounded(Rational(ldexp(Wide<bits>(b.mid + Wide<bits>(off)), exponent)));
+std::optional<double> value_of(const Ball<Wide<bits>>& b, int exponent, double* middle, double* off) {
+    const auto end = [&](double by) {
+        return rounded(Rational(ldexp(Wide<bits>(b.mid + Wide<bits>(by)), exponent)));
     };
     const double low = end(-b.radius), high = end(b.radius);
     *middle = end(0);
+    *off = high - low;
     return low == high ? std::optional(low) : std::nullopt;
 }
 
 template <class T>
-bool values_in(const Reference& of, const Inverse& inverse, const std::vector<Component>& all, double goal,
+bool values_in(const Reference& of, const Inverse& inverse, std::vector<Component>& all, double goal,
                std::vector<std::uint8_t>& open, double* out, Vector<double>* about) {
     std::array<Ball<T>, 3> x;
     if (!inverse.enclose<T>(x, goal) || !may_be_inside(of, x)) return false;
@@ -55,7 +58,7 @@ bool values_in(const Reference& of, const Inverse& inverse, const std::vector<Co
         if constexpr (std::is_same_v<T, TwoDoubles>) {
             value = value_of(sum, all[c].exponent);
         } else {
-            value = value_of(sum, all[c].exponent, &out[c]);
+            value = value_of(sum, all[c].exponent, &out[c], &all[c].off);
         }
         if (!value) continue;
         out[c] = *value + 0.0;
@@ -111,10 +114,15 @@ Evaluated evaluate(const Reference& of, const Places& places, const double* poin
         }
         return {Certainty::proved, Tier::exact};
     }
-    if (!found) return {};
-    if (values_in<Wide<300>>(of, inverse, all, 0x1p-250, open, out, nullptr) && left())
-        values_in<Wide<1200>>(of, inverse, all, 0x1p-940, open, out, nullptr);
-    return {left() ? Certainty::undecided : Certainty::proved, Tier::exact};
+    if (!found || !values_in<Wide<300>>(of, inverse, all, 0x1p-250, open, out, nullptr)) return {};
+    if (left()) values_in<Wide<1200>>(of, inverse, all, 0x1p-940, open, out, nullptr);
+    Evaluated result{Certainty::proved, Tier::exact};
+    for (std::size_t c = 0; c < components; ++c) {
+        if (open[c] == 0) continue;
+        result.certainty = Certainty::undecided;
+        result.off = std::max(result.off, all[c].off);
+    }
+    return result;
 }
 
 }  // namespace barycert::core::isoparametric

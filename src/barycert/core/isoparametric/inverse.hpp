@@ -20,12 +20,13 @@ struct Places {
     std::array<const double*, max_nodes> at{}, other{};
 };
 
-/// How a value was found; `undecided`: between two neighbouring doubles that no precision told apart.
+/// How a value was found; `undecided`: 1,200 bits did not tell how it rounds.
 enum class Certainty : std::uint8_t { proved, undecided, not_found };
 
 struct Evaluated {
     Certainty certainty = Certainty::not_found;
     Tier tier = Tier::double_double;
+    double off = 0;  ///< undecided: the values are at most so far from those that are rounded correctly
 };
 
 /// sum of N_i(x) values[components * i + c] to out[c], rounded once, where x is taken to `point`. `active`: a bit for

@@ -210,7 +210,9 @@ void ChunkSampler::settled(const locate::PointRecord& point, const Location& at,
         values_.resize(std::max(values_.size(), data_.point_components));
         const auto found =
             mapped.evaluate(at.cell, at.feature, point.at.data(), data_.point_fields, scratch_, values_.data());
-        if (found.certainty != Certainty::proved) ++counts_.unproved;
+        counts_.undecided += found.certainty == Certainty::undecided ? 1 : 0;
+        counts_.max_off = std::max(counts_.max_off, found.off);
+        counts_.unmapped += found.certainty == Certainty::not_found ? 1 : 0;
         if (found.certainty != Certainty::not_found) {
             counts_.values.add(found.tier);
             return set_row(point, at, values_.data(), 1);

@@ -90,7 +90,7 @@ private:
             for (const core::NodeComponent& field : fields_) values.push_back(field.data[field.step * corners[i].node]);
         }
         const auto found = iso::evaluate(reference, places, point, active, values.data(), fields_.size(), row);
-        counts.unproved += found.certainty == iso::Certainty::proved ? 0 : 1;
+        counts.unmapped += found.certainty == iso::Certainty::proved ? 0 : 1;
     }
 
     /// Parts go from the lowest corner to the highest along the axes in any order.
