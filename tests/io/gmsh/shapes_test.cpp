@@ -88,6 +88,19 @@ TEST(GmshShapes, OneOfEach) {
     }
 }
 
+/// Gmsh wants elements with numbers of their own.
+TEST(GmshShapes, PartsAreWrittenUnderDifferentNumbers) {
+    const Mesh mesh = read_msh(one_of_each(), msh_kinds.front()).value();
+    for (const GmshWriteOptions::Version version : {GmshWriteOptions::Version::v41, GmshWriteOptions::Version::v22}) {
+        const std::string path = ::testing::TempDir() + "barycert_parts.msh";
+        ASSERT_TRUE(write_gmsh(mesh, path, {version, false}));
+        const Mesh again = read_gmsh(path).value();
+        std::remove(path.c_str());
+        EXPECT_EQ(again.cells, mesh.cells);
+        EXPECT_TRUE(std::ranges::none_of(again.cell_labels, [](const Column& c) { return c.name == "gmsh:tag"; }));
+    }
+}
+
 TEST(GmshShapes, InThePlane) {
     Msh msh;
     msh.nodes = {{1, {0, 0, 0}}, {2, {1, 0, 0}}, {3, {1, 1, 0}}, {4, {0, 1, 0}}, {5, {2, 0, 0}}, {6, {2, 1, 0}}};

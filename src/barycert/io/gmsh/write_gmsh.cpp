@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <set>
 
 #include "barycert/io/formats.hpp"
@@ -56,8 +57,12 @@ std::vector<std::int64_t> element_tags(const Mesh& mesh) {
         if (differ && !sorted.empty() && sorted.front() >= 1 && sorted.back() <= INT32_MAX) return *label;
     }
     std::vector<std::int64_t> tags(mesh.cell_count());
-    for (std::size_t i = 0; i < tags.size(); ++i)
-        tags[i] = std::int64_t{mesh.cell_number(static_cast<Mesh::Index>(i))} + 1;
+    std::iota(tags.begin(), tags.end(), 1);
+    // Parts of one cell have its number.
+    const std::vector<Mesh::Index>& numbers = mesh.cell_numbers;
+    if (std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end()) {
+        for (std::size_t i = 0; i < numbers.size(); ++i) tags[i] = std::int64_t{numbers[i]} + 1;
+    }
     return tags;
 }
 
