@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <system_error>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"

@@ -6,7 +6,6 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
-#include <system_error>
 
 #include "barycert/io/npz/weights_file.hpp"
 #include "barycert/locate/batch.hpp"

@@ -7,7 +7,6 @@
 #include "barycert/grid.hpp"
 #include "barycert/locate/locator_data.hpp"
 #include "barycert/locate/near_feature.hpp"
-#include "barycert/mesh/pulling.hpp"
 
 namespace barycert::pieces {
 namespace {

@@ -1,7 +1,4 @@
-#include <functional>
-
 #include "barycert/base/finite.hpp"
-#include "barycert/core/isoparametric/lanes.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/mesh/consistency.hpp"
