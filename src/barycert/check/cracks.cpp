@@ -36,9 +36,8 @@ public:
         for (const Mesh::Index node : places_) radius.push_back(reach(node, c_.options.near));
         Found<NearPair> found;
         std::vector<NearPair>& pairs = found.list;
-        found.complete = for_each_near(c_.mesh, places_, radius, 100 * pair_limit, [&](const NearPair& p) {
-            pairs.push_back({std::min(p.first, p.second), std::max(p.first, p.second), p.distance});
-        });
+        found.complete =
+            for_each_near(c_.mesh, places_, radius, 100 * pair_limit, [&](const NearPair& p) { pairs.push_back(p); });
         const auto nodes_of_pair = [](const NearPair& p) { return std::pair(p.first, p.second); };
         std::ranges::sort(pairs, {}, nodes_of_pair);
         constexpr double of_one_cell = -1;

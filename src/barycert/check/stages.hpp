@@ -280,9 +280,9 @@ struct NearPair {
     double distance = 0;
 };
 
-/// found(pair) for the pairs of `nodes` that lie no farther apart than `radius` of both, an entry a node; in an order
-/// that does not depend on threads. False if there are more than `limit` of them, or on average more than 64 a node
-/// over many nodes: those beyond are not found. Memory is bounded by that.
+/// found(pair) for the pairs of `nodes`, ascending, that lie no farther apart than `radius` of both, an entry a node,
+/// the lower node first; in an order that does not depend on threads. False if there are more than `limit` of them, or
+/// on average more than 64 a node over many nodes: those beyond are not found. Memory is bounded by that.
 bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, const std::vector<double>& radius,
                    std::size_t limit, const std::function<void(const NearPair&)>& found);
 

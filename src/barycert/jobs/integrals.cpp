@@ -39,7 +39,7 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
     const check::ExactVolumes volumes(mesh.dimension, mesh.points);
     core::Unit unit;
     for (const double x : values) {
-        if (std::isfinite(x)) unit.add(core::scaled(x));
+        if (std::isfinite(x)) unit.add(x);
     }
     const std::size_t corners = mesh.corners(), mids = mesh.dimension == 2 ? 3 : 6;
     const auto add_cell = [&](std::size_t c, PartialIntegral& part) {
@@ -51,8 +51,8 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
             if (weight == 0) return;
             finite = finite && std::isfinite(values[entity]);
             if (!finite) return;
-            const Integer value = unit.multiple<Integer>(core::scaled(values[entity]));
-            sum = sum + Integer(weight < 0, static_cast<std::uint64_t>(std::abs(weight)), 0) * value;
+            const Integer factor(weight < 0, static_cast<std::uint64_t>(std::abs(weight)), 0);
+            sum = sum + factor * unit.integer(values[entity]);
         };
         if (rule.corners == 0) add(1, c);
         for (std::size_t i = 0; i < rule.corners; ++i)
@@ -76,10 +76,7 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
             all.left_out += part.left_out;
         });
     const Integer denominator(false, (mesh.dimension == 2 ? 2 : 6) * rule.denominator, 0);
-    // Without a value but zeros the unit has no exponent, and the sum is zero in any.
-    return {core::round_quotient(whole.sum, denominator,
-                                 volumes.unit() + (whole.sum.sign() == 0 ? 0 : unit.exponent - 1074)),
-            whole.left_out};
+    return {core::round_quotient(whole.sum, denominator, volumes.unit() + unit.power()), whole.left_out};
 }
 
 /// The columns of cell fields that are sampled as they are; their integrals over the mesh go into the report.

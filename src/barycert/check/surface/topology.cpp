@@ -109,9 +109,8 @@ void find_surface_cracks(SurfaceParts& s) {
     const bool complete = for_each_near(places, nodes, radius, 100 * pair_limit, [&](const NearPair& p) {
         const double edge =
             std::min(shortest[static_cast<std::size_t>(p.first)], shortest[static_cast<std::size_t>(p.second)]);
-        s.defects.add(DefectKind::near_nodes, {.nodes = {std::min(p.first, p.second), std::max(p.first, p.second), -1},
-                                               .distance = p.distance,
-                                               .relative = p.distance / edge});
+        s.defects.add(DefectKind::near_nodes,
+                      {.nodes = {p.first, p.second, -1}, .distance = p.distance, .relative = p.distance / edge});
         same.join(static_cast<std::size_t>(p.first), static_cast<std::size_t>(p.second));
     });
     if (!complete) s.defects[DefectKind::near_nodes].at_least = true;

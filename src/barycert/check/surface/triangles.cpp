@@ -65,20 +65,18 @@ std::vector<CellPair> find_intersections(SurfaceParts& s) {
     std::vector<CellPair> cells;
     std::vector<HangingNode> hanging;
     for (std::size_t i = 0; i < std::min(pairs.size(), limit); ++i) {
-        const auto& [first, second] = pairs[i];
+        auto [first, second] = pairs[i];
+        if (s.triangles.number(first) > s.triangles.number(second)) std::swap(first, second);
         const Mesh::Index a = s.triangles.number(first), b = s.triangles.number(second);
-        cells.push_back({std::min(a, b), std::max(a, b)});
-        const bool swap = a > b;
         if (s.triangles.facets[first].nodes == s.triangles.facets[second].nodes) {
-            s.defects.add_marked(DefectKind::duplicate_triangle,
-                                 {.cells = {cells.back()[1], cells.back()[0]}, .nodes = s.triangles.nodes(first)});
-            cells.pop_back();
+            s.defects.add_marked(DefectKind::duplicate_triangle, {.cells = {b, a}, .nodes = s.triangles.nodes(first)});
             continue;
         }
-        s.defects.add_marked(DefectKind::self_intersection, {.cells = cells.back(),
-                                                             .nodes = s.triangles.nodes(swap ? second : first),
-                                                             .other_nodes = s.triangles.nodes(swap ? first : second)});
-        for (const auto& [of, on] : {pairs[i], FacetPair{second, first}}) {
+        cells.push_back({a, b});
+        s.defects.add_marked(
+            DefectKind::self_intersection,
+            {.cells = {a, b}, .nodes = s.triangles.nodes(first), .other_nodes = s.triangles.nodes(second)});
+        for (const auto& [of, on] : {FacetPair{first, second}, FacetPair{second, first}}) {
             const PlacedFacet &f = s.triangles.facets[of], &g = s.triangles.facets[on];
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto face = face_around(3, g, f.at[k]);
