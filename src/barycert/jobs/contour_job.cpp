@@ -223,10 +223,8 @@ private:
         for (Mesh::Index& cell : surface.mesh_cells) cell = mesh_.cell_number(cell);
         tell_stage(job_, "writing " + job_.output);
         report_.file = write_surface(surface, job_.output, job_.vtk_data.value_or(VtkData::raw)).value();
-        std::erase_if(report_.fields, [&](const std::string& name) {
-            const auto& out = report_.file.left_out;
-            return std::find(out.begin(), out.end(), name) != out.end();
-        });
+        std::erase_if(report_.fields,
+                      [&](const std::string& name) { return std::ranges::count(report_.file.left_out, name) != 0; });
         report_.seconds.write = watch.lap();
     }
 

@@ -80,10 +80,10 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
 }
 
 /// The columns of cell fields that are sampled as they are; their integrals over the mesh go into the report.
-std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& format) {
+std::vector<std::size_t> integrate_source(SampledMesh& mesh) {
     std::vector<std::size_t> columns;
     std::size_t first = 0;
-    for (const TableField& field : format.fields) {
+    for (const TableField& field : mesh.sampler().fields()) {
         const auto components = static_cast<std::size_t>(field.components);
         const auto chosen = std::find_if(mesh.fields().begin(), mesh.fields().end(), [&](const FieldChoice& choice) {
             return choice.of_cells && choice.steps.empty() && name_of(choice) == field.name;
@@ -93,7 +93,7 @@ std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& 
             for (std::size_t i = k; i < chosen->field->data.size(); i += components)
                 values.push_back(chosen->field->data[i]);
             FieldIntegral of;
-            of.column = format.columns()[first + k];
+            of.column = mesh.sampler().columns()[first + k];
             std::tie(of.source, of.source_left_out) = integral(mesh.mesh(), values, {0, 0, 0, 1});
             mesh.report.integrals.push_back(of);
             columns.push_back(first + k);
@@ -122,9 +122,8 @@ void note_cell_fields(SampledMesh& mesh, bool of_series) {
                                  mesh.job.mesh, true});
 }
 
-Sink with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
-                    const std::function<Sink()>& open) {
-    const std::vector<std::size_t> columns = integrate_source(mesh, format);
+Sink with_integrals(SampledMesh& mesh, const Mesh& other, const std::function<Sink()>& open) {
+    const std::vector<std::size_t> columns = integrate_source(mesh);
     if (columns.empty()) return open();
     struct Kept {
         Mesh geometry;

@@ -73,11 +73,11 @@ jobs::RowSource rows_of_map(MapReader& map) {
 
 /// The outputs of the job; `carried`: columns of the points.
 jobs::OpenRows outputs_of(SampledMesh& mesh, const SampleJob& job, const std::vector<ColumnFormat>& carried) {
-    return [&mesh, &job, carried](const TableFormat& format, const std::string& path) {
+    return [&mesh, &job, carried](const std::string& path) {
         if (path.empty()) return jobs::Sink();
         const bool all = job.keep == std::vector<std::string>{"all"};
-        return open_user_rows(mesh, format, carried, all,
-                              [&](const TableFormat& shown) { return jobs::open_rows(path, shown); });
+        return open_user_rows(mesh, carried, all,
+                              [&](const TableFormat& format) { return jobs::open_rows(path, format); });
     };
 }
 

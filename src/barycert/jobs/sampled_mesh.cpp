@@ -247,16 +247,8 @@ void SampledMesh::build_sampler(const std::vector<FieldChoice>& fields) {
 }
 
 std::vector<FieldChoice> SampledMesh::fields_of_part() {
-    std::vector<FieldChoice> fields;
-    part_->mesh.point_fields.clear();
-    part_->mesh.cell_fields.clear();
-    part_->mesh.point_fields.reserve(fields_.size());
-    part_->mesh.cell_fields.reserve(fields_.size());
-    for (const FieldChoice& choice : fields_) {
-        auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
-        of_part.push_back(part_->field(*choice.field, choice.of_cells));
-        fields.push_back({&of_part.back(), choice.of_cells, choice.steps, choice.name});
-    }
+    std::vector<FieldChoice> fields = fields_;
+    for (FieldChoice& choice : fields) choice.field = &made_.emplace_back(part_->field(*choice.field, choice.of_cells));
     return fields;
 }
 

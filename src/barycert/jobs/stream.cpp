@@ -60,7 +60,7 @@ public:
 
 private:
     void open() {
-        sink_ = open_(mesh_.format(), targets_.path);
+        sink_ = open_(targets_.path);
         if (!targets_.map.empty()) {
             const BuildOptions located = build_options(mesh_.job, 0);
             map_ = MapWriter::open(targets_.map, mesh_.mesh(), mesh_.report.all, located).value();
@@ -71,8 +71,6 @@ private:
 
     void work(Block& block) const {
         Table& rows = block.rows;
-        if (source_.located) look_outside(block);
-        if (source_.located && block.outside) return;
         if (source_.located)
             mesh_.sampler().evaluate(rows.points, options_, rows, block.first).value();
         else if (mesh_.report.all)
@@ -83,7 +81,8 @@ private:
         if (targets_.known != nullptr) block.located = rows.cells;
         if (weights_) block.weights = mesh_.weights_of(rows.view());
         mesh_.name_cells(rows);
-        if (!source_.located) look_outside(block);
+        if (mesh_.job.options.outside.kind == Outside::error)
+            block.outside = locate::first_outside(rows.cells, rows.points, static_cast<std::size_t>(rows.dimension));
         block.nan_values = count_nan(rows.view());
     }
 
@@ -94,13 +93,6 @@ private:
         const LocationCounts locations = rows.counts.locations;
         mesh_.sampler().evaluate(rows.points, options_, rows).value();
         rows.counts.locations = locations;
-    }
-
-    void look_outside(Block& block) const {
-        block.outside.reset();
-        if (mesh_.job.options.outside.kind != Outside::error) return;
-        const Table& rows = block.rows;
-        block.outside = locate::first_outside(rows.cells, rows.points, static_cast<std::size_t>(rows.dimension));
     }
 
     Error refused(const Block& block) const {
@@ -221,8 +213,8 @@ void refuse_kept(const std::string& name) {
            "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
 }
 
-Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
-                    const OpenFormat& open) {
+Sink open_user_rows(SampledMesh& mesh, const std::vector<ColumnFormat>& carried, bool all, const OpenFormat& open) {
+    TableFormat format = mesh.format();
     const std::vector<std::string> columns = format.columns();
     std::set<std::string> names(columns.begin(), columns.end());
     mesh.report.carried.clear();
@@ -240,10 +232,9 @@ Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<Col
     std::vector<bool> kept;
     std::vector<std::string> left_out;
     for (const ColumnFormat& column : carried) {
-        const std::string name = base::printable(column.name);
         kept.push_back(!all || (!is_name_of_rows(column.name) && !of_rows.contains(column.name)));
         if (!kept.back()) {
-            left_out.push_back(name);
+            left_out.push_back(base::printable(column.name));
         } else if (!add(column)) {
             refuse_kept(column.name);
         }
