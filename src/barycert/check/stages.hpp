@@ -265,6 +265,13 @@ CellContact common_part(const Mesh& mesh, const CellPair& cells);
 
 // Nodes near each other, or near what is between others (nodes.cpp, hanging_nodes.cpp, cracks.cpp).
 
+/// Sets 1 for those of the indices that are nodes.
+void mark_used(const std::vector<Mesh::Index>& indices, std::vector<std::uint8_t>& used);
+
+/// 1 for each node whose d coordinates are all finite. Finds not_finite, and of those that are not used unused_node.
+std::vector<std::uint8_t> find_finite(const std::vector<double>& points, int d, const std::vector<std::uint8_t>& used,
+                                      DefectList& defects);
+
 /// Those of `nodes` at the place of another one, second, each with the lowest that is there, first; by the second. 0
 /// and -0 are one place. Precondition: their coordinates are finite.
 std::vector<std::array<Mesh::Index, 2>> coincident_nodes(const Mesh& mesh, const std::vector<Mesh::Index>& nodes);

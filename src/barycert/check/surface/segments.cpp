@@ -177,7 +177,8 @@ private:
         const auto before = [&](Mesh::Index a, Mesh::Index b) {
             return std::lexicographical_compare(point(a), point(a) + 3, point(b), point(b) + 3);
         };
-        std::ranges::stable_partition(order, [&](auto n) { return place_[static_cast<std::size_t>(n)] >= 0; });
+        std::stable_partition(order.begin(), order.end(),
+                              [&](auto n) { return place_[static_cast<std::size_t>(n)] >= 0; });
         std::ranges::stable_sort(order, before);
         for (std::size_t i = 1; i < order.size(); ++i) {
             const auto node = static_cast<std::size_t>(order[i]);

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "barycert/check/surface/parts.hpp"
 
 namespace barycert::check {
@@ -7,21 +5,11 @@ namespace barycert::check {
 bool check_triangles(SurfaceParts& s) {
     const Surface& surface = s.surface;
     const std::size_t points = surface.point_count(), count = surface.cell_count();
-    std::vector<std::uint8_t> used(points, 0), finite(points, 1);
+    std::vector<std::uint8_t> used(points, 0);
+    mark_used(surface.cells, used);
+    const std::vector<std::uint8_t> finite = find_finite(surface.points, 3, used, s.defects);
+    const bool all_finite = std::ranges::find(finite, 0) == finite.end();
     const auto is_node = [&](Mesh::Index i) { return i >= 0 && static_cast<std::size_t>(i) < points; };
-    for (const Mesh::Index i : surface.cells) {
-        if (is_node(i)) used[static_cast<std::size_t>(i)] = 1;
-    }
-    bool all_finite = true;
-    for (std::size_t i = 0; i < points; ++i) {
-        const double* const p = &surface.points[3 * i];
-        const auto node = static_cast<Mesh::Index>(i);
-        if (used[i] == 0) s.defects.add(DefectKind::unused_node, {.nodes = {node, -1, -1}});
-        if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) continue;
-        s.defects.add(DefectKind::not_finite, {.nodes = {node, -1, -1}});
-        finite[i] = 0;
-        all_finite = false;
-    }
     std::vector<Mesh::Index> corners, numbers;
     corners.reserve(surface.cells.size());
     numbers.reserve(count);
