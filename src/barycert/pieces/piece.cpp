@@ -6,7 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/locate/locator_data.hpp"
-#include "barycert/locate/near_feature.hpp"
+#include "barycert/sample/points/near_piece.hpp"
 
 namespace barycert::pieces {
 namespace {
@@ -110,20 +110,13 @@ std::size_t Piece::whole_of(Mesh::Index cell) const {
 }
 
 std::vector<Mesh::Index> Piece::nodes_of(std::size_t whole) const {
-    std::vector<Mesh::Index> nodes;
-    const auto add = [&](const std::vector<Mesh::Index>& all, std::size_t begin, std::size_t end) {
-        nodes.insert(nodes.end(), all.data() + begin, all.data() + end);
-    };
-    const std::size_t corners = mesh.corners();
-    if (const Mesh::Shapes& shapes = mesh.shapes; shapes.count() != 0) {
-        add(shapes.nodes, whole == 0 ? 0 : static_cast<std::size_t>(shapes.ends[whole - 1]),
-            static_cast<std::size_t>(shapes.ends[whole]));
-    } else {
-        add(mesh.cells, corners * whole, corners * (whole + 1));
-        const std::size_t mids = mesh.mid_nodes.size() / mesh.cell_count();
-        add(mesh.mid_nodes, mids * whole, mids * (whole + 1));
+    const Mesh::Shapes& shapes = mesh.shapes;
+    if (shapes.count() == 0) {
+        const sample::CellNodes nodes(mesh, whole);
+        return {nodes.begin(), nodes.end()};
     }
-    return nodes;
+    const auto begin = shapes.nodes.begin();
+    return {begin + (whole == 0 ? 0 : shapes.ends[whole - 1]), begin + shapes.ends[whole]};
 }
 
 Box Piece::box_of(std::size_t whole) const {
