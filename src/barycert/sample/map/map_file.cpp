@@ -83,29 +83,23 @@ struct MapWriterData {
     MapWriterData(std::string path, const MapHeader& header)
         : name(std::move(path)), head(header), file(name), checksum(header.fingerprint) {}
 
-    Status fail(Error e) {
-        error = std::move(e);
-        return error;
-    }
-
-    Status check(const TableView& rows) {
+    Status check(const TableView& rows) const {
         const std::size_t dimension = head.dimension, count = rows.row_count();
         if (rows.points.size() != dimension * count || rows.features.size() != count)
-            return fail(file_error(name, "the arrays of a map do not fit together",
-                                   std::to_string(dimension) + " coordinates, a cell and a feature a row",
-                                   std::to_string(rows.points.size()) + " coordinates, " + std::to_string(count) +
-                                       " cells, " + std::to_string(rows.features.size()) + " features"));
+            return file_error(name, "the arrays of a map do not fit together",
+                              std::to_string(dimension) + " coordinates, a cell and a feature a row",
+                              std::to_string(rows.points.size()) + " coordinates, " + std::to_string(count) +
+                                  " cells, " + std::to_string(rows.features.size()) + " features");
         for (std::size_t i = 0; i < count; ++i) {
             const double* const point = rows.points.data() + dimension * i;
             const auto feature = static_cast<unsigned>(rows.features[i]);
             const char* const fault = map_row_fault(point, head.dimension, rows.cells[i], feature, head.cells);
             if (fault == nullptr) continue;
-            std::string found = "coordinates";
-            for (std::size_t axis = 0; axis < dimension; ++axis) found += ' ' + base::shortest(point[axis]);
-            return fail(file_error(
+            return file_error(
                 name, "row " + std::to_string(head.rows + pending.row_count() + i) + " is not valid in a map", fault,
-                found + ", cell " + std::to_string(rows.cells[i]) + ", feature " + std::to_string(feature),
-                "write results of a Locator on the same mesh"));
+                "coordinates " + base::joined(std::span(point, dimension), " ", base::shortest) + ", cell " +
+                    std::to_string(rows.cells[i]) + ", feature " + std::to_string(feature),
+                "write results of a Locator on the same mesh");
         }
         return Done{};
     }
@@ -132,7 +126,7 @@ struct MapWriterData {
     std::uint64_t checksum;  // of the last block
     Table pending;           // fewer rows than a block has
     std::string bytes;
-    Error error;  // what every further call tells
+    Status state = Done{};  // what every further call tells
     bool done = false;
 };
 
@@ -281,10 +275,10 @@ Result<MapWriter> MapWriter::open(const std::string& path, const Surface& surfac
 Status MapWriter::write(const TableView& rows) {
     const ExactEnvironment environment;
     sample::MapWriterData& to = *data_;
-    if (!to.error.what.empty()) return to.error;
+    if (!to.state) return to.state;
     if (to.done)
-        return to.fail(file_error(to.name, "rows after the end of a map", {}, {}, "write them before commit()"));
-    if (Status fits = to.check(rows); !fits) return fits;
+        return to.state = file_error(to.name, "rows after the end of a map", {}, {}, "write them before commit()");
+    if (to.state = to.check(rows); !to.state) return to.state;
     for (std::size_t row = 0; row < rows.row_count();) {
         const std::size_t room = sample::map_block_rows - to.pending.row_count();
         const std::size_t end = row + std::min(rows.row_count() - row, room);
@@ -292,21 +286,19 @@ Status MapWriter::write(const TableView& rows) {
         row = end;
         if (to.pending.row_count() == sample::map_block_rows) to.put_block();
     }
-    if (Status written = to.file.status(); !written) return to.fail(written.error());
-    return Done{};
+    return to.state = to.file.status();
 }
 
 Status MapWriter::commit() {
     sample::MapWriterData& to = *data_;
-    if (!to.error.what.empty()) return to.error;
-    if (to.done) return Done{};
+    if (!to.state || to.done) return to.state;
     if (to.pending.row_count() != 0) to.put_block();
     sample::map_magic.copy(to.head.magic.data(), sample::map_magic.size());
     to.head.checksum = to.head.right_checksum();
     to.file.replace(0, to.head.bytes());
-    if (Status committed = to.file.commit(); !committed) return to.fail(committed.error());
-    to.done = true;
-    return Done{};
+    to.state = to.file.commit();
+    to.done = to.state.has_value();
+    return to.state;
 }
 
 MapWriter::MapWriter(std::unique_ptr<sample::MapWriterData> data) : data_(std::move(data)) {}
