@@ -74,7 +74,7 @@ SampledMesh::SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std
 
 void SampledMesh::open() {
     Stopwatch watch;
-    mesh_ = read(steps.empty() ? nullptr : &steps.front());
+    mesh_ = read(steps.empty() ? std::nullopt : steps.front().of_mesh);
     add_fields_of_job();
     choose_fields();
     names_of_first_ = names_of_chosen();
@@ -87,10 +87,9 @@ void SampledMesh::open() {
     report.seconds.mesh = watch.lap();
 }
 
-/// That of the step, where it has one, or the one that the job asks for.
-Mesh SampledMesh::read(const Step* step) {
-    const bool of_step = step != nullptr && step->of_mesh.has_value();
-    return open_mesh(job, job.options.threads, of_step ? StepChoice{.number = step->of_mesh} : job.step, report.curved,
+/// That of the step, or the one that the job asks for.
+Mesh SampledMesh::read(std::optional<std::size_t> step) {
+    return open_mesh(job, job.options.threads, step ? StepChoice{.number = step} : job.step, report.curved,
                      list_grids_);
 }
 
@@ -136,14 +135,14 @@ bool SampledMesh::is_another(const Mesh& mesh) const {
 
 void SampledMesh::check_one_mesh(const std::string& path, const char* member) {
     for (const Step& step : steps) {
-        if (!step.of_mesh || &step == &steps.front() || !is_another(read(&step))) continue;
+        if (!step.of_mesh || &step == &steps.front() || !is_another(read(step.of_mesh))) continue;
         refuse(path, "the mesh changes from step to step, and " + std::string(member) + " is of one mesh", "",
                "another mesh in step " + step.label, "choose one step: job.step N");
     }
 }
 
 void SampledMesh::read_mesh_of(const Step& step) {
-    Mesh mesh = read(&step);
+    Mesh mesh = read(step.of_mesh);
     if (mesh.dimension != mesh_.dimension)
         refuse(job.mesh, "step " + step.label + " has cells of another dimension",
                std::to_string(mesh_.dimension) + ", as the first one has", std::to_string(mesh.dimension));
@@ -217,7 +216,7 @@ void SampledMesh::choose_fields() {
         if (count == 0) continue;
         if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
             refuse(job.mesh, std::string("the mesh is inconsistent: ") + wrong);
-        sample::make_fields(mesh_, choice, count, made_).value();
+        sample::make_fields(mesh_, choice, count, made_);
     }
 }
 

@@ -91,7 +91,7 @@ public:
     const std::vector<const Column*>& labels() const { return labels_; }
 
 private:
-    Mesh read(const Step* step);
+    Mesh read(std::optional<std::size_t> step);
     bool is_another(const Mesh& mesh) const;
     std::string names_of_chosen() const;
     void add_fields_of_job();

@@ -57,7 +57,7 @@ private:
     void finish();
     void push(std::size_t point);
     Feature feature_of(std::size_t point) const {
-        return static_cast<Feature>(static_cast<std::uint8_t>(found_[point]) & ~value_missing);
+        return static_cast<Feature>(static_cast<std::uint8_t>(found_.features[point]) & ~value_missing);
     }
 
     const SamplerData& data_;
@@ -67,10 +67,7 @@ private:
     FillTarget target_;
     std::size_t points_ = 0;
     bool filled_ = false;  ///< cells fill in values
-    locate::Buffer<Mesh::Index> owners_;
-    locate::Buffer<Feature> found_;
-    locate::Buffer<double> values_;
-    std::vector<double> distances_;
+    FoundRows found_;
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
     UndecidedFill undecided_;
