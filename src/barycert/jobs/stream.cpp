@@ -61,12 +61,10 @@ public:
 private:
     void open() {
         sink_ = open_(targets_.path);
-        if (!targets_.map.empty()) {
-            const BuildOptions located = build_options(mesh_.job, 0);
-            map_ = MapWriter::open(targets_.map, mesh_.mesh(), mesh_.report.all, located).value();
-        }
-        if (!targets_.weights.empty())
-            weights_ = io::WeightsFile::open(targets_.weights, mesh_.mesh().point_count()).value();
+        const Mesh& mesh = mesh_.mesh();
+        if (!targets_.map.empty())
+            map_ = MapWriter::open(targets_.map, mesh, mesh_.report.all, build_options(mesh_.job, 0)).value();
+        if (!targets_.weights.empty()) weights_ = io::WeightsFile::open(targets_.weights, mesh.point_count()).value();
     }
 
     void work(Block& block) const {
