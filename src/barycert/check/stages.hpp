@@ -210,9 +210,8 @@ void check_nodes(Checked& c);
 /// repeated_node, degenerate_cell, plain_sign_wrong, mixed_orientation.
 void check_cells(Checked& c);
 
-/// How cells meet at their facets, and which facets are the boundary. True if the cells partition a domain, proved by
-/// the index (index/proof.hpp) in less time than the search takes, which finds duplicate_cell, overfull_facet,
-/// same_side.
+/// How cells meet at their facets, and which are the boundary. True if the cells partition a domain, proved by the
+/// index (index/proof.hpp) in less time than the search takes, which finds duplicate_cell, overfull_facet, same_side.
 bool check_facets(Checked& c);
 
 /// The boundary as a complex: ridges, pieces, cavities, tunnels. Returns one of the boundary facets of each piece.
@@ -251,8 +250,7 @@ struct BoundaryContacts {
 /// P3: finds boundary_contact, up to `limit` of them.
 BoundaryContacts find_boundary_contacts(Checked& c, std::size_t limit);
 
-/// P4: finds nested_part, up to `limit` of them, each with the lowest cell that overlaps. `pieces` as check_boundary
-/// gives them.
+/// P4: finds nested_part, up to `limit`, each with the lowest cell that overlaps. `pieces`: those of check_boundary.
 std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint32_t>& pieces, std::size_t limit);
 
 /// Finds overlapping_cells among all that are not degenerate.

@@ -88,8 +88,7 @@ public:
         return smallest(winding);
     }
 
-    /// The chamber that holds the shell of triangle f: by a node that no other shell has, or the middle of the
-    /// triangle.
+    /// The chamber that holds the shell of triangle f: by a node that no other shell has, or the triangle's middle.
     std::optional<std::size_t> chamber_around(std::size_t f) {
         const std::uint32_t shell = shell_of_[f];
         const double* const own = own_node(shell);

@@ -7,8 +7,7 @@
 
 namespace barycert::sample {
 
-/// For each slab of `depth` layers (the last one may have fewer) all cells that may hold some of its points, in the
-/// order of the index.
+/// For each slab of `depth` layers (the last may have fewer) all cells that may hold points of it, as the index goes.
 class SlabCells {
 public:
     SlabCells(const locate::CellIndex& index, const Raster& raster, std::size_t depth);

@@ -82,8 +82,7 @@ std::optional<Split> split_off(std::string_view text) {
     return Split{text.substr(0, dot), {Kind::component, *component}};
 }
 
-/// True, and the choice made, if the text names a field or what is made of one; else `missing` is the name that is
-/// none.
+/// True, and the choice made, if the text names a field or what is made of one; else `missing` is the wrong name.
 bool choose_quantity(const Mesh& mesh, std::string_view text, bool cells_first, int depth, FieldChoice& chosen,
                      std::string& missing) {
     if (cells_first && choose_field(mesh, "cell:" + std::string(text), chosen)) return true;

@@ -16,8 +16,7 @@ public:
         : locator_(locator), rows_(rows), outside_(outside) {}
 
     Result<NodeWeights> all() {
-        // Cases of second order have nodes of their own, with unit vectors as values: the value of component c is then
-        // the weight of node c.
+        // Cases of second order have nodes of their own, with unit vectors as values: component c is the weight of c.
         for (std::size_t i = 0; quadratic() && i < nodes_ * chunk; ++i) {
             const auto node = static_cast<Mesh::Index>(i);
             if (i < chunk) own_.push_back(node);
