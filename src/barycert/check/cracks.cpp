@@ -8,12 +8,7 @@ class Cracks {
 public:
     /// Each of the facets has d nodes.
     Cracks(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, int d)
-        : mesh_(mesh),
-          facets_(facets),
-          d_(static_cast<std::size_t>(d)),
-          same_(mesh.point_count()),
-          shortest_(mesh.point_count(), no_edge),
-          merged_(mesh.point_count(), 0) {
+        : mesh_(mesh), facets_(facets), d_(static_cast<std::size_t>(d)) {
         std::vector<Mesh::Index> nodes;
         for (const BoundaryFacet& f : facets) {
             for (std::size_t i = 0; i < d_; ++i) {
@@ -130,9 +125,10 @@ private:
     const Mesh& mesh_;
     const std::vector<BoundaryFacet>& facets_;
     std::size_t d_;
-    base::DisjointSets same_;
-    std::vector<double> shortest_;  ///< of the boundary's edges at each node
-    std::vector<std::uint8_t> merged_;
+    base::DisjointSets same_{mesh_.point_count()};
+    /// Of the boundary's edges at each node.
+    std::vector<double> shortest_ = std::vector<double>(mesh_.point_count(), no_edge);
+    std::vector<std::uint8_t> merged_ = std::vector<std::uint8_t>(mesh_.point_count(), 0);
     std::vector<Mesh::Index> places_;  ///< of nodes at one place the lowest
 };
 
