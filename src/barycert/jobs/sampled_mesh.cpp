@@ -281,7 +281,7 @@ bool SampledMesh::may_be_mapped() const {
 std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const double> points) {
     const ExactEnvironment environment;
     const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
-    const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {
+    const bool fit = std::ranges::all_of(fields_, [&](const FieldChoice& choice) {
         return mesh::check_field(choice.field, choice.of_cells ? cells : mesh_.point_count(), "").has_value();
     });
     // What is wrong with fields or points is told by the usual way.

@@ -8,7 +8,7 @@ bool check_triangles(SurfaceParts& s) {
     std::vector<std::uint8_t> used(points, 0);
     mark_used(surface.cells, used);
     const std::vector<std::uint8_t> finite = find_finite(surface.points, 3, used, s.defects);
-    const bool all_finite = std::ranges::find(finite, 0) == finite.end();
+    const auto is_finite = [&](Mesh::Index i) { return finite[static_cast<std::size_t>(i)] != 0; };
     const auto is_node = [&](Mesh::Index i) { return i >= 0 && static_cast<std::size_t>(i) < points; };
     std::vector<Mesh::Index> corners, numbers;
     corners.reserve(surface.cells.size());
@@ -20,9 +20,7 @@ bool check_triangles(SurfaceParts& s) {
             s.defects.add_marked(DefectKind::index_out_of_range, {.cells = {cell, -1}});
             continue;
         }
-        if (!all_finite &&
-            !std::all_of(n, n + 3, [&](Mesh::Index i) { return finite[static_cast<std::size_t>(i)] != 0; }))
-            continue;  // its node is told
+        if (!std::all_of(n, n + 3, is_finite)) continue;  // its node is told
         if (n[0] == n[1] || n[1] == n[2] || n[2] == n[0]) {
             s.defects.add_marked(DefectKind::repeated_node, {.cells = {cell, -1}, .nodes = {n[0], n[1], n[2]}});
             continue;

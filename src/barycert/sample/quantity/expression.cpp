@@ -110,7 +110,7 @@ std::optional<std::string> common_column(const Mesh& mesh, const std::vector<Fie
     return twice == names.end() ? std::nullopt : std::optional(*twice);
 }
 
-Error wrong_step(std::string what, const FieldChoice& choice, std::string remedy) {
+Error wrong_choice(std::string what, const FieldChoice& choice, std::string remedy) {
     return {.what = std::move(what), .found = '"' + name_of(choice) + '"', .remedy = std::move(remedy)};
 }
 
@@ -134,7 +134,7 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
     bool length_at_points = false;
     for (const QuantityStep& step : choice.steps) {
         if (length_at_points)
-            return wrong_step("nothing is made of a length at points", choice, "ask for the length alone");
+            return wrong_choice("nothing is made of a length at points", choice, "ask for the length alone");
         switch (step.kind) {
             case Kind::component:
                 if (step.component < 0 || static_cast<std::size_t>(step.component) >= shape.components)
@@ -151,16 +151,16 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
                 break;
             case Kind::gradient:
                 if (shape.of_cells || shape.at_points)
-                    return wrong_step("the gradient of what is constant in each cell, or of a gradient", choice,
-                                      "ask for that of a field of nodes, or of the mean at nodes: grad(mean(NAME))");
+                    return wrong_choice("the gradient of what is constant in each cell, or of a gradient", choice,
+                                        "ask for that of a field of nodes, or of the mean at nodes: grad(mean(NAME))");
                 shape.components *= static_cast<std::size_t>(mesh.dimension);
                 shape.at_points = !mesh.mid_nodes.empty();
                 shape.of_cells = mesh.mid_nodes.empty();
                 break;
             default:
                 if (!shape.of_cells)
-                    return wrong_step("the mean over cells of what is not a field of cells", choice,
-                                      "ask for that of a field of cells: mean(cell:NAME)");
+                    return wrong_choice("the mean over cells of what is not a field of cells", choice,
+                                        "ask for that of a field of cells: mean(cell:NAME)");
                 shape.of_cells = false;
         }
     }
@@ -195,9 +195,8 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
         if (const Result<QuantityShape> shape = shape_of(mesh, chosen[i]); !shape) return shape.error();
         for (std::size_t k = 0; k < i; ++k) {
             if (chosen[i].field == chosen[k].field && chosen[i].steps == chosen[k].steps)
-                return Error{.what = chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
-                             .found = '"' + name_of(chosen[i]) + '"',
-                             .remedy = "name it once"};
+                return wrong_choice(chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
+                                    chosen[i], "name it once");
         }
     }
     if (const auto name = common_column(mesh, chosen))

@@ -131,8 +131,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             if (weights[i] != 0) order[used++] = i;
         }
-        std::sort(order.begin(), order.begin() + used,
-                  [&](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; });
+        std::ranges::sort(order.begin(), order.begin() + used, {}, [&](std::size_t i) { return nodes[i]; });
         for (std::size_t i = 0; i < used; ++i) {
             out_.nodes.push_back(nodes[order[i]]);
             out_.weights.push_back(weights[order[i]]);
