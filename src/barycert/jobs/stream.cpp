@@ -227,37 +227,34 @@ Sink open_user_rows(SampledMesh& mesh, const std::vector<ColumnFormat>& carried,
                    "leave it, or the other one, out of job.fields");
     }
     const std::set<std::string> of_rows = names;
-    std::vector<bool> kept;
+    std::vector<std::size_t> kept;
     std::vector<std::string> left_out;
-    for (const ColumnFormat& column : carried) {
-        kept.push_back(!all || (!is_name_of_rows(column.name) && !of_rows.contains(column.name)));
-        if (!kept.back()) {
-            left_out.push_back(base::printable(column.name));
-        } else if (!add(column)) {
-            refuse_kept(column.name);
+    for (std::size_t i = 0; i < carried.size(); ++i) {
+        const std::string& name = carried[i].name;
+        if (all && (is_name_of_rows(name) || of_rows.contains(name))) {
+            left_out.push_back(base::printable(name));
+            continue;
         }
+        if (!add(carried[i])) refuse_kept(name);
+        kept.push_back(i);
     }
-    if (left_out.empty()) {
-        kept.clear();
-    } else {
+    if (!left_out.empty())
         tell_once({{Note::Kind::left_out,
                     fmt::format("columns {}: the rows have columns of these names; job.keep OTHER={} carries one "
                                 "through under another name",
                                 fmt::join(left_out, ","), left_out.front()),
                     mesh.report.points}},
                   mesh.report);
-    }
     Sink sink = open(format);
     // A sink of its own only where users see something else.
-    if (!sink || (kept.empty() && mesh.labels().empty() && mesh.mesh().cell_numbers.empty())) return sink;
-    const auto as_users_see_them = [&mesh, kept, shown = std::vector<Column>(),
+    const bool same_columns = left_out.empty() && mesh.labels().empty();
+    if (!sink || (same_columns && mesh.mesh().cell_numbers.empty())) return sink;
+    const auto as_users_see_them = [&mesh, same_columns, kept, shown = std::vector<Column>(),
                                     cells = std::vector<Mesh::Index>()](TableView& rows) mutable {
-        if (!mesh.labels().empty() || !kept.empty()) {
+        if (!same_columns) {
             shown.clear();
             for (const Column* const labels : mesh.labels()) shown.push_back(mesh::labels_at(*labels, rows.cells));
-            for (std::size_t i = 0; i < rows.carried.size(); ++i) {
-                if (kept.empty() || kept[i]) shown.push_back(rows.carried[i]);
-            }
+            for (const std::size_t i : kept) shown.push_back(rows.carried[i]);
             rows.carried = shown;
         }
         if (mesh.mesh().cell_numbers.empty()) return;
