@@ -65,15 +65,14 @@ public:
     void find_inner() {
         for_each_ridge(s_.edges, [&](std::span<const Ridge> edge) {
             const auto [u, v] = s_.ends(edge[0]);
-            const Segment segment{std::min(s_.triangles.node(u), s_.triangles.node(v)),
-                                  std::max(s_.triangles.node(u), s_.triangles.node(v))};
-            const auto found = facets_of_.find(segment);
+            const auto [low, high] = std::minmax({s_.triangles.node(u), s_.triangles.node(v)});
+            const auto found = facets_of_.find({low, high});
             if (found == facets_of_.end()) return;
             for (const Ridge& r : edge) {
                 const auto facet = static_cast<std::size_t>(s_.surface.facet(s_.triangles.number(r.facet)));
                 if (found->second.contains(facet)) continue;
-                s_.defects.add_marked(DefectKind::segment_in_facet, {.cells = {s_.triangles.number(r.facet), -1},
-                                                                     .nodes = {segment[0], segment[1], -1}});
+                s_.defects.add_marked(DefectKind::segment_in_facet,
+                                      {.cells = {s_.triangles.number(r.facet), -1}, .nodes = {low, high, -1}});
                 break;
             }
             facets_of_.erase(found);

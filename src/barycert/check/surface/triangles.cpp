@@ -38,9 +38,8 @@ bool check_triangles(SurfaceParts& s) {
         const Place first = s.triangles.same[i];
         if (first == static_cast<Place>(i)) continue;
         --s.found.places;
-        std::array<Mesh::Index, 3> two{s.triangles.node(first), s.triangles.node(static_cast<Place>(i)), -1};
-        if (two[0] > two[1]) std::swap(two[0], two[1]);
-        s.defects.add(DefectKind::coincident_nodes, {.nodes = two});
+        const auto [low, high] = std::minmax({s.triangles.node(first), s.triangles.node(static_cast<Place>(i))});
+        s.defects.add(DefectKind::coincident_nodes, {.nodes = {low, high, -1}});
     }
     return s.triangles.size() != 0;
 }
