@@ -297,8 +297,7 @@ struct Distribution {
 
 Distribution distribution(const std::vector<double>& values);
 
-/// Measures and defects of cells as fields: orientation, those of cell_measures, and problems, the sum of the bits of
-/// DefectSet.
+/// Measures and defects of cells as fields: orientation, those of cell_measures, and problems, a DefectSet as a number.
 std::vector<Field> measure_fields(const CellMeasures& measures);
 
 /// A point that two cells share, rounded; if `exact`, the rounded point is itself shared. `fraction`: the exact point
@@ -502,8 +501,7 @@ struct CheckReport {
 
 CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options = {});
 
-/// Takes `threads`, `examples`, `contacts`, `near`, `verdict_only` and `progress` of the options. Time O(n log n), and
-/// as check_mesh for pairs.
+/// Takes `threads`, `examples`, `contacts`, `near`, `verdict_only`, `progress`. Time O(n log n); pairs as check_mesh.
 CheckReport check_surface(const Surface& surface, const CheckOptions& options = {});
 CheckReport check_plc(const Plc& plc, const CheckOptions& options = {});
 

@@ -200,8 +200,7 @@ inline constexpr std::array<std::string_view, 6> plc_extensions{".poly", ".smesh
 /// The paths of the files that the PLC may be in: `path`, and STEM.node beside STEM.poly or STEM.smesh.
 std::vector<std::string> plc_files(const std::string& path);
 
-/// Reads the PLC in the format that the path's extension names, from regular files or pipes. An error names the file
-/// and, for text, the line.
+/// Reads the PLC in the format of the path's extension, from files or pipes. An error names file and, of text, line.
 Result<Plc> read_plc(const std::string& path);
 
 // Pictures of slices: one scalar on a regular grid in a plane, by colour, as a PNG file.
@@ -252,8 +251,7 @@ struct ReadOptions {
     int threads = 0;         ///< 0: as many as the machine has
     StepChoice step = {};    ///< of a series; Error: one is chosen, and there is no series
     /// False: image data and rectilinear grids of one piece without ghosts get Mesh::axes instead of points and cells,
-    /// 8 bytes a node and less time. Locator::locate and Sampler::sample take them, with the same answers; others do
-    /// not.
+    /// 8 bytes a node and less time. Locator::locate and Sampler::sample alone take them, with the same answers.
     bool list_grids = true;
 };
 
@@ -303,8 +301,7 @@ Status write_tetgen(const Mesh& mesh, const std::string& stem, const WriteOption
 /// stem. Error: another suffix; as these writers.
 Status write_mesh(const Mesh& mesh, const std::string& path, const WriteOptions& options = {});
 
-/// The paths of the files that write_mesh may write, or replace: the path itself, or STEM.node, .ele, .face and .neigh.
-/// Error: another suffix.
+/// The files that write_mesh may write, or replace: the path, or STEM.node, .ele, .face, .neigh. Error: another suffix.
 Result<std::vector<std::string>> written_mesh_files(const std::string& path);
 
 // Streams of points: CSV and NPY files, block by block, so that memory does not grow with their number; the nodes of
@@ -403,8 +400,7 @@ struct TableFormat {
     std::vector<std::string> columns() const { return column_names(fields); }
 };
 
-/// Takes rows, block by block: a file, a picture, a mesh. Without a commit() nothing appears, except on the standard
-/// output.
+/// Takes rows, block by block: a file, a picture, a mesh. Without a commit() nothing appears but on standard output.
 class TableSink {
 public:
     virtual ~TableSink();

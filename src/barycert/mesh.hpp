@@ -103,8 +103,7 @@ struct Mesh {
     /// Cell across the facet opposite to each corner, -1 where there is none: dimension + 1 a cell, or empty.
     std::vector<Index> neighbours;
 
-    /// The number in the file, from 0, of each cell, ascending; the parts of a shape have one. Empty if the cells are
-    /// those of the file.
+    /// The number in the file, from 0, of each cell, ascending; the parts of a shape have one. Empty: as in the file.
     std::vector<Index> cell_numbers;
     Notes notes;  ///< what its readers left out, converted or guessed
 

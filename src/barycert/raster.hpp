@@ -117,8 +117,7 @@ Status check_image(const Image& image);
 /// whole PNG file, or more than max_image_pixels. Memory is bounded by these, and by what a file of its size can hold.
 Result<Image> read_png(const std::string& path);
 
-/// Writes 8-bit RGBA in sRGB; the file appears whole or not at all. Error: as check_image; a side above a million; the
-/// file cannot be written.
+/// Writes 8-bit RGBA in sRGB, whole or not at all. Error: as check_image; a side above a million; it cannot be written.
 Status write_png(const std::string& path, const Image& image);
 
 /// What lies beyond the picture.
@@ -214,8 +213,7 @@ struct ClippedSegment {
 };
 
 /// Clips the segment from a to b, each a row of `dimension` coordinates (1 to 3) and any attributes. What lies on a
-/// bound is inside. Error: rows that differ in length or are too short; a number that is not finite (bounds of a box
-/// may be infinite).
+/// bound is inside. Error: rows that differ in length or are too short; a number not finite (but bounds of a box).
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,
                                     const HalfSpace& bound);
 Result<ClippedSegment> clip_segment(int dimension, std::span<const double> a, std::span<const double> b,

@@ -104,9 +104,7 @@ protected:
         source->low = how.low;
         std::unique_ptr<PointSource> points = std::move(source);
         Written written;
-        const auto open = [&](const TableFormat&, const std::string&) {
-            return std::make_unique<Sink>(written, how.sink_fault);
-        };
+        const auto open = [&](const std::string&) { return std::make_unique<Sink>(written, how.sink_fault); };
         std::string error;
         try {
             jobs::sample_rows(mesh, jobs::rows_of_points(points), open);

@@ -61,8 +61,7 @@ private:
         }
     }
 
-    /// The facet has it from the lower node to the higher (2D: starts there: the node that the ridge lacks is the end,
-    /// 1).
+    /// The facet has it from the lower node to the higher (2D: starts there: the node that it lacks is the end, 1).
     bool is_forward(const Ridge& r) const {
         const auto& nodes = facets_[r.facet].nodes;
         return d_ == 2 ? r.other == 1 : nodes[(r.other + 1) % 3] < nodes[(r.other + 2) % 3];

@@ -178,22 +178,18 @@ CellContact common_part(Simplex simplex, const CellPair& cells, const Corners& a
     CellContact contact{cells, dimension == full, dimension, {}};
     if (points.empty()) return contact;
     // What the two have in common is the convex hull of all points: the mean of some that span it is in its relative
-    // interior. Over the product of their weights, each counts with the product of the others'.
-    std::vector<Number> factors(points.size(), 1);
-    Number denominator = static_cast<unsigned>(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        denominator *= points[i].weight;
-        for (std::size_t j = 0; j < points.size(); ++j) {
-            if (i != j) factors[i] *= points[j].weight;
-        }
+    // interior.
+    Point sum{{}, 1};
+    for (const auto& [x, weight] : points) {
+        for (std::size_t k = 0; k < 3; ++k) sum.x[k] = sum.x[k] * weight + x[k] * sum.weight;
+        sum.weight *= weight;
     }
+    const Number denominator = sum.weight * static_cast<unsigned>(points.size());
     CommonPoint& common = contact.common;
     bool finite = true, short_enough = true;
     std::vector<Fraction> means;
     for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k) {
-        Number sum = 0;
-        for (std::size_t i = 0; i < points.size(); ++i) sum += points[i].x[k] * factors[i];
-        const Fraction& mean = means.emplace_back(sum, denominator, units[k].power());
+        const Fraction& mean = means.emplace_back(sum.x[k], denominator, units[k].power());
         common.point[k] = mean.rounded();
         finite = finite && std::isfinite(common.point[k]);
         short_enough = short_enough && mean.size() <= max_bits;

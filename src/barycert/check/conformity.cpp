@@ -75,10 +75,7 @@ private:
 
 class ConformityChecker {
 public:
-    explicit ConformityChecker(const Checked& c)
-        : c_(c),
-          half_extent_(half_extent_of(*c.options.plc)),
-          exponent_(half_extent_ > 0 ? std::ilogb(half_extent_) + 1 : 0) {
+    explicit ConformityChecker(const Checked& c) : c_(c) {
         for (const PlcFacet& facet : c.options.plc->facets) regions_.emplace_back(*c.options.plc, facet, exponent_);
     }
 
@@ -212,8 +209,9 @@ private:
     }
 
     const Checked& c_;
-    double half_extent_;
-    int exponent_;  ///< of the unit of the regions, the largest power of two in the extent
+    double half_extent_ = half_extent_of(*c_.options.plc);
+    /// Of the unit of the regions, the largest power of two in the extent.
+    int exponent_ = half_extent_ > 0 ? std::ilogb(half_extent_) + 1 : 0;
     std::vector<PlcRegion> regions_;
     std::vector<Point> missing_;
 };

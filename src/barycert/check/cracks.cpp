@@ -1,20 +1,16 @@
-#include "barycert/base/disjoint_sets.hpp"
-#include "barycert/check/stages.hpp"
+#include "barycert/check/surface/parts.hpp"
 
 namespace barycert::check {
 namespace {
 
-/// The nodes of the boundary, those to be merged as one.
+/// The nodes of the boundary of a mesh, or of open edges of a surface, those to be merged as one.
 class Cracks {
 public:
-    explicit Cracks(const Checked& c)
-        : c_(c),
-          d_(static_cast<std::size_t>(c.mesh.dimension)),
-          same_(c.mesh.point_count()),
-          shortest_(c.mesh.point_count(), no_edge),
-          merged_(c.mesh.point_count(), 0) {
+    /// Each of the facets has d nodes.
+    Cracks(const Mesh& mesh, const std::vector<BoundaryFacet>& facets, int d)
+        : mesh_(mesh), facets_(facets), d_(static_cast<std::size_t>(d)) {
         std::vector<Mesh::Index> nodes;
-        for (const BoundaryFacet& f : c.boundary) {
+        for (const BoundaryFacet& f : facets) {
             for (std::size_t i = 0; i < d_; ++i) {
                 nodes.push_back(f.nodes[i]);
                 for (std::size_t j = i + 1; j < d_; ++j) add_edge(f.nodes[i], f.nodes[j]);
@@ -22,7 +18,7 @@ public:
         }
         std::ranges::sort(nodes);
         nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        for (const auto& [first, second] : coincident_nodes(c.mesh, nodes)) {
+        for (const auto& [first, second] : coincident_nodes(mesh, nodes)) {
             double& kept = shortest_[index(first)];
             kept = std::min(kept, shortest_[index(second)]);
             merge(first, second);
@@ -30,30 +26,22 @@ public:
         std::ranges::copy_if(nodes, std::back_inserter(places_), [&](Mesh::Index n) { return of(n) == n; });
     }
 
-    /// The near ones, of no common cell: merging would make it collapse.
-    Found<NearPair> find_near() {
+    /// Finds near_nodes, of no common cell of `usable`, which are merged: a cell would collapse. True if these are all.
+    bool merge_near(DefectList& defects, double ratio, const std::vector<std::uint8_t>& usable) {
         std::vector<double> radius;
-        for (const Mesh::Index node : places_) radius.push_back(reach(node, c_.options.near));
-        Found<NearPair> found;
-        std::vector<NearPair>& pairs = found.list;
-        found.complete = for_each_near(c_.mesh, places_, radius, 100 * pair_limit, [&](const NearPair& p) {
-            pairs.push_back({std::min(p.first, p.second), std::max(p.first, p.second), p.distance});
-        });
-        const auto nodes_of_pair = [](const NearPair& p) { return std::pair(p.first, p.second); };
-        std::ranges::sort(pairs, {}, nodes_of_pair);
-        constexpr double of_one_cell = -1;
-        for (std::size_t cell = 0; !pairs.empty() && cell < c_.usable.size(); ++cell) {
-            const std::span nodes = nodes_of(c_.mesh, cell);
-            for (std::size_t i = 0; c_.usable[cell] != 0 && i < nodes.size(); ++i) {
-                for (std::size_t j = i + 1; j < nodes.size(); ++j) {
-                    const std::pair<Mesh::Index, Mesh::Index> two = std::minmax({of(nodes[i]), of(nodes[j])});
-                    const auto pair = std::ranges::lower_bound(pairs, two, {}, nodes_of_pair);
-                    if (pair != pairs.end() && nodes_of_pair(*pair) == two) pair->distance = of_one_cell;
-                }
-            }
+        for (const Mesh::Index node : places_) radius.push_back(reach(node, ratio));
+        std::vector<NearPair> pairs;
+        const bool complete =
+            for_each_near(mesh_, places_, radius, 100 * pair_limit, [&](const NearPair& p) { pairs.push_back(p); });
+        leave_out_of_cells(usable, pairs);
+        for (const NearPair& p : pairs) {
+            defects.add(DefectKind::near_nodes, {.nodes = {p.first, p.second, -1},
+                                                 .distance = p.distance,
+                                                 .relative = p.distance / shortest_edge(p.first, p.second)});
+            merge(p.first, p.second);
         }
-        std::erase_if(pairs, [](const NearPair& p) { return p.distance == of_one_cell; });
-        return found;
+        if (!complete) defects[DefectKind::near_nodes].at_least = true;
+        return complete;
     }
 
     /// At most so far from a node of the boundary what is near lies.
@@ -63,10 +51,10 @@ public:
     }
     /// The same for edges and facets; of each node. Farther than a part of an edge away, most nodes of a boundary have
     /// the edges of their neighbours.
-    std::vector<double> reach_of_faces() const {
-        std::vector<double> reaches(c_.mesh.point_count());
+    std::vector<double> reach_of_faces(double ratio) const {
+        std::vector<double> reaches(mesh_.point_count());
         for (std::size_t n = 0; n < reaches.size(); ++n)
-            reaches[n] = reach(static_cast<Mesh::Index>(n), std::min(c_.options.near, 0x1p-4));
+            reaches[n] = reach(static_cast<Mesh::Index>(n), std::min(ratio, 0x1p-4));
         return reaches;
     }
     double shortest_edge(Mesh::Index a, Mesh::Index b) const {
@@ -88,8 +76,8 @@ public:
     template <class F>
     void for_each_crack(F&& found) {
         std::vector<std::pair<std::array<Mesh::Index, 3>, std::size_t>> keys;
-        for (std::size_t f = 0; f < c_.boundary.size(); ++f) {
-            std::array<Mesh::Index, 3> key = c_.boundary[f].nodes;
+        for (std::size_t f = 0; f < facets_.size(); ++f) {
+            std::array<Mesh::Index, 3> key = facets_[f].nodes;
             bool some = false;
             for (std::size_t i = 0; i < d_; ++i) {
                 some = some || merged_[index(key[i])] != 0;
@@ -100,7 +88,7 @@ public:
         }
         std::ranges::sort(keys);
         for (std::size_t i = 1; i < keys.size(); ++i) {
-            if (keys[i - 1].first == keys[i].first) found(c_.boundary[keys[i - 1].second], c_.boundary[keys[i].second]);
+            if (keys[i - 1].first == keys[i].first) found(facets_[keys[i - 1].second], facets_[keys[i].second]);
         }
     }
 
@@ -109,17 +97,38 @@ private:
 
     static std::size_t index(Mesh::Index node) { return static_cast<std::size_t>(node); }
 
+    /// Without those that one cell has.
+    void leave_out_of_cells(const std::vector<std::uint8_t>& usable, std::vector<NearPair>& pairs) {
+        if (usable.empty()) return;
+        const auto nodes_of_pair = [](const NearPair& p) { return std::pair(p.first, p.second); };
+        std::ranges::sort(pairs, {}, nodes_of_pair);
+        constexpr double of_one_cell = -1;
+        for (std::size_t cell = 0; !pairs.empty() && cell < usable.size(); ++cell) {
+            const std::span nodes = nodes_of(mesh_, cell);
+            for (std::size_t i = 0; usable[cell] != 0 && i < nodes.size(); ++i) {
+                for (std::size_t j = i + 1; j < nodes.size(); ++j) {
+                    const std::pair<Mesh::Index, Mesh::Index> two = std::minmax({of(nodes[i]), of(nodes[j])});
+                    const auto pair = std::ranges::lower_bound(pairs, two, {}, nodes_of_pair);
+                    if (pair != pairs.end() && nodes_of_pair(*pair) == two) pair->distance = of_one_cell;
+                }
+            }
+        }
+        std::erase_if(pairs, [](const NearPair& p) { return p.distance == of_one_cell; });
+    }
+
     void add_edge(Mesh::Index a, Mesh::Index b) {
-        const double length = node_distance(c_.mesh, a, b);
+        const double length = node_distance(mesh_, a, b);
         if (length == 0) return;
         for (const Mesh::Index n : {a, b}) shortest_[index(n)] = std::min(shortest_[index(n)], length);
     }
 
-    const Checked& c_;
+    const Mesh& mesh_;
+    const std::vector<BoundaryFacet>& facets_;
     std::size_t d_;
-    base::DisjointSets same_;
-    std::vector<double> shortest_;  ///< of the boundary's edges at each node
-    std::vector<std::uint8_t> merged_;
+    base::DisjointSets same_{mesh_.point_count()};
+    /// Of the boundary's edges at each node.
+    std::vector<double> shortest_ = std::vector<double>(mesh_.point_count(), no_edge);
+    std::vector<std::uint8_t> merged_ = std::vector<std::uint8_t>(mesh_.point_count(), 0);
     std::vector<Mesh::Index> places_;  ///< of nodes at one place the lowest
 };
 
@@ -128,19 +137,9 @@ private:
 void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector<CellPair>& meeting) {
     const Mesh& mesh = c.mesh;
     DefectList& defects = c.defects;
-    Cracks cracks(c);
-    if (c.options.near > 0) {
-        const Found<NearPair> found = cracks.find_near();
-        for (const NearPair& p : found.list) {
-            defects.add(DefectKind::near_nodes, {.nodes = {p.first, p.second, -1},
-                                                 .distance = p.distance,
-                                                 .relative = p.distance / cracks.shortest_edge(p.first, p.second)});
-            cracks.merge(p.first, p.second);
-        }
-        if (!found.complete) {
-            for (const DefectKind kind : {DefectKind::near_nodes, DefectKind::crack}) defects[kind].at_least = true;
-        }
-    }
+    Cracks cracks(mesh, c.boundary, mesh.dimension);
+    if (c.options.near > 0 && !cracks.merge_near(defects, c.options.near, c.usable))
+        defects[DefectKind::crack].at_least = true;
     std::vector<HangingNode> hanging = touching.hanging, nearly;
     std::erase_if(hanging, [&](const HangingNode& h) { return cracks.nearly_coincides(h); });
     const auto tell = [&](const HangingNode& h, DefectKind kind) {
@@ -153,7 +152,7 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
     for (const HangingNode& h : hanging) tell(h, DefectKind::hanging_node);
     if (!touching.complete) defects[DefectKind::hanging_node].at_least = true;
     if (c.options.near > 0) {
-        auto found = nearly_hanging(c, cracks.reach_of_faces(), 10 * pair_limit);
+        auto found = nearly_hanging(c, cracks.reach_of_faces(c.options.near), 10 * pair_limit);
         nearly = std::move(found.list);
         std::erase_if(nearly, [&](const HangingNode& h) {
             return cracks.nearly_coincides(h) || std::ranges::binary_search(hanging, h.node, {}, &HangingNode::node);
@@ -187,6 +186,19 @@ void find_cracks(Checked& c, const BoundaryContacts& touching, const std::vector
         defects.add_marked(DefectKind::crack, {.cells = {f.cell, g.cell}, .nodes = f.nodes, .other_nodes = g.nodes});
         if (std::ranges::any_of(f.nodes, is_twin) || std::ranges::any_of(g.nodes, is_twin))
             defects[DefectKind::crack].cause = true;
+    });
+}
+
+void find_surface_cracks(SurfaceParts& s) {
+    if (s.open.empty() || s.options.near == 0) return;
+    Mesh places;
+    places.points = s.surface.points;
+    std::vector<BoundaryFacet> edges;
+    for (const Ridge& edge : s.open) edges.push_back({s.triangles.number(edge.facet), 0, s.place_of(edge).nodes});
+    Cracks cracks(places, edges, 2);
+    cracks.merge_near(s.defects, s.options.near, {});
+    cracks.for_each_crack([&](const BoundaryFacet& f, const BoundaryFacet& g) {
+        s.defects.add_marked(DefectKind::crack, {.cells = {f.cell, g.cell}, .nodes = f.nodes, .other_nodes = g.nodes});
     });
 }
 

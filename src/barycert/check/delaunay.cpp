@@ -54,11 +54,10 @@ void add(const DelaunayReport& part, DelaunayReport& all) {
 struct FacetTester {
     const Checked& c;
     const Mesh& mesh = c.mesh;
-    const std::vector<std::int8_t>& orientation = c.orientation;
 
     /// The facets of `cell` to cells of higher number.
     void operator()(std::size_t cell, DelaunayReport& out) const {
-        if (orientation[cell] == 0) return;
+        if (c.orientation[cell] == 0) return;
         const auto p = corner_points(mesh, cell);
         for (std::size_t i = 0; i < mesh.corners(); ++i) {
             const Mesh::Index other = c.neighbours[cell * mesh.corners() + i];
@@ -85,14 +84,14 @@ struct FacetTester {
     /// The node lies on the other side of the facet opposite to corner i than the cell.
     bool opposite(std::size_t cell, std::array<const double*, 4> p, std::size_t i, Mesh::Index node) const {
         p[i] = node_at(mesh, node);
-        return exact_sign(mesh.dimension, p) * orientation[cell] < 0;
+        return exact_sign(mesh.dimension, p) * c.orientation[cell] < 0;
     }
 
     /// Positive if the node lies strictly in the cell's sphere, zero on it.
     Sign side(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node) const {
         const double* const at = node_at(mesh, node);
         const Sign s = mesh.dimension == 2 ? incircle(p[0], p[1], p[2], at) : insphere(p[0], p[1], p[2], p[3], at);
-        return static_cast<Sign>(static_cast<int>(s) * orientation[cell]);
+        return static_cast<Sign>(static_cast<int>(s) * c.orientation[cell]);
     }
 
     void note_depth(std::size_t cell, const std::array<const double*, 4>& p, Mesh::Index node,

@@ -1,9 +1,7 @@
 #include "barycert/check/exact_volumes.hpp"
 
-#include <bit>
 #include <cmath>
 
-#include "barycert/core/integer.hpp"
 #include "barycert/core/numerators-inl.hpp"
 
 namespace barycert::check {

@@ -3,7 +3,6 @@
 #include "barycert/base/disjoint_sets.hpp"
 #include "barycert/base/text.hpp"
 #include "barycert/check/stages.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/mesh/adjacency.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/mesh/consistency.hpp"

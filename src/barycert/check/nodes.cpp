@@ -13,34 +13,38 @@ std::array<double, 3> node_place(const Mesh& mesh, Mesh::Index node) {
     return at;
 }
 
+}  // namespace
+
 void mark_used(const std::vector<Mesh::Index>& indices, std::vector<std::uint8_t>& used) {
     for (const Mesh::Index i : indices) {
         if (i >= 0 && static_cast<std::size_t>(i) < used.size()) used[static_cast<std::size_t>(i)] = 1;
     }
 }
 
-}  // namespace
+std::vector<std::uint8_t> find_finite(const std::vector<double>& points, int d, const std::vector<std::uint8_t>& used,
+                                      DefectList& defects) {
+    std::vector<std::uint8_t> finite(used.size(), 1);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!std::isfinite(points[i])) finite[i / static_cast<std::size_t>(d)] = 0;
+    }
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const DefectPlace place{.nodes = {static_cast<Mesh::Index>(i), -1, -1}};
+        if (used[i] == 0) defects.add(DefectKind::unused_node, place);
+        if (finite[i] == 0) defects.add(DefectKind::not_finite, place);
+    }
+    return finite;
+}
 
 void check_nodes(Checked& c) {
-    const auto d = static_cast<std::size_t>(c.mesh.dimension);
-    const std::size_t count = c.mesh.point_count();
-    std::vector<std::uint8_t> used(count, 0);
-    c.finite.assign(count, 1);
-    for (std::size_t i = 0; i < count * d; ++i) {
-        if (!std::isfinite(c.mesh.points[i])) c.finite[i / d] = 0;
-    }
+    std::vector<std::uint8_t> used(c.mesh.point_count(), 0);
     mark_used(c.mesh.cells, used);
     const std::vector<std::uint8_t> vertex = used;
     mark_used(c.mesh.mid_nodes, used);
+    c.finite = find_finite(c.mesh.points, c.mesh.dimension, used, c.defects);
     std::vector<Mesh::Index> nodes;
-    nodes.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto node = static_cast<Mesh::Index>(i);
-        if (used[i] == 0) c.defects.add(DefectKind::unused_node, {.nodes = {node, -1, -1}});
-        if (c.finite[i] == 0)
-            c.defects.add(DefectKind::not_finite, {.nodes = {node, -1, -1}});
-        else
-            nodes.push_back(node);
+    nodes.reserve(used.size());
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (c.finite[i] != 0) nodes.push_back(static_cast<Mesh::Index>(i));
     }
     for (const auto& [first, second] : coincident_nodes(c.mesh, nodes)) {
         c.defects.add(DefectKind::coincident_nodes, {.nodes = {first, second, -1}});

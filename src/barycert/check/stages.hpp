@@ -210,9 +210,8 @@ void check_nodes(Checked& c);
 /// repeated_node, degenerate_cell, plain_sign_wrong, mixed_orientation.
 void check_cells(Checked& c);
 
-/// How cells meet at their facets, and which facets are the boundary. True if the cells partition a domain, proved by
-/// the index (index/proof.hpp) in less time than the search takes, which finds duplicate_cell, overfull_facet,
-/// same_side.
+/// How cells meet at their facets, and which are the boundary. True if the cells partition a domain, proved by the
+/// index (index/proof.hpp) in less time than the search takes, which finds duplicate_cell, overfull_facet, same_side.
 bool check_facets(Checked& c);
 
 /// The boundary as a complex: ridges, pieces, cavities, tunnels. Returns one of the boundary facets of each piece.
@@ -251,8 +250,7 @@ struct BoundaryContacts {
 /// P3: finds boundary_contact, up to `limit` of them.
 BoundaryContacts find_boundary_contacts(Checked& c, std::size_t limit);
 
-/// P4: finds nested_part, up to `limit` of them, each with the lowest cell that overlaps. `pieces` as check_boundary
-/// gives them.
+/// P4: finds nested_part, up to `limit`, each with the lowest cell that overlaps. `pieces`: those of check_boundary.
 std::vector<CellPair> find_nested_parts(Checked& c, const std::vector<std::uint32_t>& pieces, std::size_t limit);
 
 /// Finds overlapping_cells among all that are not degenerate.
@@ -264,6 +262,13 @@ std::vector<CellPair> find_overlapping_cells(Checked& c);
 CellContact common_part(const Mesh& mesh, const CellPair& cells);
 
 // Nodes near each other, or near what is between others (nodes.cpp, hanging_nodes.cpp, cracks.cpp).
+
+/// Sets 1 for those of the indices that are nodes.
+void mark_used(const std::vector<Mesh::Index>& indices, std::vector<std::uint8_t>& used);
+
+/// 1 for each node whose d coordinates are all finite. Finds not_finite, and of those that are not used unused_node.
+std::vector<std::uint8_t> find_finite(const std::vector<double>& points, int d, const std::vector<std::uint8_t>& used,
+                                      DefectList& defects);
 
 /// Those of `nodes` at the place of another one, second, each with the lowest that is there, first; by the second. 0
 /// and -0 are one place. Precondition: their coordinates are finite.
@@ -280,9 +285,9 @@ struct NearPair {
     double distance = 0;
 };
 
-/// found(pair) for the pairs of `nodes` that lie no farther apart than `radius` of both, an entry a node; in an order
-/// that does not depend on threads. False if there are more than `limit` of them, or on average more than 64 a node
-/// over many nodes: those beyond are not found. Memory is bounded by that.
+/// found(pair) for the pairs of `nodes`, ascending, that lie no farther apart than `radius` of both, an entry a node,
+/// the lower node first; in an order that does not depend on threads. False if there are more than `limit` of them, or
+/// on average more than 64 a node over many nodes: those beyond are not found. Memory is bounded by that.
 bool for_each_near(const Mesh& mesh, const std::vector<Mesh::Index>& nodes, const std::vector<double>& radius,
                    std::size_t limit, const std::function<void(const NearPair&)>& found);
 

@@ -94,11 +94,9 @@ void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked)
     checked.fixed = FixedMesh{.file = copy_of(job).path, .done = {}, .notes = {}, .after = {}};
     FixedMesh& fixed = *checked.fixed;
     const bool all = !job.fix.empty();
-    const Mesh copy =
-        fix_mesh(checked.mesh,
-                 {.nodes = all, .merge_within = job.merge_within.value_or(0), .cells = all, .threads = options.threads},
-                 fixed.done)
-            .value();
+    const FixOptions fix{
+        .nodes = all, .merge_within = job.merge_within.value_or(0), .cells = all, .threads = options.threads};
+    const Mesh copy = fix_mesh(checked.mesh, fix, fixed.done).value();
     if (copy.cell_count() == 0 && checked.mesh.cell_count() != 0)
         refuse(fixed.file, "no copy is written, as it would have no cells", "", "",
                "look at the mesh, and where nodes were merged choose a smaller distance");
@@ -106,7 +104,7 @@ void write_copy(const CheckJob& job, CheckOptions options, CheckedMesh& checked)
     if (checked.mesh.shapes.count() != 0)
         fixed.notes.push_back({Note::Kind::converted, "cells are written as the simplices that they are cut into"});
     write_mesh(copy, fixed.file, {.comment = {}, .data = job.vtk_data.value_or(VtkData::raw)}).value();
-    const Mesh read = read_mesh(fixed.file, {.faces = true, .neighbours = true, .threads = options.threads}).value();
+    const Mesh read = read_mesh(fixed.file, {.threads = options.threads}).value();
     options.delaunay = false;
     options.plc = nullptr;
     fixed.after = check_mesh(read, options);
@@ -206,9 +204,7 @@ Result<CheckedMesh> check_files(const CheckJob& job) try {
         checked.surface = io::surface_of(*polygons, job.mesh);
     } else {
         std::variant<Mesh, Surface> read =
-            read_mesh_or_surface(job.mesh,
-                                 {.faces = true, .neighbours = true, .threads = job.options.threads, .step = job.step})
-                .value();
+            read_mesh_or_surface(job.mesh, {.threads = job.options.threads, .step = job.step}).value();
         if (auto* const surface = std::get_if<Surface>(&read)) {
             checked.surface = std::move(*surface);
             // Polygons that are no triangles may be at fault themselves.

@@ -1,7 +1,6 @@
 #include "barycert/jobs/claimed_columns.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "barycert/base/nearest_name.hpp"

@@ -10,6 +10,7 @@
 #include "barycert/base/strict_math.hpp"
 #include "barycert/base/vectors.hpp"
 #include "barycert/environment.hpp"
+#include "barycert/index/box_tree.hpp"
 #include "barycert/io/formats.hpp"
 #include "barycert/jobs/field_files.hpp"
 #include "barycert/jobs/job_files.hpp"
@@ -112,15 +113,13 @@ struct Frame {
 /// Pixels over the box of these points (3 coordinates each) of a section. Error: it has no area, or too many pixels.
 Result<PixelGrid> pixels_over(const Plane& plane, const std::vector<double>& points, std::int64_t width) {
     const Frame frame(plane);
-    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+    index::Box box = index::empty_box;
     for (std::size_t i = 0; i < points.size(); i += 3) {
-        const Vector x{points[i] - frame.foot[0], points[i + 1] - frame.foot[1], points[i + 2] - frame.foot[2]};
-        const double at[2] = {dot(x, frame.right), dot(x, frame.up)};
-        for (int a = 0; a < 2; ++a) {
-            low[a] = std::min(low[a], at[a]);
-            high[a] = std::max(high[a], at[a]);
-        }
+        const Vector x = base::minus({points[i], points[i + 1], points[i + 2]}, frame.foot);
+        const Vector at{dot(x, frame.right), dot(x, frame.up), 0};
+        box.add({at, at});
     }
+    const auto& [low, high] = box;
     const double across = high[0] - low[0], tall = high[1] - low[1];
     if (!(across > 0) || !(tall > 0) || !std::isfinite(across) || !std::isfinite(tall))
         return file_error("", "the section has no area", "a plane that goes through the mesh",
@@ -223,10 +222,8 @@ private:
         for (Mesh::Index& cell : surface.mesh_cells) cell = mesh_.cell_number(cell);
         tell_stage(job_, "writing " + job_.output);
         report_.file = write_surface(surface, job_.output, job_.vtk_data.value_or(VtkData::raw)).value();
-        std::erase_if(report_.fields, [&](const std::string& name) {
-            const auto& out = report_.file.left_out;
-            return std::find(out.begin(), out.end(), name) != out.end();
-        });
+        std::erase_if(report_.fields,
+                      [&](const std::string& name) { return std::ranges::count(report_.file.left_out, name) != 0; });
         report_.seconds.write = watch.lap();
     }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <system_error>
 
 #include "barycert/base/nearest_name.hpp"
 #include "barycert/io/formats.hpp"
@@ -74,26 +73,29 @@ bool is_solution(const std::string& path) {
     return io::has_one_of(path, {".sol", ".solb"});
 }
 
-/// The array file.column, of nodes or of cells; file.of becomes which.
-Field array_named(const std::vector<Field>& nodal, const std::vector<Field>& of_each_cell, FieldFile& file) {
+/// The array file.column of a mesh or surface, named as the field; file.of becomes what it is of.
+Field array_named(const auto& from, FieldFile& file) {
     std::vector<std::string> all;
-    for (const auto* fields : {&nodal, &of_each_cell}) {
+    for (const auto* fields : {&from.point_fields, &from.cell_fields}) {
         for (const Field& field : *fields) all.push_back(field.name);
     }
-    const Field* const of_nodes = file.of == FieldFile::Of::cells ? nullptr : sample::field_named(nodal, file.column);
+    const Field* const of_nodes =
+        file.of == FieldFile::Of::cells ? nullptr : sample::field_named(from.point_fields, file.column);
     const Field* const of_cells =
-        file.of == FieldFile::Of::points ? nullptr : sample::field_named(of_each_cell, file.column);
+        file.of == FieldFile::Of::points ? nullptr : sample::field_named(from.cell_fields, file.column);
     if (of_nodes != nullptr && of_cells != nullptr)
         refuse(file.path, "there is an array of nodes and one of cells of that name", "", base::quoted(file.column),
                say_which);
     if (of_nodes == nullptr && of_cells == nullptr)
         refuse(file.path, file.column.empty() ? "it is not said which array of the file is meant" : "no such array",
                file.column.empty() ? "" : base::quoted(file.column),
-               "of nodes " + names_of(nodal) + "; of cells " + names_of(of_each_cell),
+               "of nodes " + names_of(from.point_fields) + "; of cells " + names_of(from.cell_fields),
                base::did_you_mean(file.column, all,
                                   "name one: job.field_files " + file.name + "=" + file.path + ":ARRAY"));
     file.of = of_nodes != nullptr ? FieldFile::Of::points : FieldFile::Of::cells;
-    return of_nodes != nullptr ? *of_nodes : *of_cells;
+    Field field = of_nodes != nullptr ? *of_nodes : *of_cells;
+    field.name = file.name;
+    return field;
 }
 
 /// Fields of Medit; the only one is meant if none is named.
@@ -113,7 +115,7 @@ Field read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
         return (whole ? std::move(whole) : points_as_mesh(file.path, mesh.dimension, whole.error())).value();
     };
     const Mesh other = solution ? read_solution(file, mesh.dimension, notes) : read();
-    Field field = array_named(other.point_fields, other.cell_fields, file);
+    Field field = array_named(other, file);
     const bool nodes = file.of == FieldFile::Of::points;
     const bool same = solution || (other.points == mesh.points && (nodes || other.cells == mesh.cells));
     const std::size_t rows = field.data.size() / static_cast<std::size_t>(field.components);
@@ -122,7 +124,6 @@ Field read_array(const Mesh& mesh, FieldFile& file, Notes& notes) {
                          std::string("the ") + (nodes ? "nodes" : "cells") +
                              " are in the order of the mesh, whose coordinates or cells are others: field " + file.name,
                          file.path, true});
-    field.name = file.name;
     return field;
 }
 
@@ -230,11 +231,10 @@ void add_fields(const std::vector<FieldFile>& files, Surface& s) {
         // An array is of the triangles, as they are read; rows are of the facets.
         const bool array = is_solution(file.path) || is_file_of_a_mesh(file.path) || io::is_surface_file(file.path);
         if (is_solution(file.path)) {
-            const Mesh other = read_solution(file, 3, s.notes);
-            field = array_named(other.point_fields, other.cell_fields, file);
+            field = array_named(read_solution(file, 3, s.notes), file);
         } else if (array) {
             const Surface other = read_surface(file.path).value();
-            field = array_named(other.point_fields, other.cell_fields, file);
+            field = array_named(other, file);
             if (other.points != s.points)
                 s.notes.push_back(
                     {Note::Kind::guessed,
@@ -243,7 +243,6 @@ void add_fields(const std::vector<FieldFile>& files, Surface& s) {
         } else {
             field = io::read_field_file(file.name, file.path, file.column, s.notes).value();
         }
-        field.name = file.name;
         const auto width = static_cast<std::size_t>(field.components);
         const bool of_cells =
             is_of_cells(file, field.data.size() / width, s.point_count(), array ? s.cell_count() : s.facet_total());

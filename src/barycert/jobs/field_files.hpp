@@ -21,8 +21,7 @@ struct FieldPlace {
 /// The field in the file, any number of rows. file.of becomes what it is of, where the file tells.
 Field read_field(const Mesh& mesh, FieldFile& file, Notes& notes);
 
-/// Of a field of cells that is not of a file of a mesh, which was cut like this one, rows of whole cells become rows of
-/// their parts.
+/// Rows of whole cells become rows of their parts, but for a field from a file of a mesh, which was cut like this one.
 void by_parts(const Mesh& mesh, const FieldFile& file, Field& field);
 
 /// Adds the field of a file to the mesh, and to its notes what is to be told of it; with `replace`, in the place of one

@@ -39,7 +39,7 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
     const check::ExactVolumes volumes(mesh.dimension, mesh.points);
     core::Unit unit;
     for (const double x : values) {
-        if (std::isfinite(x)) unit.add(core::scaled(x));
+        if (std::isfinite(x)) unit.add(x);
     }
     const std::size_t corners = mesh.corners(), mids = mesh.dimension == 2 ? 3 : 6;
     const auto add_cell = [&](std::size_t c, PartialIntegral& part) {
@@ -51,8 +51,8 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
             if (weight == 0) return;
             finite = finite && std::isfinite(values[entity]);
             if (!finite) return;
-            const Integer value = unit.multiple<Integer>(core::scaled(values[entity]));
-            sum = sum + Integer(weight < 0, static_cast<std::uint64_t>(std::abs(weight)), 0) * value;
+            const Integer factor(weight < 0, static_cast<std::uint64_t>(std::abs(weight)), 0);
+            sum = sum + factor * unit.integer(values[entity]);
         };
         if (rule.corners == 0) add(1, c);
         for (std::size_t i = 0; i < rule.corners; ++i)
@@ -76,17 +76,14 @@ std::pair<double, std::uint64_t> integral(const Mesh& mesh, const std::vector<do
             all.left_out += part.left_out;
         });
     const Integer denominator(false, (mesh.dimension == 2 ? 2 : 6) * rule.denominator, 0);
-    // Without a value but zeros the unit has no exponent, and the sum is zero in any.
-    return {core::round_quotient(whole.sum, denominator,
-                                 volumes.unit() + (whole.sum.sign() == 0 ? 0 : unit.exponent - 1074)),
-            whole.left_out};
+    return {core::round_quotient(whole.sum, denominator, volumes.unit() + unit.power()), whole.left_out};
 }
 
 /// The columns of cell fields that are sampled as they are; their integrals over the mesh go into the report.
-std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& format) {
+std::vector<std::size_t> integrate_source(SampledMesh& mesh) {
     std::vector<std::size_t> columns;
     std::size_t first = 0;
-    for (const TableField& field : format.fields) {
+    for (const TableField& field : mesh.sampler().fields()) {
         const auto components = static_cast<std::size_t>(field.components);
         const auto chosen = std::find_if(mesh.fields().begin(), mesh.fields().end(), [&](const FieldChoice& choice) {
             return choice.of_cells && choice.steps.empty() && name_of(choice) == field.name;
@@ -96,7 +93,7 @@ std::vector<std::size_t> integrate_source(SampledMesh& mesh, const TableFormat& 
             for (std::size_t i = k; i < chosen->field->data.size(); i += components)
                 values.push_back(chosen->field->data[i]);
             FieldIntegral of;
-            of.column = format.columns()[first + k];
+            of.column = mesh.sampler().columns()[first + k];
             std::tie(of.source, of.source_left_out) = integral(mesh.mesh(), values, {0, 0, 0, 1});
             mesh.report.integrals.push_back(of);
             columns.push_back(first + k);
@@ -125,9 +122,8 @@ void note_cell_fields(SampledMesh& mesh, bool of_series) {
                                  mesh.job.mesh, true});
 }
 
-Sink with_integrals(SampledMesh& mesh, const TableFormat& format, const Mesh& other,
-                    const std::function<Sink()>& open) {
-    const std::vector<std::size_t> columns = integrate_source(mesh, format);
+Sink with_integrals(SampledMesh& mesh, const Mesh& other, const std::function<Sink()>& open) {
+    const std::vector<std::size_t> columns = integrate_source(mesh);
     if (columns.empty()) return open();
     struct Kept {
         Mesh geometry;

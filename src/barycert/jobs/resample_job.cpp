@@ -10,8 +10,13 @@
 #include "barycert/io/vti/vti.hpp"
 #include "barycert/jobs/integrals.hpp"
 
-namespace barycert::jobs {
+namespace barycert {
 namespace {
+
+using jobs::refuse;
+using jobs::SampledMesh;
+using jobs::Sink;
+using jobs::Stopwatch;
 
 static_assert(std::endian::native == std::endian::little, "NPY files are written as numbers stand in memory");
 
@@ -24,13 +29,7 @@ static_assert(std::endian::native == std::endian::little, "NPY files are written
 /// VTK's image data: an array for each field, and what VTK's own probes give besides.
 Sink open_vti(const std::string& path, const TableFormat& format, const Grid& grid) {
     std::vector<io::ArrayFormat> arrays;
-    std::vector<std::size_t> components;
-    std::size_t columns = 0;
-    for (const TableField& f : format.fields) {
-        arrays.push_back({f.name, f.components, io::NumberType::float64});
-        components.push_back(static_cast<std::size_t>(f.components));
-        columns += components.back();
-    }
+    for (const TableField& f : format.fields) arrays.push_back({f.name, f.components, io::NumberType::float64});
     if (format.distances) arrays.push_back({"distance", 1, io::NumberType::float64});
     arrays.push_back({"vtkValidPointMask", 1, io::NumberType::int8});
     arrays.push_back({"cell", 1, io::NumberType::int32});
@@ -42,14 +41,16 @@ Sink open_vti(const std::string& path, const TableFormat& format, const Grid& gr
     }
     const std::shared_ptr<io::VtiWriter> file =
         io::VtiWriter::open(path, {grid.counts, grid.origin, grid.spacing}, arrays, format.vtk_data).value();
-    const auto write = [=, numbers = std::vector<double>(),
+    const auto write = [file, fields = format.fields, columns = format.columns().size(),
+                        numbers = std::vector<double>(),
                         mask = std::vector<std::int8_t>()](const TableView& rows) mutable {
         std::size_t array = 0, first = 0;
         Status done = Done{};
         const auto put = [&](const auto& values) {
             if (done) done = file->write(array++, std::as_bytes(std::span(values)));
         };
-        for (const std::size_t n : components) {
+        for (const TableField& field : fields) {
+            const auto n = static_cast<std::size_t>(field.components);
             if (n == columns) {  // as they stand
                 put(rows.values);
                 break;
@@ -65,13 +66,10 @@ Sink open_vti(const std::string& path, const TableFormat& format, const Grid& gr
         for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = rows.cells[i] >= 0 ? 1 : 0;
         put(mask);
         put(rows.cells);
-        for (const Column& column : rows.carried) {
-            const auto* const integers = std::get_if<std::vector<std::int64_t>>(&column.values);
-            integers != nullptr ? put(*integers) : put(std::get<std::vector<double>>(column.values));
-        }
+        for (const Column& column : rows.carried) std::visit(put, column.values);  // no texts
         return done;
     };
-    return sink_of(write, [file] { return file->commit(); });
+    return jobs::sink_of(write, [file] { return file->commit(); });
 }
 
 /// One array of float64, z slowest: its bytes are the values as they come.
@@ -81,11 +79,10 @@ Sink open_array(const std::string& path, const Grid& grid, std::size_t columns) 
     const auto file = std::make_shared<base::OutputFile>(path);
     file->write(io::npy_header_of("'<f8'", shape));
     const auto write = [file](const TableView& rows) {
-        const auto bytes = std::as_bytes(rows.values);
-        file->write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        file->write({reinterpret_cast<const char*>(rows.values.data()), rows.values.size_bytes()});
         return file->status();
     };
-    return sink_of(write, [file] { return file->commit(); });
+    return jobs::sink_of(write, [file] { return file->commit(); });
 }
 
 /// A picture of one column. It is kept in memory: its colours depend on all of it.
@@ -128,7 +125,7 @@ Sink open_picture(const ResampleJob& a, const std::string& path, const std::vect
             valid->push_back(rows.cells[i] >= 0 || std::isfinite(rows.values[i]) ? 1 : 0);
         return Done{};
     };
-    return sink_of(write, [=, &counts]() mutable {
+    return jobs::sink_of(write, [=, &counts]() mutable {
         slice.values = *values;
         slice.valid = *valid;
         return write_png(path, slice, &counts.emplace());
@@ -178,7 +175,7 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
     if (array) return open_array(path, grid, columns.size());
     if (io::has_suffix(path, ".vti")) return open_vti(path, format, grid);
     // With the points of the grid, as rows of points from a file have them.
-    return changed(open_rows(path, format), [grid, points = std::vector<double>()](TableView& block) mutable {
+    const auto add_points = [grid, points = std::vector<double>()](TableView& block) mutable {
         const auto d = static_cast<std::size_t>(grid.dimension);
         points.clear();
         for (std::size_t i = 0; i < block.cells.size(); ++i) {
@@ -186,7 +183,8 @@ Sink open_grid_sink(const ResampleJob& job, const std::string& path, const Table
             points.insert(points.end(), point.data(), point.data() + d);
         }
         block.points = points;
-    });
+    };
+    return jobs::changed(jobs::open_rows(path, format), add_points);
 }
 
 /// Takes one row a node, and writes the mesh when all is there. Refused: carried columns.
@@ -209,7 +207,7 @@ Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, No
         of->distance.data.insert(of->distance.data.end(), rows.distances.begin(), rows.distances.end());
         return Done{};
     };
-    return sink_of(write, [of, path, kind, data = format.vtk_data]() -> Status {
+    return jobs::sink_of(write, [of, path, kind, data = format.vtk_data]() -> Status {
         if (kind == io::MeshFormat::tetgen) return write_tetgen_files(of->mesh, path);
         // Where there is room for what else is known of nodes. Gmsh draws each field: there `cell` stands for the mask.
         std::vector<Field>& fields = of->mesh.point_fields;
@@ -219,16 +217,6 @@ Sink mesh_sink(Mesh mesh, const std::string& path, const TableFormat& format, No
         return write_mesh(of->mesh, path, {.comment = {}, .data = data});
     });
 }
-
-}  // namespace
-}  // namespace barycert::jobs
-
-namespace barycert {
-namespace {
-
-using jobs::refuse;
-using jobs::SampledMesh;
-using jobs::Stopwatch;
 
 Grid grid_of(const ResampleJob& a, const Mesh& mesh) {
     const auto d = static_cast<std::size_t>(mesh.dimension);
@@ -311,8 +299,8 @@ void onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& pat
     SampleReport& report = mesh.report;
     const Grid& grid = *report.grid;
     Stopwatch watch, within;
-    const jobs::Sink output = open_user_rows(mesh, mesh.format(), {}, false, [&](const TableFormat& format) {
-        return jobs::open_grid_sink(job, path, format, grid, report.picture);
+    const Sink output = open_user_rows(mesh, {}, false, [&](const TableFormat& format) {
+        return open_grid_sink(job, path, format, grid, report.picture);
     });
     double writing = 0;
     const bool none_outside = job.options.outside.kind == Outside::error;
@@ -322,7 +310,7 @@ void onto_grid(SampledMesh& mesh, const ResampleJob& job, const std::string& pat
         if (outside != rows.cells.end()) {
             const std::uint64_t i =
                 rows.first_row + static_cast<std::uint64_t>(std::distance(rows.cells.begin(), outside));
-            const std::array<double, 3> at = jobs::point_of(grid, i);
+            const std::array<double, 3> at = point_of(grid, i);
             return jobs::outside_error("point " + std::to_string(i) + " of the grid",
                                        std::span(at).first(static_cast<std::size_t>(grid.dimension)), "");
         }
@@ -385,13 +373,13 @@ void onto_mesh(SampledMesh& mesh, const ResampleJob& job) {
     note_the_other(mesh, job, other);
     jobs::note_cell_fields(mesh, further);
     // Files of the other mesh with the fields, or rows. Of a series there would be integrals of each step.
-    const auto open = [&](const TableFormat& format, const std::string& path) {
-        const auto open_sink = [&](const TableFormat& shown) {
-            return to_rows ? jobs::open_rows(path, shown)
-                           : jobs::mesh_sink(further ? other : std::move(other), path, shown, mesh.report.notes);
+    const auto open = [&](const std::string& path) {
+        const auto open_sink = [&](const TableFormat& format) {
+            return to_rows ? jobs::open_rows(path, format)
+                           : mesh_sink(further ? other : std::move(other), path, format, mesh.report.notes);
         };
-        const auto open_rows = [&] { return open_user_rows(mesh, format, {}, false, open_sink); };
-        return further ? open_rows() : jobs::with_integrals(mesh, format, other, open_rows);
+        const auto open_rows = [&] { return open_user_rows(mesh, {}, false, open_sink); };
+        return further ? open_rows() : jobs::with_integrals(mesh, other, open_rows);
     };
     sample_rows(mesh, nodes, open);
 }

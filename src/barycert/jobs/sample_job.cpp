@@ -73,11 +73,11 @@ jobs::RowSource rows_of_map(MapReader& map) {
 
 /// The outputs of the job; `carried`: columns of the points.
 jobs::OpenRows outputs_of(SampledMesh& mesh, const SampleJob& job, const std::vector<ColumnFormat>& carried) {
-    return [&mesh, &job, carried](const TableFormat& format, const std::string& path) {
+    return [&mesh, &job, carried](const std::string& path) {
         if (path.empty()) return jobs::Sink();
         const bool all = job.keep == std::vector<std::string>{"all"};
-        return open_user_rows(mesh, format, carried, all,
-                              [&](const TableFormat& shown) { return jobs::open_rows(path, shown); });
+        return open_user_rows(mesh, carried, all,
+                              [&](const TableFormat& format) { return jobs::open_rows(path, format); });
     };
 }
 
@@ -325,28 +325,26 @@ private:
 };
 
 /// Nothing if the mesh is one, or cannot be read as a surface either.
-std::optional<Result<SampleReport>> at_surface(const SampleJob& job) {
-    try {
-        const base::RunFiles run_files;
-        const jobs::ThreadLimit limit(job.options.threads);
-        jobs::Stopwatch watch;
-        const bool sure = io::is_polygons_file(job.mesh);
-        const auto check = [&] {
-            refuse_what_is_of_meshes(job);
-            check_job(job, {});
-        };
-        if (sure) check();
-        Result<std::variant<Mesh, Surface>> read =
-            read_mesh_or_surface(job.mesh, {.threads = job.options.threads, .step = job.step});
-        if (!read && io::is_surface_file(job.mesh)) return read.error();
-        auto* const surface = read ? std::get_if<Surface>(&*read) : nullptr;
-        if (surface == nullptr) return std::nullopt;
-        if (!sure) check();
-        jobs::add_fields(job.field_files, *surface);
-        return SurfaceSampling(job, *surface, watch.lap()).run();
-    } catch (const Exception& problem) {
-        return problem.error();
-    }
+std::optional<Result<SampleReport>> at_surface(const SampleJob& job) try {
+    const base::RunFiles run_files;
+    const jobs::ThreadLimit limit(job.options.threads);
+    jobs::Stopwatch watch;
+    const bool sure = io::is_polygons_file(job.mesh);
+    const auto check = [&] {
+        refuse_what_is_of_meshes(job);
+        check_job(job, {});
+    };
+    if (sure) check();
+    Result<std::variant<Mesh, Surface>> read =
+        read_mesh_or_surface(job.mesh, {.threads = job.options.threads, .step = job.step});
+    if (!read && io::is_surface_file(job.mesh)) return read.error();
+    auto* const surface = read ? std::get_if<Surface>(&*read) : nullptr;
+    if (surface == nullptr) return std::nullopt;
+    if (!sure) check();
+    jobs::add_fields(job.field_files, *surface);
+    return SurfaceSampling(job, *surface, watch.lap()).run();
+} catch (const Exception& problem) {
+    return problem.error();
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include "barycert/base/arena.hpp"
 #include "barycert/base/finite.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/cells_at_points.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -75,7 +74,7 @@ SampledMesh::SampledMesh(const SamplingJob& of, std::vector<Step> all_steps, std
 
 void SampledMesh::open() {
     Stopwatch watch;
-    mesh_ = read(steps.empty() ? nullptr : &steps.front());
+    mesh_ = read(steps.empty() ? std::nullopt : steps.front().of_mesh);
     add_fields_of_job();
     choose_fields();
     names_of_first_ = names_of_chosen();
@@ -88,10 +87,9 @@ void SampledMesh::open() {
     report.seconds.mesh = watch.lap();
 }
 
-/// That of the step, where it has one, or the one that the job asks for.
-Mesh SampledMesh::read(const Step* step) {
-    const bool of_step = step != nullptr && step->of_mesh.has_value();
-    return open_mesh(job, job.options.threads, of_step ? StepChoice{.number = step->of_mesh} : job.step, report.curved,
+/// That of the step, or the one that the job asks for.
+Mesh SampledMesh::read(std::optional<std::size_t> step) {
+    return open_mesh(job, job.options.threads, step ? StepChoice{.number = step} : job.step, report.curved,
                      list_grids_);
 }
 
@@ -137,14 +135,14 @@ bool SampledMesh::is_another(const Mesh& mesh) const {
 
 void SampledMesh::check_one_mesh(const std::string& path, const char* member) {
     for (const Step& step : steps) {
-        if (!step.of_mesh || &step == &steps.front() || !is_another(read(&step))) continue;
+        if (!step.of_mesh || &step == &steps.front() || !is_another(read(step.of_mesh))) continue;
         refuse(path, "the mesh changes from step to step, and " + std::string(member) + " is of one mesh", "",
                "another mesh in step " + step.label, "choose one step: job.step N");
     }
 }
 
 void SampledMesh::read_mesh_of(const Step& step) {
-    Mesh mesh = read(&step);
+    Mesh mesh = read(step.of_mesh);
     if (mesh.dimension != mesh_.dimension)
         refuse(job.mesh, "step " + step.label + " has cells of another dimension",
                std::to_string(mesh_.dimension) + ", as the first one has", std::to_string(mesh.dimension));
@@ -218,7 +216,7 @@ void SampledMesh::choose_fields() {
         if (count == 0) continue;
         if (const char* const wrong = mesh::inconsistency_of_cells(mesh_, mesh::FieldValues::any); wrong != nullptr)
             refuse(job.mesh, std::string("the mesh is inconsistent: ") + wrong);
-        sample::make_fields(mesh_, choice, count, made_).value();
+        sample::make_fields(mesh_, choice, count, made_);
     }
 }
 
@@ -248,16 +246,8 @@ void SampledMesh::build_sampler(const std::vector<FieldChoice>& fields) {
 }
 
 std::vector<FieldChoice> SampledMesh::fields_of_part() {
-    std::vector<FieldChoice> fields;
-    part_->mesh.point_fields.clear();
-    part_->mesh.cell_fields.clear();
-    part_->mesh.point_fields.reserve(fields_.size());
-    part_->mesh.cell_fields.reserve(fields_.size());
-    for (const FieldChoice& choice : fields_) {
-        auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
-        of_part.push_back(part_->field(*choice.field, choice.of_cells));
-        fields.push_back({&of_part.back(), choice.of_cells, choice.steps, choice.name});
-    }
+    std::vector<FieldChoice> fields = fields_;
+    for (FieldChoice& choice : fields) choice.field = &made_.emplace_back(part_->field(*choice.field, choice.of_cells));
     return fields;
 }
 
@@ -291,7 +281,7 @@ bool SampledMesh::may_be_mapped() const {
 std::optional<std::vector<Mesh::Index>> SampledMesh::cells_near(std::span<const double> points) {
     const ExactEnvironment environment;
     const std::size_t count = points.size() / static_cast<std::size_t>(mesh_.dimension), cells = mesh_.cell_count();
-    const bool fit = std::all_of(fields_.begin(), fields_.end(), [&](const FieldChoice& choice) {
+    const bool fit = std::ranges::all_of(fields_, [&](const FieldChoice& choice) {
         return mesh::check_field(choice.field, choice.of_cells ? cells : mesh_.point_count(), "").has_value();
     });
     // What is wrong with fields or points is told by the usual way.

@@ -91,7 +91,7 @@ public:
     const std::vector<const Column*>& labels() const { return labels_; }
 
 private:
-    Mesh read(const Step* step);
+    Mesh read(std::optional<std::size_t> step);
     bool is_another(const Mesh& mesh) const;
     std::string names_of_chosen() const;
     void add_fields_of_job();
@@ -113,7 +113,7 @@ private:
     bool another_mesh_ = false;
     std::string names_of_first_;  ///< of the fields that are sampled in the first step
     std::vector<FieldPlace> places_of_series_;
-    std::deque<Field> made_;  ///< of fields of the mesh
+    std::deque<Field> made_;  ///< of fields of the mesh, and for the part
     std::vector<FieldChoice> fields_;
     std::vector<const Column*> labels_;
     std::optional<mesh::Part> part_;  ///< what the locator is of, if not the mesh

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
-#include <system_error>
 
 #include "barycert/io/npz/weights_file.hpp"
 #include "barycert/locate/batch.hpp"
@@ -61,19 +60,15 @@ public:
 
 private:
     void open() {
-        sink_ = open_(mesh_.format(), targets_.path);
-        if (!targets_.map.empty()) {
-            const BuildOptions located = build_options(mesh_.job, 0);
-            map_ = MapWriter::open(targets_.map, mesh_.mesh(), mesh_.report.all, located).value();
-        }
-        if (!targets_.weights.empty())
-            weights_ = io::WeightsFile::open(targets_.weights, mesh_.mesh().point_count()).value();
+        sink_ = open_(targets_.path);
+        const Mesh& mesh = mesh_.mesh();
+        if (!targets_.map.empty())
+            map_ = MapWriter::open(targets_.map, mesh, mesh_.report.all, build_options(mesh_.job, 0)).value();
+        if (!targets_.weights.empty()) weights_ = io::WeightsFile::open(targets_.weights, mesh.point_count()).value();
     }
 
     void work(Block& block) const {
         Table& rows = block.rows;
-        if (source_.located) look_outside(block);
-        if (source_.located && block.outside) return;
         if (source_.located)
             mesh_.sampler().evaluate(rows.points, options_, rows, block.first).value();
         else if (mesh_.report.all)
@@ -84,7 +79,8 @@ private:
         if (targets_.known != nullptr) block.located = rows.cells;
         if (weights_) block.weights = mesh_.weights_of(rows.view());
         mesh_.name_cells(rows);
-        if (!source_.located) look_outside(block);
+        if (mesh_.job.options.outside.kind == Outside::error)
+            block.outside = locate::first_outside(rows.cells, rows.points, static_cast<std::size_t>(rows.dimension));
         block.nan_values = count_nan(rows.view());
     }
 
@@ -95,13 +91,6 @@ private:
         const LocationCounts locations = rows.counts.locations;
         mesh_.sampler().evaluate(rows.points, options_, rows).value();
         rows.counts.locations = locations;
-    }
-
-    void look_outside(Block& block) const {
-        block.outside.reset();
-        if (mesh_.job.options.outside.kind != Outside::error) return;
-        const Table& rows = block.rows;
-        block.outside = locate::first_outside(rows.cells, rows.points, static_cast<std::size_t>(rows.dimension));
     }
 
     Error refused(const Block& block) const {
@@ -222,8 +211,8 @@ void refuse_kept(const std::string& name) {
            "name the columns to keep, with another name for this one: job.keep OTHER=" + base::printable(name));
 }
 
-Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
-                    const OpenFormat& open) {
+Sink open_user_rows(SampledMesh& mesh, const std::vector<ColumnFormat>& carried, bool all, const OpenFormat& open) {
+    TableFormat format = mesh.format();
     const std::vector<std::string> columns = format.columns();
     std::set<std::string> names(columns.begin(), columns.end());
     mesh.report.carried.clear();
@@ -238,38 +227,34 @@ Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<Col
                    "leave it, or the other one, out of job.fields");
     }
     const std::set<std::string> of_rows = names;
-    std::vector<bool> kept;
+    std::vector<std::size_t> kept;
     std::vector<std::string> left_out;
-    for (const ColumnFormat& column : carried) {
-        const std::string name = base::printable(column.name);
-        kept.push_back(!all || (!is_name_of_rows(column.name) && !of_rows.contains(column.name)));
-        if (!kept.back()) {
-            left_out.push_back(name);
-        } else if (!add(column)) {
-            refuse_kept(column.name);
+    for (std::size_t i = 0; i < carried.size(); ++i) {
+        const std::string& name = carried[i].name;
+        if (all && (is_name_of_rows(name) || of_rows.contains(name))) {
+            left_out.push_back(base::printable(name));
+            continue;
         }
+        if (!add(carried[i])) refuse_kept(name);
+        kept.push_back(i);
     }
-    if (left_out.empty()) {
-        kept.clear();
-    } else {
+    if (!left_out.empty())
         tell_once({{Note::Kind::left_out,
                     fmt::format("columns {}: the rows have columns of these names; job.keep OTHER={} carries one "
                                 "through under another name",
                                 fmt::join(left_out, ","), left_out.front()),
                     mesh.report.points}},
                   mesh.report);
-    }
     Sink sink = open(format);
     // A sink of its own only where users see something else.
-    if (!sink || (kept.empty() && mesh.labels().empty() && mesh.mesh().cell_numbers.empty())) return sink;
-    const auto as_users_see_them = [&mesh, kept, shown = std::vector<Column>(),
+    const bool same_columns = left_out.empty() && mesh.labels().empty();
+    if (!sink || (same_columns && mesh.mesh().cell_numbers.empty())) return sink;
+    const auto as_users_see_them = [&mesh, same_columns, kept, shown = std::vector<Column>(),
                                     cells = std::vector<Mesh::Index>()](TableView& rows) mutable {
-        if (!mesh.labels().empty() || !kept.empty()) {
+        if (!same_columns) {
             shown.clear();
             for (const Column* const labels : mesh.labels()) shown.push_back(mesh::labels_at(*labels, rows.cells));
-            for (std::size_t i = 0; i < rows.carried.size(); ++i) {
-                if (kept.empty() || kept[i]) shown.push_back(rows.carried[i]);
-            }
+            for (const std::size_t i : kept) shown.push_back(rows.carried[i]);
             rows.carried = shown;
         }
         if (mesh.mesh().cell_numbers.empty()) return;

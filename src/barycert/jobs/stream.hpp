@@ -69,8 +69,8 @@ private:
 
 using Sink = std::unique_ptr<TableSink>;
 
-/// Opens what takes rows of that format, into an output of that name; nullptr: they go nowhere.
-using OpenRows = std::function<Sink(const TableFormat& format, const std::string& path)>;
+/// Opens what takes rows of the mesh's format, into an output of that name; nullptr: they go nowhere.
+using OpenRows = std::function<Sink(const std::string& path)>;
 
 /// All rows of the source into the output, and into a map and a matrix of weights where these are named; of a job that
 /// goes step by step, those of all steps, each into an output of its own. Rows come in the order of the points. Adds to
@@ -88,8 +88,7 @@ using OpenFormat = std::function<Sink(const TableFormat& format)>;
 /// it what users are to see: cells by their numbers in the file, labels that the job asked for, and `carried` columns
 /// of the points. The report gets the names of these. The mesh must stay. A carried column that has the name of another
 /// one is refused; with `all`, one that rows have anyway, as those of another run, is left out, and noted.
-Sink open_user_rows(SampledMesh& mesh, TableFormat format, const std::vector<ColumnFormat>& carried, bool all,
-                    const OpenFormat& open);
+Sink open_user_rows(SampledMesh& mesh, const std::vector<ColumnFormat>& carried, bool all, const OpenFormat& open);
 
 template <class Write, class Commit>
 Sink sink_of(Write write, Commit commit) {

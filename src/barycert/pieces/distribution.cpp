@@ -82,9 +82,8 @@ Status Distribution::refine() {
         for (const int other : exchange_.partners()) {
             if (asks_much(other, rank)) {
                 if (mine.empty()) {
-                    mine = cover(
-                        of(rank).cells, piece_.mesh.whole_count(), [&](std::size_t i) { return piece_.box_of(i); },
-                        fine);
+                    const auto box_of = [&](std::size_t i) { return piece_.box_of(i); };
+                    mine = cover(of(rank).cells, piece_.mesh.whole_count(), box_of, fine);
                     mine.resize(fine, empty_box);
                 }
                 out.values.insert(out.values.end(), mine.begin(), mine.end());

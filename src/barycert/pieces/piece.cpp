@@ -6,8 +6,7 @@
 #include "barycert/environment.hpp"
 #include "barycert/grid.hpp"
 #include "barycert/locate/locator_data.hpp"
-#include "barycert/locate/near_feature.hpp"
-#include "barycert/mesh/pulling.hpp"
+#include "barycert/sample/points/near_piece.hpp"
 
 namespace barycert::pieces {
 namespace {
@@ -51,8 +50,7 @@ void halve(std::vector<Box>::iterator begin, std::vector<Box>::iterator end, std
         if (half_width(middles, a) > half_width(middles, widest)) widest = a;
     const std::size_t left = most / 2;
     const auto between = begin + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(end - begin) * left / most);
-    std::nth_element(begin, between, end,
-                     [&](const Box& a, const Box& b) { return middle(a, widest) < middle(b, widest); });
+    std::ranges::nth_element(begin, between, end, {}, [&](const Box& box) { return middle(box, widest); });
     halve(begin, between, left, all);
     halve(between, end, most - left, all);
 }
@@ -111,20 +109,13 @@ std::size_t Piece::whole_of(Mesh::Index cell) const {
 }
 
 std::vector<Mesh::Index> Piece::nodes_of(std::size_t whole) const {
-    std::vector<Mesh::Index> nodes;
-    const auto add = [&](const std::vector<Mesh::Index>& all, std::size_t begin, std::size_t end) {
-        nodes.insert(nodes.end(), all.data() + begin, all.data() + end);
-    };
-    const std::size_t corners = mesh.corners();
-    if (const Mesh::Shapes& shapes = mesh.shapes; shapes.count() != 0) {
-        add(shapes.nodes, whole == 0 ? 0 : static_cast<std::size_t>(shapes.ends[whole - 1]),
-            static_cast<std::size_t>(shapes.ends[whole]));
-    } else {
-        add(mesh.cells, corners * whole, corners * (whole + 1));
-        const std::size_t mids = mesh.mid_nodes.size() / mesh.cell_count();
-        add(mesh.mid_nodes, mids * whole, mids * (whole + 1));
+    const Mesh::Shapes& shapes = mesh.shapes;
+    if (shapes.count() == 0) {
+        const sample::CellNodes nodes(mesh, whole);
+        return {nodes.begin(), nodes.end()};
     }
-    return nodes;
+    const auto begin = shapes.nodes.begin();
+    return {begin + (whole == 0 ? 0 : shapes.ends[whole - 1]), begin + shapes.ends[whole]};
 }
 
 Box Piece::box_of(std::size_t whole) const {
@@ -157,19 +148,19 @@ bool Piece::flatten(int of) {
         };
         const double its = at(mesh.shapes.nodes.empty() ? mesh.cells.front() : mesh.shapes.nodes.front());
         const std::array<const std::vector<Mesh::Index>*, 3> all{&mesh.cells, &mesh.mid_nodes, &mesh.shapes.nodes};
-        if (!std::all_of(all.begin(), all.end(), [&](const auto* nodes) {
-                return std::all_of(nodes->begin(), nodes->end(), [&](Mesh::Index n) { return at(n) == its; });
-            }))
-            continue;
+        const auto flat = [&](const auto* nodes) {
+            return std::ranges::all_of(*nodes, [&](Mesh::Index n) { return at(n) == its; });
+        };
+        if (!std::ranges::all_of(all, flat)) continue;
         normal = axis;
         plane = its;
         axes = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2, axis};
-        std::vector<double> flat;
-        flat.reserve(points.size() / 3 * 2);
+        std::vector<double> in_plane;
+        in_plane.reserve(points.size() / 3 * 2);
         for (std::size_t i = 0; i < points.size(); i += 3)
-            for (std::size_t a = 0; a < 2; ++a) flat.push_back(points[i + static_cast<std::size_t>(axes[a])]);
+            for (std::size_t a = 0; a < 2; ++a) in_plane.push_back(points[i + static_cast<std::size_t>(axes[a])]);
         mesh.dimension = 2;
-        mesh.points = std::move(flat);
+        mesh.points = std::move(in_plane);
         return true;
     }
     return false;
@@ -178,9 +169,7 @@ bool Piece::flatten(int of) {
 std::optional<std::size_t> Piece::cut(const std::vector<std::int64_t>& numbers) {
     std::vector<Mesh::Index> order(numbers.size()), rank(numbers.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](Mesh::Index a, Mesh::Index b) {
-        return numbers[static_cast<std::size_t>(a)] < numbers[static_cast<std::size_t>(b)];
-    });
+    std::ranges::stable_sort(order, {}, [&](Mesh::Index i) { return numbers[static_cast<std::size_t>(i)]; });
     for (std::size_t i = 0; i < order.size(); ++i)
         rank[static_cast<std::size_t>(order[i])] = static_cast<Mesh::Index>(i);
     const auto renumber = [&](const std::vector<Mesh::Index>& to) {

@@ -52,8 +52,7 @@ void find_surface_cracks(SurfaceParts& s);
 /// of the PLC lie. Finds inside_out and misplaced_point.
 void measure_regions(SurfaceParts& s, const Plc* plc);
 
-/// What a PLC has besides triangles. Finds facet_off_plane, node_on_facet, segment_in_facet, segments_meet
-/// and coincident_nodes.
+/// All else of a PLC. Finds facet_off_plane, node_on_facet, segment_in_facet, segments_meet, coincident_nodes.
 void check_segments(SurfaceParts& s, const Plc& plc);
 
 /// The intersection of two triangles, as that of cells.

@@ -56,13 +56,8 @@ public:
     /// Areas and volumes. Chambers if the surface is embedded.
     void measure() {
         const std::size_t count = s_.triangles.size();
-        number_sets(s_.shells, count, shell_of_);
-        if (s_.embedded) number_sets(s_.sides, 2 * count, chamber_);
-        const auto sets = [](const std::vector<std::uint32_t>& of) {
-            return of.empty() ? 0 : std::size_t{*std::ranges::max_element(of)} + 1;
-        };
-        s_.found.shell_count = sets(shell_of_);
-        const Sums sums = add_up(s_.found.shell_count, sets(chamber_));
+        s_.found.shell_count = number_sets(s_.shells, count, shell_of_);
+        const Sums sums = add_up(s_.found.shell_count, s_.embedded ? number_sets(s_.sides, 2 * count, chamber_) : 0);
         std::vector<std::uint8_t> balanced(s_.found.shell_count, 1);
         s_.found.shells.resize(s_.found.shell_count);
         for (std::size_t f = 0; f < count; ++f) {
@@ -93,8 +88,7 @@ public:
         return smallest(winding);
     }
 
-    /// The chamber that holds the shell of triangle f: by a node that no other shell has, or the middle of the
-    /// triangle.
+    /// The chamber that holds the shell of triangle f: by a node that no other shell has, or the triangle's middle.
     std::optional<std::size_t> chamber_around(std::size_t f) {
         const std::uint32_t shell = shell_of_[f];
         const double* const own = own_node(shell);
@@ -268,14 +262,15 @@ private:
         return all;
     }
 
-    /// Numbers sets from 0 in the order of their lowest members.
-    static void number_sets(base::DisjointSets& sets, std::size_t count, std::vector<std::uint32_t>& number) {
+    /// Numbers sets from 0 in the order of their lowest members, and returns how many there are.
+    static std::uint32_t number_sets(base::DisjointSets& sets, std::size_t count, std::vector<std::uint32_t>& number) {
         number.resize(count);
         std::uint32_t next = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint32_t root = sets.find(i);
             number[i] = root == i ? next++ : number[root];
         }
+        return next;
     }
 
     SurfaceParts& s_;

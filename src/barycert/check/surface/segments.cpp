@@ -43,16 +43,15 @@ bool segments_conflict(const PlacedFacet& f, const PlacedFacet& g) {
 
 class Segments {
 public:
-    Segments(SurfaceParts& s, const Plc& plc) : s_(s), plc_(plc) {
+    Segments(SurfaceParts& s, const Plc& plc) : s_(s), plc_(plc), place_(plc.point_count(), -1) {
         std::vector<Mesh::Index> same(plc.point_count());
         std::iota(same.begin(), same.end(), 0);
-        std::vector<bool> loose(same.size(), true);
         for (std::size_t i = 0; i < s.triangles.same.size(); ++i) {
             const auto node = static_cast<std::size_t>(s.triangles.node(static_cast<Place>(i)));
-            same[node] = s.triangles.node(s.triangles.same[i]);
-            loose[node] = false;
+            place_[node] = s.triangles.same[i];
+            same[node] = s.triangles.node(place_[node]);
         }
-        unite(loose, same);
+        unite(same);
         for (std::size_t i = 0; i < plc.facets.size(); ++i) {
             for (Segment segment : segments_of(plc.facets[i])) {
                 for (Mesh::Index& node : segment) node = same[static_cast<std::size_t>(node)];
@@ -66,15 +65,14 @@ public:
     void find_inner() {
         for_each_ridge(s_.edges, [&](std::span<const Ridge> edge) {
             const auto [u, v] = s_.ends(edge[0]);
-            const Segment segment{std::min(s_.triangles.node(u), s_.triangles.node(v)),
-                                  std::max(s_.triangles.node(u), s_.triangles.node(v))};
-            const auto found = facets_of_.find(segment);
+            const auto [low, high] = std::minmax({s_.triangles.node(u), s_.triangles.node(v)});
+            const auto found = facets_of_.find({low, high});
             if (found == facets_of_.end()) return;
             for (const Ridge& r : edge) {
                 const auto facet = static_cast<std::size_t>(s_.surface.facet(s_.triangles.number(r.facet)));
                 if (found->second.contains(facet)) continue;
-                s_.defects.add_marked(DefectKind::segment_in_facet, {.cells = {s_.triangles.number(r.facet), -1},
-                                                                     .nodes = {segment[0], segment[1], -1}});
+                s_.defects.add_marked(DefectKind::segment_in_facet,
+                                      {.cells = {s_.triangles.number(r.facet), -1}, .nodes = {low, high, -1}});
                 break;
             }
             facets_of_.erase(found);
@@ -106,16 +104,13 @@ public:
 
     /// Segments and nodes of no triangle, on triangles or across them.
     void find_loose() {
-        std::vector<Place> place(s_.surface.point_count(), -1);  // of nodes of triangles
-        for (std::size_t i = 0; i < s_.triangles.same.size(); ++i)
-            place[static_cast<std::size_t>(s_.triangles.node(static_cast<Place>(i)))] = s_.triangles.same[i];
-        if (facets_of_.empty() && std::ranges::find(place, -1) == place.end()) return;
+        if (facets_of_.empty() && !have_loose_nodes()) return;
         const BoxGroups boxes = make_cell_tree(s_.triangles.index);
         for (const auto& entry : facets_of_) {
             const Segment& segment = entry.first;
             PlacedFacet f;
             for (std::size_t k = 0; k < 2; ++k) {
-                const Place found = place[static_cast<std::size_t>(segment[k])];
+                const Place found = place_[static_cast<std::size_t>(segment[k])];
                 f.nodes[k] = found < 0 ? -2 - static_cast<Mesh::Index>(k) : found;
                 f.at[k] = point(segment[k]);
             }
@@ -126,9 +121,9 @@ public:
                 return false;
             });
         }
-        for (std::size_t n = 0; n < place.size(); ++n) {
+        for (std::size_t n = 0; n < place_.size(); ++n) {
             const double* const p = point(static_cast<Mesh::Index>(n));
-            if (place[n] >= 0 || !s_.triangles.index.box_holds(p)) continue;
+            if (place_[n] >= 0 || !s_.triangles.index.box_holds(p)) continue;
             boxes.for_each_meeting(box_of(s_.triangles.index, &p, 1), [&](std::size_t t) {
                 const auto face = face_around(3, s_.triangles.facets[t], p);
                 if (face[1] < 0) return true;  // at a node of it is a coincident node
@@ -172,31 +167,34 @@ public:
 
 private:
     /// Loose nodes at one place with others are one: those of triangles if there are some, else the lowest.
-    void unite(const std::vector<bool>& loose, std::vector<Mesh::Index>& same) {
-        if (std::ranges::find(loose, true) == loose.end()) return;
+    void unite(std::vector<Mesh::Index>& same) {
+        if (!have_loose_nodes()) return;
         std::vector<Mesh::Index> order;
-        for (std::size_t n = 0; n < loose.size(); ++n) {
+        for (std::size_t n = 0; n < same.size(); ++n) {
             if (finite(static_cast<Mesh::Index>(n))) order.push_back(static_cast<Mesh::Index>(n));
         }
         const auto before = [&](Mesh::Index a, Mesh::Index b) {
             return std::lexicographical_compare(point(a), point(a) + 3, point(b), point(b) + 3);
         };
-        std::stable_partition(order.begin(), order.end(), [&](auto n) { return !loose[static_cast<std::size_t>(n)]; });
+        std::stable_partition(order.begin(), order.end(),
+                              [&](auto n) { return place_[static_cast<std::size_t>(n)] >= 0; });
         std::ranges::stable_sort(order, before);
         for (std::size_t i = 1; i < order.size(); ++i) {
             const auto node = static_cast<std::size_t>(order[i]);
-            if (!loose[node] || before(order[i - 1], order[i])) continue;
+            if (place_[node] >= 0 || before(order[i - 1], order[i])) continue;
             const Mesh::Index first = same[node] = same[static_cast<std::size_t>(order[i - 1])];
             s_.defects.add(DefectKind::coincident_nodes,
                            {.nodes = {std::min(first, order[i]), std::max(first, order[i]), -1}});
         }
     }
 
+    bool have_loose_nodes() const { return std::ranges::find(place_, -1) != place_.end(); }
     bool finite(Mesh::Index n) const { return base::all_finite({point(n), 3}); }
     const double* point(Mesh::Index n) const { return &s_.surface.points[3 * static_cast<std::size_t>(n)]; }
 
     SurfaceParts& s_;
     const Plc& plc_;
+    std::vector<Place> place_;  ///< of nodes of triangles; -1 of loose ones
     std::map<Segment, std::set<std::size_t>> facets_of_;
 };
 

@@ -5,7 +5,6 @@
 #include <chrono>
 
 #include "barycert/check/surface/parts.hpp"
-#include "barycert/environment.hpp"
 #include "barycert/io/polygons/triangles.hpp"
 
 namespace barycert {

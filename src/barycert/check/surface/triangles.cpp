@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "barycert/check/surface/parts.hpp"
 
 namespace barycert::check {
@@ -7,21 +5,11 @@ namespace barycert::check {
 bool check_triangles(SurfaceParts& s) {
     const Surface& surface = s.surface;
     const std::size_t points = surface.point_count(), count = surface.cell_count();
-    std::vector<std::uint8_t> used(points, 0), finite(points, 1);
+    std::vector<std::uint8_t> used(points, 0);
+    mark_used(surface.cells, used);
+    const std::vector<std::uint8_t> finite = find_finite(surface.points, 3, used, s.defects);
+    const auto is_finite = [&](Mesh::Index i) { return finite[static_cast<std::size_t>(i)] != 0; };
     const auto is_node = [&](Mesh::Index i) { return i >= 0 && static_cast<std::size_t>(i) < points; };
-    for (const Mesh::Index i : surface.cells) {
-        if (is_node(i)) used[static_cast<std::size_t>(i)] = 1;
-    }
-    bool all_finite = true;
-    for (std::size_t i = 0; i < points; ++i) {
-        const double* const p = &surface.points[3 * i];
-        const auto node = static_cast<Mesh::Index>(i);
-        if (used[i] == 0) s.defects.add(DefectKind::unused_node, {.nodes = {node, -1, -1}});
-        if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) continue;
-        s.defects.add(DefectKind::not_finite, {.nodes = {node, -1, -1}});
-        finite[i] = 0;
-        all_finite = false;
-    }
     std::vector<Mesh::Index> corners, numbers;
     corners.reserve(surface.cells.size());
     numbers.reserve(count);
@@ -32,9 +20,7 @@ bool check_triangles(SurfaceParts& s) {
             s.defects.add_marked(DefectKind::index_out_of_range, {.cells = {cell, -1}});
             continue;
         }
-        if (!all_finite &&
-            !std::all_of(n, n + 3, [&](Mesh::Index i) { return finite[static_cast<std::size_t>(i)] != 0; }))
-            continue;  // its node is told
+        if (!std::all_of(n, n + 3, is_finite)) continue;  // its node is told
         if (n[0] == n[1] || n[1] == n[2] || n[2] == n[0]) {
             s.defects.add_marked(DefectKind::repeated_node, {.cells = {cell, -1}, .nodes = {n[0], n[1], n[2]}});
             continue;
@@ -52,9 +38,8 @@ bool check_triangles(SurfaceParts& s) {
         const Place first = s.triangles.same[i];
         if (first == static_cast<Place>(i)) continue;
         --s.found.places;
-        std::array<Mesh::Index, 3> two{s.triangles.node(first), s.triangles.node(static_cast<Place>(i)), -1};
-        if (two[0] > two[1]) std::swap(two[0], two[1]);
-        s.defects.add(DefectKind::coincident_nodes, {.nodes = two});
+        const auto [low, high] = std::minmax({s.triangles.node(first), s.triangles.node(static_cast<Place>(i))});
+        s.defects.add(DefectKind::coincident_nodes, {.nodes = {low, high, -1}});
     }
     return s.triangles.size() != 0;
 }
@@ -65,20 +50,18 @@ std::vector<CellPair> find_intersections(SurfaceParts& s) {
     std::vector<CellPair> cells;
     std::vector<HangingNode> hanging;
     for (std::size_t i = 0; i < std::min(pairs.size(), limit); ++i) {
-        const auto& [first, second] = pairs[i];
+        auto [first, second] = pairs[i];
+        if (s.triangles.number(first) > s.triangles.number(second)) std::swap(first, second);
         const Mesh::Index a = s.triangles.number(first), b = s.triangles.number(second);
-        cells.push_back({std::min(a, b), std::max(a, b)});
-        const bool swap = a > b;
         if (s.triangles.facets[first].nodes == s.triangles.facets[second].nodes) {
-            s.defects.add_marked(DefectKind::duplicate_triangle,
-                                 {.cells = {cells.back()[1], cells.back()[0]}, .nodes = s.triangles.nodes(first)});
-            cells.pop_back();
+            s.defects.add_marked(DefectKind::duplicate_triangle, {.cells = {b, a}, .nodes = s.triangles.nodes(first)});
             continue;
         }
-        s.defects.add_marked(DefectKind::self_intersection, {.cells = cells.back(),
-                                                             .nodes = s.triangles.nodes(swap ? second : first),
-                                                             .other_nodes = s.triangles.nodes(swap ? first : second)});
-        for (const auto& [of, on] : {pairs[i], FacetPair{second, first}}) {
+        cells.push_back({a, b});
+        s.defects.add_marked(
+            DefectKind::self_intersection,
+            {.cells = {a, b}, .nodes = s.triangles.nodes(first), .other_nodes = s.triangles.nodes(second)});
+        for (const auto& [of, on] : {FacetPair{first, second}, FacetPair{second, first}}) {
             const PlacedFacet &f = s.triangles.facets[of], &g = s.triangles.facets[on];
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto face = face_around(3, g, f.at[k]);

@@ -79,8 +79,7 @@ HWY_INLINE PlaceRange places_between(const std::vector<double>& at, double first
 }
 
 /// Sets origin, first and last; these within layers [layers.first, layers.last) of the last axis. Where an end of a box
-/// lies near a place of the grid, the coordinate of that is looked at; elsewhere the rounding of places does not
-/// matter.
+/// lies near a place of the grid, the coordinate of that is looked at; elsewhere rounding of places is no matter.
 template <int d, class D, class V = hn::Vec<D>>
 HWY_INLINE void set_places(D tag, const Raster& raster, PlaceRange layers, const V (&v)[d + 1][d], CellBlock<d>& out) {
     const hn::Rebind<std::int32_t, D> whole;
@@ -276,8 +275,7 @@ struct BoxTarget {
     }
 };
 
-/// Adds the points of the box that are certainly in the interior. Returns false if there are some that may be in the
-/// cell or not.
+/// Adds the points of the box that are certainly in the interior. False if there are some of which it is open.
 template <int d>
 HWY_INLINE bool find_box_points(const CellBlock<d>& cell, const BoxBlock<d>& box, std::size_t l, BoxPlaces& out,
                                 const BoxTarget& target) {

@@ -2,13 +2,10 @@
 // others find where each row enters and leaves them (fill_rows-inl.hpp).
 #include "barycert/sample/grid/fill_lanes.hpp"
 
-#include <algorithm>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "barycert/sample/grid/fill_lanes.cpp"
 #include "barycert/core/foreach_target.hpp"
 
-#include "barycert/base/strict_math.hpp"
 #include "barycert/sample/grid/fill_points-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

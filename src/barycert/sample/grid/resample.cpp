@@ -51,8 +51,7 @@ Raster raster_of(const Grid& grid, const locate::CellIndex& index) {
         raster.spacing[k] = grid.spacing[k];
         raster.scale[k] = grid.counts[k] > 1 ? 1 / grid.spacing[k] : extent > 0 ? 0x1p16 / extent : 1;
         // Ends of intervals: some roundings of numbers up to `largest`; the same for coordinates of the grid. In
-        // places: these times the scale, the roundings of that, and how far the last point is from where it were by the
-        // spacing.
+        // places: these times the scale, the roundings of that, and how far the last point is off the spacing.
         const double count = static_cast<double>(grid.counts[k]);
         const double regular_last = grid.origin[k] + (count - 1) * grid.spacing[k];
         const double error =

@@ -7,19 +7,12 @@ void SlabSampler::run(std::int32_t first, std::int32_t last, const SlabCells& ce
     const auto rows = static_cast<std::size_t>(grid_.dimension == 3 ? grid_.counts[1] : 1);
     points_ = columns * rows * static_cast<std::size_t>(last - first);
     constexpr std::size_t more = 8;  // FillTarget
-    if (owners_.size() < points_ + more) {
-        owners_ = locate::Buffer<Mesh::Index>(points_ + more);
-        found_ = locate::Buffer<Feature>(points_ + more);
-        values_ = locate::Buffer<double>((points_ + more) * data_.width);
-    }
-    std::fill_n(owners_.data(), points_ + more, -1);
-    std::fill_n(found_.data(), points_ + more, Feature::outside);
-    target_ = {owners_.data(), found_.data(), values_.data(), data_.width, columns, rows, first, last};
-    const bool distances = gives_distances(options_.outside);
-    distances_.assign(distances ? points_ : 0, 0);
+    const BlockRows to = make_room(found_, points_ + more, data_.width, options_.outside);
+    std::fill_n(to.cells, points_ + more, -1);
+    std::fill_n(to.features, points_ + more, Feature::outside);
+    target_ = {to.cells, to.features, to.values, data_.width, columns, rows, first, last};
     counts_ = {};
-    sampler_.emplace(data_, options_,
-                     BlockRows{owners_.data(), found_.data(), values_.data(), distances ? distances_.data() : nullptr});
+    sampler_.emplace(data_, options_, to);
     // Of plain values, fill_cells does not see which have a node that is not finite.
     filled_ =
         !data_.quadratic && data_.point_components != 0 && (data_.finite || options_.rounding == Rounding::correct);
@@ -74,7 +67,7 @@ void SlabSampler::take(const Span& span) {
 
 void SlabSampler::take(const UndecidedPoint& one) {
     const auto point = own(one.cell, {one.column, one.row, one.layer}, one.certain);
-    if (point) values_[*point] = one.value;
+    if (point) found_.values[*point] = one.value;
 }
 
 /// Gives a point to a cell that holds it, exactly, unless a lower one has it, and returns it; else nothing.
@@ -89,8 +82,8 @@ std::optional<std::size_t> SlabSampler::own(locate::Place cell, const std::array
     const WeightSigns signs = locate::cell_signs(data_.index(), cell, at.data(), counts_.locations.tests);
     if (!signs.contains()) return std::nullopt;
     const Feature feature = locate::feature_of(data_.index(), cell, signs);
-    owners_[point] = number;
-    found_[point] = with_value ? feature : without_value(feature);
+    found_.cells[point] = number;
+    found_.features[point] = with_value ? feature : without_value(feature);
     return point;
 }
 
@@ -111,13 +104,13 @@ void SlabSampler::finish() {
         }
         // Points that are pushed get a whole row; where cells fill in values, they are linear.
         for (std::size_t point = first; filled_ && data_.has_rest() && point < last; ++point) {
-            if (owners_[point] >= 0)
-                set_rest_of_row(data_, options_.rounding, owners_[point], nullptr,
-                                values_.data() + data_.width * point);
+            if (found_.cells[point] >= 0)
+                set_rest_of_row(data_, options_.rounding, found_.cells[point], nullptr,
+                                found_.values.data() + data_.width * point);
         }
     }
     sampler_->flush();
-    leave_out_hidden(data_, values_.data(), points_);
+    leave_out_hidden(data_, found_.values.data(), points_);
     counts_.locations.add(finished_.locations);
     counts_.locations.add(Feature::outside, finished_.outside);
     counts_.without_value += finished_.outside;
@@ -128,7 +121,7 @@ void SlabSampler::push(std::size_t point) {
     const std::size_t line = point / target_.columns, row = line % target_.rows;
     const std::size_t layer = line / target_.rows + static_cast<std::size_t>(target_.first_layer);
     const bool space = grid_.dimension == 3;
-    const Mesh::Index cell = owners_[point];
+    const Mesh::Index cell = found_.cells[point];
     sampler_->push(
         {{raster_.at[0][point % target_.columns], raster_.at[1][space ? row : layer], raster_.at[2][space ? layer : 0]},
          static_cast<std::uint32_t>(point)},
@@ -138,10 +131,10 @@ void SlabSampler::push(std::size_t point) {
 TableView SlabSampler::block() const {
     return {.dimension = grid_.dimension,
             .first_row = target_.columns * target_.rows * static_cast<std::size_t>(target_.first_layer),
-            .cells = {owners_.data(), points_},
-            .features = {found_.data(), points_},
-            .values = {values_.data(), points_ * data_.columns.size()},
-            .distances = distances_};
+            .cells = {found_.cells.data(), points_},
+            .features = {found_.features.data(), points_},
+            .values = {found_.values.data(), points_ * data_.columns.size()},
+            .distances = std::span(found_.distances).first(found_.distances.empty() ? 0 : points_)};
 }
 
 std::optional<std::uint64_t> SlabSampler::refused() const {

@@ -7,8 +7,7 @@
 
 namespace barycert::sample {
 
-/// For each slab of `depth` layers (the last one may have fewer) all cells that may hold some of its points, in the
-/// order of the index.
+/// For each slab of `depth` layers (the last may have fewer) all cells that may hold points of it, as the index goes.
 class SlabCells {
 public:
     SlabCells(const locate::CellIndex& index, const Raster& raster, std::size_t depth);
@@ -57,7 +56,7 @@ private:
     void finish();
     void push(std::size_t point);
     Feature feature_of(std::size_t point) const {
-        return static_cast<Feature>(static_cast<std::uint8_t>(found_[point]) & ~value_missing);
+        return static_cast<Feature>(static_cast<std::uint8_t>(found_.features[point]) & ~value_missing);
     }
 
     const SamplerData& data_;
@@ -67,10 +66,7 @@ private:
     FillTarget target_;
     std::size_t points_ = 0;
     bool filled_ = false;  ///< cells fill in values
-    locate::Buffer<Mesh::Index> owners_;
-    locate::Buffer<Feature> found_;
-    locate::Buffer<double> values_;
-    std::vector<double> distances_;
+    FoundRows found_;
     SampleCounts counts_;
     std::optional<ChunkSampler> sampler_;
     UndecidedFill undecided_;

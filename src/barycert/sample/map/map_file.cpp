@@ -66,11 +66,6 @@ std::string words_of(std::uint16_t taken) {
     return words[taken & 3U];
 }
 
-Error map_error(const std::string& file, std::string what, std::string expected = {}, std::string found = {},
-                std::string remedy = {}) {
-    return {std::move(what), file, 0, std::move(expected), std::move(found), std::move(remedy)};
-}
-
 }  // namespace
 
 std::uint64_t mesh_fingerprint(const Mesh& mesh) {
@@ -88,47 +83,39 @@ struct MapWriterData {
     MapWriterData(std::string path, const MapHeader& header)
         : name(std::move(path)), head(header), file(name), checksum(header.fingerprint) {}
 
-    Status fail(Error e) {
-        error = std::move(e);
-        return error;
-    }
-
-    Status check(const TableView& rows) {
+    Status check(const TableView& rows) const {
         const std::size_t dimension = head.dimension, count = rows.row_count();
         if (rows.points.size() != dimension * count || rows.features.size() != count)
-            return fail(map_error(name, "the arrays of a map do not fit together",
-                                  std::to_string(dimension) + " coordinates, a cell and a feature a row",
-                                  std::to_string(rows.points.size()) + " coordinates, " + std::to_string(count) +
-                                      " cells, " + std::to_string(rows.features.size()) + " features"));
+            return file_error(name, "the arrays of a map do not fit together",
+                              std::to_string(dimension) + " coordinates, a cell and a feature a row",
+                              std::to_string(rows.points.size()) + " coordinates, " + std::to_string(count) +
+                                  " cells, " + std::to_string(rows.features.size()) + " features");
         for (std::size_t i = 0; i < count; ++i) {
             const double* const point = rows.points.data() + dimension * i;
             const auto feature = static_cast<unsigned>(rows.features[i]);
             const char* const fault = map_row_fault(point, head.dimension, rows.cells[i], feature, head.cells);
             if (fault == nullptr) continue;
-            std::string found = "coordinates";
-            for (std::size_t axis = 0; axis < dimension; ++axis) found += ' ' + base::shortest(point[axis]);
-            return fail(map_error(
+            return file_error(
                 name, "row " + std::to_string(head.rows + pending.row_count() + i) + " is not valid in a map", fault,
-                found + ", cell " + std::to_string(rows.cells[i]) + ", feature " + std::to_string(feature),
-                "write results of a Locator on the same mesh"));
+                "coordinates " + base::joined(std::span(point, dimension), " ", base::shortest) + ", cell " +
+                    std::to_string(rows.cells[i]) + ", feature " + std::to_string(feature),
+                "write results of a Locator on the same mesh");
         }
         return Done{};
     }
 
     void put_block() {
-        const std::size_t size = map_block_size(head.dimension, pending.row_count());
-        bytes.assign(size + map_checksum_size, '\0');
-        char* at = bytes.data();
+        bytes.clear();
         const auto put = [&](const auto& numbers) {
-            const auto own = std::as_bytes(std::span(numbers));
-            at = std::copy_n(reinterpret_cast<const char*>(own.data()), own.size(), at);
+            bytes.append(reinterpret_cast<const char*>(numbers.data()), std::span(numbers).size_bytes());
         };
         put(pending.points);
         put(pending.cells);
         put(pending.features);
-        checksum = map_checksum({bytes.data(), size}, checksum);
-        std::memcpy(bytes.data() + size, &checksum, sizeof checksum);
-        file.write({bytes.data(), bytes.size()});
+        bytes.resize(map_block_size(head.dimension, pending.row_count()));
+        checksum = map_checksum(bytes, checksum);
+        file.write(bytes);
+        file.write({reinterpret_cast<const char*>(&checksum), sizeof checksum});
         head.rows += pending.row_count();
         clear_map_rows(pending);
     }
@@ -138,8 +125,8 @@ struct MapWriterData {
     base::OutputFile file;
     std::uint64_t checksum;  // of the last block
     Table pending;           // fewer rows than a block has
-    std::vector<char> bytes;
-    Error error;  // what every further call tells
+    std::string bytes;
+    Status state = Done{};  // what every further call tells
     bool done = false;
 };
 
@@ -148,8 +135,8 @@ struct MapReaderData {
     MapReaderData(std::string path, base::InputFile input) : name(std::move(path)), file(std::move(input)) {}
 
     Error damage(std::string what, std::string expected, std::string found) const {
-        return map_error(name, std::move(what), std::move(expected), std::move(found),
-                         "create the map again, or copy it again");
+        return file_error(name, std::move(what), std::move(expected), std::move(found),
+                          "create the map again, or copy it again");
     }
 
     /// `count` bytes from `from` on, into `bytes`.
@@ -164,35 +151,32 @@ struct MapReaderData {
     Status read_header() {
         const auto begin = static_cast<std::size_t>(std::min<std::uint64_t>(size, map_header_size));
         if (Status filled = fill(0, begin); !filled) return filled;
-        const std::size_t known = std::min(begin, map_magic.size());
-        if (size == 0 || std::string_view(bytes.data(), known) != map_magic.substr(0, known))
-            return map_error(name, "not a map", "a file written by barycert as a map",
-                             size == 0 ? "an empty file" : "other bytes at its beginning",
-                             "name a map; the mesh and the points are other files");
+        if (size == 0 || !map_magic.starts_with(std::string_view(bytes).substr(0, map_magic.size())))
+            return file_error(name, "not a map", "a file written by barycert as a map",
+                              size == 0 ? "an empty file" : "other bytes at its beginning",
+                              "name a map; the mesh and the points are other files");
         if (size < map_header_size)
             return damage("the map is cut off", "a header of " + std::to_string(map_header_size) + " bytes",
                           std::to_string(size));
         std::memcpy(&head, bytes.data(), sizeof head);
         // First, for the rest of the header may mean something else in another version.
         if (head.version != map_version)
-            return map_error(name, "a map of another version", "version " + std::to_string(map_version),
-                             "version " + std::to_string(head.version),
-                             "create the map again with this version, or read it with the version that wrote it");
+            return file_error(name, "a map of another version", "version " + std::to_string(map_version),
+                              "version " + std::to_string(head.version),
+                              "create the map again with this version, or read it with the version that wrote it");
         if (head.checksum != head.right_checksum() || (head.dimension != 2 && head.dimension != 3) || head.all > 1 ||
             head.taken > 3)
             return damage("the header of the map is damaged", "the bytes that were written", "others");
         // A row takes more than a byte: no product below can overflow.
+        if (head.rows > size)
+            return damage("the map is cut off", std::to_string(head.rows) + " rows", std::to_string(size) + " bytes");
         const std::uint64_t blocks = head.rows / map_block_rows, rest = head.rows % map_block_rows;
-        std::uint64_t expected = map_header_size;
-        if (head.rows <= size) {
-            expected += blocks * (map_block_size(head.dimension, map_block_rows) + map_checksum_size);
-            if (rest != 0) expected += map_block_size(head.dimension, rest) + map_checksum_size;
-        }
-        if (head.rows > size || expected != size)
-            return damage(
-                head.rows > size || size < expected ? "the map is cut off" : "the map has bytes after its end",
-                head.rows > size ? std::to_string(head.rows) + " rows" : std::to_string(expected) + " bytes",
-                std::to_string(size) + (head.rows > size ? " bytes" : ""));
+        std::uint64_t expected =
+            map_header_size + blocks * (map_block_size(head.dimension, map_block_rows) + map_checksum_size);
+        if (rest != 0) expected += map_block_size(head.dimension, rest) + map_checksum_size;
+        if (expected != size)
+            return damage(size < expected ? "the map is cut off" : "the map has bytes after its end",
+                          std::to_string(expected) + " bytes", std::to_string(size));
         offset = map_header_size;
         checksum = head.fingerprint;
         return Done{};
@@ -202,15 +186,15 @@ struct MapReaderData {
     Status check(const MapHeader& is, const char* cells) const {
         const bool alike = head.dimension == is.dimension && head.nodes == is.nodes && head.cells == is.cells;
         if (alike && head.taken != is.taken)
-            return map_error(name, "the map was made of cells taken otherwise", words_of(head.taken),
-                             words_of(is.taken),
-                             "take them as the map does (interpolation, curved cells), or create the map again");
+            return file_error(name, "the map was made of cells taken otherwise", words_of(head.taken),
+                              words_of(is.taken),
+                              "take them as the map does (interpolation, curved cells), or create the map again");
         if (alike && head.fingerprint == is.fingerprint) return Done{};
         const auto size_of = [](std::uint64_t nodes, std::uint64_t count, const char* word) {
             return "one of " + std::to_string(nodes) + " nodes and " + std::to_string(count) + ' ' + word;
         };
         // In space they may be tetrahedra or triangles: the file does not tell.
-        return map_error(
+        return file_error(
             name, "the map was made for another mesh",
             size_of(head.nodes, head.cells, head.dimension == 2 ? "triangles" : "cells"),
             alike ? "one of that size with other coordinates or cells" : size_of(is.nodes, is.cells, cells),
@@ -261,7 +245,7 @@ struct MapReaderData {
     std::uint64_t offset = 0;    // of the next block
     std::uint64_t row = 0;       // the first of the next block
     std::uint64_t checksum = 0;  // of the last block
-    std::vector<char> bytes;
+    std::string bytes;
     Table block;            // the last one read
     std::size_t given = 0;  // rows of it
     Error error;            // what every further call tells
@@ -273,9 +257,9 @@ Result<MapWriter> MapWriter::begin(const std::string& path, const sample::MapHea
     auto data = std::make_unique<sample::MapWriterData>(path, head);
     if (Status opened = data->file.status(); !opened) return opened.error();
     if (!data->file.can_replace())
-        return map_error(path, "cannot write a map to a pipe or device",
-                         "a regular file: the number of rows is written into its header at the end", {},
-                         "name a regular file");
+        return file_error(path, "cannot write a map to a pipe or device",
+                          "a regular file: the number of rows is written into its header at the end", {},
+                          "name a regular file");
     data->file.write(head.bytes());
     return MapWriter(std::move(data));
 }
@@ -291,10 +275,10 @@ Result<MapWriter> MapWriter::open(const std::string& path, const Surface& surfac
 Status MapWriter::write(const TableView& rows) {
     const ExactEnvironment environment;
     sample::MapWriterData& to = *data_;
-    if (!to.error.what.empty()) return to.error;
+    if (!to.state) return to.state;
     if (to.done)
-        return to.fail(map_error(to.name, "rows after the end of a map", {}, {}, "write them before commit()"));
-    if (Status fits = to.check(rows); !fits) return fits;
+        return to.state = file_error(to.name, "rows after the end of a map", {}, {}, "write them before commit()");
+    if (to.state = to.check(rows); !to.state) return to.state;
     for (std::size_t row = 0; row < rows.row_count();) {
         const std::size_t room = sample::map_block_rows - to.pending.row_count();
         const std::size_t end = row + std::min(rows.row_count() - row, room);
@@ -302,21 +286,19 @@ Status MapWriter::write(const TableView& rows) {
         row = end;
         if (to.pending.row_count() == sample::map_block_rows) to.put_block();
     }
-    if (Status written = to.file.status(); !written) return to.fail(written.error());
-    return Done{};
+    return to.state = to.file.status();
 }
 
 Status MapWriter::commit() {
     sample::MapWriterData& to = *data_;
-    if (!to.error.what.empty()) return to.error;
-    if (to.done) return Done{};
+    if (!to.state || to.done) return to.state;
     if (to.pending.row_count() != 0) to.put_block();
     sample::map_magic.copy(to.head.magic.data(), sample::map_magic.size());
     to.head.checksum = to.head.right_checksum();
     to.file.replace(0, to.head.bytes());
-    if (Status committed = to.file.commit(); !committed) return to.fail(committed.error());
-    to.done = true;
-    return Done{};
+    to.state = to.file.commit();
+    to.done = to.state.has_value();
+    return to.state;
 }
 
 MapWriter::MapWriter(std::unique_ptr<sample::MapWriterData> data) : data_(std::move(data)) {}

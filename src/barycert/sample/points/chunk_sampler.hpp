@@ -24,6 +24,18 @@ struct BlockRows {
     double* distances;  ///< nullptr unless the policy gives some
 };
 
+/// Makes room for so many rows of `width` numbers, the same from call to call.
+inline BlockRows make_room(FoundRows& rows, std::size_t count, std::size_t width, const OutsidePolicy& policy) {
+    if (rows.cells.size() < count) {
+        rows.cells = locate::Buffer<Mesh::Index>(count);
+        rows.features = locate::Buffer<Feature>(count);
+        rows.values = locate::Buffer<double>(width * count);
+    }
+    rows.distances.assign(gives_distances(policy) ? count : 0, 0);
+    return {rows.cells.data(), rows.features.data(), rows.values.data(),
+            rows.distances.empty() ? nullptr : rows.distances.data()};
+}
+
 /// What a row has besides the values of point fields. Sets the values of the cell fields of the cell, and what is
 /// computed at the point, into their columns of a row whose values of point fields stand. `point`: where gradients on
 /// cells of second order are evaluated; not read if there are none.

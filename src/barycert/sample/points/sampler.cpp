@@ -1,7 +1,4 @@
-#include <functional>
-
 #include "barycert/base/finite.hpp"
-#include "barycert/core/isoparametric/lanes.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/locate/batch.hpp"
 #include "barycert/mesh/consistency.hpp"
@@ -17,16 +14,8 @@ class SortedRows {
 public:
     SortedRows(const SamplerData& data, const SampleOptions& options, std::size_t size)
         : data_(data), rows_(data.rows.take()), columns_(data.columns.size()) {
-        const std::size_t rows = size + 1;  // one more for all points left out
-        if (rows_->cells.size() < rows) {
-            rows_->cells = locate::Buffer<Mesh::Index>(rows);
-            rows_->features = locate::Buffer<Feature>(rows);
-            rows_->values = locate::Buffer<double>(rows * data.width);
-        }
-        if (gives_distances(options.outside)) rows_->distances.assign(rows, 0);
-        sampler_.emplace(data, options,
-                         BlockRows{rows_->cells.data(), rows_->features.data(), values(0),
-                                   gives_distances(options.outside) ? rows_->distances.data() : nullptr});
+        // One more for all points left out.
+        sampler_.emplace(data, options, make_room(*rows_, size + 1, data.width, options.outside));
     }
 
     void operator()(const locate::PointRecord* points, std::size_t count, const locate::Place* owner,
@@ -152,7 +141,7 @@ Status arrange_columns(const Mesh& mesh, const std::vector<FieldChoice>& fields,
         const Result<QuantityShape> shape = shape_of(mesh, asked);
         if (!shape) return shape.error();
         FieldChoice choice = asked;
-        if (Status made = make_fields(mesh, choice, choice.steps.size(), data.made); !made) return made;
+        make_fields(mesh, choice, choice.steps.size(), data.made);
         const TableField column{name_of(asked), static_cast<int>(shape->components)};
         if (shape->at_points) {
             late.push_back(column);

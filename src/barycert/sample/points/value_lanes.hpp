@@ -9,8 +9,7 @@ namespace barycert::sample {
 
 using locate::NodeValues, locate::ValueRecord;
 
-/// Points in their cells. Component c of the value of a point goes to out[stride * number + c], with the number in the
-/// record of the point.
+/// Points in their cells. Component c of the value of a point goes to out[stride * n + c], n the number in its record.
 struct LanePoints {
     Simplex simplex;  ///< of the cells, linear
     const locate::CellRecord* cells;

@@ -1,9 +1,9 @@
 #include "barycert/sample/quantity/quantities.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "barycert/base/nearest_name.hpp"
+#include "barycert/base/text.hpp"
 
 namespace barycert::sample {
 namespace {
@@ -37,12 +37,8 @@ bool choose_field(const Mesh& mesh, std::string_view name, FieldChoice& chosen) 
 
 /// That there is no such field, which may be meant, and which there are.
 Error no_such_field(const Mesh& mesh, const std::string& name) {
-    std::string lists[2];
-    for (const bool cells : {false, true}) {
-        std::string& list = lists[cells ? 1 : 0];
-        for (const Field& f : fields_of(mesh, cells)) list += (list.empty() ? "" : ", ") + f.name;
-    }
-    const auto& [points, cells] = lists;
+    const auto list = [](const std::vector<Field>& fields) { return base::joined(fields, ", ", &Field::name); };
+    const std::string points = list(mesh.point_fields), cells = list(mesh.cell_fields);
     std::string remedy = "there are " + points;
     if (points.empty())
         remedy = cells.empty() ? "the mesh has none; a field may come from a file of its own" : "there are";
@@ -60,27 +56,25 @@ struct Split {
     QuantityStep step;
 };
 
-std::optional<Split> call_of(std::string_view word, Kind kind, std::string_view text) {
-    if (!text.starts_with(word) || !text.ends_with(')') || text.size() == word.size() + 1) return std::nullopt;
-    return Split{text.substr(word.size(), text.size() - word.size() - 1), {kind}};
-}
-
 /// x, y, z are 0, 1, 2.
 std::optional<int> component_of(std::string_view text) {
     if (text.size() == 1 && text[0] >= 'x' && text[0] <= 'z') return text[0] - 'x';
-    int number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool whole = error == std::errc{} && end == text.data() + text.size() && number >= 0;
-    if (!whole || text.front() == '-' || (text.size() > 1 && text.front() == '0')) return std::nullopt;
-    return number;
+    if (text.starts_with('-') || (text.size() > 1 && text.starts_with('0'))) return std::nullopt;
+    return base::whole_number<int>(text);
 }
 
 /// The last step of an expression; nothing if the text is none.
 std::optional<Split> split_off(std::string_view text) {
-    if (const auto call = call_of("grad(", Kind::gradient, text)) return call;
-    if (const auto call = call_of("mean(", Kind::mean, text)) return call;
-    if (text.size() > 2 && text.starts_with('|') && text.ends_with('|'))
-        return Split{text.substr(1, text.size() - 2), {Kind::length}};
+    struct Bracket {
+        std::string_view begin;
+        char end;
+        Kind kind;
+    };
+    for (const auto& [begin, end, kind] :
+         {Bracket{"grad(", ')', Kind::gradient}, {"mean(", ')', Kind::mean}, {"|", '|', Kind::length}}) {
+        if (text.size() > begin.size() + 1 && text.starts_with(begin) && text.ends_with(end))
+            return Split{text.substr(begin.size(), text.size() - begin.size() - 1), {kind}};
+    }
     const std::size_t dot = text.rfind('.');
     if (dot == std::string_view::npos || dot == 0 || dot + 1 == text.size()) return std::nullopt;
     const auto component = component_of(text.substr(dot + 1));
@@ -88,8 +82,7 @@ std::optional<Split> split_off(std::string_view text) {
     return Split{text.substr(0, dot), {Kind::component, *component}};
 }
 
-/// True, and the choice made, if the text names a field or what is made of one; else `missing` is the name that is
-/// none.
+/// True, and the choice made, if the text names a field or what is made of one; else `missing` is the wrong name.
 bool choose_quantity(const Mesh& mesh, std::string_view text, bool cells_first, int depth, FieldChoice& chosen,
                      std::string& missing) {
     if (cells_first && choose_field(mesh, "cell:" + std::string(text), chosen)) return true;
@@ -117,7 +110,7 @@ std::optional<std::string> common_column(const Mesh& mesh, const std::vector<Fie
     return twice == names.end() ? std::nullopt : std::optional(*twice);
 }
 
-Error wrong_step(std::string what, const FieldChoice& choice, std::string remedy) {
+Error wrong_choice(std::string what, const FieldChoice& choice, std::string remedy) {
     return {.what = std::move(what), .found = '"' + name_of(choice) + '"', .remedy = std::move(remedy)};
 }
 
@@ -141,7 +134,7 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
     bool length_at_points = false;
     for (const QuantityStep& step : choice.steps) {
         if (length_at_points)
-            return wrong_step("nothing is made of a length at points", choice, "ask for the length alone");
+            return wrong_choice("nothing is made of a length at points", choice, "ask for the length alone");
         switch (step.kind) {
             case Kind::component:
                 if (step.component < 0 || static_cast<std::size_t>(step.component) >= shape.components)
@@ -158,16 +151,16 @@ Result<QuantityShape> shape_of(const Mesh& mesh, const FieldChoice& choice) {
                 break;
             case Kind::gradient:
                 if (shape.of_cells || shape.at_points)
-                    return wrong_step("the gradient of what is constant in each cell, or of a gradient", choice,
-                                      "ask for that of a field of nodes, or of the mean at nodes: grad(mean(NAME))");
+                    return wrong_choice("the gradient of what is constant in each cell, or of a gradient", choice,
+                                        "ask for that of a field of nodes, or of the mean at nodes: grad(mean(NAME))");
                 shape.components *= static_cast<std::size_t>(mesh.dimension);
                 shape.at_points = !mesh.mid_nodes.empty();
                 shape.of_cells = mesh.mid_nodes.empty();
                 break;
             default:
                 if (!shape.of_cells)
-                    return wrong_step("the mean over cells of what is not a field of cells", choice,
-                                      "ask for that of a field of cells: mean(cell:NAME)");
+                    return wrong_choice("the mean over cells of what is not a field of cells", choice,
+                                        "ask for that of a field of cells: mean(cell:NAME)");
                 shape.of_cells = false;
         }
     }
@@ -202,9 +195,8 @@ Result<std::vector<FieldChoice>> quantities_named(const Mesh& mesh, const std::v
         if (const Result<QuantityShape> shape = shape_of(mesh, chosen[i]); !shape) return shape.error();
         for (std::size_t k = 0; k < i; ++k) {
             if (chosen[i].field == chosen[k].field && chosen[i].steps == chosen[k].steps)
-                return Error{.what = chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
-                             .found = '"' + name_of(chosen[i]) + '"',
-                             .remedy = "name it once"};
+                return wrong_choice(chosen[i].steps.empty() ? "a field is chosen twice" : "a column is chosen twice",
+                                    chosen[i], "name it once");
         }
     }
     if (const auto name = common_column(mesh, chosen))

@@ -63,15 +63,13 @@ public:
 
     void operator()(std::span<const Mesh::Index> cells, double* out) {
         Unit units[3];
-        for (const Mesh::Index cell : cells) {
-            for (std::size_t i = 0; i <= d_; ++i) {
-                for (std::size_t k = 0; k < d_; ++k) units[k].add(core::scaled(corner(cell, i)[k]));
-            }
-        }
         values_.assign(components_, {});
         for (const Mesh::Index cell : cells) {
+            for (std::size_t i = 0; i <= d_; ++i) {
+                for (std::size_t k = 0; k < d_; ++k) units[k].add(corner(cell, i)[k]);
+            }
             for (std::size_t c = 0; c < components_; ++c) {
-                if (std::isfinite(value(cell, c))) values_[c].add(core::scaled(value(cell, c)));
+                if (std::isfinite(value(cell, c))) values_[c].add(value(cell, c));
             }
         }
         total_ = Integer();
@@ -85,7 +83,7 @@ public:
         for (std::size_t c = 0; c < components_; ++c) {
             const bool some = total_.sign() != 0 && finite_[c] != 0;
             // The units of the coordinates cancel.
-            out[c] = some ? core::round_quotient(sums_[c], total_, values_[c].exponent - 1074)
+            out[c] = some ? core::round_quotient(sums_[c], total_, values_[c].power())
                           : std::numeric_limits<double>::quiet_NaN();
         }
     }
@@ -106,11 +104,10 @@ private:
         const Integer weight = volume.sign() < 0 ? Integer() - volume : volume;
         total_ = total_ + weight;
         for (std::size_t c = 0; c < components_; ++c) {
-            if (std::isfinite(value(cell, c))) {
-                sums_[c] = sums_[c] + weight * values_[c].template multiple<Integer>(core::scaled(value(cell, c)));
-            } else {
+            if (std::isfinite(value(cell, c)))
+                sums_[c] = sums_[c] + weight * values_[c].integer(value(cell, c));
+            else
                 finite_[c] = 0;
-            }
         }
     }
 

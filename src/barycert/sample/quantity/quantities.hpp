@@ -55,8 +55,8 @@ std::optional<std::string> with_other_name(std::string_view expression, std::str
 /// accepts the choice, and the mesh is consistent; data of the field are as many as it needs.
 /// `lengths`: those of fields of nodes are made as well, of what the nodes have; at a point between them the length is
 /// another number than what is interpolated of these.
-Status make_fields(const Mesh& mesh, FieldChoice& choice, std::size_t count, std::deque<Field>& made,
-                   bool lengths = false);
+void make_fields(const Mesh& mesh, FieldChoice& choice, std::size_t count, std::deque<Field>& made,
+                 bool lengths = false);
 
 /// The choices as fields that surfaces can carry, in `made` where the mesh has none, and a note of each length. Error:
 /// what no field has, the gradient on cells of second order.

@@ -16,8 +16,7 @@ public:
         : locator_(locator), rows_(rows), outside_(outside) {}
 
     Result<NodeWeights> all() {
-        // Cases of second order have nodes of their own, with unit vectors as values: the value of component c is then
-        // the weight of node c.
+        // Cases of second order have nodes of their own, with unit vectors as values: component c is the weight of c.
         for (std::size_t i = 0; quadratic() && i < nodes_ * chunk; ++i) {
             const auto node = static_cast<Mesh::Index>(i);
             if (i < chunk) own_.push_back(node);
@@ -132,8 +131,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             if (weights[i] != 0) order[used++] = i;
         }
-        std::sort(order.begin(), order.begin() + used,
-                  [&](std::size_t a, std::size_t b) { return nodes[a] < nodes[b]; });
+        std::ranges::sort(order.begin(), order.begin() + used, {}, [&](std::size_t i) { return nodes[i]; });
         for (std::size_t i = 0; i < used; ++i) {
             out_.nodes.push_back(nodes[order[i]]);
             out_.weights.push_back(weights[order[i]]);
