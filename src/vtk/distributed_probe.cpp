@@ -4,10 +4,6 @@
 
 #include <vtkBitArray.h>
 #include <vtkCellData.h>
-#include <vtkCommunicator.h>
-#include <vtkDataArray.h>
-#include <vtkDataSet.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>

@@ -5,8 +5,6 @@
 #include <vtkBitArray.h>
 #include <vtkCellData.h>
 #include <vtkCharArray.h>
-#include <vtkDataArray.h>
-#include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>

@@ -1,6 +1,5 @@
 // From VTK's cells to a mesh of simplices, or a surface.
 #include <vtkCellData.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>

@@ -7,7 +7,6 @@
 #include <vtkCellData.h>
 #include <vtkDataObjectTypes.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <map>
 
-#include <vtkAlgorithm.h>
 #include <vtkAlgorithmOutput.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCompositeDataSet.h>
-#include <vtkDataSet.h>
 #include <vtkErrorCode.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
