@@ -85,10 +85,9 @@ public:
 
 private:
     bool next_quadruple() {
-        std::uint32_t word = 0;
-        int digits = 0, pads = 0;
-        std::size_t at = 0;
-        for (; digits + pads < 4 && at < left_.size(); ++at) {
+        std::array<char, 4> digits{'A', 'A', 'A', 'A'};
+        std::size_t count = 0, pads = 0, at = 0;
+        for (; count + pads < 4 && at < left_.size(); ++at) {
             const int value = base64_value(left_[at]);
             if (value == base64_space) continue;
             if (value == base64_padding) {
@@ -96,19 +95,17 @@ private:
             } else if (value == base64_other || pads != 0) {
                 break;
             } else {
-                word = word << 6U | static_cast<std::uint32_t>(value);
-                ++digits;
+                digits[count++] = left_[at];
             }
         }
-        if (digits + pads < 4 || digits < 2) {
+        if (count + pads < 4 || count < 2) {
             left_ = {};
             return false;
         }
         left_.remove_prefix(at);
-        word <<= 6 * static_cast<unsigned>(pads);
-        for (std::size_t i = 0; i < 3; ++i) bytes_[i] = static_cast<char>(word >> (16 - 8 * i));
+        decode_digits(digits.data(), 1, bytes_);
         first_ = 0;
-        held_ = static_cast<std::size_t>(3 - pads);
+        held_ = 3 - pads;
         return true;
     }
 
