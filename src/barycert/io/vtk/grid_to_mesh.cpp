@@ -3,9 +3,7 @@
 #include <numeric>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/mesh/consistency.hpp"
-#include "barycert/mesh/pulling.hpp"
 #include "barycert/surface/facet_triangles.hpp"
 
 namespace barycert::io {

@@ -6,7 +6,6 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
-#include "barycert/mesh/pulling.hpp"
 
 namespace barycert::io {
 namespace {
