@@ -301,11 +301,9 @@ std::vector<double> to_points(std::vector<double> points, int dimension, const s
 }
 
 std::string list_of(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 10;
-    std::string text;
-    for (std::size_t i = 0; i < names.size() && i < most; ++i) text += (i == 0 ? "" : ", ") + in_quotes(names[i]);
-    if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " others";
-    return text;
+    const std::size_t listed = std::min<std::size_t>(names.size(), 10);
+    const std::string text = base::joined(std::span(names).first(listed), ", ", in_quotes);
+    return listed == names.size() ? text : text + " and " + std::to_string(names.size() - listed) + " others";
 }
 
 void take_fields(std::vector<RawArray>& arrays, const std::string& what, const std::string& path,

@@ -108,9 +108,8 @@ struct CellNodes {
 
 /// Arrays of cells: fields and labels. Texts go to `room`, which must outlive them.
 std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>& room) {
-    std::vector<OutArray> arrays;
+    std::vector<OutArray> arrays = arrays_of(mesh.cell_fields);
     room.resize(mesh.cell_labels.size());
-    for (const Field& field : mesh.cell_fields) arrays.push_back(array_of_field(field));
     for (std::size_t i = 0; i < room.size(); ++i) {
         const Column& labels = mesh.cell_labels[i];
         const auto add = [&]<class T>(const std::vector<T>& all) {
@@ -273,7 +272,7 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
         const std::size_t cells = mesh.whole_count();
         const Mesh rows = shaped ? mesh::rows_of_wholes(mesh) : Mesh();
         OutGrid grid{
-            .point_arrays = {},
+            .point_arrays = arrays_of(mesh.point_fields),
             .cell_arrays = cell_arrays_of(shaped ? rows : mesh, room),
             .points = array_of_points(mesh.points, mesh.dimension),
             .connectivity = mesh.mid_nodes.empty()
@@ -283,7 +282,6 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
             .nodes = node.nodes,
             .type = node.type(),
             .shapes = shaped ? &mesh.shapes : nullptr};
-        for (const Field& field : mesh.point_fields) grid.point_arrays.push_back(array_of_field(field));
         if (!mesh.point_markers.empty())
             grid.point_arrays.push_back(array_in_memory<std::int64_t>(marker_name, mesh.point_markers));
         fault = fault_of_names(grid.point_arrays, names);
