@@ -183,8 +183,7 @@ NumberFault read_words(std::string_view& text, NumberType type, std::size_t coun
         in_parallel(parts.size(), [&](std::size_t i) { read_part(read[i], parts[i], left); });
         std::vector<std::size_t> places;
         std::size_t size = values.size();
-        bool ended = false;
-        for (std::size_t i = 0; i < parts.size() && !ended; ++i) {
+        for (std::size_t i = 0; i < parts.size() && done < count; ++i) {
             TextPart<To>& part = read[i];
             const std::size_t wanted = count - done;
             const bool no_number = part.fault.kind == NumberFault::Kind::no_number;
@@ -199,10 +198,8 @@ NumberFault read_words(std::string_view& text, NumberType type, std::size_t coun
             size += part.values.size();
             done += part.values.size();
             text.remove_prefix(static_cast<std::size_t>(part.end - text.data()));
-            ended = done == count;
         }
-        make_room(values, size - values.size());
-        values.resize(size);
+        grow(values, size - values.size());
         in_parallel(places.size(),
                     [&](std::size_t i) { std::ranges::copy(read[i].values, values.data() + places[i]); });
     }
