@@ -41,8 +41,7 @@ void add_array(vtkFieldData& to, std::string_view name, const All& all, const Of
     to.AddArray(array);
 }
 
-template <std::size_t n>
-void append_used(std::string& text, const char* one, const char* more, const std::array<Mesh::Index, n>& all) {
+void append_used(std::string& text, const char* one, const char* more, std::span<const Mesh::Index> all) {
     const auto count = std::count_if(all.begin(), all.end(), [](Mesh::Index i) { return i >= 0; });
     if (count == 0) return;
     if (!text.empty() && text.back() != ' ') text += ", ";

@@ -115,7 +115,6 @@ Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData
     const auto node = [&s](std::size_t i) { return s.cells[i]; };
     const auto end = [n = s.corners()](std::size_t i) { return n * (i + 1); };
     const OutFile file{.data_set = "PolyData",
-                       .attributes = {},
                        .piece = " NumberOfPoints=\"" + std::to_string(s.point_count()) +
                                 "\" NumberOfVerts=\"0\" NumberOfLines=\"" + (lines ? cells : "0") +
                                 "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + (lines ? "0" : cells) + "\"",

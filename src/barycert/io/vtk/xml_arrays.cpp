@@ -49,7 +49,7 @@ public:
         if (!base64_) {
             const std::string_view taken = take_as_they_stand(size);
             if (!is_unread()) return taken;
-            read_part(taken, room.of(size));
+            tree_.read_part(taken, room.of(size));
             return std::string_view(room.of(size), size);
         }
         char* const to = room.of(size);
@@ -78,7 +78,6 @@ public:
         return taken;
     }
     bool is_unread() const { return !base64_ && tree_.read_part; }
-    void read_part(std::string_view part, char* to) const { tree_.read_part(part, to); }
 
     /// That many bytes are left at most.
     std::uint64_t left() const { return base64_ ? left_.size() / 4 * 3 + 3 + held_ : left_.size(); }
@@ -237,7 +236,7 @@ private:
         if (tree_.compressor == Compressor::none) {
             const std::string_view part = from_.take_as_they_stand(ends.back());
             in_parallel(last - first, [&](std::size_t i) {
-                from_.read_part(part.substr(ends[i], ends[i + 1] - ends[i]), to + ends[i]);
+                tree_.read_part(part.substr(ends[i], ends[i + 1] - ends[i]), to + ends[i]);
             });
             return true;
         }
