@@ -18,7 +18,6 @@ struct OutGrid {
     std::uint8_t type = 0;  ///< VTK's number
     const Mesh::Shapes* shapes = nullptr;
 
-    std::size_t numbers() const { return shapes == nullptr ? nodes * cells : shapes->nodes.size(); }
     std::size_t end(std::size_t cell) const {
         return shapes == nullptr ? nodes * (cell + 1) : static_cast<std::size_t>(shapes->ends[cell]);
     }
@@ -46,7 +45,7 @@ std::vector<std::int64_t> face_streams(const Mesh::Shapes& shapes, std::vector<s
 Status write_grid(OutGrid grid, const std::string& path, VtkData data) {
     const auto end = [&](std::size_t i) { return grid.end(i); };
     const auto type = [&](std::size_t i) { return grid.type_of(i); };
-    const bool wide = grid.numbers() > std::numeric_limits<std::int32_t>::max();
+    const bool wide = grid.connectivity.count > std::numeric_limits<std::int32_t>::max();
     std::vector<std::int64_t> stream, ends;
     std::vector<OutArray> cells{std::move(grid.connectivity),
                                 wide ? array_made<std::int64_t>("offsets", grid.cells, end)
