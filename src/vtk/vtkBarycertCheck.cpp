@@ -105,7 +105,8 @@ void add_measures(const CheckReport& report, vtkDataSet& output) {
                                       [](Value x) { return x.value_or(std::numeric_limits<double>::quiet_NaN()); });
     }
     // Kinds of defects of surfaces are beyond 32 bits.
-    if (report.surface) add_array<vtkTypeInt64Array>(cells, "problems", defects);
+    if (report.surface)
+        add_array<vtkTypeInt64Array>(cells, "problems", defects, [](DefectSet set) { return vtkTypeInt64(set); });
     for (const DefectText& text : defect_texts) {
         const DefectSet bit = defect_bit(text.kind);
         if ((found & bit) != 0)
@@ -118,7 +119,7 @@ void fill_defects(const CheckReport& report, vtkFieldData& columns) {
     using D = const Defect&;
     const std::vector<Defect>& all = report.defects;
     add_array<vtkStringArray>(columns, "defect", all, [](D d) { return std::string(defect_text(d.kind).name); });
-    add_array<vtkTypeInt64Array>(columns, "count", all, [](D d) { return d.count; });
+    add_array<vtkTypeInt64Array>(columns, "count", all, [](D d) { return vtkTypeInt64(d.count); });
     add_array<vtkUnsignedCharArray>(columns, "at_least", all, [](D d) { return d.at_least; });
     add_array<vtkUnsignedCharArray>(columns, "breaks", all, [](D d) { return d.breaks(); });
     add_array<vtkStringArray>(columns, "meaning", all, [](D d) { return std::string(defect_text(d.kind).text); });
