@@ -4,10 +4,6 @@
 
 #include <vtkBitArray.h>
 #include <vtkCellData.h>
-#include <vtkCommunicator.h>
-#include <vtkDataArray.h>
-#include <vtkDataSet.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -247,12 +243,11 @@ private:
             }
             // Arrays of a rank without cells are not those of the others.
             for (const ArrayKind& kind : kinds_) {
-                vtkAbstractArray* const own =
-                    index_->locator
-                        ? array_in(*scratch_->GetPointData(), kind.named ? kind.name.c_str() : nullptr, kind.role)
-                        : nullptr;
-                columns_.arrays.push_back(
-                    own != nullptr ? own : make(kind, static_cast<vtkIdType>(count_), settings_.outside).Get());
+                const char* const name = kind.named ? kind.name.c_str() : nullptr;
+                vtkSmartPointer<vtkAbstractArray> own;
+                if (index_->locator) own = array_in(*scratch_->GetPointData(), name, kind.role);
+                if (own == nullptr) own = make(kind, static_cast<vtkIdType>(count_), settings_.outside);
+                columns_.arrays.push_back(own);
             }
             report_.mask = arrays_->mask();
             return Done{};

@@ -1,10 +1,6 @@
 /// A probe whose mesh and points lie in pieces on the ranks of a job.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include <vtkCharArray.h>
 #include <vtkMultiProcessController.h>
 #include <vtkSmartPointer.h>

@@ -8,7 +8,6 @@
 #include "barycert/surface_locator.hpp"
 
 class vtkCell;
-class vtkDataArray;
 class vtkDataSet;
 class vtkDataSetAttributes;
 class vtkIdList;
@@ -80,8 +79,5 @@ std::string read_cells(vtkDataSet& data, ExactIndex& index);
 /// If not all are triangles or strips of them: the polygons as facets of `plc`. Returns the cell of each. Requires a
 /// data set that read_cells takes for a surface.
 std::vector<Mesh::Index> read_polygons(vtkDataSet& data, Plc& plc);
-
-/// The numbers of an array as doubles, tuple after tuple.
-std::vector<double> doubles_of(vtkDataArray& array);
 
 }  // namespace barycert::in_vtk

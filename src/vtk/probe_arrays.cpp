@@ -5,8 +5,6 @@
 #include <vtkBitArray.h>
 #include <vtkCellData.h>
 #include <vtkCharArray.h>
-#include <vtkDataArray.h>
-#include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
@@ -58,8 +56,16 @@ bool is_real(vtkAbstractArray& array) {
     return array.GetDataType() == VTK_DOUBLE || array.GetDataType() == VTK_FLOAT;
 }
 
+// The numbers of the array as doubles, tuple after tuple. `exact`: whether they are the same numbers.
 Field field_of(vtkDataArray& array, std::size_t number, bool& exact) {
-    Field field{std::to_string(number), array.GetNumberOfComponents(), doubles_of(array)};
+    Field field{std::to_string(number), array.GetNumberOfComponents(), {}};
+    field.data.resize(static_cast<std::size_t>(array.GetNumberOfValues()));
+    if (!field.data.empty()) {
+        vtkNew<vtkDoubleArray> doubles;
+        doubles->SetNumberOfComponents(field.components);
+        doubles->SetArray(field.data.data(), array.GetNumberOfValues(), 1);
+        doubles->InsertTuples(0, array.GetNumberOfTuples(), 0, &array);
+    }
     exact = is_real(array) ||
             std::all_of(field.data.begin(), field.data.end(), [](double x) { return std::abs(x) <= 0x1p53; });
     return field;

@@ -1,7 +1,5 @@
 // From VTK's cells to a mesh of simplices, or a surface.
 #include <vtkCellData.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -138,16 +136,6 @@ std::string make_surface(Cells& cells, const std::vector<Mesh::Index>& kept, Exa
 }
 
 }  // namespace
-
-std::vector<double> doubles_of(vtkDataArray& array) {
-    std::vector<double> all(static_cast<std::size_t>(array.GetNumberOfValues()));
-    if (all.empty()) return all;
-    vtkNew<vtkDoubleArray> doubles;
-    doubles->SetNumberOfComponents(array.GetNumberOfComponents());
-    doubles->SetArray(all.data(), array.GetNumberOfValues(), 1);
-    doubles->InsertTuples(0, array.GetNumberOfTuples(), 0, &array);
-    return all;
-}
 
 std::string fault_of_global_ids(vtkDataSetAttributes& attributes, vtkIdType count, const std::string& of) {
     vtkDataArray& array = *attributes.GetGlobalIds();

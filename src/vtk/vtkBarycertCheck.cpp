@@ -7,7 +7,6 @@
 #include <vtkCellData.h>
 #include <vtkDataObjectTypes.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -33,28 +32,16 @@ namespace {
 
 using in_vtk::ExactIndex;
 
-// One value for each of `all`: of(one).
-template <class Array, class All, class Of>
-vtkSmartPointer<Array> array_of(const char* name, const All& all, Of&& of) {
-    auto array = vtkSmartPointer<Array>::New();
-    array->SetName(name);
-    for (const auto& one : all) array->InsertNextValue(of(one));
-    return array;
-}
-
-// One value a cell of the data set: of(id).
-template <class Array, class Of>
-void add_cell_array(vtkDataSet& output, std::string_view name, Of&& of) {
+// An array of one value for each of `all`: of(one).
+template <class Array, class All, class Of = std::identity>
+void add_array(vtkFieldData& to, std::string_view name, const All& all, const Of& of = {}) {
     vtkNew<Array> array;
     array->SetName(std::string(name).c_str());
-    array->SetNumberOfValues(output.GetNumberOfCells());
-    for (vtkIdType id = 0; id < output.GetNumberOfCells(); ++id)
-        array->SetValue(id, static_cast<typename Array::ValueType>(of(static_cast<std::size_t>(id))));
-    output.GetCellData()->AddArray(array);
+    for (const auto& one : all) array->InsertNextValue(of(one));
+    to.AddArray(array);
 }
 
-template <std::size_t n>
-void append_used(std::string& text, const char* one, const char* more, const std::array<Mesh::Index, n>& all) {
+void append_used(std::string& text, const char* one, const char* more, std::span<const Mesh::Index> all) {
     const auto count = std::count_if(all.begin(), all.end(), [](Mesh::Index i) { return i >= 0; });
     if (count == 0) return;
     if (!text.empty() && text.back() != ' ') text += ", ";
@@ -90,6 +77,7 @@ double joined(std::string_view measure, double a, double b) {
 
 // Measures and defects of cells as cell arrays of the data set, of which one may be several of the mesh or surface.
 void add_measures(const CheckReport& report, vtkDataSet& output) {
+    vtkCellData& cells = *output.GetCellData();
     std::vector<DefectSet> defects(static_cast<std::size_t>(output.GetNumberOfCells()), 0);
     const auto id_of = [&](std::size_t i) {
         return static_cast<std::size_t>(report.cell_number(static_cast<std::int64_t>(i)));
@@ -105,41 +93,38 @@ void add_measures(const CheckReport& report, vtkDataSet& output) {
             std::optional<double>& own = all[id_of(i)];
             own = own ? joined(field.name, *own, field.data[i]) : field.data[i];
         }
-        const bool whole = field.name == "orientation" || field.name == "problems";
-        const auto value = [&](std::size_t id) {
-            return field.name == "problems" ? static_cast<double>(defects[id])
-                                            : all[id].value_or(whole ? 0 : std::numeric_limits<double>::quiet_NaN());
-        };
+        using Value = const std::optional<double>&;
         if (field.name == "orientation")
-            add_cell_array<vtkSignedCharArray>(output, field.name, value);
+            add_array<vtkSignedCharArray>(cells, field.name, all,
+                                          [](Value x) { return static_cast<signed char>(x.value_or(0)); });
         else if (field.name == "problems")
-            add_cell_array<vtkUnsignedIntArray>(output, field.name, value);
+            add_array<vtkUnsignedIntArray>(cells, field.name, defects,
+                                           [](DefectSet set) { return static_cast<unsigned>(set); });
         else
-            add_cell_array<vtkDoubleArray>(output, field.name, value);
+            add_array<vtkDoubleArray>(cells, field.name, all,
+                                      [](Value x) { return x.value_or(std::numeric_limits<double>::quiet_NaN()); });
     }
     // Kinds of defects of surfaces are beyond 32 bits.
     if (report.surface)
-        add_cell_array<vtkTypeInt64Array>(output, "problems", [&](std::size_t id) { return defects[id]; });
+        add_array<vtkTypeInt64Array>(cells, "problems", defects, [](DefectSet set) { return vtkTypeInt64(set); });
     for (const DefectText& text : defect_texts) {
         const DefectSet bit = defect_bit(text.kind);
         if ((found & bit) != 0)
-            add_cell_array<vtkUnsignedCharArray>(output, text.name,
-                                                 [&](std::size_t id) { return (defects[id] & bit) != 0; });
+            add_array<vtkUnsignedCharArray>(cells, text.name, defects, [&](DefectSet set) { return (set & bit) != 0; });
     }
 }
 
 // A row a defect.
-void fill_defects(const CheckReport& report, vtkTable& table) {
+void fill_defects(const CheckReport& report, vtkFieldData& columns) {
     using D = const Defect&;
     const std::vector<Defect>& all = report.defects;
-    table.AddColumn(array_of<vtkStringArray>("defect", all, [](D d) { return std::string(defect_text(d.kind).name); }));
-    table.AddColumn(array_of<vtkTypeInt64Array>("count", all, [](D d) { return vtkTypeInt64(d.count); }));
-    table.AddColumn(array_of<vtkUnsignedCharArray>("at_least", all, [](D d) { return d.at_least; }));
-    table.AddColumn(array_of<vtkUnsignedCharArray>("breaks", all, [](D d) { return d.breaks(); }));
-    table.AddColumn(
-        array_of<vtkStringArray>("meaning", all, [](D d) { return std::string(defect_text(d.kind).text); }));
-    table.AddColumn(array_of<vtkStringArray>("remedy", all, [](D d) { return std::string(d.remedy()); }));
-    table.AddColumn(array_of<vtkStringArray>("places", all, [&](D d) { return places_of(d, report); }));
+    add_array<vtkStringArray>(columns, "defect", all, [](D d) { return std::string(defect_text(d.kind).name); });
+    add_array<vtkTypeInt64Array>(columns, "count", all, [](D d) { return vtkTypeInt64(d.count); });
+    add_array<vtkUnsignedCharArray>(columns, "at_least", all, [](D d) { return d.at_least; });
+    add_array<vtkUnsignedCharArray>(columns, "breaks", all, [](D d) { return d.breaks(); });
+    add_array<vtkStringArray>(columns, "meaning", all, [](D d) { return std::string(defect_text(d.kind).text); });
+    add_array<vtkStringArray>(columns, "remedy", all, [](D d) { return std::string(d.remedy()); });
+    add_array<vtkStringArray>(columns, "places", all, [&](D d) { return places_of(d, report); });
 }
 
 // A vertex for each pair of cells that meet where they must not.
@@ -158,10 +143,10 @@ void fill_contacts(const CheckReport& report, const ExactIndex& index, vtkPolyDa
     points.SetVerts(vertices);
     using Contact = const CellContact&;
     vtkPointData& data = *points.GetPointData();
-    data.AddArray(array_of<vtkIdTypeArray>("cell_a", all, [&](Contact c) { return report.cell_number(c.cells)[0]; }));
-    data.AddArray(array_of<vtkIdTypeArray>("cell_b", all, [&](Contact c) { return report.cell_number(c.cells)[1]; }));
-    data.AddArray(array_of<vtkUnsignedCharArray>("overlap", all, [](Contact c) { return c.overlap; }));
-    data.AddArray(array_of<vtkUnsignedCharArray>("exact", all, [](Contact c) { return c.common.exact; }));
+    add_array<vtkIdTypeArray>(data, "cell_a", all, [&](Contact c) { return report.cell_number(c.cells)[0]; });
+    add_array<vtkIdTypeArray>(data, "cell_b", all, [&](Contact c) { return report.cell_number(c.cells)[1]; });
+    add_array<vtkUnsignedCharArray>(data, "overlap", all, [](Contact c) { return c.overlap; });
+    add_array<vtkUnsignedCharArray>(data, "exact", all, [](Contact c) { return c.common.exact; });
 }
 
 // The report names cells by their ids. Polygons in space are facets of a PLC, as `barycert check` takes those of files:
@@ -264,14 +249,13 @@ int vtkBarycertCheck::RequestData(vtkInformation*, vtkInformationVector** inputs
     std::size_t verdict = 0;
     for (int line = 0; line < (message(report.curved).empty() ? 0 : 2); ++line) verdict = text.find('\n', verdict) + 1;
     if (!Certified) vtkWarningMacro("" << text.substr(verdict, text.find('\n', verdict) - verdict));
-    vtkNew<vtkStringArray> lines;
-    lines->SetName("barycert_check");
     std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines->InsertNextValue(line);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
     vtkFieldData& told = *output->GetFieldData();
-    told.AddArray(lines);
-    told.AddArray(array_of<vtkUnsignedCharArray>("certified", std::array{Certified}, std::identity()));
-    fill_defects(report, *defects);
+    add_array<vtkStringArray>(told, "barycert_check", lines);
+    add_array<vtkUnsignedCharArray>(told, "certified", std::array{Certified});
+    fill_defects(report, *defects->GetRowData());
     fill_contacts(report, index, *points);
     return 1;
 }

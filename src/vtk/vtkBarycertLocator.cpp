@@ -23,23 +23,73 @@
 using namespace barycert;
 
 struct vtkBarycertLocator::Internals {
-    std::mutex building;
-    std::shared_ptr<const in_vtk::ExactIndex> index;
-    std::atomic<const in_vtk::ExactIndex*> built = nullptr;  ///< index, for threads that meet while it is made
-    vtkSmartPointer<vtkStaticCellLocator> other;
-    std::atomic<vtkStaticCellLocator*> other_built = nullptr;
+    using Index = in_vtk::ExactIndex;
 
-    void clear() {
-        built = nullptr;
-        other_built = nullptr;
-        index.reset();
-        other = nullptr;
+    explicit Internals(vtkBarycertLocator& of) : self(of) {}
+
+    // The index; made at the first query if nobody has called BuildLocator. Null if there is no data set.
+    const Index* ready() {
+        if (const Index* const made = built) return made;
+        const std::lock_guard lock(building);
+        if (built == nullptr) self.BuildLocator();
+        return built;
     }
+
+    // The index if it answers.
+    const Index* exact() {
+        const Index* const made = ready();
+        return made != nullptr && made->exact() ? made : nullptr;
+    }
+
+    // VTK's locator, for lines, planes and boxes. Null if there is no data set, or nothing in it.
+    vtkStaticCellLocator* other() {
+        if (ready() == nullptr || self.DataSet->GetNumberOfCells() == 0) return nullptr;
+        if (vtkStaticCellLocator* const made = other_built) return made;
+        const std::lock_guard lock(building);
+        if (!of_vtk) {
+            const auto made = vtkSmartPointer<vtkStaticCellLocator>::New();
+            made->SetDataSet(self.DataSet);
+            made->SetTolerance(self.Tolerance);
+            made->SetNumberOfCellsPerNode(self.NumberOfCellsPerNode);
+            made->BuildLocator();
+            of_vtk = made;
+        }
+        other_built = of_vtk.Get();
+        return of_vtk;
+    }
+
+    // The cell that the caller gave, or one made, with what the data set has of that id.
+    vtkGenericCell* fetched(vtkIdType id, vtkGenericCell* cell, vtkSmartPointer<vtkGenericCell>& made) {
+        if (cell == nullptr) made = vtkSmartPointer<vtkGenericCell>::New();
+        if (cell == nullptr) cell = made;
+        self.DataSet->GetCell(id, cell);
+        return cell;
+    }
+
+    // The index, if it has a surface whose hits are to be exact: then sets them, in their order.
+    const Index* hits(const double* p1, const double* p2, std::vector<SurfaceHit>& all) {
+        const Index* const made = exact();
+        if (made == nullptr || !made->on_surface || self.Tolerant) return nullptr;
+        if (Result<std::vector<SurfaceHit>> found = made->on_surface->hits(p1, p2))
+            all = std::move(*found);
+        else
+            vtkErrorWithObjectMacro(&self, "cannot intersect with this line: " << found.error().message());
+        std::set<vtkIdType> met;  // a polygon has several triangles
+        std::erase_if(all, [&](const SurfaceHit& hit) { return !met.insert(made->id(hit.triangle)).second; });
+        return made;
+    }
+
+    vtkBarycertLocator& self;
+    std::mutex building;
+    std::shared_ptr<const Index> index;
+    std::atomic<const Index*> built = nullptr;  ///< index, for threads that meet while it is made
+    vtkSmartPointer<vtkStaticCellLocator> of_vtk;
+    std::atomic<vtkStaticCellLocator*> other_built = nullptr;
 };
 
 vtkStandardNewMacro(vtkBarycertLocator);
 
-vtkBarycertLocator::vtkBarycertLocator() : internals_(std::make_unique<Internals>()) {}
+vtkBarycertLocator::vtkBarycertLocator() : internals_(std::make_unique<Internals>(*this)) {}
 vtkBarycertLocator::~vtkBarycertLocator() = default;
 
 vtkObjectBase* vtkBarycertLocator::NewInstanceInternal() const {
@@ -53,7 +103,7 @@ vtkObjectBase* vtkBarycertLocator::NewInstanceInternal() const {
 // A data set may have this as its locator, and VTK's locator has the data set.
 void vtkBarycertLocator::ReportReferences(vtkGarbageCollector* collector) {
     Superclass::ReportReferences(collector);
-    vtkGarbageCollectorReport(collector, internals_->other, "Other");
+    vtkGarbageCollectorReport(collector, internals_->of_vtk, "Other");
 }
 
 void vtkBarycertLocator::PrintSelf(ostream& os, vtkIndent indent) {
@@ -79,13 +129,13 @@ void vtkBarycertLocator::BuildLocator() {
     std::shared_ptr<const in_vtk::ExactIndex> index =
         in_vtk::exact_index(*DataSet, in_vtk::shape_of(Interpolation, CurvedCells));
     if (index != internals_->index) {
-        internals_->clear();
+        FreeSearchStructure();
         internals_->index = std::move(index);
         if (!internals_->index->exact())
             vtkErrorMacro("points cannot be located exactly in this data set: " << internals_->index->reason);
         for (const Note& note : internals_->index->notes) vtkWarningMacro("" << message(note));
-    } else if (internals_->other) {
-        internals_->other->BuildLocator();
+    } else if (internals_->of_vtk) {
+        internals_->of_vtk->BuildLocator();
     }
     internals_->built = internals_->index.get();
     BuildTime.Modified();
@@ -98,7 +148,10 @@ void vtkBarycertLocator::ForceBuildLocator() {
 }
 
 void vtkBarycertLocator::FreeSearchStructure() {
-    internals_->clear();
+    internals_->built = nullptr;
+    internals_->other_built = nullptr;
+    internals_->index.reset();
+    internals_->of_vtk = nullptr;
 }
 
 void vtkBarycertLocator::ShallowCopy(vtkAbstractCellLocator* other) {
@@ -113,49 +166,18 @@ void vtkBarycertLocator::ShallowCopy(vtkAbstractCellLocator* other) {
     CurvedCells = from->CurvedCells;
     CacheCellBounds = from->CacheCellBounds;
     Tolerance = from->Tolerance;
-    internals_->clear();
+    FreeSearchStructure();
     internals_->index = from->internals_->index;
     internals_->built = internals_->index.get();
     if (internals_->index) BuildTime.Modified();
 }
 
-// The index; made at the first query if nobody has called BuildLocator. Null if there is no data set.
-const in_vtk::ExactIndex* vtkBarycertLocator::Ready() {
-    if (const in_vtk::ExactIndex* const index = internals_->built) return index;
-    const std::lock_guard lock(internals_->building);
-    if (internals_->built == nullptr) BuildLocator();
-    return internals_->built;
-}
-
-// The index if it answers.
-const in_vtk::ExactIndex* vtkBarycertLocator::ExactOne() {
-    const in_vtk::ExactIndex* const index = Ready();
-    return index != nullptr && index->exact() ? index : nullptr;
-}
-
-// VTK's locator, for lines, planes and boxes. Null if there is no data set, or nothing in it.
-vtkStaticCellLocator* vtkBarycertLocator::Other() {
-    if (Ready() == nullptr || DataSet->GetNumberOfCells() == 0) return nullptr;
-    if (vtkStaticCellLocator* const other = internals_->other_built) return other;
-    const std::lock_guard lock(internals_->building);
-    if (!internals_->other) {
-        const auto made = vtkSmartPointer<vtkStaticCellLocator>::New();
-        made->SetDataSet(DataSet);
-        made->SetTolerance(Tolerance);
-        made->SetNumberOfCellsPerNode(NumberOfCellsPerNode);
-        made->BuildLocator();
-        internals_->other = made;
-    }
-    internals_->other_built = internals_->other.Get();
-    return internals_->other;
-}
-
 bool vtkBarycertLocator::GetExact() {
-    return ExactOne() != nullptr;
+    return internals_->exact() != nullptr;
 }
 
 std::string vtkBarycertLocator::GetReason() {
-    const in_vtk::ExactIndex* const index = Ready();
+    const in_vtk::ExactIndex* const index = internals_->ready();
     return index == nullptr ? "there is no data set" : index->reason;
 }
 
@@ -178,17 +200,9 @@ static void set_place(const in_vtk::ExactIndex& index, const pieces::Closest& fo
         pcoords[i % 3] += weights[i / 3] * places[i];
 }
 
-// The cell that the caller gave, or one made, with what the data set has of that id.
-vtkGenericCell* vtkBarycertLocator::Fetched(vtkIdType id, vtkGenericCell* cell, vtkSmartPointer<vtkGenericCell>& made) {
-    if (cell == nullptr) made = vtkSmartPointer<vtkGenericCell>::New();
-    if (cell == nullptr) cell = made;
-    DataSet->GetCell(id, cell);
-    return cell;
-}
-
 vtkIdType vtkBarycertLocator::FindCell(double x[3]) {
     const ExactEnvironment environment;
-    const in_vtk::ExactIndex* const index = ExactOne();
+    const in_vtk::ExactIndex* const index = internals_->exact();
     return index != nullptr ? index->id(index->owner(x)) : -1;
 }
 
@@ -202,7 +216,7 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
                                        double* weights) {
     const ExactEnvironment environment;
     subId = 0;
-    const in_vtk::ExactIndex* const index = ExactOne();
+    const in_vtk::ExactIndex* const index = internals_->exact();
     if (index == nullptr) return -1;
     pieces::Closest found{.cell = index->owner(x), .inside = true, .point = {x[0], x[1], x[2]}};
     if (found.cell < 0 && Tolerant && tol2 > 0) {
@@ -212,7 +226,7 @@ vtkIdType vtkBarycertLocator::FindCell(double x[3], double tol2, vtkGenericCell*
     if (found.cell < 0) return -1;
     const vtkIdType id = index->id(found.cell);
     vtkSmartPointer<vtkGenericCell> made;
-    cell = Fetched(id, cell, made);
+    cell = internals_->fetched(id, cell, made);
     if (index->cells_are_cut || !index->straight()) {
         set_place(*index, found, x, *cell, pcoords, subId, weights);
         return id;
@@ -248,7 +262,7 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
                                                            vtkGenericCell* cell, vtkIdType& cellId, int& subId,
                                                            double& dist2, int& inside) {
     cellId = -1;
-    const in_vtk::ExactIndex* const index = ExactOne();
+    const in_vtk::ExactIndex* const index = internals_->exact();
     if (index == nullptr) return 0;
     const ExactEnvironment environment;
     const pieces::Closest found = index->closest(x, radius);
@@ -262,19 +276,6 @@ vtkIdType vtkBarycertLocator::FindClosestPointWithinRadius(double x[3], double r
     return 1;
 }
 
-// The index, if it has a surface whose hits are to be exact: then sets them, in their order.
-const in_vtk::ExactIndex* vtkBarycertLocator::Hits(const double* p1, const double* p2, std::vector<SurfaceHit>& hits) {
-    const in_vtk::ExactIndex* const index = ExactOne();
-    if (index == nullptr || !index->on_surface || Tolerant) return nullptr;
-    if (Result<std::vector<SurfaceHit>> found = index->on_surface->hits(p1, p2))
-        hits = std::move(*found);
-    else
-        vtkErrorMacro("cannot intersect with this line: " << found.error().message());
-    std::set<vtkIdType> met;  // a polygon has several triangles
-    std::erase_if(hits, [&](const SurfaceHit& hit) { return !met.insert(index->id(hit.triangle)).second; });
-    return index;
-}
-
 static std::array<double, 3> point_at(const double* p1, const double* p2, double t) {
     return {std::lerp(p1[0], p2[0], t), std::lerp(p1[1], p2[1], t), std::lerp(p1[2], p2[2], t)};
 }
@@ -284,27 +285,27 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
     const ExactEnvironment environment;
     cellId = -1;
     std::vector<SurfaceHit> hits;
-    if (const in_vtk::ExactIndex* const index = Hits(p1, p2, hits)) {
+    if (const in_vtk::ExactIndex* const index = internals_->hits(p1, p2, hits)) {
         if (hits.empty()) return 0;
         t = hits.front().parameter;
         subId = 0;
         cellId = index->id(hits.front().triangle);
         std::copy_n(point_at(p1, p2, t).begin(), 3, x);
         vtkSmartPointer<vtkGenericCell> made;
-        cell = Fetched(cellId, cell, made);
+        cell = internals_->fetched(cellId, cell, made);
         std::vector<double> weights(static_cast<std::size_t>(cell->GetNumberOfPoints()));
         const pieces::Closest at{.cell = hits.front().triangle, .inside = true, .point = {x[0], x[1], x[2]}};
         set_place(*index, at, x, *cell, pcoords, subId, weights.data());
         return 1;
     }
-    vtkStaticCellLocator* const other = Other();
+    vtkStaticCellLocator* const other = internals_->other();
     return other == nullptr ? 0 : other->IntersectWithLine(p1, p2, tol, t, x, pcoords, subId, cellId, cell);
 }
 
 int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3], vtkPoints* points,
                                           vtkIdList* cellIds) {
     if (IntersectWithLine(p1, p2, Tolerance, points, cellIds) == 0) return 0;
-    const in_vtk::ExactIndex* const index = ExactOne();
+    const in_vtk::ExactIndex* const index = internals_->exact();
     if (index != nullptr && index->on_surface) {
         const Result<SurfaceLocation> start = index->on_surface->locate(p1);
         return start && start->winding != 0 ? -1 : 1;
@@ -327,7 +328,7 @@ int vtkBarycertLocator::IntersectWithLine(const double p1[3], const double p2[3]
     std::vector<std::tuple<double, vtkIdType, std::array<double, 3>>> hits;  // how far along the line, cell, point
     std::vector<SurfaceHit> exact;
     vtkNew<vtkIdList> candidates;
-    if (const in_vtk::ExactIndex* const index = cell != nullptr ? Hits(p1, p2, exact) : nullptr) {
+    if (const in_vtk::ExactIndex* const index = cell != nullptr ? internals_->hits(p1, p2, exact) : nullptr) {
         for (const SurfaceHit& hit : exact)
             hits.emplace_back(hit.parameter, index->id(hit.triangle), point_at(p1, p2, hit.parameter));
     } else {
@@ -370,7 +371,7 @@ static bool meets(vtkDataSet& data, vtkIdType cell, const double* box) {
 void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
     const ExactEnvironment environment;
     cells->Reset();
-    vtkStaticCellLocator* const other = Other();
+    vtkStaticCellLocator* const other = internals_->other();
     if (other == nullptr) return;
     vtkNew<vtkIdList> candidates;  // all cells of the buckets that the box meets
     other->FindCellsWithinBounds(bbox, candidates);
@@ -381,13 +382,14 @@ void vtkBarycertLocator::FindCellsWithinBounds(double* bbox, vtkIdList* cells) {
 void vtkBarycertLocator::FindCellsAlongLine(const double p1[3], const double p2[3], double tolerance,
                                             vtkIdList* cells) {
     cells->Reset();
-    if (vtkStaticCellLocator* const other = Other()) other->FindCellsAlongLine(p1, p2, tolerance, cells);
+    if (vtkStaticCellLocator* const other = internals_->other()) other->FindCellsAlongLine(p1, p2, tolerance, cells);
 }
 
 void vtkBarycertLocator::FindCellsAlongPlane(const double origin[3], const double normal[3], double tolerance,
                                              vtkIdList* cells) {
     cells->Reset();
-    if (vtkStaticCellLocator* const other = Other()) other->FindCellsAlongPlane(origin, normal, tolerance, cells);
+    if (vtkStaticCellLocator* const other = internals_->other())
+        other->FindCellsAlongPlane(origin, normal, tolerance, cells);
 }
 
 bool vtkBarycertLocator::InsideCellBounds(double x[3], vtkIdType cellId) {
@@ -398,5 +400,5 @@ bool vtkBarycertLocator::InsideCellBounds(double x[3], vtkIdType cellId) {
 }
 
 void vtkBarycertLocator::GenerateRepresentation(int level, vtkPolyData* surface) {
-    if (vtkStaticCellLocator* const other = Other()) other->GenerateRepresentation(level, surface);
+    if (vtkStaticCellLocator* const other = internals_->other()) other->GenerateRepresentation(level, surface);
 }

@@ -35,21 +35,8 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include <vtkAbstractCellLocator.h>
-#include <vtkSmartPointer.h>
-
-class vtkStaticCellLocator;
-
-#ifndef __VTK_WRAP__  // VTK's own parser of headers does not know nested names of namespaces
-namespace barycert::in_vtk {
-struct ExactIndex;
-}
-namespace barycert {
-struct SurfaceHit;
-}
-#endif
 
 class vtkBarycertLocator : public vtkAbstractCellLocator {
 public:
@@ -133,13 +120,6 @@ protected:
 
 private:
     struct Internals;
-    const barycert::in_vtk::ExactIndex* Ready();
-    const barycert::in_vtk::ExactIndex* ExactOne();
-    vtkStaticCellLocator* Other();
-    vtkGenericCell* Fetched(vtkIdType id, vtkGenericCell* cell, vtkSmartPointer<vtkGenericCell>& made);
-    const barycert::in_vtk::ExactIndex* Hits(const double* p1, const double* p2,
-                                             std::vector<barycert::SurfaceHit>& hits);
-
     std::unique_ptr<Internals> internals_;
     bool Tolerant = false;
     int Interpolation = PULLING, CurvedCells = ISOPARAMETRIC;

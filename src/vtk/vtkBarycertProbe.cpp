@@ -3,7 +3,6 @@
 #include <vtkCellData.h>
 #include <vtkCharArray.h>
 #include <vtkDataSet.h>
-#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -106,18 +105,21 @@ int vtkBarycertProbe::RequestData(vtkInformation*, vtkInformationVector** inputs
         vtkErrorMacro("CategoricalData takes point scalars of one component, of the source");
         return 0;
     }
-    const std::shared_ptr<const in_vtk::ExactIndex> index =
-        in_vtk::exact_index(*source, in_vtk::shape_of(Interpolation, CurvedCells));
-    Exact = index->exact();
-    if (!Exact) vtkErrorMacro("this source cannot be probed exactly: " << index->reason);
-    if (!Exact || !Sample(*index, input, source, output)) return 0;
+    if (!Sample(input, source, output)) return 0;
     PassArrays(input, output);
     return 1;
 }
 
-bool vtkBarycertProbe::Sample(const in_vtk::ExactIndex& index, vtkDataSet* input, vtkDataSet* source,
-                              vtkDataSet* output) {
+bool vtkBarycertProbe::Sample(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output) {
     const ExactEnvironment environment;
+    const std::shared_ptr<const in_vtk::ExactIndex> made =
+        in_vtk::exact_index(*source, in_vtk::shape_of(Interpolation, CurvedCells));
+    const in_vtk::ExactIndex& index = *made;
+    Exact = index.exact();
+    if (!Exact) {
+        vtkErrorMacro("this source cannot be probed exactly: " << index.reason);
+        return false;
+    }
     if (const std::string fault = in_vtk::fault_of_arrays(*source); !fault.empty()) {
         vtkErrorMacro(<< fault);
         return false;

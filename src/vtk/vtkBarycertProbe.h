@@ -32,12 +32,6 @@
 class vtkCharArray;
 class vtkIdTypeArray;
 
-#ifndef __VTK_WRAP__  // VTK's own parser of headers does not know nested names of namespaces
-namespace barycert::in_vtk {
-struct ExactIndex;
-}
-#endif
-
 class vtkBarycertProbe : public vtkDataSetAlgorithm {
 public:
     static vtkBarycertProbe* New();
@@ -122,7 +116,7 @@ protected:
     bool Exact = false;
 
 private:
-    bool Sample(const barycert::in_vtk::ExactIndex& index, vtkDataSet* input, vtkDataSet* source, vtkDataSet* output);
+    bool Sample(vtkDataSet* input, vtkDataSet* source, vtkDataSet* output);
 
     vtkTypeBool CategoricalData = 0, SpatialMatch = 0;
     vtkTypeBool PassCellArrays = 0, PassPointArrays = 0, PassFieldArrays = 1;

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <map>
 
-#include <vtkAlgorithm.h>
 #include <vtkAlgorithmOutput.h>
-#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkCompositeDataSet.h>
-#include <vtkDataSet.h>
 #include <vtkErrorCode.h>
 #include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
@@ -28,11 +26,7 @@ namespace {
 // success, and an empty data set. Watches from its construction to its end. Errors are shown as if it did not.
 class ErrorWatch {
 public:
-    explicit ErrorWatch(vtkAlgorithm& last) {
-        command_->SetCallback(see);
-        command_->SetClientData(this);
-        add(last);
-    }
+    explicit ErrorWatch(vtkAlgorithm& last) { add(last); }
     ~ErrorWatch() {
         for (const Watched& one : watched_) one.algorithm->RemoveObserver(one.observer);
     }
@@ -62,7 +56,7 @@ private:
         const auto same = [&](const Watched& one) { return one.algorithm == &algorithm; };
         if (std::any_of(watched_.begin(), watched_.end(), same)) return;
         const bool shown = algorithm.HasObserver(vtkCommand::ErrorEvent) != 0;
-        watched_.push_back({&algorithm, algorithm.AddObserver(vtkCommand::ErrorEvent, command_), shown});
+        watched_.push_back({&algorithm, algorithm.AddObserver(vtkCommand::ErrorEvent, this, &ErrorWatch::see), shown});
         for (int port = 0; port < algorithm.GetNumberOfInputPorts(); ++port) {
             for (int i = 0; i < algorithm.GetNumberOfInputConnections(port); ++i)
                 if (vtkAlgorithm* const before = algorithm.GetInputAlgorithm(port, i)) add(*before);
@@ -70,15 +64,13 @@ private:
     }
 
     // An object that is observed does not show its errors itself.
-    static void see(vtkObject* who, unsigned long, void* self, void* text) {
-        auto& watch = *static_cast<ErrorWatch*>(self);
-        if (watch.first_.empty()) watch.first_ = who->GetClassName();
-        for (const Watched& one : watch.watched_)
+    void see(vtkObject* who, unsigned long, void* text) {
+        if (first_.empty()) first_ = who->GetClassName();
+        for (const Watched& one : watched_)
             if (one.algorithm == who && !one.shown && text != nullptr)
                 vtkOutputWindowDisplayErrorText(static_cast<const char*>(text));
     }
 
-    vtkNew<vtkCallbackCommand> command_;
     std::vector<Watched> watched_;
     std::string first_;
 };
@@ -96,9 +88,17 @@ public:
     std::string failure() const { return failures_.empty() ? std::string() : failures_.begin()->second.what; }
 
 protected:
-    int ForwardUpstream(vtkInformation* request) override;
+    int ForwardUpstream(vtkInformation* request) override {
+        for (int port = 0; port < GetNumberOfInputPorts(); ++port)
+            for (int i = 0; i < GetAlgorithm()->GetNumberOfInputConnections(port); ++i) forward(port, i, request);
+        return 1;
+    }
+
     // An execution that failed is repeated, on all processes.
-    int NeedToExecuteData(int port, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+    int NeedToExecuteData(int port, vtkInformationVector** inputs, vtkInformationVector* outputs) override {
+        if (GetAlgorithm()->GetErrorCode() != vtkErrorCode::NoError) return 1;
+        return Superclass::NeedToExecuteData(port, inputs, outputs);
+    }
 
 private:
     struct Failure {
@@ -106,50 +106,38 @@ private:
         vtkMTimeType time;
         std::string what;
     };
-    void forward(int port, int connection, vtkInformation* request);
+
+    void forward(int port, int connection, vtkInformation* request) {
+        const std::pair place(port, connection);
+        auto* const before = vtkDemandDrivenPipeline::SafeDownCast(GetInputExecutive(port, connection));
+        if (before == nullptr) {
+            failures_.erase(place);
+            return;
+        }
+        const int own = request->Get(FROM_OUTPUT_PORT());
+        request->Set(FROM_OUTPUT_PORT(), GetAlgorithm()->GetInputConnection(port, connection)->GetIndex());
+        std::string what;
+        const ErrorWatch watch(*before->GetAlgorithm());
+        try {
+            if (before->ProcessRequest(request, before->GetInputInformation(), before->GetOutputInformation()) == 0)
+                what = before->GetAlgorithm()->GetClassName();
+        } catch (const std::exception& e) {
+            what = before->GetAlgorithm()->GetClassName() + std::string(": ") + e.what();
+        }
+        if (std::string error = watch.error(); !error.empty()) what = std::move(error);
+        request->Set(FROM_OUTPUT_PORT(), own);
+        const vtkMTimeType time = before->GetPipelineMTime();
+        const auto earlier = failures_.find(place);
+        if (!what.empty())
+            failures_[place] = {before, time, std::move(what)};
+        else if (earlier != failures_.end() && (earlier->second.of != before || earlier->second.time != time))
+            failures_.erase(earlier);
+    }
 
     std::map<std::pair<int, int>, Failure> failures_;  //< by port and connection
 };
 
 vtkStandardNewMacro(FailingUpstream);
-
-void FailingUpstream::forward(int port, int connection, vtkInformation* request) {
-    const std::pair place(port, connection);
-    auto* const before = vtkDemandDrivenPipeline::SafeDownCast(GetInputExecutive(port, connection));
-    if (before == nullptr) {
-        failures_.erase(place);
-        return;
-    }
-    const int own = request->Get(FROM_OUTPUT_PORT());
-    request->Set(FROM_OUTPUT_PORT(), GetAlgorithm()->GetInputConnection(port, connection)->GetIndex());
-    std::string what;
-    const ErrorWatch watch(*before->GetAlgorithm());
-    try {
-        if (before->ProcessRequest(request, before->GetInputInformation(), before->GetOutputInformation()) == 0)
-            what = before->GetAlgorithm()->GetClassName();
-    } catch (const std::exception& e) {
-        what = before->GetAlgorithm()->GetClassName() + std::string(": ") + e.what();
-    }
-    if (std::string error = watch.error(); !error.empty()) what = std::move(error);
-    request->Set(FROM_OUTPUT_PORT(), own);
-    const vtkMTimeType time = before->GetPipelineMTime();
-    const auto earlier = failures_.find(place);
-    if (!what.empty())
-        failures_[place] = {before, time, std::move(what)};
-    else if (earlier != failures_.end() && (earlier->second.of != before || earlier->second.time != time))
-        failures_.erase(earlier);
-}
-
-int FailingUpstream::ForwardUpstream(vtkInformation* request) {
-    for (int port = 0; port < GetNumberOfInputPorts(); ++port)
-        for (int i = 0; i < GetAlgorithm()->GetNumberOfInputConnections(port); ++i) forward(port, i, request);
-    return 1;
-}
-
-int FailingUpstream::NeedToExecuteData(int port, vtkInformationVector** inputs, vtkInformationVector* outputs) {
-    if (GetAlgorithm()->GetErrorCode() != vtkErrorCode::NoError) return 1;
-    return Superclass::NeedToExecuteData(port, inputs, outputs);
-}
 
 }  // namespace
 

@@ -103,9 +103,7 @@ Result<SurfaceFile> write_ply(const Surface& s, const std::string& path) {
 /// VTK's PolyData: polygons, or lines at z = 0; fields as arrays of doubles; the cells of the mesh as the array "cell",
 /// where no field has that name. Error: a name that XML cannot hold, or is there twice.
 Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData data) {
-    std::vector<OutArray> of_points, of_cells;
-    for (const Field& f : s.point_fields) of_points.push_back(array_of_field(f));
-    for (const Field& f : s.cell_fields) of_cells.push_back(array_of_field(f));
+    std::vector<OutArray> of_points = arrays_of(s.point_fields), of_cells = arrays_of(s.cell_fields);
     if (!s.mesh_cells.empty() && std::ranges::count(s.cell_fields, "cell", &Field::name) == 0)
         of_cells.push_back(array_in_memory<Mesh::Index>("cell", s.mesh_cells));
     for (const auto* const arrays : {&of_points, &of_cells}) {
@@ -117,7 +115,6 @@ Result<SurfaceFile> write_vtp(const Surface& s, const std::string& path, VtkData
     const auto node = [&s](std::size_t i) { return s.cells[i]; };
     const auto end = [n = s.corners()](std::size_t i) { return n * (i + 1); };
     const OutFile file{.data_set = "PolyData",
-                       .attributes = {},
                        .piece = " NumberOfPoints=\"" + std::to_string(s.point_count()) +
                                 "\" NumberOfVerts=\"0\" NumberOfLines=\"" + (lines ? cells : "0") +
                                 "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + (lines ? "0" : cells) + "\"",

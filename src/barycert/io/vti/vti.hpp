@@ -36,6 +36,7 @@ private:
     struct ArrayPlace {
         std::uint64_t begin = 0;  // of its header in the file
         std::uint64_t done = 0;   // bytes handed over
+        base::Spool bytes;        // these, where data are not raw
     };
     VtiWriter(const std::string& path, OutFile layout, VtkData data)
         : path_(path), data_(data), layout_(std::move(layout)), file_(path) {}
@@ -44,8 +45,7 @@ private:
 
     std::string path_;
     VtkData data_;
-    OutFile layout_;                   // without numbers
-    std::vector<base::Spool> spools_;  // of the arrays, where data are not raw
+    OutFile layout_;  // without numbers
     std::vector<ArrayPlace> places_;
     std::uint64_t tail_ = 0;  // where the end of the XML goes
     std::uint64_t end_ = 0;   // of what was written in order

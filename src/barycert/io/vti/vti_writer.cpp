@@ -54,11 +54,10 @@ Result<std::unique_ptr<VtiWriter>> VtiWriter::open(const std::string& path, cons
     for (OutArray& array : writer->arrays()) {
         const std::uint64_t size = size_of(grid, array.format);
         array.count = size / number_bytes(array.format.type);
-        writer->places_.push_back({end, 0});
+        writer->places_.push_back({end, 0, base::Spool(path)});
         end += size + appended_header;
         if (end > INT64_MAX / 2)  // room is left for the head and the tail
             return wrong_in_memory(path, "the size of the arrays", "less than 2^62 bytes", "more");
-        if (data != VtkData::raw) writer->spools_.emplace_back(path);
     }
     if (data == VtkData::raw) {
         const std::string head = raw_head(writer->layout_);
@@ -94,7 +93,7 @@ Status VtiWriter::write(std::size_t array, std::span<const std::byte> bytes) {
         return file_error(path_, "the bytes of " + name, std::to_string(size) + " in all", "more");
     if (data_ != VtkData::raw) {
         place.done += bytes.size();
-        return spools_[array].append(bytes);
+        return place.bytes.append(bytes);
     }
     const std::string_view header(reinterpret_cast<const char*>(&size), appended_header),
         numbers(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -113,8 +112,8 @@ Status VtiWriter::commit() {
             return file_error(path_, "the bytes of array \"" + array.format.name + '"', std::to_string(array.size()),
                               std::to_string(places_[i].done));
         if (data_ == VtkData::raw) continue;
-        if (Status done = spools_[i].finish(); !done) return done;
-        array.bytes = spools_[i].values<char>().data();
+        if (Status done = places_[i].bytes.finish(); !done) return done;
+        array.bytes = places_[i].bytes.values<char>().data();
     }
     if (data_ != VtkData::raw) return write_xml(layout_, path_, data_);
     put(tail_, appended_tail);

@@ -3,9 +3,7 @@
 #include <numeric>
 
 #include "barycert/base/finite.hpp"
-#include "barycert/base/text.hpp"
 #include "barycert/mesh/consistency.hpp"
-#include "barycert/mesh/pulling.hpp"
 #include "barycert/surface/facet_triangles.hpp"
 
 namespace barycert::io {
@@ -46,24 +44,21 @@ TypeCounts count_types(const RawGrid& grid) {
 
 /// Makes triangles of all polygons in space, by their corners, where there are no cells that fill it.
 void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& path, InSpace& space) {
-    std::size_t polygons = 0, curved = 0, flat = 0;
+    std::size_t polygons = 0;
     for (std::size_t type = 0; type < counts.size(); ++type) {
         const CellKind kind = cell_types()[type].kind;
         if (counts[type] != 0 && (kind == CellKind::other || cell_types()[type].dimension() == 3)) return;
         polygons += kind == CellKind::surface ? counts[type] : 0;
     }
-    curved = counts[vtk_quadratic_triangle];
-    flat = counts[vtk_triangle];
-    if ((polygons == 0 && (curved == 0 || flat == 0)) || in_plane(grid.points)) return;
+    const bool mixed = counts[vtk_quadratic_triangle] != 0 && counts[vtk_triangle] != 0;
+    if ((polygons == 0 && !mixed) || in_plane(grid.points)) return;
     RawCells cells;
     std::vector<std::uint8_t> types;
     std::vector<std::int32_t> rows;
     std::size_t uncut = 0, by_corners = 0;
-    std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
         const CellType& type = cell_types()[grid.types[cell]];
-        const std::int32_t* const all = grid.cells.connectivity.data();
-        const std::span nodes(all + std::exchange(begin, grid.cells.ends[cell]), all + grid.cells.ends[cell]);
+        const std::span nodes = grid.cells.nodes(cell);
         if (type.kind == CellKind::lower) continue;
         by_corners += mesh::corners_of(type, nodes).size() < nodes.size() && type.kind == CellKind::surface ? 1 : 0;
         uncut += surface::add_triangles(grid.points, type, nodes, cells.connectivity);
@@ -90,11 +85,11 @@ void cut_polygons(RawGrid& grid, const TypeCounts& counts, const std::string& pa
 /// The dimension of the cells that make the mesh.
 int choose(const TypeCounts& counts, const RawGrid& grid, const std::string& path) {
     int dimension = 0;
-    std::string others;
     for (std::size_t type = 0; type < counts.size(); ++type) {
         if (counts[type] != 0) dimension = std::max(dimension, cell_types()[type].dimension());
     }
-    others = counts_by_name(counts, true, [](std::uint8_t type) { return cell_types()[type].kind == CellKind::other; });
+    const std::string others =
+        counts_by_name(counts, true, [](std::uint8_t type) { return cell_types()[type].kind == CellKind::other; });
     if (!others.empty())
         refuse_file(path, "cells whose corners are not known", "polygons, polyhedra and what has a shape of its own",
                     others, to_simplices(path));
@@ -118,10 +113,8 @@ void check_cells(const RawGrid& grid, const std::string& path) {
         }
         if (differs == 0 && nodes != 0) return;
     }
-    std::int64_t begin = 0;
     for (std::size_t cell = 0; cell < grid.types.size(); ++cell) {
-        const std::int64_t end = grid.cells.ends[cell];
-        const auto nodes = static_cast<std::size_t>(end - std::exchange(begin, end));
+        const std::size_t nodes = grid.cells.nodes(cell).size();
         const CellType& type = types[grid.types[cell]];
         if (type.kind == CellKind::lower || type.kind == CellKind::other) continue;
         const std::size_t least = mesh::shape_of(type.linear).corners;
@@ -178,10 +171,9 @@ void copy_cells(RawGrid& grid, std::size_t nodes, std::size_t count, Mesh& mesh)
     in_parts(count, std::size_t{1} << 15, [&](std::size_t first, std::size_t last) {
         for (std::size_t cell = first; cell < last; ++cell) {
             const auto own = static_cast<std::size_t>(mesh.cell_number(static_cast<Mesh::Index>(cell)));
-            const std::int32_t* const from =
-                grid.cells.connectivity.data() + (static_cast<std::size_t>(grid.cells.ends[own]) - nodes);
-            std::copy_n(from, corners, mesh.cells.data() + cell * corners);
-            std::copy_n(from + corners, mids, mesh.mid_nodes.data() + cell * mids);
+            const std::span from = grid.cells.nodes(own);
+            std::copy_n(from.data(), corners, mesh.cells.data() + cell * corners);
+            std::copy_n(from.data() + corners, mids, mesh.mid_nodes.data() + cell * mids);
         }
     });
 }
@@ -199,9 +191,7 @@ void copy_shapes(const RawGrid& grid, const std::string& path, Mesh& mesh) {
     for (const Mesh::Index number : kept) {
         const auto cell = static_cast<std::size_t>(number);
         const CellType& type = cell_types()[grid.types[cell]];
-        const auto begin = cell == 0 ? 0 : grid.cells.ends[cell - 1];
-        const std::int32_t* const all = grid.cells.connectivity.data();
-        const std::span nodes(all + begin, all + grid.cells.ends[cell]);
+        const std::span nodes = grid.cells.nodes(cell);
         if (mesh.dimension == 2 && mesh::corners_of(type, nodes).size() < 3)
             refuse_file(path, "the nodes of cell " + std::to_string(cell) + " (from 0)",
                         (type.name == "vtkQuadraticPolygon" ? "6 or more in a " : "3 or more in a ") +
@@ -311,11 +301,9 @@ std::vector<double> to_points(std::vector<double> points, int dimension, const s
 }
 
 std::string list_of(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 10;
-    std::string text;
-    for (std::size_t i = 0; i < names.size() && i < most; ++i) text += (i == 0 ? "" : ", ") + in_quotes(names[i]);
-    if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " others";
-    return text;
+    const std::size_t listed = std::min<std::size_t>(names.size(), 10);
+    const std::string text = base::joined(std::span(names).first(listed), ", ", in_quotes);
+    return listed == names.size() ? text : text + " and " + std::to_string(names.size() - listed) + " others";
 }
 
 void take_fields(std::vector<RawArray>& arrays, const std::string& what, const std::string& path,

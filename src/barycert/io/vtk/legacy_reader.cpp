@@ -20,11 +20,10 @@ std::string shown(std::string_view word) {
 std::string decoded(std::string_view word) {
     std::string text;
     for (std::size_t i = 0; i < word.size(); ++i) {
-        unsigned code = 0;
-        const bool one_byte = word[i] == '%' && i + 2 < word.size() &&
-                              std::from_chars(&word[i + 1], &word[i + 1] + 2, code, 16).ptr == &word[i + 1] + 2;
-        text += one_byte ? static_cast<char>(code) : word[i];
-        if (one_byte) i += 2;
+        const std::string_view digits = word[i] == '%' && i + 2 < word.size() ? word.substr(i + 1, 2) : "";
+        const std::optional<std::uint8_t> byte = whole_number<std::uint8_t, 16>(digits);
+        text += byte ? static_cast<char>(*byte) : word[i];
+        if (byte) i += 2;
     }
     return text;
 }
@@ -171,11 +170,7 @@ public:
     RawGrid read() {
         read_head();
         read_data_set();
-        while (!done_) {
-            const std::string keyword = take_keyword();
-            if (keyword.empty()) break;
-            read_section(keyword);
-        }
+        for (std::string keyword = take_keyword(); !keyword.empty(); keyword = take_keyword()) read_section(keyword);
         if (!structured_ && !has_points_ && (part_ != Part::all || cell_count() != 0))
             fail("the file has no points", "POINTS", "none");
         if (structured_) make_structured();
@@ -218,10 +213,8 @@ private:
             }
             return true;
         }
-        if (!rectilinear_ || keyword.size() != 13 || !keyword.ends_with("_COORDINATES") || keyword[0] < 'X' ||
-            keyword[0] > 'Z')
-            return false;
-        const auto axis = static_cast<std::size_t>(keyword[0] - 'X');
+        const std::size_t axis = std::string_view("XYZ").find(keyword[0]);
+        if (!rectilinear_ || axis == std::string_view::npos || keyword.substr(1) != "_COORDINATES") return false;
         if (!grid.axes[axis].empty()) fail("a second section " + keyword, "one", "two");
         const std::size_t count = take_count("the points along an axis");
         if (count != grid.counts[axis])
@@ -281,8 +274,8 @@ private:
         if (has_points_) fail("a second section POINTS", "one", "two");
         has_points_ = true;
         grid_.narrow_points = type == NumberType::float32;
-        done_ = part_ == Part::points;
         take_numbers("the coordinates", type, std::uint64_t{3} * point_count_, grid_.points);
+        if (part_ == Part::points) rest_.remove_prefix(rest_.size());  // nothing else is wanted
     }
 
     void read_cells(RawCells& cells) {
@@ -364,10 +357,8 @@ private:
     /// Polyhedra have a stream of faces (see RawFaces) in place of nodes.
     void take_faces(RawCells& cells) {
         RawCells plain;
-        std::int64_t begin = 0;
         for (std::size_t cell = 0; cell < cells.ends.size(); ++cell) {
-            const std::int32_t* const all = cells.connectivity.data();
-            const std::span own(all + std::exchange(begin, cells.ends[cell]), all + cells.ends[cell]);
+            const std::span own = cells.nodes(cell);
             const std::size_t before = grid_.faces.rings.size();
             if (grid_.types[cell] != vtk_polyhedron) {
                 plain.connectivity.insert(plain.connectivity.end(), own.begin(), own.end());
@@ -416,8 +407,7 @@ private:
              {"TENSORS6", 6},
              {"TENSORS", 9},
              {"TEXTURE_COORDINATES COLOR_SCALARS", 0}}};
-        const auto* const known =
-            std::find_if(kinds.begin(), kinds.end(), [&](const auto& one) { return has_word(one.first, kind); });
+        const auto* const known = std::ranges::find_if(kinds, [&](auto& one) { return has_word(one.first, kind); });
         if (known == kinds.end())
             fail("a kind of array", "SCALARS, VECTORS, FIELD and the like", in_quotes(kind), too_many);
         std::size_t components = known->second;
@@ -500,7 +490,6 @@ private:
     bool has_dimensions_ = false, is_made_ = false;
     StructuredGrid grid_of_axes_;
     std::array<double, 3> origin_{}, spacing_{1, 1, 1};
-    bool done_ = false;
 };
 
 }  // namespace

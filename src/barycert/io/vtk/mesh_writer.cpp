@@ -6,7 +6,6 @@
 #include "barycert/io/vtk/raw_grid.hpp"
 #include "barycert/mesh/consistency.hpp"
 #include "barycert/mesh/mid_edges.hpp"
-#include "barycert/mesh/pulling.hpp"
 
 namespace barycert::io {
 namespace {
@@ -19,7 +18,6 @@ struct OutGrid {
     std::uint8_t type = 0;  ///< VTK's number
     const Mesh::Shapes* shapes = nullptr;
 
-    std::size_t numbers() const { return shapes == nullptr ? nodes * cells : shapes->nodes.size(); }
     std::size_t end(std::size_t cell) const {
         return shapes == nullptr ? nodes * (cell + 1) : static_cast<std::size_t>(shapes->ends[cell]);
     }
@@ -47,7 +45,7 @@ std::vector<std::int64_t> face_streams(const Mesh::Shapes& shapes, std::vector<s
 Status write_grid(OutGrid grid, const std::string& path, VtkData data) {
     const auto end = [&](std::size_t i) { return grid.end(i); };
     const auto type = [&](std::size_t i) { return grid.type_of(i); };
-    const bool wide = grid.numbers() > std::numeric_limits<std::int32_t>::max();
+    const bool wide = grid.connectivity.count > std::numeric_limits<std::int32_t>::max();
     std::vector<std::int64_t> stream, ends;
     std::vector<OutArray> cells{std::move(grid.connectivity),
                                 wide ? array_made<std::int64_t>("offsets", grid.cells, end)
@@ -109,9 +107,8 @@ struct CellNodes {
 
 /// Arrays of cells: fields and labels. Texts go to `room`, which must outlive them.
 std::vector<OutArray> cell_arrays_of(const Mesh& mesh, std::vector<std::string>& room) {
-    std::vector<OutArray> arrays;
+    std::vector<OutArray> arrays = arrays_of(mesh.cell_fields);
     room.resize(mesh.cell_labels.size());
-    for (const Field& field : mesh.cell_fields) arrays.push_back(array_of_field(field));
     for (std::size_t i = 0; i < room.size(); ++i) {
         const Column& labels = mesh.cell_labels[i];
         const auto add = [&]<class T>(const std::vector<T>& all) {
@@ -274,7 +271,7 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
         const std::size_t cells = mesh.whole_count();
         const Mesh rows = shaped ? mesh::rows_of_wholes(mesh) : Mesh();
         OutGrid grid{
-            .point_arrays = {},
+            .point_arrays = arrays_of(mesh.point_fields),
             .cell_arrays = cell_arrays_of(shaped ? rows : mesh, room),
             .points = array_of_points(mesh.points, mesh.dimension),
             .connectivity = mesh.mid_nodes.empty()
@@ -284,7 +281,6 @@ Status write_mesh(const Mesh& mesh, const std::string& path, VtkData data, Names
             .nodes = node.nodes,
             .type = node.type(),
             .shapes = shaped ? &mesh.shapes : nullptr};
-        for (const Field& field : mesh.point_fields) grid.point_arrays.push_back(array_of_field(field));
         if (!mesh.point_markers.empty())
             grid.point_arrays.push_back(array_in_memory<std::int64_t>(marker_name, mesh.point_markers));
         fault = fault_of_names(grid.point_arrays, names);

@@ -76,47 +76,42 @@ constexpr std::array<std::string_view, 12> type_names{"Bit BIT",
 
 // Numbers as text, on all threads: parts of the text, cut between words, are read, then put together in their order.
 
-/// Reads words as numbers of the type that the file has, into one that holds them all: integers by their limits.
-template <class Wide>
-struct WordReader {
-    Wide min, max;
-
-    bool read(std::string_view word, Wide& value) const {
-        if constexpr (std::is_same_v<Wide, double>) {
-            const std::optional<double> number = base::parse_double(word);
-            value = number.value_or(0);
-            return number.has_value();
-        } else {
-            if (word.starts_with('+')) word.remove_prefix(1);
-            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-            if constexpr (std::is_same_v<Wide, float>) {
-                // Too small for a float: zero or the least of them, which the double rounds to.
-                if (error == std::errc::result_out_of_range) {
-                    const std::optional<double> wide = base::parse_double(word);
-                    if (!wide || std::abs(*wide) > 1) return false;
-                    value = static_cast<float>(*wide);
-                    return true;
-                }
-            } else if (value < min || value > max) {
-                return false;
+/// The number that the word is, rounded to its type; false if it is none of that type.
+template <class From>
+bool read_word(std::string_view word, From& value) {
+    if constexpr (std::is_same_v<From, double>) {
+        const std::optional<double> number = base::parse_double(word);
+        value = number.value_or(0);
+        return number.has_value();
+    } else {
+        if (word.starts_with('+')) word.remove_prefix(1);
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if constexpr (std::is_same_v<From, float>) {
+            // Too small for a float: zero or the least of them, which the double rounds to.
+            if (error == std::errc::result_out_of_range) {
+                const std::optional<double> wide = base::parse_double(word);
+                if (!wide || std::abs(*wide) > 1) return false;
+                value = static_cast<float>(*wide);
+                return true;
             }
-            return error == std::errc{} && end == word.data() + word.size();
         }
+        return error == std::errc{} && end == word.data() + word.size();
     }
+}
 
-    /// The number at `at`, behind which there is white space or the end; nullptr where a closer look is needed.
-    const char* quick(const char* at, const char* end, Wide& value) const {
-        const auto [behind, error] = [&] {
-            if constexpr (std::is_floating_point_v<Wide>) {
-                return fast_float::from_chars(at, end, value);
-            } else {
-                return std::from_chars(at, end, value);
-            }
-        }();
-        const bool good = error == std::errc{} && value >= min && value <= max;  // a NaN is not
-        return good && (behind == end || is_white(*behind)) ? behind : nullptr;
-    }
-};
+/// The same at `at`: what stands behind it, white space or the end; nullptr where a closer look is needed.
+template <class From>
+const char* read_quickly(const char* at, const char* end, From& value) {
+    const auto [behind, error] = [&] {
+        if constexpr (std::is_floating_point_v<From>) {
+            return fast_float::from_chars(at, end, value);
+        } else {
+            return std::from_chars(at, end, value);
+        }
+    }();
+    const bool good = error == std::errc{} && value - value == 0;  // else it is infinite or NaN
+    return good && (behind == end || is_white(*behind)) ? behind : nullptr;
+}
 
 /// Up to `count` numbers of one part of the text.
 template <class To>
@@ -125,8 +120,8 @@ struct TextPart {
     NumberFault fault;  // its index counts from the first number of the part
     const char* end = nullptr;
 
-    template <class Wide>
-    void read(std::string_view text, std::size_t count, const WordReader<Wide>& words) {
+    template <class From>
+    void read(std::string_view text, std::size_t count) {
         values.clear();
         fault = {};
         const char* at = text.data();
@@ -134,12 +129,12 @@ struct TextPart {
         while (values.size() < count) {
             while (at != last && is_white(*at)) ++at;
             if (at == last) break;
-            Wide from{};
-            const char* behind = words.quick(at, last, from);
+            From from{};
+            const char* behind = read_quickly(at, last, from);
             if (behind == nullptr) {
                 std::string_view rest(at, static_cast<std::size_t>(last - at));
                 const std::string_view word = next_word(rest);
-                if (!words.read(word, from)) {
+                if (!read_word(word, from)) {
                     fault = {NumberFault::Kind::no_number, values.size(), std::string(word.substr(0, 40)), word.data()};
                     break;
                 }
@@ -174,12 +169,7 @@ std::vector<std::string_view> parts_of(std::string_view text, std::size_t most) 
 template <class To>
 NumberFault read_words(std::string_view& text, NumberType type, std::size_t count, std::vector<To>& values) {
     const auto read_part = [type](TextPart<To>& part, std::string_view from, std::size_t most) {
-        with_number_type(type, [&]<class From>() {
-            using Wide = std::conditional_t<std::is_floating_point_v<From>, From,
-                                            std::conditional_t<std::is_signed_v<From>, std::int64_t, std::uint64_t>>;
-            using Limits = std::numeric_limits<From>;
-            part.read(from, most, WordReader<Wide>{Limits::lowest(), Limits::max()});
-        });
+        with_number_type(type, [&]<class From>() { part.template read<From>(from, most); });
     };
     NumberFault fault;
     constexpr std::size_t most = 64;
@@ -193,8 +183,7 @@ NumberFault read_words(std::string_view& text, NumberType type, std::size_t coun
         in_parallel(parts.size(), [&](std::size_t i) { read_part(read[i], parts[i], left); });
         std::vector<std::size_t> places;
         std::size_t size = values.size();
-        bool ended = false;
-        for (std::size_t i = 0; i < parts.size() && !ended; ++i) {
+        for (std::size_t i = 0; i < parts.size() && done < count; ++i) {
             TextPart<To>& part = read[i];
             const std::size_t wanted = count - done;
             const bool no_number = part.fault.kind == NumberFault::Kind::no_number;
@@ -209,10 +198,8 @@ NumberFault read_words(std::string_view& text, NumberType type, std::size_t coun
             size += part.values.size();
             done += part.values.size();
             text.remove_prefix(static_cast<std::size_t>(part.end - text.data()));
-            ended = done == count;
         }
-        make_room(values, size - values.size());
-        values.resize(size);
+        grow(values, size - values.size());
         in_parallel(places.size(),
                     [&](std::size_t i) { std::ranges::copy(read[i].values, values.data() + places[i]); });
     }

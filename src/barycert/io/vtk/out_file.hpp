@@ -54,8 +54,10 @@ OutArray array_made(std::string name, std::size_t count, At at, int components =
 /// Points of 3 coordinates; those of a plane get z = 0.
 OutArray array_of_points(std::span<const double> points, int dimension);
 
-inline OutArray array_of_field(const Field& field) {
-    return array_in_memory<double>(field.name, field.data, field.components);
+inline std::vector<OutArray> arrays_of(const std::vector<Field>& fields) {
+    std::vector<OutArray> arrays;
+    for (const Field& f : fields) arrays.push_back(array_in_memory<double>(f.name, f.data, f.components));
+    return arrays;
 }
 
 /// What is done to a part of an array on any thread: its numbers `first` to `last` - 1 are `bytes`.

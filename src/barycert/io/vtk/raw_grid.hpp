@@ -40,6 +40,11 @@ struct RawArray {
 struct RawCells {
     std::vector<std::int32_t> connectivity;  ///< nodes of all cells
     std::vector<std::int64_t> ends;          ///< where the nodes of each cell end in the connectivity
+
+    std::span<const std::int32_t> nodes(std::size_t cell) const {
+        const std::int64_t begin = cell == 0 ? 0 : ends[cell - 1];
+        return {connectivity.data() + begin, connectivity.data() + ends[cell]};
+    }
 };
 
 /// Faces of polyhedra, as of Mesh::Shapes.

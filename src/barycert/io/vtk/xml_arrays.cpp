@@ -49,7 +49,7 @@ public:
         if (!base64_) {
             const std::string_view taken = take_as_they_stand(size);
             if (!is_unread()) return taken;
-            read_part(taken, room.of(size));
+            tree_.read_part(taken, room.of(size));
             return std::string_view(room.of(size), size);
         }
         char* const to = room.of(size);
@@ -78,17 +78,15 @@ public:
         return taken;
     }
     bool is_unread() const { return !base64_ && tree_.read_part; }
-    void read_part(std::string_view part, char* to) const { tree_.read_part(part, to); }
 
     /// That many bytes are left at most.
     std::uint64_t left() const { return base64_ ? left_.size() / 4 * 3 + 3 + held_ : left_.size(); }
 
 private:
     bool next_quadruple() {
-        std::uint32_t word = 0;
-        int digits = 0, pads = 0;
-        std::size_t at = 0;
-        for (; digits + pads < 4 && at < left_.size(); ++at) {
+        std::array<char, 4> digits{'A', 'A', 'A', 'A'};
+        std::size_t count = 0, pads = 0, at = 0;
+        for (; count + pads < 4 && at < left_.size(); ++at) {
             const int value = base64_value(left_[at]);
             if (value == base64_space) continue;
             if (value == base64_padding) {
@@ -96,19 +94,17 @@ private:
             } else if (value == base64_other || pads != 0) {
                 break;
             } else {
-                word = word << 6U | static_cast<std::uint32_t>(value);
-                ++digits;
+                digits[count++] = left_[at];
             }
         }
-        if (digits + pads < 4 || digits < 2) {
+        if (count + pads < 4 || count < 2) {
             left_ = {};
             return false;
         }
         left_.remove_prefix(at);
-        word <<= 6 * static_cast<unsigned>(pads);
-        for (std::size_t i = 0; i < 3; ++i) bytes_[i] = static_cast<char>(word >> (16 - 8 * i));
+        decode_digits(digits.data(), 1, bytes_);
         first_ = 0;
-        held_ = static_cast<std::size_t>(3 - pads);
+        held_ = 3 - pads;
         return true;
     }
 
@@ -240,7 +236,7 @@ private:
         if (tree_.compressor == Compressor::none) {
             const std::string_view part = from_.take_as_they_stand(ends.back());
             in_parallel(last - first, [&](std::size_t i) {
-                from_.read_part(part.substr(ends[i], ends[i + 1] - ends[i]), to + ends[i]);
+                tree_.read_part(part.substr(ends[i], ends[i + 1] - ends[i]), to + ends[i]);
             });
             return true;
         }

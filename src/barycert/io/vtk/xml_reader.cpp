@@ -213,34 +213,31 @@ private:
         if (wrong != cells.connectivity.size())
             refuse_at(*connectivity, "a node of a cell", "a point below " + std::to_string(grid.point_count()),
                       std::to_string(cells.connectivity[wrong]));
-        if (!section && std::ranges::count(grid.types, vtk_polyhedron) != 0) read_faces(piece, *element, cells, grid);
+        if (!section && std::ranges::count(grid.types, vtk_polyhedron) != 0) read_faces(piece, *element, grid);
         grid.append(std::move(cells), section);
     }
 
-    /// Where the faces of each cell end, and a stream of these (see RawFaces).
-    struct FaceStreams {
-        std::vector<std::int64_t> ends, numbers;
-    };
+    [[noreturn]] void refuse_faces(const XmlElement& element, std::size_t cell, std::size_t points) const {
+        refuse_at(element, "the faces of cell " + std::to_string(cell) + " (from 0) of the piece",
+                  "nodes of faces below " + std::to_string(points), "others");
+    }
 
-    void read_faces(const XmlElement& piece, const XmlElement& element, const RawCells& cells, RawGrid& grid) const {
-        const auto refuse = [&](std::size_t cell) {
-            refuse_at(element, "the faces of cell " + std::to_string(cell) + " (from 0) of the piece",
-                      "nodes of faces below " + std::to_string(grid.point_count()), "others");
-        };
-        const std::size_t count = cells.ends.size();
-        const bool by_number = child(&element, "polyhedron_to_faces", "Name") != nullptr;
-        const FaceStreams streams =
-            by_number ? numbered_faces(piece, element, grid.types) : streams_of_faces(piece, element, count);
+    /// Up to version 2.2 of the format each polyhedron has a stream of faces (see RawFaces).
+    void read_faces(const XmlElement& piece, const XmlElement& element, RawGrid& grid) const {
+        if (child(&element, "polyhedron_to_faces", "Name") != nullptr) return read_numbered_faces(piece, element, grid);
+        const std::vector<std::int64_t> ends = take_integers(piece, element, "faceoffsets", grid.types.size());
+        const std::int64_t size = std::max(std::int64_t{0}, *std::ranges::max_element(ends));
+        const std::vector<std::int64_t> stream = take_integers(piece, element, "faces", static_cast<std::size_t>(size));
         std::int64_t begin = 0;
-        for (std::size_t cell = 0; cell < count; ++cell) {
+        for (std::size_t cell = 0; cell < ends.size(); ++cell) {
             if (grid.types[cell] != vtk_polyhedron) {
                 grid.faces.face_ends.push_back(static_cast<std::int64_t>(grid.faces.ring_ends.size()));
                 continue;
             }
-            if (streams.ends[cell] < begin) refuse(cell);
-            const std::span own(streams.numbers.data() + begin, streams.numbers.data() + streams.ends[cell]);
-            if (!grid.faces.append(own, grid.point_count())) refuse(cell);
-            begin = streams.ends[cell];
+            if (ends[cell] < begin ||
+                !grid.faces.append({stream.data() + begin, stream.data() + ends[cell]}, grid.point_count()))
+                refuse_faces(element, cell, grid.point_count());
+            begin = ends[cell];
         }
     }
 
@@ -253,17 +250,8 @@ private:
         return numbers;
     }
 
-    /// Up to version 2.2 of the format: as they are.
-    FaceStreams streams_of_faces(const XmlElement& piece, const XmlElement& element, std::size_t count) const {
-        FaceStreams streams{.ends = take_integers(piece, element, "faceoffsets", count), .numbers = {}};
-        const std::int64_t size = std::max(std::int64_t{0}, *std::ranges::max_element(streams.ends));
-        streams.numbers = take_integers(piece, element, "faces", static_cast<std::size_t>(size));
-        return streams;
-    }
-
     /// Since then faces are numbered, and the two cells at a face name it.
-    FaceStreams numbered_faces(const XmlElement& piece, const XmlElement& element,
-                               const std::vector<std::uint8_t>& types) const {
+    void read_numbered_faces(const XmlElement& piece, const XmlElement& element, RawGrid& grid) const {
         const auto refuse = [&](const char* expected) {
             refuse_at(element, "the faces of polyhedra", expected, "others");
         };
@@ -272,7 +260,8 @@ private:
                 refuse("offsets that are not negative, none below the one before it");
             return static_cast<std::size_t>(ends.empty() ? 0 : ends.back());
         };
-        const std::vector<std::int64_t> cell_ends = take_integers(piece, element, "polyhedron_offsets", types.size());
+        const std::size_t points = grid.point_count(), cells = grid.types.size();
+        const std::vector<std::int64_t> cell_ends = take_integers(piece, element, "polyhedron_offsets", cells);
         const std::vector<std::int64_t> of_cells =
             take_integers(piece, element, "polyhedron_to_faces", size_of(cell_ends));
         std::int64_t faces = 0;
@@ -285,20 +274,20 @@ private:
         const std::vector<std::int64_t> nodes = take_integers(piece, element, "face_connectivity", size_of(face_ends));
         // Else few numbers could make many.
         std::vector<std::uint8_t> cells_at(face_ends.size(), 0);
-        FaceStreams streams;
-        std::int64_t next = 0;
-        for (std::size_t cell = 0; cell < types.size(); ++cell) {
-            if (types[cell] == vtk_polyhedron) streams.numbers.push_back(cell_ends[cell] - next);
-            for (; next < cell_ends[cell]; ++next) {
-                const auto face = static_cast<std::size_t>(of_cells[static_cast<std::size_t>(next)]);
-                if (types[cell] != vtk_polyhedron || ++cells_at[face] > 2) refuse("each of two polyhedra at most");
-                const std::int64_t begin = face == 0 ? 0 : face_ends[face - 1];
-                streams.numbers.push_back(face_ends[face] - begin);
-                streams.numbers.insert(streams.numbers.end(), nodes.begin() + begin, nodes.begin() + face_ends[face]);
+        std::size_t next = 0;
+        for (std::size_t cell = 0; cell < cells; ++cell) {
+            for (; next < static_cast<std::size_t>(cell_ends[cell]); ++next) {
+                const auto face = static_cast<std::size_t>(of_cells[next]);
+                if (grid.types[cell] != vtk_polyhedron || ++cells_at[face] > 2) refuse("each of two polyhedra at most");
+                for (auto i = face == 0 ? 0 : face_ends[face - 1]; i < face_ends[face]; ++i) {
+                    const std::int64_t node = nodes[static_cast<std::size_t>(i)];
+                    if (node < 0 || static_cast<std::size_t>(node) >= points) refuse_faces(element, cell, points);
+                    grid.faces.rings.push_back(static_cast<std::int32_t>(node));
+                }
+                grid.faces.ring_ends.push_back(static_cast<std::int64_t>(grid.faces.rings.size()));
             }
-            streams.ends.push_back(static_cast<std::int64_t>(streams.numbers.size()));
+            grid.faces.face_ends.push_back(static_cast<std::int64_t>(grid.faces.ring_ends.size()));
         }
-        return streams;
     }
 
     void read_arrays(const XmlElement& data, std::size_t count, bool& has_steps, std::vector<RawArray>& arrays) const {
