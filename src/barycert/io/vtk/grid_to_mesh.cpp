@@ -130,14 +130,12 @@ void check_cells(const RawGrid& grid, const std::string& path) {
 }
 
 /// Cells that stand for others, or for none: bits of VTK's array of that name.
-constexpr const char* ghost_name = "vtkGhostType";
 constexpr unsigned duplicate_cell = 1, refined_cell = 8, hidden_cell = 32;
 
 /// The numbers of the cells that make the mesh; empty if that is all of them. Ghosts are counted.
 std::vector<Mesh::Index> kept_cells(const RawGrid& grid, int dimension, std::size_t& ghosts) {
-    const auto ghost = std::ranges::find_if(grid.cell_arrays, [](const RawArray& array) {
-        return array.name == ghost_name && array.fault.empty() && !array.has_labels() && array.components == 1;
-    });
+    const auto ghost =
+        std::ranges::find_if(grid.cell_arrays, [](const RawArray& array) { return array.is_ghost_flags(); });
     const auto is_ghost = [&](std::size_t cell) {
         if (ghost == grid.cell_arrays.end()) return false;
         const double flags = ghost->numbers()[cell];

@@ -132,6 +132,13 @@ void append_arrays(std::vector<RawArray>& to, std::vector<RawArray>& from, std::
     }
 }
 
+/// Where other pieces alone say which of their cells are ghosts, none of these is.
+void flag_no_ghosts(std::vector<RawArray>& arrays, std::size_t cells, const std::vector<RawArray>& others) {
+    const auto flags = std::ranges::find_if(others, &RawArray::is_ghost_flags);
+    if (flags == others.end() || cells == 0 || std::ranges::count(arrays, flags->name, &RawArray::name) != 0) return;
+    arrays.push_back({.name = flags->name, .values = std::vector<double>(cells), .type = flags->type});
+}
+
 /// The first point with each key; points that come later stand for it.
 template <class Key, class Hash = std::hash<Key>, class KeyAt>
 std::vector<std::int32_t> first_of_each(std::size_t points, const KeyAt& key_at) {
@@ -169,7 +176,7 @@ const std::vector<double>* global_ids_of(const RawGrid& grid) {
 /// Whether two points have the same values in all arrays, NaNs of the same bits included.
 bool same_values(const RawGrid& grid, std::size_t a, std::size_t b) {
     return std::all_of(grid.point_arrays.begin(), grid.point_arrays.end(), [&](const RawArray& array) {
-        if (!array.fault.empty() || array.name == "vtkGhostType") return true;
+        if (!array.fault.empty() || array.name == ghost_name) return true;
         const auto n = static_cast<std::size_t>(array.components);
         return std::visit(
             [&]<class T>(const std::vector<T>& values) {
@@ -285,6 +292,8 @@ void append_piece(RawGrid& grid, RawGrid piece, const std::string& path) {
     }
     if (piece.unlisted) grid.unlisted = std::move(piece.unlisted);
     if (piece.cell_count() == 0) return;
+    flag_no_ghosts(grid.cell_arrays, cells, piece.cell_arrays);
+    if (cells != 0) flag_no_ghosts(piece.cell_arrays, piece.cell_count(), grid.cell_arrays);
     append_arrays(grid.cell_arrays, piece.cell_arrays, cells);
     if (points != 0) {
         for (std::int32_t& node : piece.cells.connectivity) node += static_cast<std::int32_t>(points);

@@ -20,6 +20,8 @@ using mesh::VtkCell;
 /// The sections of polygon data. VTK numbers the cells of all sections in this order, whatever the order in the file.
 enum Section : std::size_t { vertices, lines, polygons, strips, section_count };
 
+inline constexpr const char* ghost_name = "vtkGhostType";
+
 struct RawArray {
     std::string name;
     int components = 1;
@@ -28,6 +30,8 @@ struct RawArray {
     std::string fault = {};                         ///< why it is neither a field nor labels; empty: it is
 
     bool has_labels() const { return !std::holds_alternative<std::vector<double>>(values); }
+    /// Which cells (or points) are ghosts.
+    bool is_ghost_flags() const { return name == ghost_name && fault.empty() && !has_labels() && components == 1; }
     bool is_wide_integer() const { return type == NumberType::int64 || type == NumberType::uint64; }
     /// Precondition: it has no labels.
     std::vector<double>& numbers() { return std::get<std::vector<double>>(values); }
