@@ -159,7 +159,7 @@ int out_of_the_way(int descriptor) {
 
 class WorkerProcess {
 public:
-    WorkerProcess(Channel& channel, int printed) : channel_(channel), printed_(printed) {}
+    WorkerProcess(Channel& channel, int printed) : channel_(channel), printed_(printed) { the_arrays = &arrays_; }
 
     Description load(const char* path) {
         Description d;
@@ -200,8 +200,6 @@ public:
         watches_ = seen_ != 0;
         channel_.ns = channel_.timed && count > 0 ? measure(count) : -1;
     }
-
-    const GuardedArrays& arrays() const { return arrays_; }
 
 private:
     void ask(std::uint32_t first, std::uint32_t count) {
@@ -347,7 +345,6 @@ void run_worker(Channel& channel, int socket, int printed, const char* path) {
     close(socket);
     close(printed);
     WorkerProcess process(channel, own_printed);
-    the_arrays = &process.arrays();
     const Description description = process.load(path);
     for (;;) {
         leave_if_forked();
