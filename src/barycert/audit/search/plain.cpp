@@ -90,18 +90,16 @@ private:
 
     void scale(int axis, bool largest) {
         Case c = best_;
-        int extreme = 0;
-        bool any = false;
+        std::optional<int> extreme;
         for (int k = 0; k < coordinate_count(c); ++k) {
             const double x = coordinate(c, k);
             if (x == 0 || (axis >= 0 && axis_of(c, k) != axis)) continue;
             const int e = std::ilogb(x);
-            extreme = !any ? e : largest ? std::max(extreme, e) : std::min(extreme, e);
-            any = true;
+            if (!extreme || (largest ? e > *extreme : e < *extreme)) extreme = e;
         }
-        if (!any || extreme == 0) return;
+        if (extreme.value_or(0) == 0) return;
         for (int k = 0; k < coordinate_count(c); ++k) {
-            if (axis < 0 || axis_of(c, k) == axis) coordinate(c, k) = std::ldexp(coordinate(c, k), -extreme);
+            if (axis < 0 || axis_of(c, k) == axis) coordinate(c, k) = std::ldexp(coordinate(c, k), -*extreme);
         }
         take(c);
     }
