@@ -57,12 +57,10 @@ std::string check_html(const CheckReport& report, const Mesh& mesh, const std::s
 /// Of a surface or a PLC, with draw_checked() if it can be drawn.
 std::string check_html(const CheckReport& report, const Surface& surface, const std::string& name);
 
-// What a run of sampling did, for people.
+// What a run of sampling did, for people and as JSON. Every member is documented in doc/json.md.
 
 /// A few lines of at most 120 columns, names of files aside.
 std::string sample_text(const SampleReport& summary, bool colour);
-
-// What a run of sampling did, as JSON. Every member is documented in doc/json.md.
 
 inline constexpr int sample_schema = 1;
 

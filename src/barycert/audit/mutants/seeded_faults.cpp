@@ -59,7 +59,6 @@ constexpr FaultyFormula areas_and_volumes[] = {
      [](Numbers v, Numbers p, double* w) { return magnitude(twice_area(v)) < 1e-12 ? 1 : signed_area(v, p, w); }},
     {"tetrahedron.signed-volume", "swapped-vertices", "the weights of a and d are exchanged", signed_volume<double>,
      [](Numbers, Numbers, double* w) { std::swap(w[0], w[3]); }},
-    // The row (b, a, c) for (a, b, c): an odd permutation.
     {"tetrahedron.signed-volume", "odd-permutation", "one determinant with two rows exchanged", signed_volume<double>,
      [](Numbers, Numbers, double* w) { w[3] = -w[3]; }},
     {"tetrahedron.signed-volume", "wrong-index", "x of a vertex where its y belongs", signed_volume<double>,
@@ -69,7 +68,6 @@ constexpr FaultyFormula areas_and_volumes[] = {
          u[10] = v[9];
          if (signed_volume(u, p, x) == 0) w[0] = x[0];
      }},
-    // A determinant without the last of the three products with its minors.
     {"tetrahedron.signed-volume", "dropped-term", "one product of a determinant is missing", signed_volume<double>,
      [](Numbers v, Numbers p, double* w) {
          const auto q = at3(p, 0), edge = at3(v, 1) - q, minor = cross(at3(v, 2) - q, at3(v, 3) - q);
@@ -151,20 +149,17 @@ void add_faulty(std::vector<Mutant>& list, std::index_sequence<i...>) {
     (list.push_back(mutant_of(catalogued(table[i].sound), table[i].fault, table[i].change, faulty<table, i>)), ...);
 }
 
-Mutant with_tolerance(const Kernel& sound, const char* fault, const char* change, double tolerance) {
-    Mutant m = mutant_of(sound, fault, change, sound.weights);
-    m.kernel.tolerance = tolerance;
-    return m;
-}
-
 void add_plain_mutants(std::vector<Mutant>& list) {
     add_faulty<areas_and_volumes>(list, std::make_index_sequence<std::size(areas_and_volumes)>());
-    const Kernel tolerant = catalogued("tetrahedron.vtk-tolerance");
-    list.push_back(with_tolerance(tolerant, "tolerance-times-ten", "inside if every weight >= -0.01", 0.01));
-    Kernel solver = tolerant;
-    solver.name = "tetrahedron.tolerance-1e-10";
-    solver.tolerance = 1e-10;
-    list.push_back(with_tolerance(solver, "tolerance-times-ten", "inside if every weight >= -1e-9", 1e-9));
+    const auto add = [&](const Kernel& tolerant, const char* change) {
+        list.push_back(mutant_of(tolerant, "tolerance-times-ten", change, tolerant.weights));
+        list.back().kernel.tolerance *= 10;
+    };
+    Kernel tolerant = catalogued("tetrahedron.vtk-tolerance");
+    add(tolerant, "inside if every weight >= -0.01");
+    tolerant.name = "tetrahedron.tolerance-1e-10";
+    tolerant.tolerance = 1e-10;
+    add(tolerant, "inside if every weight >= -1e-9");
     add_faulty<projections>(list, std::make_index_sequence<std::size(projections)>());
 }
 
