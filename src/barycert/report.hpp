@@ -44,8 +44,8 @@ inline constexpr int check_schema = 1;
 std::string check_json(const CheckReport& report, const std::string& name, const Environment& environment,
                        const FixedMesh* fixed = nullptr);
 
-// The report on a mesh as one HTML page, for people: to read, to print, to pass on.
-
+/// The report on a mesh as one HTML page, for people: to read, to print, to pass on.
+///
 /// The verdict; what was checked and found, with places and remedies; histograms of the measures; the worst cells and
 /// those with problems drawn, and where in the mesh they are. UTF-8, self-contained: style and pictures are in the
 /// page, which asks for nothing from anywhere and runs no scripts. It is well-formed XML, too. Some hundred kilobytes

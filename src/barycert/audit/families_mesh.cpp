@@ -6,9 +6,7 @@ namespace barycert::audit {
 namespace {
 
 /// A recipe: a simplex from a mesh, then step after step.
-using Source = Draw (*)(const MeshSource& meshes, Simplex s, base::Random& random);
-using Step = void (*)(Draw& draw, base::Random& random);
-template <Source source, Step... steps>
+template <auto source, auto... steps>
 Draw drawn(base::Random& random, const MeshSource& meshes, Simplex s) {
     Draw draw = source(meshes, s, random);
     (steps(draw, random), ...);

@@ -22,17 +22,14 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // 2^249. A value numerator adds 61 + 2 bits. Quotients are shifted by at most the length of the denominator plus 56
 // bits. All this stays below 512 bits.
 
-struct Narrow {
-    using Coordinate = std::int64_t;
-    using Minor = Int128;
-    using Number = FixedInteger;
+template <class C, class M, class N>
+struct Integers {
+    using Coordinate = C;
+    using Minor = M;
+    using Number = N;
 };
-
-struct Wide {
-    using Coordinate = BigInteger;
-    using Minor = BigInteger;
-    using Number = BigInteger;
-};
+using Narrow = Integers<std::int64_t, Int128, FixedInteger>;
+using Wide = Integers<BigInteger, BigInteger, BigInteger>;
 
 template <class Types>
 struct Solution {

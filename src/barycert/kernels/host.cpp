@@ -92,13 +92,12 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
     host->memory_ = base::map_memory(max_workers * sizeof(Channel), PROT_READ | PROT_WRITE,
                                      MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE);
     if (!host->memory_) return no_process(path, std::strerror(errno));
-    host->channels_ = reinterpret_cast<Channel*>(host->memory_.get());
     for (std::uint32_t i = 0; i < max_workers; ++i) host->free_.push_back({.channel = max_workers - 1 - i});
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return no_process(path, std::strerror(errno));
     host->server_socket_ = base::Descriptor(ends[0]);
     host->server_ = fork();
-    if (host->server_ == 0) become_server(host->channels_, ends[1], file.c_str());
+    if (host->server_ == 0) become_server(host->channels(), ends[1], file.c_str());
     const int why = errno;
     close(ends[1]);
     if (host->server_ < 0) return no_process(path, std::strerror(why));

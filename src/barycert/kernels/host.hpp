@@ -60,11 +60,11 @@ private:
     End begin(Worker& worker);
     int end(Worker& worker, int milliseconds = 0);
     End command(Worker& worker, Command command, int milliseconds);
-    Channel& channel(const Worker& worker) { return channels_[worker.channel]; }
+    Channel* channels() { return reinterpret_cast<Channel*>(memory_.get()); }
+    Channel& channel(const Worker& worker) { return channels()[worker.channel]; }
 
     int milliseconds_ = 1000, loading_milliseconds_ = 0;
     base::Mapping memory_;
-    Channel* channels_ = nullptr;  // in it
     base::Descriptor server_socket_;
     int server_ = -1;  // its keeper, which ends with it
     Description description_;

@@ -270,7 +270,10 @@ private:
         std::uint8_t incidents = 0;
         if (has_printed()) {
             incidents |= incident_printed;
-            read_printed(words);
+            char text[100] = {};
+            const ssize_t got = pread(printed_, text, sizeof text - 1, 0);
+            std::snprintf(words, room, "wrote \"%.*s\"", static_cast<int>(std::max<ssize_t>(got, 0)), text);
+            forget_printed();
         }
         if (end_children({})) {
             incidents |= incident_forked;
@@ -287,14 +290,6 @@ private:
     }
     void forget_printed() const {
         if (ftruncate(printed_, 0) != 0) give_up();
-    }
-    /// What was printed, in words, and nothing is left of it.
-    template <std::size_t room>
-    void read_printed(char (&words)[room]) const {
-        char text[100] = {};
-        const ssize_t got = pread(printed_, text, sizeof text - 1, 0);
-        std::snprintf(words, room, "wrote \"%.*s\"", static_cast<int>(std::max<ssize_t>(got, 0)), text);
-        forget_printed();
     }
     void tell(const char* text) {
         if (channel_.detail[0] == '\0') put(channel_.detail, text);

@@ -149,20 +149,6 @@ void add_faulty(std::vector<Mutant>& list, std::index_sequence<i...>) {
     (list.push_back(mutant_of(catalogued(table[i].sound), table[i].fault, table[i].change, faulty<table, i>)), ...);
 }
 
-void add_plain_mutants(std::vector<Mutant>& list) {
-    add_faulty<areas_and_volumes>(list, std::make_index_sequence<std::size(areas_and_volumes)>());
-    const auto add = [&](const Kernel& tolerant, const char* change) {
-        list.push_back(mutant_of(tolerant, "tolerance-times-ten", change, tolerant.weights));
-        list.back().kernel.tolerance *= 10;
-    };
-    Kernel tolerant = catalogued("tetrahedron.vtk-tolerance");
-    add(tolerant, "inside if every weight >= -0.01");
-    tolerant.name = "tetrahedron.tolerance-1e-10";
-    tolerant.tolerance = 1e-10;
-    add(tolerant, "inside if every weight >= -1e-9");
-    add_faulty<projections>(list, std::make_index_sequence<std::size(projections)>());
-}
-
 // Faults seeded into kernels that certify what they say, correctly rounded weights: into barycert's own, and into some
 // whose signs come from a filter in floating point where it proves them.
 //
@@ -318,7 +304,19 @@ void add_certified(std::vector<Mutant>& list) {
     list.back().kernel.interpolate = value_ties_away<s>;
 }
 
-void add_certified_mutants(std::vector<Mutant>& list) {
+std::vector<Mutant> made_mutants() {
+    std::vector<Mutant> list;
+    add_faulty<areas_and_volumes>(list, std::make_index_sequence<std::size(areas_and_volumes)>());
+    const auto add = [&](const Kernel& tolerant, const char* change) {
+        list.push_back(mutant_of(tolerant, "tolerance-times-ten", change, tolerant.weights));
+        list.back().kernel.tolerance *= 10;
+    };
+    Kernel tolerant = catalogued("tetrahedron.vtk-tolerance");
+    add(tolerant, "inside if every weight >= -0.01");
+    tolerant.name = "tetrahedron.tolerance-1e-10";
+    tolerant.tolerance = 1e-10;
+    add(tolerant, "inside if every weight >= -1e-9");
+    add_faulty<projections>(list, std::make_index_sequence<std::size(projections)>());
     using F = FilterFault;
     const Kernel area = filtered("triangle.exact", "triangle.filtered", filtered_area<F::none>);
     const Kernel volume = filtered("tetrahedron.exact", "tetrahedron.filtered", filtered_volume<F::none>);
@@ -334,6 +332,7 @@ void add_certified_mutants(std::vector<Mutant>& list) {
     add_both<F::tie_inside>(list, area, volume, "tie-inside", "a weight of exactly zero counts as positive");
     add_certified<Simplex::triangle>(list);
     add_certified<Simplex::tetrahedron>(list);
+    return list;
 }
 
 }  // namespace
@@ -342,12 +341,7 @@ void add_certified_mutants(std::vector<Mutant>& list) {
 namespace barycert {
 
 const std::vector<Mutant>& all_mutants() {
-    static const std::vector<Mutant> all = [] {
-        std::vector<Mutant> list;
-        audit::add_plain_mutants(list);
-        audit::add_certified_mutants(list);
-        return list;
-    }();
+    static const std::vector<Mutant> all = audit::made_mutants();
     return all;
 }
 

@@ -12,17 +12,16 @@ namespace {
 class Simplifier {
 public:
     Simplifier(const Kernel& kernel, const Witness& witness, const ExponentRange& range)
-        : kernel_(kernel), range_(range), reason_(search_reason_named(witness.reason)), best_(witness.c) {
-        shown_ = reason_ < search_reasons;
-        if (!shown_) return;
-        const double from = badness(reason_, ask(best_));
-        shown_ = from >= 0;
-        least_ = reason_ < finding_count ? 0 : from / 1024;
-        cost_ = plain_cost(best_);
-    }
+        : kernel_(kernel),
+          range_(range),
+          reason_(search_reason_named(witness.reason)),
+          best_(witness.c),
+          cost_(plain_cost(best_)) {}
 
     Case run() {
-        if (!shown_) return best_;
+        const double from = reason_ < search_reasons ? badness(reason_, ask(best_)) : -1;
+        if (from < 0) return best_;
+        least_ = reason_ < finding_count ? 0 : from / 1024;
         for (int pass = 0; pass < passes; ++pass) {
             const int before = cost_;
             values();
@@ -206,9 +205,8 @@ private:
     ExponentRange range_;
     std::size_t reason_;
     Case best_;
-    bool shown_ = false;
+    int cost_;
     double least_ = 0;
-    int cost_ = 0;
     std::uint64_t steps_ = 0;
 };
 

@@ -29,7 +29,7 @@ struct Met {
 struct Harvest {
     std::uint64_t steps = 0, wrong_cases = 0;
     std::array<std::uint64_t, search_reasons> cases{};
-    std::array<std::vector<Met>, search_reasons> worst;  ///< worst first, at most `kept`
+    std::array<std::vector<Met>, search_reasons> worst;  ///< worst first, at most `kept`; of a walk one
     std::array<Met, finding_count> plain;                ///< the plainest of each finding
     bool given_up = false;                               ///< the kernel failed to answer too often
 
@@ -46,21 +46,17 @@ struct Harvest {
             if (h.shown < 0) continue;
             ++cases[r];
             if (!cost) cost = plain_cost(c);
-            if (enters(r, h, 1)) include(r, {c, *cost, h, e}, 1);
+            if (worst[r].empty() || h > worst[r].front().height) worst[r] = {{c, *cost, h, e}};
             if (r < finding_count && *cost < plain[r].cost) plain[r] = {c, *cost, h, e};
         }
     }
 
-    bool enters(std::size_t r, const Height& h, std::size_t most) const {
-        return worst[r].size() < most || h > worst[r].back().height;
-    }
-
     /// Equal ones stay in the order of their coming.
-    void include(std::size_t r, const Met& m, std::size_t most) {
+    void include(std::size_t r, const Met& m) {
         std::vector<Met>& list = worst[r];
         const auto at = std::ranges::find_if(list, [&](const Met& x) { return m.height > x.height; });
         list.insert(at, m);
-        if (list.size() > most) list.pop_back();
+        if (list.size() > kept) list.pop_back();
     }
 
     void take(const Harvest& other) {
@@ -69,7 +65,7 @@ struct Harvest {
         given_up = given_up || other.given_up;
         for (std::size_t r = 0; r < search_reasons; ++r) {
             cases[r] += other.cases[r];
-            for (const Met& m : other.worst[r]) include(r, m, kept);
+            for (const Met& m : other.worst[r]) include(r, m);
             if (r < finding_count && other.plain[r].cost < plain[r].cost) plain[r] = other.plain[r];
         }
     }
@@ -125,15 +121,14 @@ public:
                 wander(next, random, values);
             }
             if (!admissible(next, range_) || ask(next) == nullptr) continue;
-            const bool rises = height(reason, answer) > height(reason, evaluation);
-            const bool level = height(reason, answer) == height(reason, evaluation);
-            if (!rises && !level && waited < patience) {
+            const auto order = height(reason, answer) <=> height(reason, evaluation);
+            if (order < 0 && waited < patience) {
                 ++waited;
                 continue;
             }
             here = next;
             evaluation = answer;
-            if (!level) waited = 0;
+            if (order != 0) waited = 0;
         }
         return h;
     }
