@@ -66,10 +66,8 @@ constexpr std::string_view name(Finding f) {
 }
 
 constexpr std::optional<Finding> finding_named(std::string_view text) {
-    for (std::size_t i = 0; i < finding_count; ++i) {
-        if (finding_texts[i].name == text) return static_cast<Finding>(i);
-    }
-    return std::nullopt;
+    const auto at = std::ranges::find(finding_texts, text, &FindingText::name);
+    return at == finding_texts.end() ? std::nullopt : std::optional(static_cast<Finding>(at - finding_texts.begin()));
 }
 
 /// One answer of a kernel, compared with the oracle's.

@@ -98,10 +98,9 @@ std::string audit_json(const AuditReport& report);
 std::string kernels_json(const std::vector<Kernel>& kernels);
 std::string families_json(const std::vector<Family>& families);
 
-// The errors of kernels against the condition numbers of cells, as a picture.
-
-/// An SVG of its own. Across: log2 of the condition number; upwards: the error in units of 2^-53, worst and median of a
-/// bin, as bits. The line drawn as prediction is error = 2^-53 * kappa.
+/// The errors of kernels against the condition numbers of cells, as an SVG of its own. Across: log2 of the condition
+/// number; upwards: the error in units of 2^-53, worst and median of a bin, as bits. The line drawn as prediction is
+/// error = 2^-53 * kappa.
 ///
 /// Which kernels: those on tetrahedra if any has cases to show, else those on triangles; of these those with an error
 /// beyond half of 2^-53; if more than six, without variants (names with a second dot); if still more than six, six of
@@ -135,9 +134,8 @@ std::string drift_plot(const DriftReport& report);
 std::string texels_text(const std::vector<TexelResult>& results, const TerminalStyle& style);
 std::string texels_json(const std::vector<TexelResult>& results);
 
-// Rules on triangles in space.
-
-/// A table a question: a row a rule; below them the rules, with the families that show their faults.
+/// Rules on triangles in space, in a table a question: a row a rule; below them the rules, with the families that show
+/// their faults.
 std::string surfaces_text(const SurfaceAudit& audit, const TerminalStyle& style);
 std::string surfaces_json(const SurfaceAudit& audit);
 std::string surfaces_html(const SurfaceAudit& audit);
@@ -147,9 +145,8 @@ std::string inverses_text(const InverseAudit& audit, const TerminalStyle& style)
 std::string inverses_json(const InverseAudit& audit);
 std::string inverses_html(const InverseAudit& audit);
 
-// Gaps and overlaps between the cells of a mesh.
-
-/// A table: a row a kernel and rule; below it the first witnesses of the kernels.
+/// Gaps and overlaps between the cells of a mesh, in a table: a row a kernel and rule; below it the first witnesses of
+/// the kernels.
 std::string gaps_text(const GapsReport& report, const TerminalStyle& style);
 std::string gaps_json(const GapsReport& report);
 

@@ -101,10 +101,9 @@ struct GradientAnswer {
 /// everything finite.
 GradientAnswer oracle_gradient(const Case& c);
 
-// Quadratic interpolation on a straight-sided cell with nodes amid its edges, likewise.
-
-/// sum l_i (2 l_i - 1) f_i + sum 4 l_i l_j f_ij with the exact weights l of the point, f = c.values at the corners and
-/// `mids` on the edges 01 12 02 (triangle) or 01 12 02 03 13 23 (tetrahedron), correctly rounded; NaN if degenerate.
+/// Quadratic interpolation on a straight-sided cell with nodes amid its edges, likewise: sum l_i (2 l_i - 1) f_i + sum
+/// 4 l_i l_j f_ij with the exact weights l of the point, f = c.values at the corners and `mids` on the edges 01 12 02
+/// (triangle) or 01 12 02 03 13 23 (tetrahedron), correctly rounded; NaN if degenerate.
 /// Preconditions: triangle or tetrahedron, everything finite, a value for each edge.
 double oracle_quadratic_value(const Case& c, std::span<const double> mids);
 

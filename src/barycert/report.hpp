@@ -44,8 +44,8 @@ inline constexpr int check_schema = 1;
 std::string check_json(const CheckReport& report, const std::string& name, const Environment& environment,
                        const FixedMesh* fixed = nullptr);
 
-// The report on a mesh as one HTML page, for people: to read, to print, to pass on.
-
+/// The report on a mesh as one HTML page, for people: to read, to print, to pass on.
+///
 /// The verdict; what was checked and found, with places and remedies; histograms of the measures; the worst cells and
 /// those with problems drawn, and where in the mesh they are. UTF-8, self-contained: style and pictures are in the
 /// page, which asks for nothing from anywhere and runs no scripts. It is well-formed XML, too. Some hundred kilobytes
@@ -57,12 +57,10 @@ std::string check_html(const CheckReport& report, const Mesh& mesh, const std::s
 /// Of a surface or a PLC, with draw_checked() if it can be drawn.
 std::string check_html(const CheckReport& report, const Surface& surface, const std::string& name);
 
-// What a run of sampling did, for people.
+// What a run of sampling did, for people and as JSON. Every member is documented in doc/json.md.
 
 /// A few lines of at most 120 columns, names of files aside.
 std::string sample_text(const SampleReport& summary, bool colour);
-
-// What a run of sampling did, as JSON. Every member is documented in doc/json.md.
 
 inline constexpr int sample_schema = 1;
 

@@ -1,7 +1,6 @@
 // One kernel's answer against the oracle's: every class of finding, one at a time.
 
 #include "barycert/audit.hpp"
-#include "barycert/audit/asking.hpp"
 #include "barycert/environment.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 #include <limits>
 
 #include "audit_helpers.hpp"
+#include "compared_weights.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -1,5 +1,4 @@
 #include "barycert/audit.hpp"
-#include "barycert/audit/asking.hpp"
 #include "barycert/base/random.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 #include <limits>
 
 #include "audit/audit_helpers.hpp"
+#include "audit/compared_weights.hpp"
 #include "barycert/oracle.hpp"
 #include "barycert/weights.hpp"
 

@@ -1,7 +1,6 @@
 // Witnesses: they show what they say, and survive a file bit for bit.
 
 #include "barycert/audit.hpp"
-#include "barycert/audit/asking.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include "audit_helpers.hpp"
 #include "barycert/audit/recipes.hpp"
 #include "barycert/audit_report.hpp"
+#include "compared_weights.hpp"
 
 namespace barycert::audit {
 namespace {

@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "audit/compared_weights.hpp"
 #include "barycert/audit.hpp"
-#include "barycert/audit/asking.hpp"
 #include "barycert/environment.hpp"
 #include "barycert/kernels.hpp"
 #include "barycert/oracle.hpp"
@@ -102,7 +102,7 @@ std::vector<Variant> read_list(const std::string& path) {
 
 struct Answer {
     int status = 0;
-    std::array<double, 4> weights = audit::unset_weights;
+    std::array<double, 4> weights = kernels::unset_weights;
 
     /// Not a number is not a number, whatever its bits.
     bool same(const Answer& other, int n) const {

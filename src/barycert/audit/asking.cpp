@@ -7,7 +7,8 @@ namespace barycert::audit {
 namespace {
 
 /// The region by the kernel's rule; `own` is its own classification.
-Region claim(const Kernel& kernel, const Statement& s, std::size_t n, int own) {
+Region claim(const Kernel& kernel, const Statement& s, int own) {
+    const auto n = static_cast<std::size_t>(vertex_count(kernel.simplex));
     if (kernel.rule != RegionRule::own) return claimed_region(kernel, s.status, std::span(s.weights).first(n));
     return s.status != 0 || own < 0 || own > 3 ? Region::degenerate : static_cast<Region>(own);
 }
@@ -43,12 +44,11 @@ Asked ask_in_process(const Kernel& kernel, std::span<const Case> cases, std::spa
 Asked ask_host(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {
     using kernels::Host;
     const Asked asked = kernel.host->run(cases, statements, timed ? Host::Asking::timed : Host::Asking::usual);
-    const auto n = static_cast<std::size_t>(vertex_count(kernel.simplex));
     const bool interpolates = kernel.host->description().interpolates;
     for (std::size_t i = 0; i < cases.size(); ++i) {
         Statement& s = statements[i];
         if (!s.answered) continue;
-        s.claimed = claim(kernel, s, n, s.region);
+        s.claimed = claim(kernel, s, s.region);
         if (s.status != 0)
             s.value = kernels::unset;
         else if (!interpolates)
@@ -56,35 +56,6 @@ Asked ask_host(const Kernel& kernel, std::span<const Case> cases, std::span<Stat
     }
     return asked;
 }
-
-}  // namespace
-
-void complete(Statement& s, const Kernel& kernel, const Case& c) {
-    int own = 0;
-    if (s.status == 0) {
-        if (kernel.classify != nullptr) own = kernel.classify(c.vertices.data(), c.point.data(), s.weights.data());
-        s.value = kernel.interpolate != nullptr ? kernel.interpolate(c.vertices.data(), c.point.data(), c.values.data())
-                                                : kernel.value(s.weights.data(), c.values.data());
-        if (kernel.classify != nullptr || kernel.interpolate != nullptr) ExactEnvironment::renew();
-    }
-    s.claimed = claim(kernel, s, static_cast<std::size_t>(vertex_count(c.simplex)), own);
-}
-
-std::string incident_of(const Kernel& kernel, const Case& c) {
-    const ExactEnvironment environment;
-    Statement said;
-    if (kernel.host != nullptr)
-        return kernel.host->run(std::span(&c, 1), std::span(&said, 1), kernels::Host::Asking::given_up_too).detail;
-    return kernel.raised == nullptr ? "" : ask_in_process(kernel, std::span(&c, 1), std::span(&said, 1)).detail;
-}
-
-Asked ask_kernel(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {
-    const ExactEnvironment environment;
-    return kernel.host != nullptr ? ask_host(kernel, cases, statements, timed)
-                                  : ask_in_process(kernel, cases, statements);
-}
-
-namespace {
 
 void count(Comparison& r, Finding f) {
     ++r.counts[static_cast<std::size_t>(f)];
@@ -108,7 +79,6 @@ void compare_regions(Comparison& r, Region exact) {
 }
 
 void compare_weight(Comparison& r, std::size_t i, double w, double exact, int sign) {
-    r.weight_ulps[i] = -1;
     if (w == exact) {
         if (exact != 0 && std::isfinite(exact)) r.weight_ulps[i] = 0;
         return;
@@ -153,6 +123,31 @@ double relative_error(std::span<const double> weights, std::span<const double> e
 
 }  // namespace
 
+void complete(Statement& s, const Kernel& kernel, const Case& c) {
+    int own = 0;
+    if (s.status == 0) {
+        if (kernel.classify != nullptr) own = kernel.classify(c.vertices.data(), c.point.data(), s.weights.data());
+        s.value = kernel.interpolate != nullptr ? kernel.interpolate(c.vertices.data(), c.point.data(), c.values.data())
+                                                : kernel.value(s.weights.data(), c.values.data());
+        if (kernel.classify != nullptr || kernel.interpolate != nullptr) ExactEnvironment::renew();
+    }
+    s.claimed = claim(kernel, s, own);
+}
+
+std::string incident_of(const Kernel& kernel, const Case& c) {
+    const ExactEnvironment environment;
+    Statement said;
+    if (kernel.host != nullptr)
+        return kernel.host->run(std::span(&c, 1), std::span(&said, 1), kernels::Host::Asking::given_up_too).detail;
+    return kernel.raised == nullptr ? "" : ask_in_process(kernel, std::span(&c, 1), std::span(&said, 1)).detail;
+}
+
+Asked ask_kernel(const Kernel& kernel, std::span<const Case> cases, std::span<Statement> statements, bool timed) {
+    const ExactEnvironment environment;
+    return kernel.host != nullptr ? ask_host(kernel, cases, statements, timed)
+                                  : ask_in_process(kernel, cases, statements);
+}
+
 Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, const Statement& s) {
     Comparison r;
     r.weight_ulps.fill(-1);
@@ -191,16 +186,6 @@ Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answ
     const bool wrong_value = gives_values && s.value != answer.value;
     if (kernel.certifies && (!perfect || wrong_value || r.wrong())) count(r, Finding::false_certificate);
     return r;
-}
-
-Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, int status,
-                   std::span<const double> weights) {
-    const ExactEnvironment environment;
-    Statement s;
-    s.status = status;
-    std::ranges::copy(weights, s.weights.begin());
-    complete(s, kernel, c);
-    return compare(kernel, c, answer, s);
 }
 
 }  // namespace barycert::audit

@@ -10,7 +10,6 @@ namespace barycert::audit {
 
 using kernels::Asked;
 using kernels::Statement;
-using kernels::unset_weights;
 
 constexpr bool is_inside(Region r) {
     return r == Region::interior || r == Region::boundary;
@@ -48,10 +47,6 @@ void complete(Statement& statement, const Kernel& kernel, const Case& c);
 /// but a kernel whose weights are all correctly rounded has no finding, even where they under- or overflow and so no
 /// longer tell the region.
 Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, const Statement& statement);
-
-/// The same of weights alone: region and value are those that the kernel's functions make of them.
-Comparison compare(const Kernel& kernel, const Case& c, const OracleAnswer& answer, int status,
-                   std::span<const double> weights);
 
 /// kappa of the case's cell where there is something to predict: a triangle or tetrahedron, not degenerate, without
 /// perspective, with the point in it or on its boundary, and no product of differences far out in the range of double.

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <set>
-
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/json_members.hpp"
 #include "barycert/audit/recipes.hpp"
@@ -27,9 +25,7 @@ std::vector<double> figures_of(const KernelStatistics& s) {
 
 Regions regions_of(const KernelStatistics& s) {
     Regions r{};
-    for (std::size_t e = 0; e < 4; ++e) {
-        for (const std::uint64_t n : s.confusion[e]) r[e] += n;
-    }
+    for (std::size_t e = 0; e < 4; ++e) r[e] = std::accumulate(s.confusion[e].begin(), s.confusion[e].end(), r[e]);
     return r;
 }
 
@@ -105,8 +101,7 @@ Status check_comparable(const Baseline& b, const AuditOptions& options, const Me
     if (b.seed != options.seed || b.count != options.count)
         return not_comparable(b, in_words(options.seed, options.count), in_words(b.seed, b.count),
                               fmt::format("give job.seed {} job.count {}, or make a new baseline", b.seed, b.count));
-    const auto draws = [](const Family& f) { return f.needs_mesh; };
-    if (std::ranges::any_of(options.families, draws)) {
+    if (std::ranges::any_of(options.families, &Family::needs_mesh)) {
         std::vector<std::string> names;
         for (const auto& m : meshes.meshes()) names.push_back(m->name);
         // A baseline without meshes has no families from meshes: there is nothing to compare them with.
@@ -120,14 +115,12 @@ Status check_comparable(const Baseline& b, const AuditOptions& options, const Me
 Result<BaselineComparison> compare_with_baseline(const AuditReport& report, const Baseline& b) {
     const ExactEnvironment environment;
     std::map<std::pair<std::string, std::string>, const BaselineEntry*> earlier;
-    std::set<std::string> given_up_before;
-    for (const BaselineEntry& e : b.entries) {
-        earlier[{e.kernel, e.family}] = &e;
-        if (e.not_run != 0) given_up_before.insert(e.kernel);
-    }
+    for (const BaselineEntry& e : b.entries) earlier[{e.kernel, e.family}] = &e;
     BaselineComparison result;
     for (const KernelResult& k : report.kernels) {
-        const bool twice = given_up_before.contains(k.kernel.name) && given_up(k);
+        const bool twice = given_up(k) && std::ranges::any_of(b.entries, [&](const BaselineEntry& e) {
+                               return e.kernel == k.kernel.name && e.not_run != 0;
+                           });
         for (const FamilyResult& f : k.families) {
             const std::string& family = report.families[f.family].name;
             const auto at = earlier.find({k.kernel.name, family});

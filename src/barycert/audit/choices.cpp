@@ -17,10 +17,8 @@ namespace {
 /// That `word` is none of these names.
 Error unknown(std::string what, std::string expected, const std::string& word, const std::vector<std::string>& names,
               std::string_view lists = {}) {
-    return {.what = std::move(what),
-            .expected = std::move(expected),
-            .found = '"' + word + '"',
-            .remedy = base::did_you_mean(word, names, lists)};
+    return file_error({}, std::move(what), std::move(expected), '"' + word + '"',
+                      base::did_you_mean(word, names, lists));
 }
 
 /// Items that match one of the globs, in the order of the catalogue.
@@ -130,7 +128,7 @@ Result<PreparedAudit> prepare_audit(const AuditJob& job) try {
     PreparedAudit out{.options = job.options, .meshes = {}, .baseline = {}, .libraries = {}, .notes = {}};
     out.options.kernels = choose_kernels(job.kernels).value();
     out.options.families = choose_families(job.families).value();
-    const bool wanted = std::ranges::any_of(out.options.families, [](const Family& f) { return f.needs_mesh; });
+    const bool wanted = std::ranges::any_of(out.options.families, &Family::needs_mesh);
     if (wanted || job.meshes_asked)
         out.meshes = source_of(job.meshes, job.check, job.options.threads, job.curved, out.notes);
     if (!job.baseline.empty()) {

@@ -10,15 +10,13 @@ bool serves(const PreparedMesh& m, Simplex s) {
     return m.mesh.dimension == space_dimension(s);
 }
 
-/// A mesh that serves; each has the same chance, however large: small ones are the nasty ones.
+/// A mesh that serves; each has the same chance, however large: small ones are the nasty ones. Precondition:
+/// source.supplies(s).
 const PreparedMesh& pick(const MeshSource& source, Simplex s, base::Random& random) {
     const auto& meshes = source.meshes();
-    const auto count = std::count_if(meshes.begin(), meshes.end(), [s](const auto& m) { return serves(*m, s); });
+    const auto count = std::ranges::count_if(meshes, [s](const auto& m) { return serves(*m, s); });
     auto skip = random.below(static_cast<std::uint64_t>(count));
-    for (const auto& m : meshes) {
-        if (serves(*m, s) && skip-- == 0) return *m;
-    }
-    return *meshes.front();  // not reached: supplies(s) holds
+    return **std::ranges::find_if(meshes, [&](const auto& m) { return serves(*m, s) && skip-- == 0; });
 }
 
 std::array<Mesh::Index, 4> nodes_of(const Mesh& mesh, std::size_t cell) {
@@ -88,8 +86,7 @@ void MeshSource::add(std::string name, Mesh mesh, const Certificate& certificate
     p.mesh = std::move(mesh);
     p.certificate = certificate;
     p.neighbours = mesh::compute_neighbours(p.mesh);
-    const auto hull = mesh::hull_facets(p.mesh, p.neighbours);
-    p.hull_facets.assign(hull.begin(), hull.end());
+    p.hull_facets = mesh::hull_facets(p.mesh, p.neighbours);
     const auto d = static_cast<std::size_t>(p.mesh.dimension);
     p.low.fill(std::numeric_limits<double>::infinity());
     p.high.fill(-std::numeric_limits<double>::infinity());

@@ -53,9 +53,8 @@ template <int decimals>
 void near_facet(Case& c, base::Random& random, std::uint64_t) {
     ordinary(c, random);
     const int n = vertex_count(c.simplex) - 1;
-    const bool over = random.coin();
-    c.point =
-        lifted(c, random, random_point(c, random, n), over ? decimal_height<decimals> : -decimal_height<decimals>);
+    const double height = random.coin() ? decimal_height<decimals> : -decimal_height<decimals>;
+    c.point = lifted(c, random, random_point(c, random, n), height);
 }
 
 // A simplex of height h; the point is a rounded combination of its vertices.
@@ -70,9 +69,7 @@ void sliver(Case& c, base::Random& random, std::uint64_t) {
 /// Small integer vectors times small integers: sums are exact, so that the vertices span exactly `dimension` or less.
 void flat(Case& c, base::Random& random, int dimension) {
     const auto integer_vector = [&] {
-        return std::array<double, 3>{static_cast<double>(random.integer(-9, 9)),
-                                     static_cast<double>(random.integer(-9, 9)),
-                                     static_cast<double>(random.integer(-9, 9))};
+        return std::array{double(random.integer(-9, 9)), double(random.integer(-9, 9)), double(random.integer(-9, 9))};
     };
     const auto origin = integer_vector(), u = integer_vector(), v = integer_vector();
     const double unit = std::ldexp(1, random.integer(-20, 20));

@@ -92,10 +92,7 @@ void set_pixel_case(Case& c, base::Random& random, int size, bool on_edge, int w
     for (int i = 0; i < 3; ++i) {
         for (int axis = 0; axis < 2; ++axis) c.vertex(i, axis) = origin[axis] + random.integer(0, 256 * size) * 0x1p-8;
     }
-    if (!on_edge) {
-        set_inner_pixel(c, random);
-        return;
-    }
+    if (!on_edge) return set_inner_pixel(c, random);
     set_edge_pixel(c, random, origin, size);
     const int last = random.integer(0, 2);  // the vertex that the edge leaves out
     for (int axis = 0; axis < 2; ++axis) std::swap(c.vertex(last, axis), c.vertex(2, axis));

@@ -6,16 +6,9 @@
 namespace barycert::audit {
 
 GapPoints::GapPoints(const Mesh& mesh)
-    : mesh_(mesh),
-      neighbours_(mesh::compute_neighbours(mesh)),
-      first_(mesh.point_count() + 1),
-      around_(mesh.cells.size()) {
-    // Cells sorted by their nodes, by counting.
-    for (const Mesh::Index node : mesh.cells) ++first_[static_cast<std::size_t>(node) + 1];
-    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    : mesh_(mesh), neighbours_(mesh::compute_neighbours(mesh)), around_(mesh.point_count()) {
     for (std::size_t k = 0; k < mesh.cells.size(); ++k)
-        around_[next[static_cast<std::size_t>(mesh.cells[k])]++] = static_cast<Mesh::Index>(k / mesh.corners());
+        around_[static_cast<std::size_t>(mesh.cells[k])].push_back(static_cast<Mesh::Index>(k / mesh.corners()));
 }
 
 Case GapPoints::case_of(Mesh::Index cell, const std::array<double, 3>& point) const {
@@ -63,9 +56,8 @@ GapPoint GapPoints::make(Feature feature, std::uint64_t seed, std::uint64_t inde
     }
     keep_finite(p.point);
     for (const Mesh::Index node : p.nodes) {
-        const auto k = static_cast<std::size_t>(node);
-        p.cells.insert(p.cells.end(), around_.begin() + static_cast<std::ptrdiff_t>(first_[k]),
-                       around_.begin() + static_cast<std::ptrdiff_t>(first_[k + 1]));
+        const std::vector<Mesh::Index>& cells = around_[static_cast<std::size_t>(node)];
+        p.cells.insert(p.cells.end(), cells.begin(), cells.end());
     }
     std::ranges::sort(p.cells);
     p.cells.erase(std::unique(p.cells.begin(), p.cells.end()), p.cells.end());

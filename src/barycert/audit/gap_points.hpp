@@ -26,8 +26,7 @@ public:
 private:
     const Mesh& mesh_;
     std::vector<Mesh::Index> neighbours_;
-    std::vector<std::size_t> first_;  ///< of each node in around_
-    std::vector<Mesh::Index> around_;
+    std::vector<std::vector<Mesh::Index>> around_;  ///< the cells of each node, ascending
 };
 
 }  // namespace barycert::audit

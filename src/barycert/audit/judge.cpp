@@ -7,11 +7,13 @@
 namespace barycert::audit {
 namespace {
 
+std::string first_of(std::span<const double> numbers, int count) {
+    return base::joined(numbers.first(static_cast<std::size_t>(count)), " ", base::hexadecimal);
+}
+
 std::string told(const OracleAnswer& a, const Case& c) {
-    std::string text(name(a.region));
-    for (int i = 0; i < vertex_count(c.simplex); ++i)
-        text += (i == 0 ? ", weights " : " ") + base::hexadecimal(a.weights[static_cast<std::size_t>(i)]);
-    return text + ", value " + base::hexadecimal(a.value);
+    return std::string(name(a.region)) + ", weights " + first_of(a.weights, vertex_count(c.simplex)) + ", value " +
+           base::hexadecimal(a.value);
 }
 
 }  // namespace
@@ -26,9 +28,7 @@ std::optional<OracleAnswer> ask_core(const Case& c) {
     if (!weights || weights->tier == Tier::exact) return std::nullopt;
     const Result<Value> value = interpolate(c.simplex, c.vertices.data(), c.point.data(), c.values.data());
     if (!value || value->tier == Tier::exact) return std::nullopt;
-    OracleAnswer a;
-    a.region = signs.region();
-    a.feature = signs.feature(c.simplex);
+    OracleAnswer a{.region = signs.region(), .feature = signs.feature(c.simplex)};
     for (int i = 0; i < vertex_count(c.simplex); ++i) {
         const auto k = static_cast<std::size_t>(i);
         a.signs[k] = static_cast<std::int8_t>(signs.sign(i));
@@ -71,18 +71,12 @@ OracleAnswer Judge::decide(const Case& c, std::uint64_t index, OracleCounts& cou
 }
 
 Error error_of(const Disagreement& d, const std::string& family, std::uint64_t seed) {
-    std::string numbers;
-    const auto add = [&](const auto& list, int count) {
-        for (int i = 0; i < count; ++i) numbers += " " + base::hexadecimal(list[static_cast<std::size_t>(i)]);
-    };
-    add(d.c.vertices, vertex_count(d.c.simplex) * d.c.stride());
-    numbers += ", point";
-    add(d.c.point, space_dimension(d.c.simplex));
-    numbers += ", values";
-    add(d.c.values, vertex_count(d.c.simplex));
+    const int n = vertex_count(d.c.simplex);
     return {.what = "two oracles disagree, so nothing is said of any kernel: family " + family + ", case " +
                     std::to_string(d.index) + ", seed " + std::to_string(seed) + ", " + std::string(name(d.c.simplex)) +
-                    (d.c.perspective ? " in perspective" : "") + ", vertices" + numbers,
+                    (d.c.perspective ? " in perspective" : "") + ", vertices " +
+                    first_of(d.c.vertices, n * d.c.stride()) + ", point " +
+                    first_of(d.c.point, space_dimension(d.c.simplex)) + ", values " + first_of(d.c.values, n),
             .expected = d.first + ": " + told(d.first_answer, d.c),
             .found = d.second + ": " + told(d.second_answer, d.c),
             .remedy = "one of them has a defect: report the case"};

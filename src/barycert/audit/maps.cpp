@@ -1,4 +1,5 @@
 #include <iterator>
+#include <set>
 
 #include "barycert/audit/asking.hpp"
 #include "barycert/audit/recipes.hpp"
@@ -127,10 +128,8 @@ void fill_map(MeshMap& map, const PreparedMesh& m, const std::vector<Kernel>& ke
     MeshFrame frame = best_frame(locator, m, threads);
     set_size(frame, m);
     const std::vector<Mesh::Index> owners = owners_in(locator, m, frame, threads);
-    std::vector<Mesh::Index> cells = owners;
-    std::ranges::sort(cells);
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    if (!cells.empty() && cells.front() < 0) cells.erase(cells.begin());
+    const std::set<Mesh::Index> seen(owners.begin(), owners.end());
+    const std::vector<Mesh::Index> cells(seen.lower_bound(0), seen.end());
     if (cells.empty()) throw Exception({.what = "no cell is large enough to be seen"});
     static_cast<MeshFrame&>(map) = frame;
     map.low = {m.low[frame.shown[0]], m.low[frame.shown[1]]};
@@ -151,9 +150,8 @@ std::vector<MeshMap> mesh_maps(const std::vector<Kernel>& kernels, const MeshSou
     for (const auto& m : meshes.meshes()) {
         if (maps.size() == MeshMap::max_meshes) break;
         const Simplex simplex = m->mesh.dimension == 2 ? Simplex::triangle : Simplex::tetrahedron;
-        std::vector<Kernel> fit;
-        std::ranges::copy_if(kernels, std::back_inserter(fit),
-                             [&](const Kernel& k) { return k.simplex == simplex && !k.perspective; });
+        std::vector<Kernel> fit = kernels;
+        std::erase_if(fit, [&](const Kernel& k) { return k.simplex != simplex || k.perspective; });
         if (fit.empty()) continue;
         const std::size_t all = fit.size();
         if (all > MeshMap::max_kernels) std::erase_if(fit, is_variant);

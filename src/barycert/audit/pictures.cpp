@@ -29,51 +29,6 @@ void add(DriftPoint& point, double value, double exact, std::uint64_t index) {
     point.worst_relative = std::max(point.worst_relative, std::fabs(value - exact) / exact);
 }
 
-}  // namespace
-
-Case drift_case(int size, std::uint64_t seed, std::uint64_t index) {
-    const ExactEnvironment environment;
-    base::Random random = base::Random::stream(seed, base::hash64("drift") + static_cast<std::uint64_t>(size), index);
-    Case c{.simplex = Simplex::triangle};
-    for (int attempt = 0; attempt < 64; ++attempt) {
-        set_pixel_case(c, random, size, false, 1);
-        // Exact: see families_window.cpp.
-        const double twice_area = (c.vertex(1, 0) - c.vertex(0, 0)) * (c.vertex(2, 1) - c.vertex(0, 1)) -
-                                  (c.vertex(1, 1) - c.vertex(0, 1)) * (c.vertex(2, 0) - c.vertex(0, 0));
-        if (std::fabs(twice_area) >= size * size / 4.0) break;
-    }
-    for (std::size_t i = 0; i < 3; ++i) c.values[i] = random.uniform(1, 2);
-    return c;
-}
-
-Result<DriftReport> measure_drift(const DriftOptions& options) {
-    const ExactEnvironment environment;
-    if (options.kernels.empty() || options.count == 0)
-        return Error{.what = "nothing to measure", .expected = "a kernel and at least one case"};
-    for (const Kernel& k : options.kernels) {
-        if (k.simplex != Simplex::triangle || k.perspective)
-            return Error{.what = "the kernel is not for triangles without perspective", .found = k.name};
-    }
-    DriftReport report{options.seed, options.count, {}};
-    for (const Kernel& k : options.kernels) report.curves.push_back({k, {}});
-    for (int size = min_size; size <= max_size; size *= 2) {
-        for (DriftCurve& curve : report.curves) curve.points.push_back({.size = size});
-        for (std::uint64_t i = 0; i < options.count; ++i) {
-            const Case c = drift_case(size, options.seed, i);
-            const OracleAnswer answer = ask_oracle(c);
-            if (!is_inside(answer.region)) continue;
-            for (DriftCurve& curve : report.curves) {
-                Statement said;
-                ask_kernel(curve.kernel, std::span(&c, 1), std::span(&said, 1), false);
-                add(curve.points.back(), said.value, answer.value, i);
-            }
-        }
-    }
-    return report;
-}
-
-namespace {
-
 // Signs of a weight at points around a side.
 
 /// Vertex 2 is the one off the side; the others lie in x = y.
@@ -119,6 +74,47 @@ SignPicture picture_of(const Kernel& kernel, const SignPicture& exact) {
 }
 
 }  // namespace
+
+Case drift_case(int size, std::uint64_t seed, std::uint64_t index) {
+    const ExactEnvironment environment;
+    base::Random random = base::Random::stream(seed, base::hash64("drift") + static_cast<std::uint64_t>(size), index);
+    Case c{.simplex = Simplex::triangle};
+    for (int attempt = 0; attempt < 64; ++attempt) {
+        set_pixel_case(c, random, size, false, 1);
+        // Exact: see families_window.cpp.
+        const double twice_area = (c.vertex(1, 0) - c.vertex(0, 0)) * (c.vertex(2, 1) - c.vertex(0, 1)) -
+                                  (c.vertex(1, 1) - c.vertex(0, 1)) * (c.vertex(2, 0) - c.vertex(0, 0));
+        if (std::fabs(twice_area) >= size * size / 4.0) break;
+    }
+    for (std::size_t i = 0; i < 3; ++i) c.values[i] = random.uniform(1, 2);
+    return c;
+}
+
+Result<DriftReport> measure_drift(const DriftOptions& options) {
+    const ExactEnvironment environment;
+    if (options.kernels.empty() || options.count == 0)
+        return Error{.what = "nothing to measure", .expected = "a kernel and at least one case"};
+    for (const Kernel& k : options.kernels) {
+        if (k.simplex != Simplex::triangle || k.perspective)
+            return Error{.what = "the kernel is not for triangles without perspective", .found = k.name};
+    }
+    DriftReport report{options.seed, options.count, {}};
+    for (const Kernel& k : options.kernels) report.curves.push_back({k, {}});
+    for (int size = min_size; size <= max_size; size *= 2) {
+        for (DriftCurve& curve : report.curves) curve.points.push_back({.size = size});
+        for (std::uint64_t i = 0; i < options.count; ++i) {
+            const Case c = drift_case(size, options.seed, i);
+            const OracleAnswer answer = ask_oracle(c);
+            if (!is_inside(answer.region)) continue;
+            for (DriftCurve& curve : report.curves) {
+                Statement said;
+                ask_kernel(curve.kernel, std::span(&c, 1), std::span(&said, 1), false);
+                add(curve.points.back(), said.value, answer.value, i);
+            }
+        }
+    }
+    return report;
+}
 
 Case sign_case(Simplex s, bool perspective, int i, int j) {
     Case c{.simplex = s, .values = {1, 2, 3, 4}, .perspective = perspective};

@@ -58,9 +58,8 @@ inline std::array<double, 4> random_weights(base::Random& random, int n) {
 inline std::array<double, 3> combination(const Case& c, const std::array<double, 4>& w, int n) {
     std::array<double, 3> p{};
     for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
-        double sum = 0;
-        for (int i = 0; i < n; ++i) sum += w[static_cast<std::size_t>(i)] * c.vertex(i, axis);
-        p[static_cast<std::size_t>(axis)] = sum;
+        for (int i = 0; i < n; ++i)
+            p[static_cast<std::size_t>(axis)] += w[static_cast<std::size_t>(i)] * c.vertex(i, axis);
     }
     return p;
 }
@@ -84,10 +83,8 @@ inline void set_vertex(Case& c, int i, const std::array<double, 3>& p) {
 /// Kernels and oracles are asked of finite points alone: where the recipe of a point leaves the range of doubles, as in
 /// meshes as large as that, the end of the range, or zero if there is no telling which.
 inline void keep_finite(std::array<double, 3>& point) {
-    for (double& x : point) {
-        if (std::isinf(x)) x = std::copysign(std::numeric_limits<double>::max(), x);
-        if (std::isnan(x)) x = 0;
-    }
+    constexpr double most = std::numeric_limits<double>::max();
+    for (double& x : point) x = std::isnan(x) ? 0 : std::clamp(x, -most, most);
 }
 
 /// Moves a coordinate by one ulp, up or down. The neighbour of zero would be a subnormal, a test of underflow and not
@@ -104,11 +101,20 @@ inline void move_by_ulp(const Case& c, double& x, int axis, base::Random& random
     x = up ? ulp : -ulp;
 }
 
+/// The double `n` places above x in the order of doubles, in which zero is one place; infinite beyond the largest.
+/// Preconditions: x finite, |n| < 2^62.
+inline double places_above(double x, std::int64_t n) {
+    const auto bits = std::bit_cast<std::int64_t>(x);
+    const std::int64_t place = (bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits) + n;
+    constexpr std::int64_t infinite = 0x7ff0000000000000;
+    if (place >= infinite) return HUGE_VAL;
+    if (place <= -infinite) return -HUGE_VAL;
+    return std::bit_cast<double>(place >= 0 ? place : std::numeric_limits<std::int64_t>::min() - place);
+}
+
 /// Up to two doubles up or down.
 inline double ulps_away(double x, base::Random& random) {
-    for (int steps = random.integer(-2, 2); steps != 0; steps -= steps > 0 ? 1 : -1)
-        x = steps > 0 ? base::next_up(x) : base::next_down(x);
-    return x;
+    return places_above(x, random.integer(-2, 2));
 }
 
 inline void random_values(Case& c, base::Random& random) {

@@ -47,12 +47,9 @@ double median(std::vector<float> values) {
 /// Largest first among the witnesses' sources: the family whose worst case is worst overall.
 void collect_witnesses(KernelResult& result, const AuditOptions& options, const MeshSource& meshes) {
     for (std::size_t reason = 0; reason < witness_reasons; ++reason) {
-        const FamilyResult* from = nullptr;
-        for (const FamilyResult& f : result.families) {
-            const double value = f.statistics.witnesses[reason].value;
-            if (value >= 0 && (from == nullptr || value > from->statistics.witnesses[reason].value)) from = &f;
-        }
-        if (from == nullptr) continue;
+        const auto value = [&](const FamilyResult& f) { return f.statistics.witnesses[reason].value; };
+        const auto from = std::ranges::max_element(result.families, {}, value);
+        if (from == result.families.end() || value(*from) < 0) continue;
         const WorstCase& worst = from->statistics.witnesses[reason];
         if (reason >= finding_count && worst.value == 0) continue;
         Witness w;
@@ -83,11 +80,9 @@ Result<AuditReport> run_audit(const AuditOptions& options, const MeshSource& mes
     report.environment = measure_environment();
     if (const Status ok = check_environment(report.environment); !ok) return ok.error();
     const std::vector<Part> parts = plan(options, meshes);
-    if (parts.empty()) {
-        return Error{
-            .what = "nothing to audit: no family applies to a kernel",
-            .remedy = "see `barycert kernels` and `barycert families`; mesh families of triangles need a 2D mesh"};
-    }
+    if (parts.empty())
+        return file_error({}, "nothing to audit: no family applies to a kernel", "", "",
+                          "see `barycert kernels` and `barycert families`; mesh families of triangles need a 2D mesh");
     report.seed = options.seed;
     report.count = options.count;
     report.threads = base::threads_for(options.threads);

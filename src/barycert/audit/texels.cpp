@@ -40,24 +40,17 @@ std::int64_t texel_count(base::Random& random) {
 }
 
 double coordinate(base::Random& random, std::int64_t size) {
-    switch (random.below(6)) {
-        case 0:  // a border of texels of the row or of one beside it, and its neighbours
-        case 1: {
-            const auto k = static_cast<double>(random.below(static_cast<std::uint64_t>(size) + 1));
-            const int row = random.integer(-1, 1);
-            return audit::ulps_away(row + k / static_cast<double>(size), random);
-        }
-        case 2:  // an end of a row
-            return audit::ulps_away(random.integer(-2, 2), random);
-        case 3:
-            return random.uniform(-2, 3);
-        case 4:
-            return random.unit();
-        default: {  // any finite number
-            const double u = std::bit_cast<double>(random.bits());
-            return std::isfinite(u) ? u : -0.0;
-        }
+    const auto kind = random.below(6);
+    if (kind < 2) {  // a border of texels of the row or of one beside it, and its neighbours
+        const auto k = static_cast<double>(random.below(static_cast<std::uint64_t>(size) + 1));
+        const int row = random.integer(-1, 1);
+        return audit::ulps_away(row + k / static_cast<double>(size), random);
     }
+    if (kind == 2) return audit::ulps_away(random.integer(-2, 2), random);  // an end of a row
+    if (kind == 3) return random.uniform(-2, 3);
+    if (kind == 4) return random.unit();
+    const double u = std::bit_cast<double>(random.bits());  // any finite number
+    return std::isfinite(u) ? u : -0.0;
 }
 
 void add(TexelResult& result, double u, std::int64_t size, std::int64_t exact) {

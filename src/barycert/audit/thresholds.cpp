@@ -56,17 +56,14 @@ const std::vector<Figure>& audit::figures() {
 Result<Threshold> parse_threshold(std::string_view text) {
     const ExactEnvironment environment;
     const base::NamedLimit limit = base::named_limit(text);
-    Threshold rule{std::string(limit.name), 0};
-    if (!figure_named(rule.name)) {
-        std::string names;
-        for (const std::string& name : threshold_names()) names += (names.empty() ? "" : ", ") + name;
-        return file_error({}, "unknown rule", "NAME or NAME>NUMBER with NAME one of " + names,
-                          '"' + std::string(text) + '"', base::did_you_mean(rule.name, threshold_names()));
-    }
+    if (!figure_named(limit.name))
+        return file_error(
+            {}, "unknown rule",
+            "NAME or NAME>NUMBER with NAME one of " + base::joined(threshold_names(), ", ", std::identity()),
+            '"' + std::string(text) + '"', base::did_you_mean(limit.name, threshold_names()));
     if (!limit.most)
         return file_error({}, "bad limit in a rule", "a number >= 0 after >", '"' + std::string(text) + '"');
-    rule.limit = *limit.most;
-    return rule;
+    return Threshold{std::string(limit.name), *limit.most};
 }
 
 std::vector<Violation> violations(const AuditReport& report, const std::vector<Threshold>& rules) {

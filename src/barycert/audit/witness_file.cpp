@@ -90,6 +90,30 @@ Witness witness_from(const Json& j, const std::string& where) {
     return w;
 }
 
+std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) {
+    const Witness& w = r.witness;
+    if (w.kernel.empty() || w.reason.empty()) return "";
+    const std::size_t reason = search_reason_named(w.reason);
+    if (reason == search_reasons) return "no class of finding has that name";
+    if (std::ranges::find(kernels, w.kernel, &Kernel::name) == kernels.end())
+        return "no kernel of that name here; name its library with job.kernel_library";
+    const auto a = std::ranges::find(r.answers, w.kernel, &KernelAnswer::kernel);
+    if (a == r.answers.end()) return "the kernel is for another simplex";
+    if (reason < finding_count) {
+        if (a->comparison.counts[reason] != 0) return "";
+        return is_incident(reason)
+                   ? "asked once more, the kernel did not; it may depend on the cases before, or on chance"
+                   : "the kernel's answer does not have this finding";
+    }
+    // Errors come out the same wherever the kernel was compiled to the same arithmetic.
+    const bool relative = reason == witness_reasons;
+    const double error = relative                  ? relative_error(r.exact, a->comparison)
+                         : reason == finding_count ? a->comparison.worst_weight_ulp()
+                                                   : a->comparison.value_ulp;
+    if (error == w.magnitude) return "";
+    return "the error is " + base::shortest(error) + (relative ? "" : " ulps") + ", not " + base::shortest(w.magnitude);
+}
+
 }  // namespace
 
 Ordered audit::witness_json(const Witness& w) {
@@ -152,36 +176,6 @@ Result<std::vector<Witness>> read_witnesses(const std::string& path) {
         return witnesses;
     });
 }
-
-namespace {
-
-std::string not_reproduced(const Replay& r, const std::vector<Kernel>& kernels) {
-    const Witness& w = r.witness;
-    if (w.kernel.empty() || w.reason.empty()) return "";
-    const std::size_t reason = search_reason_named(w.reason);
-    if (reason == search_reasons) return "no class of finding has that name";
-    if (std::ranges::find(kernels, w.kernel, &Kernel::name) == kernels.end())
-        return "no kernel of that name here; name its library with job.kernel_library";
-    const auto a = std::ranges::find(r.answers, w.kernel, &KernelAnswer::kernel);
-    if (a == r.answers.end()) return "the kernel is for another simplex";
-    if (reason < finding_count) {
-        if (a->comparison.counts[reason] != 0) return "";
-        return is_incident(reason)
-                   ? "asked once more, the kernel did not; it may depend on the cases before, or on chance"
-                   : "the kernel's answer does not have this finding";
-    }
-    // Errors come out the same wherever the kernel was compiled to the same arithmetic.
-    if (reason == witness_reasons) {
-        const double error = relative_error(r.exact, a->comparison);
-        return error == w.magnitude ? ""
-                                    : "the error is " + base::shortest(error) + ", not " + base::shortest(w.magnitude);
-    }
-    const double ulps = w.reason == "worst_value_ulp" ? a->comparison.value_ulp : a->comparison.worst_weight_ulp();
-    return ulps == w.magnitude ? ""
-                               : "the error is " + base::shortest(ulps) + " ulps, not " + base::shortest(w.magnitude);
-}
-
-}  // namespace
 
 Replay replay_witness(const Witness& witness, const std::vector<Kernel>& kernels) {
     const ExactEnvironment environment;

@@ -10,6 +10,8 @@
 #include <mpfr.h>
 
 #include <algorithm>
+#include <bit>
+#include <boost/multiprecision/gmp.hpp>
 #include <limits>
 #include <tuple>
 
@@ -22,6 +24,7 @@ namespace {
 
 using Epeck = CGAL::Exact_predicates_exact_constructions_kernel;
 using Number = Epeck::FT;
+using Integer = boost::multiprecision::mpz_int;
 using Point2 = Epeck::Point_2;
 using Point3 = Epeck::Point_3;
 
@@ -76,21 +79,14 @@ double quotient(const Number& x, const Number& divisor) {
 /// front of a last bit that says whether there is more.
 double rounded_root(mpq_srcptr x) {
     if (mpq_sgn(x) == 0) return 0;
-    mpz_t n, rest;
-    mpz_inits(n, rest, nullptr);
     const long bits =
         static_cast<long>(mpz_sizeinbase(mpq_numref(x), 2)) - static_cast<long>(mpz_sizeinbase(mpq_denref(x), 2));
     const long k = std::max(0L, (116 - bits) / 2);
-    mpz_mul_2exp(n, mpq_numref(x), static_cast<mp_bitcnt_t>(2 * k));
-    mpz_fdiv_qr(n, rest, n, mpq_denref(x));
-    const bool divides = mpz_sgn(rest) == 0;
-    mpz_sqrtrem(n, rest, n);
-    const bool more = !divides || mpz_sgn(rest) != 0;
-    mpz_mul_2exp(n, n, 1);
-    if (more) mpz_add_ui(n, n, 1);
-    const double root = rounded([&](mpfr_t to) { return mpfr_set_z_2exp(to, n, -k - 1, MPFR_RNDN); });
-    mpz_clears(n, rest, nullptr);
-    return root;
+    const Integer n = Integer(mpq_numref(x)) << (2 * k), d(mpq_denref(x)), whole = n / d;
+    Integer rest, root = sqrt(whole, rest);
+    root <<= 1;
+    if (rest != 0 || whole * d != n) ++root;
+    return rounded([&](mpfr_t to) { return mpfr_set_z_2exp(to, root.backend().data(), -k - 1, MPFR_RNDN); });
 }
 
 /// Weights as parts of a whole, and their signs as CGAL's predicates tell them; nothing if there are none.
@@ -201,30 +197,22 @@ std::optional<Found> found(const Case& c) {
 
 OracleAnswer ask_cgal(const Case& c) {
     const ExactEnvironment environment;
-    OracleAnswer a;
     const std::optional<Found> f = found(c);
-    if (!f) {
-        a.region = Region::degenerate;
-        a.feature = Feature::degenerate;
-        a.weights.fill(std::numeric_limits<double>::quiet_NaN());
-        a.value = std::numeric_limits<double>::quiet_NaN();
-        return a;
-    }
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (!f) return {Region::degenerate, Feature::degenerate, 0, {}, {nan, nan, nan, nan}, nan};
+    OracleAnswer a;
     Number value = 0;
-    int nonzero = 0;
     bool negative = false;
     const auto count = static_cast<std::size_t>(vertex_count(c.simplex));
     for (std::size_t i = 0; i < count; ++i) {
         a.signs[i] = static_cast<std::int8_t>(f->signs[i]);
         negative = negative || f->signs[i] < 0;
-        if (f->signs[i] != 0) {
-            a.support = static_cast<std::uint8_t>(a.support | (1U << i));
-            ++nonzero;
-        }
+        if (f->signs[i] != 0) a.support = static_cast<std::uint8_t>(a.support | (1U << i));
         a.weights[i] = quotient(f->parts[i], f->whole);
         value += f->parts[i] * Number(c.values[i]);
     }
     a.value = quotient(value, f->whole);
+    const int nonzero = std::popcount(a.support);
     const bool whole = nonzero == static_cast<int>(count);
     a.region = negative ? Region::outside : whole ? Region::interior : Region::boundary;
     a.feature = negative       ? Feature::outside

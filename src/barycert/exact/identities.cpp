@@ -40,13 +40,14 @@ Weighted vertex(const Case& c, int i) {
     return v;
 }
 
-/// The point of the line ab whose coordinate `axis` is `level`; nothing if the line is parallel to that level.
-std::optional<Weighted> along(const Weighted& a, const Weighted& b, int axis, const Rational& level) {
-    const Rational length = b.at[axis] - a.at[axis];
-    if (length == Rational(0)) return std::nullopt;
-    const Rational t = (level - a.at[axis]) / length;
-    Weighted r{a.at + t * (b.at - a.at), {}};
-    for (std::size_t k = 0; k < 4; ++k) r.weights[k] = a.weights[k] + t * (b.weights[k] - a.weights[k]);
+/// The point of the line ab whose coordinate `axis` is `level`; nothing if the line is parallel to that level, or there
+/// is no a or b.
+std::optional<Weighted> along(const std::optional<Weighted>& a, const std::optional<Weighted>& b, int axis,
+                              const Rational& level) {
+    if (!a || !b || a->at[axis] == b->at[axis]) return std::nullopt;
+    const Rational t = (level - a->at[axis]) / (b->at[axis] - a->at[axis]);
+    Weighted r{a->at + t * (b->at - a->at), {}};
+    for (std::size_t k = 0; k < 4; ++k) r.weights[k] = a->weights[k] + t * (b->weights[k] - a->weights[k]);
     return r;
 }
 
@@ -123,8 +124,7 @@ IdentityVerdict bilinear_is_barycentric(const Case& c) {
     for (int i = 0; i < 3; ++i) {
         const auto left = along(vertex(c, i), vertex(c, (i + 1) % 3), 1, p[1]);
         const auto right = along(vertex(c, i), vertex(c, (i + 2) % 3), 1, p[1]);
-        if (!left || !right) continue;
-        if (const auto found = along(*left, *right, 0, p[0])) return compare(found, expected);
+        if (const auto found = along(left, right, 0, p[0])) return compare(found, expected);
     }
     return IdentityVerdict::undefined;
 }
@@ -140,11 +140,9 @@ IdentityVerdict trilinear_is_barycentric(const Case& c) {
         const auto on_a = along(vertex(c, o), vertex(c, a), 2, p[2]);
         const auto on_b = along(vertex(c, o), vertex(c, b), 2, p[2]);
         const auto on_d = along(vertex(c, o), vertex(c, d), 2, p[2]);
-        if (!on_a || !on_b || !on_d) continue;
-        const auto left = along(*on_a, *on_b, 1, p[1]);
-        const auto right = along(*on_a, *on_d, 1, p[1]);
-        if (!left || !right) continue;
-        if (const auto found = along(*left, *right, 0, p[0])) return compare(found, expected);
+        const auto left = along(on_a, on_b, 1, p[1]);
+        const auto right = along(on_a, on_d, 1, p[1]);
+        if (const auto found = along(left, right, 0, p[0])) return compare(found, expected);
     } while (std::next_permutation(order.begin(), order.end()));
     return IdentityVerdict::undefined;
 }

@@ -11,6 +11,8 @@ using namespace exact;
 
 namespace {
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
 // Numerators and denominator of the exact weights, for any set of integer types.
 //
 // Bounds for the narrow types. Every coordinate, relative to its axis' scale, is below 2^61 in magnitude (the caller
@@ -20,17 +22,14 @@ namespace {
 // 2^249. A value numerator adds 61 + 2 bits. Quotients are shifted by at most the length of the denominator plus 56
 // bits. All this stays below 512 bits.
 
-struct Narrow {
-    using Coordinate = std::int64_t;
-    using Minor = Int128;
-    using Number = FixedInteger;
+template <class C, class M, class N>
+struct Integers {
+    using Coordinate = C;
+    using Minor = M;
+    using Number = N;
 };
-
-struct Wide {
-    using Coordinate = BigInteger;
-    using Minor = BigInteger;
-    using Number = BigInteger;
-};
+using Narrow = Integers<std::int64_t, Int128, FixedInteger>;
+using Wide = Integers<BigInteger, BigInteger, BigInteger>;
 
 template <class Types>
 struct Solution {
@@ -47,9 +46,8 @@ struct Scales {
     bool narrow = true;
 
     explicit Scales(const Case& c) {
-        const int dimension = space_dimension(c.simplex);
         const int count = vertex_count(c.simplex);
-        for (int axis = 0; axis < dimension; ++axis) {
+        for (int axis = 0; axis < space_dimension(c.simplex); ++axis) {
             Scale& s = axes[static_cast<std::size_t>(axis)];
             s.include(c.point[static_cast<std::size_t>(axis)]);
             for (int i = 0; i < count; ++i) s.include(c.vertex(i, axis));
@@ -116,34 +114,25 @@ Solution<Types> solve(const Case& c, const Scales& scales) {
     const auto v = relative_vertices<Types>(c, scales);
     Solution<Types> s;
     auto& n = s.numerators;
-    switch (c.simplex) {
-        case Simplex::tetrahedron: {
-            // det(a,b,c,d rows minus one): a x b and c x d give all four.
-            const auto ab = cross<Types>(v[0], v[1]);
-            const auto cd = cross<Types>(v[2], v[3]);
-            n = {dot(cd, v[1]), -dot(cd, v[0]), dot(ab, v[3]), -dot(ab, v[2])};
-            s.denominator = n[0] + n[1] + n[2] + n[3];
-            break;
-        }
-        case Simplex::triangle: {
-            for (std::size_t i = 0; i < 3; ++i) n[i] = cross<Types>(v[(i + 1) % 3], v[(i + 2) % 3])[2];
-            s.denominator = n[0] + n[1] + n[2];
-            break;
-        }
-        case Simplex::triangle3d: {
-            const auto normal = cross<Types>(difference<Types>(v[1], v[0]), difference<Types>(v[2], v[0]));
-            for (std::size_t i = 0; i < 3; ++i) n[i] = dot(normal, cross<Types>(v[(i + 1) % 3], v[(i + 2) % 3]));
-            s.denominator = dot(normal, normal);
-            break;
-        }
-        case Simplex::segment: {
-            const auto edge = difference<Types>(v[1], v[0]);
-            const std::array e{N(edge[0]), N(edge[1]), N(edge[2])};
-            n[0] = dot(e, v[1]);
-            n[1] = -dot(e, v[0]);
-            s.denominator = dot(e, e);
-            break;
-        }
+    if (c.simplex == Simplex::tetrahedron) {
+        // det(a,b,c,d rows minus one): a x b and c x d give all four.
+        const auto ab = cross<Types>(v[0], v[1]);
+        const auto cd = cross<Types>(v[2], v[3]);
+        n = {dot(cd, v[1]), -dot(cd, v[0]), dot(ab, v[3]), -dot(ab, v[2])};
+        s.denominator = n[0] + n[1] + n[2] + n[3];
+    } else if (c.simplex == Simplex::triangle) {
+        for (std::size_t i = 0; i < 3; ++i) n[i] = cross<Types>(v[(i + 1) % 3], v[(i + 2) % 3])[2];
+        s.denominator = n[0] + n[1] + n[2];
+    } else if (c.simplex == Simplex::triangle3d) {
+        const auto normal = cross<Types>(difference<Types>(v[1], v[0]), difference<Types>(v[2], v[0]));
+        for (std::size_t i = 0; i < 3; ++i) n[i] = dot(normal, cross<Types>(v[(i + 1) % 3], v[(i + 2) % 3]));
+        s.denominator = dot(normal, normal);
+    } else {
+        const auto edge = difference<Types>(v[1], v[0]);
+        const std::array e{N(edge[0]), N(edge[1]), N(edge[2])};
+        n[0] = dot(e, v[1]);
+        n[1] = -dot(e, v[0]);
+        s.denominator = dot(e, e);
     }
     return s;
 }
@@ -176,15 +165,9 @@ OracleAnswer answer(const Case& c, const Scales& scales) {
     Solution<Types> s = solve<Types>(c, scales);
     if (c.perspective) apply_perspective<Types>(c, scales, s);
     const auto count = static_cast<std::size_t>(vertex_count(c.simplex));
-    OracleAnswer a;
     const int orientation = s.denominator.sign();
-    if (orientation == 0) {
-        a.region = Region::degenerate;
-        a.feature = Feature::degenerate;
-        a.weights.fill(std::numeric_limits<double>::quiet_NaN());
-        a.value = std::numeric_limits<double>::quiet_NaN();
-        return a;
-    }
+    if (orientation == 0) return {Region::degenerate, Feature::degenerate, 0, {}, {nan, nan, nan, nan}, nan};
+    OracleAnswer a;
     bool negative = false;
     N value(0);
     for (std::size_t i = 0; i < count; ++i) {
@@ -199,6 +182,43 @@ OracleAnswer answer(const Case& c, const Scales& scales) {
     a.feature = negative ? Feature::outside : feature_of(c.simplex, a.support);
     a.region = negative ? Region::outside : a.feature == Feature::interior ? Region::interior : Region::boundary;
     return a;
+}
+
+/// The place in the window of sum W_i (x_i w_i, y_i w_i, w_i), less p: sum W_i w_i (v_i - p) / sum W_i w_i.
+double projected_residual(const Case& c, std::span<const double> weights) {
+    Scales scales(c);
+    const Scale common = scales.share();
+    Scale weight_scale;
+    for (const double w : weights) weight_scale.include(w);
+    BigInteger depth(0);
+    std::array<BigInteger, 2> offset{};
+    for (int i = 0; i < 3; ++i) {
+        const BigInteger share = scaled<BigInteger>(weights[static_cast<std::size_t>(i)], weight_scale.low) *
+                                 scaled<BigInteger>(c.depth(i), scales.depths.low);
+        depth += share;
+        for (int axis = 0; axis < 2; ++axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            offset[k] += share * (scaled<BigInteger>(c.vertex(i, axis), common.low) -
+                                  scaled<BigInteger>(c.point[k], common.low));
+        }
+    }
+    const BigInteger square = offset[0] * offset[0] + offset[1] * offset[1];
+    if (depth.sign() == 0) return square.sign() == 0 ? 0.0 : std::numeric_limits<double>::infinity();
+    return round_root(square, depth * depth, common.low);
+}
+
+using Numbers = std::array<BigInteger, 3>;
+
+/// The gradient of weight i times the denominator, each axis in the product of the units of the others.
+Numbers weight_gradient(Simplex s, const std::array<Vector<Wide>, 4>& v, std::size_t i) {
+    if (s == Simplex::triangle) {
+        const auto e = difference<Wide>(v[(i + 1) % 3], v[(i + 2) % 3]);
+        return {e[1], -e[0], BigInteger(0)};
+    }
+    constexpr std::array<std::array<std::size_t, 3>, 4> opposite{{{1, 2, 3}, {0, 3, 2}, {3, 0, 1}, {2, 1, 0}}};
+    const auto [a, b, c] = opposite[i];
+    const Numbers normal = cross<Wide>(difference<Wide>(v[b], v[a]), difference<Wide>(v[c], v[a]));
+    return {-normal[0], -normal[1], -normal[2]};
 }
 
 }  // namespace
@@ -234,33 +254,6 @@ double partition_residual(std::span<const double> weights) {
     for (const double w : weights) sum += scaled<BigInteger>(w, scale.low);
     return round_quotient(sum, BigInteger(1), scale.low);
 }
-
-namespace {
-
-/// The place in the window of sum W_i (x_i w_i, y_i w_i, w_i), less p: sum W_i w_i (v_i - p) / sum W_i w_i.
-double projected_residual(const Case& c, std::span<const double> weights) {
-    Scales scales(c);
-    const Scale common = scales.share();
-    Scale weight_scale;
-    for (const double w : weights) weight_scale.include(w);
-    BigInteger depth(0);
-    std::array<BigInteger, 2> offset{};
-    for (int i = 0; i < 3; ++i) {
-        const BigInteger share = scaled<BigInteger>(weights[static_cast<std::size_t>(i)], weight_scale.low) *
-                                 scaled<BigInteger>(c.depth(i), scales.depths.low);
-        depth += share;
-        for (int axis = 0; axis < 2; ++axis) {
-            const auto k = static_cast<std::size_t>(axis);
-            offset[k] += share * (scaled<BigInteger>(c.vertex(i, axis), common.low) -
-                                  scaled<BigInteger>(c.point[k], common.low));
-        }
-    }
-    const BigInteger square = offset[0] * offset[0] + offset[1] * offset[1];
-    if (depth.sign() == 0) return square.sign() == 0 ? 0.0 : std::numeric_limits<double>::infinity();
-    return round_root(square, depth * depth, common.low);
-}
-
-}  // namespace
 
 double reproduction_residual(const Case& c, std::span<const double> weights) {
     const ExactEnvironment environment;
@@ -300,39 +293,18 @@ int affine_dimension(const Case& c) {
     int dimension = 0;
     for (int i = 1; i < count; ++i) {
         const V e = difference<Wide>(v[static_cast<std::size_t>(i)], v[0]);
-        if (zero(e)) continue;
         if (dimension == 0) {
             edge = e;
-            dimension = 1;
+            dimension = zero(edge) ? 0 : 1;
         } else if (dimension == 1) {
-            const auto n = cross<Wide>(edge, e);
-            if (zero(n)) continue;
-            normal = n;
-            dimension = 2;
+            normal = cross<Wide>(edge, e);
+            dimension = zero(normal) ? 1 : 2;
         } else if (dot(normal, e).sign() != 0) {
             dimension = 3;
         }
     }
     return dimension;
 }
-
-namespace {
-
-using Numbers = std::array<BigInteger, 3>;
-
-/// The gradient of weight i times the denominator, each axis in the product of the units of the others.
-Numbers weight_gradient(Simplex s, const std::array<Vector<Wide>, 4>& v, std::size_t i) {
-    if (s == Simplex::triangle) {
-        const auto e = difference<Wide>(v[(i + 1) % 3], v[(i + 2) % 3]);
-        return {e[1], -e[0], BigInteger(0)};
-    }
-    constexpr std::array<std::array<std::size_t, 3>, 4> opposite{{{1, 2, 3}, {0, 3, 2}, {3, 0, 1}, {2, 1, 0}}};
-    const auto [a, b, c] = opposite[i];
-    const Numbers normal = cross<Wide>(difference<Wide>(v[b], v[a]), difference<Wide>(v[c], v[a]));
-    return {-normal[0], -normal[1], -normal[2]};
-}
-
-}  // namespace
 
 GradientAnswer oracle_gradient(const Case& c) {
     const ExactEnvironment environment;
@@ -343,12 +315,8 @@ GradientAnswer oracle_gradient(const Case& c) {
     const auto v = relative_vertices<Wide>(at_vertex, scales);
     const auto e = difference<Wide>(v[1], v[0]), f = difference<Wide>(v[2], v[0]);
     const BigInteger whole = d == 2 ? cross<Wide>(e, f)[2] : dot(cross<Wide>(e, f), difference<Wide>(v[3], v[0]));
+    if (whole.sign() == 0) return {.degenerate = true, .gradient = {nan, nan, nan}};
     GradientAnswer answer;
-    if (whole.sign() == 0) {
-        answer.degenerate = true;
-        answer.gradient.fill(std::numeric_limits<double>::quiet_NaN());
-        return answer;
-    }
     Numbers sum{};
     for (std::size_t i = 0; i <= d; ++i) {
         const Numbers g = weight_gradient(c.simplex, v, i);
@@ -366,7 +334,7 @@ double oracle_quadratic_value(const Case& c, std::span<const double> mids) {
     for (const double f : mids) scales.values.include(f);
     const int low = scales.values.low;
     const Solution<Wide> s = solve<Wide>(c, scales);
-    if (s.denominator.sign() == 0) return std::numeric_limits<double>::quiet_NaN();
+    if (s.denominator.sign() == 0) return nan;
     const auto& n = s.numerators;
     BigInteger sum(0);
     for (std::size_t i = 0; i < static_cast<std::size_t>(vertex_count(c.simplex)); ++i)

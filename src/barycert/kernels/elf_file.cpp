@@ -76,13 +76,13 @@ private:
     }
 
     [[noreturn]] void foreign(const char* found) const {
-        throw Exception(refused(path_, cannot_load, "a shared library (ELF) for this machine", found,
-                                "build it on this machine with -shared -fPIC"));
+        throw Exception(file_error(path_, cannot_load, "a shared library (ELF) for this machine", found,
+                                   "build it on this machine with -shared -fPIC"));
     }
     [[noreturn]] void cut() const {
-        throw Exception(refused(path_, cannot_load, "a complete file, as its headers declare",
-                                "the end of the file, after " + std::to_string(file_.size()) + " bytes",
-                                "the file is truncated: build or copy it again"));
+        throw Exception(file_error(path_, cannot_load, "a complete file, as its headers declare",
+                                   "the end of the file, after " + std::to_string(file_.size()) + " bytes",
+                                   "the file is truncated: build or copy it again"));
     }
 
     const std::string& path_;

@@ -22,14 +22,13 @@
 namespace barycert::kernels {
 namespace {
 
-constexpr std::size_t channels_size = max_workers * sizeof(Channel);
-
 Error no_process(const std::string& path, std::string found) {
-    return {.what = "cannot run the kernel library in a process of its own",
-            .file = path,
-            .found = std::move(found),
-            .remedy = "run it in this process with job.in_process if you trust it"};
+    return file_error(path, "cannot run the kernel library in a process of its own", "", std::move(found),
+                      "run it in this process with job.in_process if you trust it");
 }
+
+/// The time that loading the library may take, or the limit for a case if that is more.
+constexpr int min_loading_milliseconds = 10000;
 
 /// How a process ended, in words.
 std::string ending(int status) {
@@ -87,19 +86,18 @@ bool readable(int socket, int milliseconds) {
 Result<std::shared_ptr<Host>> Host::start(const std::string& path, double seconds) {
     const std::shared_ptr<Host> host(new Host);
     // Without a slash dlopen would search the system's library folders instead of the working directory.
-    host->path_ = path.find('/') == std::string::npos ? "./" + path : path;
+    const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
     host->milliseconds_ = seconds > 1e-3 ? static_cast<int>(std::min(seconds * 1000, 1e9)) : 1;
     host->loading_milliseconds_ = std::max(host->milliseconds_, min_loading_milliseconds);
-    void* const memory =
-        mmap(nullptr, channels_size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) return no_process(path, std::strerror(errno));
-    host->channels_ = static_cast<Channel*>(memory);
-    for (std::uint32_t i = 0; i < max_workers; ++i) host->free_.push_back({max_workers - 1 - i, -1});
+    host->memory_ = base::map_memory(max_workers * sizeof(Channel), PROT_READ | PROT_WRITE,
+                                     MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE);
+    if (!host->memory_) return no_process(path, std::strerror(errno));
+    for (std::uint32_t i = 0; i < max_workers; ++i) host->free_.push_back({.channel = max_workers - 1 - i});
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return no_process(path, std::strerror(errno));
-    host->server_socket_ = ends[0];
+    host->server_socket_ = base::Descriptor(ends[0]);
     host->server_ = fork();
-    if (host->server_ == 0) become_server(host->channels_, ends[1], host->path_.c_str());
+    if (host->server_ == 0) become_server(host->channels(), ends[1], file.c_str());
     const int why = errno;
     close(ends[1]);
     if (host->server_ < 0) return no_process(path, std::strerror(why));
@@ -108,40 +106,36 @@ Result<std::shared_ptr<Host>> Host::start(const std::string& path, double second
     const End end = host->begin(worker);
     if (end != End::done) {
         const int status = host->end(worker);
-        host->give_back(worker);
+        host->give_back(std::move(worker));
         if (end == End::no_process) return no_process(path, "no process for it could be started");
-        return Error{.what = "cannot load the kernel library",
-                     .file = path,
-                     .found = end == End::hung ? not_loaded_within(host->loading_milliseconds_)
-                                               : "its process ended while it was loaded: " + ending(status),
-                     .remedy = "look at its constructors and at barycert_kernel_describe"};
+        return file_error(path, "cannot load the kernel library", "",
+                          end == End::hung ? not_loaded_within(host->loading_milliseconds_)
+                                           : "its process ended while it was loaded: " + ending(status),
+                          "look at its constructors and at barycert_kernel_describe");
     }
     host->description_ = host->channel(worker).description;
-    host->give_back(worker);
+    host->give_back(std::move(worker));
     return host;
 }
 
 Host::~Host() {
-    for (const Worker& worker : free_) {
-        if (worker.socket >= 0) close(worker.socket);
-    }
-    if (server_socket_ >= 0) close(server_socket_);
+    free_.clear();
+    server_socket_.close();
     if (server_ > 0) (void)TEMP_FAILURE_RETRY(waitpid(server_, nullptr, 0));
-    if (channels_ != nullptr) munmap(channels_, channels_size);
 }
 
 Host::Worker Host::take() {
     std::unique_lock lock(mutex_);
     freed_.wait(lock, [&] { return !free_.empty(); });
-    const Worker worker = free_.back();
+    Worker worker = std::move(free_.back());
     free_.pop_back();
     return worker;
 }
 
-void Host::give_back(const Worker& worker) {
+void Host::give_back(Worker&& worker) {
     {
         const std::lock_guard lock(mutex_);
-        free_.push_back(worker);
+        free_.push_back(std::move(worker));
     }
     freed_.notify_one();
 }
@@ -164,34 +158,31 @@ int Host::ask_server(const ServerRequest& request, int with_socket) {
         c->cmsg_len = CMSG_LEN(sizeof(int));
         std::memcpy(CMSG_DATA(c), &with_socket, sizeof with_socket);
     }
-    if (sendmsg(server_socket_, &message, MSG_NOSIGNAL) < 0) return -1;
+    if (sendmsg(server_socket_.number, &message, MSG_NOSIGNAL) < 0) return -1;
     int answer = -1;
-    const ssize_t got = TEMP_FAILURE_RETRY(recv(server_socket_, &answer, sizeof answer, 0));
+    const ssize_t got = TEMP_FAILURE_RETRY(recv(server_socket_.number, &answer, sizeof answer, 0));
     return got == sizeof answer ? answer : -1;
 }
 
 /// Loading the library is no part of a case: it has a limit of its own whenever a process is started.
 Host::End Host::begin(Worker& worker) {
-    if (worker.socket >= 0) return End::done;
+    if (worker.socket) return End::done;
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return End::no_process;
     new (&channel(worker)) Channel;
+    base::Descriptor socket(ends[0]);
     const int pid = ask_server({ServerRequest::fork_worker, worker.channel, 0}, ends[1]);
     close(ends[1]);
-    if (pid <= 0) {
-        close(ends[0]);
-        return End::no_process;
-    }
-    worker.socket = ends[0];
+    if (pid <= 0) return End::no_process;
+    worker.socket = std::move(socket);
     return command(worker, Command::describe, loading_milliseconds_);
 }
 
 /// Ends the worker, unless it does so in time, and returns its status; -1 if the server, and with it every worker, is
 /// gone.
 int Host::end(Worker& worker, int milliseconds) {
-    if (worker.socket < 0) return 0;
-    close(worker.socket);
-    worker.socket = -1;
+    if (!worker.socket) return 0;
+    worker.socket.close();
     return ask_server({ServerRequest::end_worker, worker.channel, milliseconds}, -1);
 }
 
@@ -199,16 +190,16 @@ int Host::end(Worker& worker, int milliseconds) {
 /// and goes on again does not take that time for the kernel's.
 Host::End Host::command(Worker& worker, Command command, int milliseconds) {
     char letter = static_cast<char>(command);
-    if (send(worker.socket, &letter, 1, MSG_NOSIGNAL) != 1) return End::died;
+    if (send(worker.socket.number, &letter, 1, MSG_NOSIGNAL) != 1) return End::died;
     constexpr std::uint64_t nothing = ~std::uint64_t{0};
     for (std::uint64_t seen = nothing;;) {
-        if (!readable(worker.socket, milliseconds)) {
+        if (!readable(worker.socket.number, milliseconds)) {
             const std::uint64_t begun = channel(worker).begun.load(std::memory_order_relaxed);
             if (begun == seen || command == Command::describe) return End::hung;
             seen = begun;
             continue;
         }
-        const ssize_t got = recv(worker.socket, &letter, 1, 0);
+        const ssize_t got = recv(worker.socket.number, &letter, 1, 0);
         if (got < 0 && errno == EINTR) continue;
         return got == 1 ? End::done : End::died;
     }
@@ -278,7 +269,7 @@ Asked Host::run(std::span<const Case> cases, std::span<Statement> statements, As
         patience_left_ -= how == End::hung ? patience_for_hang : 1;
         first = complete < count ? culprit + 1 : count;
     }
-    give_back(worker);
+    give_back(std::move(worker));
     if (!end_of_last.empty()) batch.detail = end_of_last;
     return batch;
 }

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "barycert/base/descriptor.hpp"
 #include "barycert/kernels/channel.hpp"
 
 namespace barycert::kernels {
@@ -48,23 +49,23 @@ public:
 private:
     struct Worker {
         std::uint32_t channel = 0;
-        int socket = -1;  ///< -1: none runs
+        base::Descriptor socket{};  ///< none: none runs
     };
     enum class End { done, died, hung, no_process };
 
     Host() = default;
     Worker take();
-    void give_back(const Worker& worker);
+    void give_back(Worker&& worker);
     int ask_server(const ServerRequest& request, int with_socket);
     End begin(Worker& worker);
     int end(Worker& worker, int milliseconds = 0);
     End command(Worker& worker, Command command, int milliseconds);
-    Channel& channel(const Worker& worker) { return channels_[worker.channel]; }
+    Channel* channels() { return reinterpret_cast<Channel*>(memory_.get()); }
+    Channel& channel(const Worker& worker) { return channels()[worker.channel]; }
 
-    std::string path_;
     int milliseconds_ = 1000, loading_milliseconds_ = 0;
-    Channel* channels_ = nullptr;
-    int server_socket_ = -1;
+    base::Mapping memory_;
+    base::Descriptor server_socket_;
     int server_ = -1;  // its keeper, which ends with it
     Description description_;
     std::mutex mutex_, server_mutex_;

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -36,18 +37,6 @@ bool receive(int socket, ServerRequest& request, int& with) {
     return true;
 }
 
-[[noreturn]] void become_worker(Channel& channel, pid_t server, int socket, const char* path) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != server) _exit(0);  // it ended before that was set
-    setsid();                           // signals to its group are its own affair
-    // Descriptors of the server are no affair of the library's.
-    const int printed = memfd_create("printed", 0);
-    if (printed < 0 || dup2(printed, 3) < 0 || dup2(socket, 4) < 0) _exit(127);
-    close_range(5, ~0U, 0);
-    limit_worker();
-    run_worker(channel, 4, 3, path);
-}
-
 /// The beginning of a file of the system; empty if there is none. Without memory of the heap, which a kernel may have
 /// spoilt.
 template <std::size_t n>
@@ -67,11 +56,10 @@ void lower(__rlimit_resource_t resource, rlim_t most) {
     setrlimit(resource, &then);
 }
 
-}  // namespace
-
+/// Limits this process in what it writes, in memory and in how many processes and threads it starts.
 void limit_worker() {
     lower(RLIMIT_CORE, 0);
-    lower(RLIMIT_FSIZE, output_limit);
+    lower(RLIMIT_FSIZE, rlim_t{1} << 26);  // a kernel that prints without end does not fill the memory
     std::array<char, 256> text{};
     // What may be written to and is not shared: addresses that are only set aside, as runtimes do, are free. The
     // program's own memory, of which this process is a copy, counts; the kernel has a part of half the machine's.
@@ -88,6 +76,20 @@ void limit_worker() {
     if (std::sscanf(text_of("/proc/loadavg", text), "%*s %*s %*s %*u/%llu", &threads) == 1)
         lower(RLIMIT_NPROC, threads + 4096);
 }
+
+[[noreturn]] void become_worker(Channel& channel, pid_t server, int socket, const char* path) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != server) _exit(0);  // it ended before that was set
+    setsid();                           // signals to its group are its own affair
+    // Descriptors of the server are no affair of the library's.
+    const int printed = memfd_create("printed", 0);
+    if (printed < 0 || dup2(printed, 3) < 0 || dup2(socket, 4) < 0) _exit(127);
+    close_range(5, ~0U, 0);
+    limit_worker();
+    run_worker(channel, 4, 3, path);
+}
+
+}  // namespace
 
 bool end_children(std::span<const pid_t> kept) {
     using Clock = std::chrono::steady_clock;

@@ -159,7 +159,7 @@ int out_of_the_way(int descriptor) {
 
 class WorkerProcess {
 public:
-    WorkerProcess(Channel& channel, int printed) : channel_(channel), printed_(printed) {}
+    WorkerProcess(Channel& channel, int printed) : channel_(channel), printed_(printed) { the_arrays = &arrays_; }
 
     Description load(const char* path) {
         Description d;
@@ -200,8 +200,6 @@ public:
         watches_ = seen_ != 0;
         channel_.ns = channel_.timed && count > 0 ? measure(count) : -1;
     }
-
-    const GuardedArrays& arrays() const { return arrays_; }
 
 private:
     void ask(std::uint32_t first, std::uint32_t count) {
@@ -272,7 +270,10 @@ private:
         std::uint8_t incidents = 0;
         if (has_printed()) {
             incidents |= incident_printed;
-            read_printed(words);
+            char text[100] = {};
+            const ssize_t got = pread(printed_, text, sizeof text - 1, 0);
+            std::snprintf(words, room, "wrote \"%.*s\"", static_cast<int>(std::max<ssize_t>(got, 0)), text);
+            forget_printed();
         }
         if (end_children({})) {
             incidents |= incident_forked;
@@ -289,14 +290,6 @@ private:
     }
     void forget_printed() const {
         if (ftruncate(printed_, 0) != 0) give_up();
-    }
-    /// What was printed, in words, and nothing is left of it.
-    template <std::size_t room>
-    void read_printed(char (&words)[room]) const {
-        char text[100] = {};
-        const ssize_t got = pread(printed_, text, sizeof text - 1, 0);
-        std::snprintf(words, room, "wrote \"%.*s\"", static_cast<int>(std::max<ssize_t>(got, 0)), text);
-        forget_printed();
     }
     void tell(const char* text) {
         if (channel_.detail[0] == '\0') put(channel_.detail, text);
@@ -347,7 +340,6 @@ void run_worker(Channel& channel, int socket, int printed, const char* path) {
     close(socket);
     close(printed);
     WorkerProcess process(channel, own_printed);
-    the_arrays = &process.arrays();
     const Description description = process.load(path);
     for (;;) {
         leave_if_forked();

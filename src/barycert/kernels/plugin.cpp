@@ -10,34 +10,32 @@
 namespace barycert {
 namespace {
 
-using kernels::Description, kernels::refused;
+using kernels::Description;
 
 /// Letters, digits, -, _ and ., so that a name survives shells, globs and file names.
 bool well_formed(std::string_view name) {
-    return !name.empty() && std::ranges::all_of(name, [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-               c == '.';
-    });
+    constexpr std::string_view usable = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+    return !name.empty() && name.find_first_not_of(usable) == std::string_view::npos;
 }
 
 /// The kernel that a library describes, its functions aside.
 Result<Kernel> described(const std::string& path, const Description& d) {
     if (d.missing[0] != '\0')
-        return refused(path, "the library is not a kernel library", std::string("the function ") + d.missing, "none",
-                       "define it as barycert/kernel.h declares it, with C linkage and default visibility");
+        return file_error(path, "the library is not a kernel library", std::string("the function ") + d.missing, "none",
+                          "define it as barycert/kernel.h declares it, with C linkage and default visibility");
     if (d.abi != BARYCERT_KERNEL_ABI)
-        return refused(path, "the kernel library has another interface version", std::to_string(BARYCERT_KERNEL_ABI),
-                       std::to_string(d.abi),
-                       "set info->abi = BARYCERT_KERNEL_ABI and rebuild it with this version's barycert/kernel.h");
+        return file_error(path, "the kernel library has another interface version", std::to_string(BARYCERT_KERNEL_ABI),
+                          std::to_string(d.abi),
+                          "set info->abi = BARYCERT_KERNEL_ABI and rebuild it with this version's barycert/kernel.h");
     const bool perspective = std::string_view(d.simplex) == "triangle.perspective";
     const auto simplex = perspective ? Simplex::triangle : simplex_named(d.simplex);
     if (!simplex)
-        return refused(path, "the kernel library names an unknown simplex",
-                       "segment, triangle, triangle3d, tetrahedron or triangle.perspective",
-                       std::string("\"") + d.simplex + '"', "set info->simplex to one of these");
+        return file_error(path, "the kernel library names an unknown simplex",
+                          "segment, triangle, triangle3d, tetrahedron or triangle.perspective",
+                          std::string("\"") + d.simplex + '"', "set info->simplex to one of these");
     if (!well_formed(d.name))
-        return refused(path, "the kernel library has an unusable name", "letters, digits, -, _ and .",
-                       std::string("\"") + d.name + '"', "set info->name accordingly");
+        return file_error(path, "the kernel library has an unusable name", "letters, digits, -, _ and .",
+                          std::string("\"") + d.name + '"', "set info->name accordingly");
     const std::string name = std::string(perspective ? "perspective-" : "") + d.name;
     Kernel k =
         kernels::make_kernel(*simplex, {name.c_str(), d.formula, d.source, "", nullptr,
@@ -46,14 +44,14 @@ Result<Kernel> described(const std::string& path, const Description& d) {
     k.perspective = perspective;
     if (d.classifies) k.rule = RegionRule::own;
     if (std::ranges::find(catalogue(), k.name, &Kernel::name) != catalogue().end())
-        return refused(path, "the kernel library takes the name of a kernel of the catalogue", "another name", k.name,
-                       "change info->name");
+        return file_error(path, "the kernel library takes the name of a kernel of the catalogue", "another name",
+                          k.name, "change info->name");
     return k;
 }
 
 Error not_loaded(const std::string& path, std::string found) {
-    return refused(path, "cannot load the kernel library", "", std::move(found),
-                   "give the path of a shared library for this machine, all of whose symbols can be resolved");
+    return file_error(path, "cannot load the kernel library", "", std::move(found),
+                      "give the path of a shared library for this machine, all of whose symbols can be resolved");
 }
 
 }  // namespace

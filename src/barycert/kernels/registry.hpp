@@ -6,11 +6,6 @@
 
 namespace barycert::kernels {
 
-inline Error refused(const std::string& path, std::string what, std::string expected, std::string found,
-                     std::string remedy) {
-    return {std::move(what), path, 0, std::move(expected), std::move(found), std::move(remedy)};
-}
-
 enum class Declares : bool { no, yes };
 
 /// What else there is of a formula.

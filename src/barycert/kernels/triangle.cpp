@@ -81,8 +81,6 @@ double exact_perspective_value(const double* vertices, const double* point, cons
     return v ? v->value : std::numeric_limits<double>::quiet_NaN();
 }
 
-constexpr Simplex in_window = Simplex::triangle;
-
 const Formula perspective_kernels[] = {
     {"perspective-textbook",
      "1/Z = alpha/Z_A + beta/Z_B + gamma/Z_C, I = Z (alpha I_A/Z_A + beta I_B/Z_B + gamma I_C/Z_C), Z the w of a "
@@ -95,8 +93,8 @@ const Formula perspective_kernels[] = {
      "varying variables of a pipeline: v/w and 1/w are linear in the window",
      "as triangle.signed-area: points within a few ulps of an edge get a wrong sign or a false zero",
      perspective_varying<double>, Declares::yes,
-     More{nullptr, in_float<in_window, perspective_varying<float>, 3>, single_near_edges, varying_value<double>,
-          value_in_float<in_window, varying_value<float>, 3>}},
+     More{nullptr, in_float<Simplex::triangle, perspective_varying<float>, 3>, single_near_edges, varying_value<double>,
+          value_in_float<Simplex::triangle, varying_value<float>, 3>}},
     {"perspective-affine", "W_a = (bc x bp)/(ab x ac) and cyclic in the window, w left out",
      "texture mapping without division by w",
      "right where all w are equal: with w = 1 and 3 at the ends, the middle of an edge gets 1/2 in place of 3/4 and "

@@ -55,20 +55,20 @@ private:
     bool names_wrong_cell(std::size_t row) {
         if (claimed_.cells.empty() || claimed_.cells[row] < 0 || claimed_.cells[row] == table_.cells[row]) return false;
         const Mesh& mesh = sampler_.locator().mesh();
-        const auto cells = static_cast<std::int64_t>(mesh.cell_count());
-        if (claimed_.cells[row] >= cells) return true;
+        const auto cells = static_cast<std::int64_t>(mesh.cell_count()), claimed = claimed_.cells[row];
+        if (claimed >= cells) return true;
         std::array<double, 3> at{};
         std::copy_n(point(row), d_, at.begin());
+        const auto is_claimed = [&](std::int64_t cell) {
+            return mesh.cell_number(static_cast<Mesh::Index>(cell)) ==
+                   mesh.cell_number(static_cast<Mesh::Index>(claimed));
+        };
         const locate::LocatorData& data = locate::LocatorData::of(sampler_.locator());
         if (data.mapped) {
             const Result<Table> held = sampler_.locator().locate_all({at.data(), d_}, 1);
-            return !held || std::ranges::none_of(held->cells, [&](Mesh::Index cell) {
-                return mesh.cell_number(cell) == mesh.cell_number(static_cast<Mesh::Index>(claimed_.cells[row]));
-            });
+            return !held || std::ranges::none_of(held->cells, is_claimed);
         }
-        const auto number = [&](std::int64_t cell) { return mesh.cell_number(static_cast<Mesh::Index>(cell)); };
-        for (std::int64_t part = claimed_.cells[row]; part < cells && number(part) == number(claimed_.cells[row]);
-             ++part) {
+        for (std::int64_t part = claimed; part < cells && is_claimed(part); ++part) {
             const locate::Place place = data.places()[static_cast<std::size_t>(part)];
             if (locate::cell_signs(data.index, place, at.data(), tests_).contains()) return false;
         }
@@ -196,8 +196,7 @@ private:
 };
 
 Status wrong_size(const char* what, std::size_t expected, std::size_t found) {
-    return Error{
-        .what = std::string("size of ") + what, .expected = std::to_string(expected), .found = std::to_string(found)};
+    return file_error({}, std::string("size of ") + what, std::to_string(expected), std::to_string(found));
 }
 
 Status check_claims(const Sampler& sampler, const ClaimedRows& rows, NonfinitePoints nonfinite) {
@@ -268,14 +267,11 @@ void Verdicts::add(const Verdicts& other, std::size_t examples_of_each) {
     for (std::size_t c = 0; c < other.columns.size(); ++c) columns[c].add(other.columns[c]);
     examples.insert(examples.end(), other.examples.begin(), other.examples.end());
     std::ranges::sort(examples, [](const WrongRow& x, const WrongRow& y) {
-        if (x.verdict != y.verdict) return x.verdict < y.verdict;
-        if (x.severity != y.severity) return x.severity > y.severity;
-        return x.row < y.row;
+        return std::tuple(x.verdict, y.severity, x.row) < std::tuple(y.verdict, x.severity, y.row);
     });
     // The same rows, whatever the parts.
     invented_rows.insert(invented_rows.end(), other.invented_rows.begin(), other.invented_rows.end());
-    const auto before = [](const WrongRow& x, const WrongRow& y) { return base::mix64(x.row) < base::mix64(y.row); };
-    std::ranges::sort(invented_rows, before);
+    std::ranges::sort(invented_rows, {}, [](const WrongRow& row) { return base::mix64(row.row); });
     if (invented_rows.size() > max_measured) invented_rows.resize(max_measured);
     std::size_t of_kind = 0;
     RowVerdict kind = RowVerdict::right;

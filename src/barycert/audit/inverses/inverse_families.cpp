@@ -3,7 +3,10 @@
 #include "barycert/audit/inverses/reference.hpp"
 #include "barycert/audit/recipes.hpp"
 
-namespace barycert::audit {
+namespace barycert {
+
+using namespace audit;
+
 namespace {
 
 using base::Random;
@@ -136,11 +139,6 @@ void far(InverseCase& c, Random& random) {
 }
 
 }  // namespace
-}  // namespace barycert::audit
-
-namespace barycert {
-
-using namespace audit;
 
 const std::vector<InverseFamily>& inverse_families() {
     static const std::vector<InverseFamily> all{

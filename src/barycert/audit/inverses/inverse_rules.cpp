@@ -5,7 +5,10 @@
 #include "barycert/audit/inverses/reference.hpp"
 #include "barycert/kernels/vectors.hpp"
 
-namespace barycert::audit {
+namespace barycert {
+
+using namespace audit;
+
 namespace {
 
 struct Newton {
@@ -89,11 +92,6 @@ InverseRule rule(const char* name, std::uint8_t type, const char* formula, const
 }
 
 }  // namespace
-}  // namespace barycert::audit
-
-namespace barycert {
-
-using audit::Newton, audit::rule;
 
 const std::vector<InverseRule>& inverse_rules() {
     const char *const loose = "10 steps from the middle, until none moves by 1e-3; inside within 1e-3 of [0, 1]",

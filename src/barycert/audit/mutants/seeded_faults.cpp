@@ -59,7 +59,6 @@ constexpr FaultyFormula areas_and_volumes[] = {
      [](Numbers v, Numbers p, double* w) { return magnitude(twice_area(v)) < 1e-12 ? 1 : signed_area(v, p, w); }},
     {"tetrahedron.signed-volume", "swapped-vertices", "the weights of a and d are exchanged", signed_volume<double>,
      [](Numbers, Numbers, double* w) { std::swap(w[0], w[3]); }},
-    // The row (b, a, c) for (a, b, c): an odd permutation.
     {"tetrahedron.signed-volume", "odd-permutation", "one determinant with two rows exchanged", signed_volume<double>,
      [](Numbers, Numbers, double* w) { w[3] = -w[3]; }},
     {"tetrahedron.signed-volume", "wrong-index", "x of a vertex where its y belongs", signed_volume<double>,
@@ -69,7 +68,6 @@ constexpr FaultyFormula areas_and_volumes[] = {
          u[10] = v[9];
          if (signed_volume(u, p, x) == 0) w[0] = x[0];
      }},
-    // A determinant without the last of the three products with its minors.
     {"tetrahedron.signed-volume", "dropped-term", "one product of a determinant is missing", signed_volume<double>,
      [](Numbers v, Numbers p, double* w) {
          const auto q = at3(p, 0), edge = at3(v, 1) - q, minor = cross(at3(v, 2) - q, at3(v, 3) - q);
@@ -149,23 +147,6 @@ int faulty(Numbers v, Numbers p, double* w) {
 template <const auto& table, std::size_t... i>
 void add_faulty(std::vector<Mutant>& list, std::index_sequence<i...>) {
     (list.push_back(mutant_of(catalogued(table[i].sound), table[i].fault, table[i].change, faulty<table, i>)), ...);
-}
-
-Mutant with_tolerance(const Kernel& sound, const char* fault, const char* change, double tolerance) {
-    Mutant m = mutant_of(sound, fault, change, sound.weights);
-    m.kernel.tolerance = tolerance;
-    return m;
-}
-
-void add_plain_mutants(std::vector<Mutant>& list) {
-    add_faulty<areas_and_volumes>(list, std::make_index_sequence<std::size(areas_and_volumes)>());
-    const Kernel tolerant = catalogued("tetrahedron.vtk-tolerance");
-    list.push_back(with_tolerance(tolerant, "tolerance-times-ten", "inside if every weight >= -0.01", 0.01));
-    Kernel solver = tolerant;
-    solver.name = "tetrahedron.tolerance-1e-10";
-    solver.tolerance = 1e-10;
-    list.push_back(with_tolerance(solver, "tolerance-times-ten", "inside if every weight >= -1e-9", 1e-9));
-    add_faulty<projections>(list, std::make_index_sequence<std::size(projections)>());
 }
 
 // Faults seeded into kernels that certify what they say, correctly rounded weights: into barycert's own, and into some
@@ -323,7 +304,19 @@ void add_certified(std::vector<Mutant>& list) {
     list.back().kernel.interpolate = value_ties_away<s>;
 }
 
-void add_certified_mutants(std::vector<Mutant>& list) {
+std::vector<Mutant> made_mutants() {
+    std::vector<Mutant> list;
+    add_faulty<areas_and_volumes>(list, std::make_index_sequence<std::size(areas_and_volumes)>());
+    const auto add = [&](const Kernel& tolerant, const char* change) {
+        list.push_back(mutant_of(tolerant, "tolerance-times-ten", change, tolerant.weights));
+        list.back().kernel.tolerance *= 10;
+    };
+    Kernel tolerant = catalogued("tetrahedron.vtk-tolerance");
+    add(tolerant, "inside if every weight >= -0.01");
+    tolerant.name = "tetrahedron.tolerance-1e-10";
+    tolerant.tolerance = 1e-10;
+    add(tolerant, "inside if every weight >= -1e-9");
+    add_faulty<projections>(list, std::make_index_sequence<std::size(projections)>());
     using F = FilterFault;
     const Kernel area = filtered("triangle.exact", "triangle.filtered", filtered_area<F::none>);
     const Kernel volume = filtered("tetrahedron.exact", "tetrahedron.filtered", filtered_volume<F::none>);
@@ -339,6 +332,7 @@ void add_certified_mutants(std::vector<Mutant>& list) {
     add_both<F::tie_inside>(list, area, volume, "tie-inside", "a weight of exactly zero counts as positive");
     add_certified<Simplex::triangle>(list);
     add_certified<Simplex::tetrahedron>(list);
+    return list;
 }
 
 }  // namespace
@@ -347,12 +341,7 @@ void add_certified_mutants(std::vector<Mutant>& list) {
 namespace barycert {
 
 const std::vector<Mutant>& all_mutants() {
-    static const std::vector<Mutant> all = [] {
-        std::vector<Mutant> list;
-        audit::add_plain_mutants(list);
-        audit::add_certified_mutants(list);
-        return list;
-    }();
+    static const std::vector<Mutant> all = audit::made_mutants();
     return all;
 }
 

@@ -46,10 +46,9 @@ inline Evaluation evaluate(const Kernel& kernel, const Case& c) {
 
 /// Those of witnesses, and the relative error.
 inline constexpr std::size_t search_reasons = witness_reasons + 1;
-inline constexpr std::string_view relative_error_reason = "worst_relative_error";
 
 constexpr std::string_view search_reason_name(std::size_t reason) {
-    return reason < witness_reasons ? reason_name(reason) : relative_error_reason;
+    return reason < witness_reasons ? reason_name(reason) : "worst_relative_error";
 }
 
 /// Findings that may have cost the kernel its process.

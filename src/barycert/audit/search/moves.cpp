@@ -1,7 +1,5 @@
 #include "barycert/audit/search/moves.hpp"
 
-#include "barycert/audit/recipes.hpp"
-
 namespace barycert::audit {
 namespace {
 

@@ -1,9 +1,9 @@
 /// The numbers of a case that a search changes, as one row; the steps of a walk, and where walks start.
 #pragma once
 
+#include "barycert/audit/recipes.hpp"
 #include "barycert/audit/search/evaluation.hpp"
 #include "barycert/base/finite.hpp"
-#include "barycert/base/random.hpp"
 
 namespace barycert::audit {
 
@@ -45,17 +45,6 @@ inline bool admissible(const Case& c, const ExponentRange& range) {
         if (x != 0 && (std::ilogb(x) < range.min || std::ilogb(x) > range.max)) return false;
     }
     return base::all_finite(c.values);
-}
-
-/// The double `n` places above x in the order of doubles, in which zero is one place; infinite beyond the largest.
-/// Preconditions: x finite, |n| < 2^62.
-inline double places_above(double x, std::int64_t n) {
-    const auto bits = std::bit_cast<std::int64_t>(x);
-    const std::int64_t place = (bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits) + n;
-    constexpr std::int64_t infinite = 0x7ff0000000000000;
-    if (place >= infinite) return HUGE_VAL;
-    if (place <= -infinite) return -HUGE_VAL;
-    return std::bit_cast<double>(place >= 0 ? place : std::numeric_limits<std::int64_t>::min() - place);
 }
 
 /// Bits from the first to the last one of the significand; 0 of zero.

@@ -12,17 +12,16 @@ namespace {
 class Simplifier {
 public:
     Simplifier(const Kernel& kernel, const Witness& witness, const ExponentRange& range)
-        : kernel_(kernel), range_(range), reason_(search_reason_named(witness.reason)), best_(witness.c) {
-        shown_ = reason_ < search_reasons;
-        if (!shown_) return;
-        const double from = badness(reason_, ask(best_));
-        shown_ = from >= 0;
-        least_ = reason_ < finding_count ? 0 : from / 1024;
-        cost_ = plain_cost(best_);
-    }
+        : kernel_(kernel),
+          range_(range),
+          reason_(search_reason_named(witness.reason)),
+          best_(witness.c),
+          cost_(plain_cost(best_)) {}
 
     Case run() {
-        if (!shown_) return best_;
+        const double from = reason_ < search_reasons ? badness(reason_, ask(best_)) : -1;
+        if (from < 0) return best_;
+        least_ = reason_ < finding_count ? 0 : from / 1024;
         for (int pass = 0; pass < passes; ++pass) {
             const int before = cost_;
             values();
@@ -90,18 +89,16 @@ private:
 
     void scale(int axis, bool largest) {
         Case c = best_;
-        int extreme = 0;
-        bool any = false;
+        std::optional<int> extreme;
         for (int k = 0; k < coordinate_count(c); ++k) {
             const double x = coordinate(c, k);
             if (x == 0 || (axis >= 0 && axis_of(c, k) != axis)) continue;
             const int e = std::ilogb(x);
-            extreme = !any ? e : largest ? std::max(extreme, e) : std::min(extreme, e);
-            any = true;
+            if (!extreme || (largest ? e > *extreme : e < *extreme)) extreme = e;
         }
-        if (!any || extreme == 0) return;
+        if (extreme.value_or(0) == 0) return;
         for (int k = 0; k < coordinate_count(c); ++k) {
-            if (axis < 0 || axis_of(c, k) == axis) coordinate(c, k) = std::ldexp(coordinate(c, k), -extreme);
+            if (axis < 0 || axis_of(c, k) == axis) coordinate(c, k) = std::ldexp(coordinate(c, k), -*extreme);
         }
         take(c);
     }
@@ -208,9 +205,8 @@ private:
     ExponentRange range_;
     std::size_t reason_;
     Case best_;
-    bool shown_ = false;
+    int cost_;
     double least_ = 0;
-    int cost_ = 0;
     std::uint64_t steps_ = 0;
 };
 

@@ -15,6 +15,8 @@ constexpr std::uint64_t walks_per_round = 32, steps_per_walk = 1000;
 constexpr std::uint64_t patience = 100;  ///< steps without a rise before the walk goes down
 constexpr std::size_t kept = 12;         ///< worst cases of a reason to start from
 
+const MeshSource no_meshes;
+
 /// A case that showed a reason, and what is told of it: the kernel may end before it could be asked again.
 struct Met {
     Case c;
@@ -27,7 +29,7 @@ struct Met {
 struct Harvest {
     std::uint64_t steps = 0, wrong_cases = 0;
     std::array<std::uint64_t, search_reasons> cases{};
-    std::array<std::vector<Met>, search_reasons> worst;  ///< worst first, at most `kept`
+    std::array<std::vector<Met>, search_reasons> worst;  ///< worst first, at most `kept`; of a walk one
     std::array<Met, finding_count> plain;                ///< the plainest of each finding
     bool given_up = false;                               ///< the kernel failed to answer too often
 
@@ -44,22 +46,17 @@ struct Harvest {
             if (h.shown < 0) continue;
             ++cases[r];
             if (!cost) cost = plain_cost(c);
-            if (enters(r, h, 1)) include(r, {c, *cost, h, e}, 1);
+            if (worst[r].empty() || h > worst[r].front().height) worst[r] = {{c, *cost, h, e}};
             if (r < finding_count && *cost < plain[r].cost) plain[r] = {c, *cost, h, e};
         }
     }
 
-    bool enters(std::size_t r, const Height& h, std::size_t most) const {
-        return worst[r].size() < most || h > worst[r].back().height;
-    }
-
     /// Equal ones stay in the order of their coming.
-    void include(std::size_t r, const Met& m, std::size_t most) {
+    void include(std::size_t r, const Met& m) {
         std::vector<Met>& list = worst[r];
-        if (!enters(r, m.height, most)) return;
         const auto at = std::ranges::find_if(list, [&](const Met& x) { return m.height > x.height; });
         list.insert(at, m);
-        if (list.size() > most) list.pop_back();
+        if (list.size() > kept) list.pop_back();
     }
 
     void take(const Harvest& other) {
@@ -68,7 +65,7 @@ struct Harvest {
         given_up = given_up || other.given_up;
         for (std::size_t r = 0; r < search_reasons; ++r) {
             cases[r] += other.cases[r];
-            for (const Met& m : other.worst[r]) include(r, m, kept);
+            for (const Met& m : other.worst[r]) include(r, m);
             if (r < finding_count && other.plain[r].cost < plain[r].cost) plain[r] = other.plain[r];
         }
     }
@@ -81,21 +78,18 @@ public:
             if (!f.needs_mesh && f.applies_to(o.kernel.simplex) && f.perspective == o.kernel.perspective)
                 families_.push_back(f);
         }
-        if (o.kernel.certifies) add_target(Finding::false_certificate);
-        if (o.kernel.declares_degenerate) add_target(Finding::false_declaration);
-        for (const Finding f :
-             {Finding::false_inside, Finding::false_outside, Finding::missed_degenerate, Finding::opposite_sign,
-              Finding::false_zero, Finding::false_nonzero, Finding::not_finite})
-            add_target(f);
-        for (std::size_t error = finding_count; error < search_reasons; ++error) targets_.push_back(error);
+        for (auto r = static_cast<std::size_t>(Finding::false_certificate); r < search_reasons; ++r) {
+            const bool cannot = (is_finding(r, Finding::false_certificate) && !o.kernel.certifies) ||
+                                (is_finding(r, Finding::false_declaration) && !o.kernel.declares_degenerate);
+            if (!cannot) targets_.push_back(r);
+        }
     }
 
     /// Each family's first cases: those of one family are one task, of which the worst of each reason go on.
     Harvest begin(std::size_t family, std::uint64_t steps) const {
         Harvest h;
-        static const MeshSource none;
         for (std::uint64_t i = 0; i < steps && !h.given_up; ++i) {
-            const Case c = make_case(families_[family], o_.kernel.simplex, o_.seed, i, none);
+            const Case c = make_case(families_[family], o_.kernel.simplex, o_.seed, i, no_meshes);
             // One that is beyond the range of exponents is made, but not asked.
             if (admissible(c, range_)) h.add(c, evaluate(o_.kernel, c));
         }
@@ -111,11 +105,9 @@ public:
         Evaluation evaluation = evaluate(o_.kernel, here);
         h.add(here, evaluation);
         std::uint64_t waited = 0;
-        Case asked;
         Evaluation answer;
         const auto ask = [&](const Case& c) -> const Evaluation* {
             if (h.steps >= steps || h.given_up) return nullptr;
-            asked = c;
             answer = evaluate(o_.kernel, c);
             h.add(c, answer);
             return h.given_up ? nullptr : &answer;
@@ -129,15 +121,14 @@ public:
                 wander(next, random, values);
             }
             if (!admissible(next, range_) || ask(next) == nullptr) continue;
-            const bool rises = height(reason, answer) > height(reason, evaluation);
-            const bool level = height(reason, answer) == height(reason, evaluation);
-            if (!rises && !level && waited < patience) {
+            const auto order = height(reason, answer) <=> height(reason, evaluation);
+            if (order < 0 && waited < patience) {
                 ++waited;
                 continue;
             }
             here = next;
             evaluation = answer;
-            if (!level) waited = 0;
+            if (order != 0) waited = 0;
         }
         return h;
     }
@@ -145,17 +136,14 @@ public:
     std::size_t family_count() const { return families_.size(); }
 
 private:
-    void add_target(Finding f) { targets_.push_back(static_cast<std::size_t>(f)); }
-
     Case start(const Harvest& before, std::size_t reason, base::Random& random) const {
         const auto kind = random.below(4);
         const std::vector<Met>& worst = before.worst[reason];
         if (kind < 2 && !worst.empty()) return worst[random.below(worst.size())].c;
         if (kind == 2 && !families_.empty()) {
-            static const MeshSource none;
             const Family& family = families_[random.below(families_.size())];
             const std::uint64_t index = o_.family_count + random.below(std::uint64_t{1} << 32);
-            Case c = make_case(family, o_.kernel.simplex, o_.seed, index, none);
+            Case c = make_case(family, o_.kernel.simplex, o_.seed, index, no_meshes);
             if (admissible(c, range_)) return c;
         }
         return patterned_case(o_.kernel.simplex, o_.kernel.perspective, range_, random);
@@ -179,27 +167,10 @@ Witness witness_of(const SearchOptions& o, std::size_t reason, const Met& met) {
     return w;
 }
 
-struct Shown {
-    SearchFind find;
-    std::uint64_t plain_steps = 0;
-    bool given_up = false;
-};
-
-/// The plainest case that can be made of those met.
-Witness made_plain(const SearchOptions& o, std::size_t reason, Shown& s) {
-    const auto plainest = [&](const Witness& w) {
-        return plainest_witness(o.kernel, w, &s.plain_steps, o.min_exponent, o.max_exponent);
-    };
-    Witness plain = plainest(s.find.found);
-    if (reason >= finding_count) return plain;
-    Witness other = plainest(s.find.plain);
-    return plain_cost(other.c) < plain_cost(plain.c) ? other : plain;
-}
-
-Shown shown(const SearchOptions& o, std::size_t reason, const Harvest& all) {
+/// Tells the report of its steps, and whether the kernel was given up in them.
+SearchFind find_of(const SearchOptions& o, std::size_t reason, const Harvest& all, SearchReport& report) {
     const Met &worst = all.worst[reason].front(), &met = reason < finding_count ? all.plain[reason] : worst;
-    Shown s;
-    SearchFind& f = s.find;
+    SearchFind f;
     f.reason = search_reason_name(reason);
     f.cases = all.cases[reason];
     f.found = witness_of(o, reason, worst);
@@ -209,27 +180,36 @@ Shown shown(const SearchOptions& o, std::size_t reason, const Harvest& all) {
     Evaluation e = met.evaluation;
     // Each trial of an accident may cost a process, or the time limit: the plainest that was met is plain enough.
     if (!is_accident(reason) && !all.given_up) {
-        Witness plain = made_plain(o, reason, s);
+        std::uint64_t steps = 0;
+        const auto plainest = [&](const Witness& w) {
+            return plainest_witness(o.kernel, w, &steps, o.min_exponent, o.max_exponent);
+        };
+        Witness plain = plainest(f.found);
+        if (reason < finding_count) {
+            Witness other = plainest(f.plain);
+            if (plain_cost(other.c) < plain_cost(plain.c)) plain = std::move(other);
+        }
+        std::atomic_ref(report.plain_steps) += steps;
         const Evaluation p = evaluate(o.kernel, plain.c);
-        s.given_up = !p.said.ran;
         if (p.said.ran) {
             f.plain = std::move(plain);
             if (is_incident(reason)) f.plain.detail = p.detail;
             e = p;
+        } else {
+            std::atomic_ref(report.given_up) = true;
         }
     }
     f.plain_weight_ulp = e.comparison.worst_weight_ulp();
     f.plain_relative_error = e.relative_error;
     for (int k = 0; k < coordinate_count(f.plain.c); ++k) f.plain_bits += significant_bits(coordinate(f.plain.c, k));
-    return s;
+    return f;
 }
 
 Status check(const SearchOptions& o) {
     if (o.steps == 0) return Error{.what = "a search of no steps", .expected = "at least 1", .found = "0"};
-    if (o.min_exponent > o.max_exponent || o.min_exponent < -1074 || o.max_exponent > 1023) {
+    if (o.min_exponent > o.max_exponent || o.min_exponent < -1074 || o.max_exponent > 1023)
         return file_error({}, "the exponents of a search", "LOW:HIGH with -1074 <= LOW <= HIGH <= 1023",
                           std::to_string(o.min_exponent) + ":" + std::to_string(o.max_exponent));
-    }
     if (o.kernel.weights == nullptr && o.kernel.host == nullptr) return Error{.what = "a search without a kernel"};
     return Done{};
 }
@@ -289,13 +269,9 @@ Result<SearchReport> search_worst_case(const SearchOptions& o) {
         if (met) reasons.push_back(r);
     }
     report.given_up = all.given_up;
-    std::vector<Shown> finds(reasons.size());
-    on_threads(report.threads, reasons.size(), [&](std::size_t i) { finds[i] = shown(o, reasons[i], all); });
-    for (Shown& s : finds) {
-        report.plain_steps += s.plain_steps;
-        report.given_up = report.given_up || s.given_up;
-        report.finds.push_back(std::move(s.find));
-    }
+    report.finds.resize(reasons.size());
+    on_threads(report.threads, reasons.size(),
+               [&](std::size_t i) { report.finds[i] = find_of(o, reasons[i], all, report); });
     report.seconds = elapsed();
     return report;
 }

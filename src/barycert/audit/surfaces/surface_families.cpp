@@ -2,7 +2,10 @@
 
 #include "barycert/audit/recipes.hpp"
 
-namespace barycert::audit {
+namespace barycert {
+
+using namespace audit;
+
 namespace {
 
 using base::Random;
@@ -268,11 +271,6 @@ SurfaceCase scaled_two(Random& random) {
 }
 
 }  // namespace
-}  // namespace barycert::audit
-
-namespace barycert {
-
-using namespace audit;
 
 const std::vector<SurfaceFamily>& surface_families() {
     using enum SurfaceQuestion;

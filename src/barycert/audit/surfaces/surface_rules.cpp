@@ -1,5 +1,4 @@
-// The rules on triangles in space that are in use, faults included: how far a point is from a triangle, whether it is
-// inside a closed surface, whether two triangles have a point in common.
+// The rules on triangles in space that are in use, faults included.
 
 #include <cmath>
 #include <limits>
@@ -9,7 +8,10 @@
 #include "barycert/kernels/space_formulas.hpp"
 #include "barycert/surface_locator.hpp"
 
-namespace barycert::audit {
+namespace barycert {
+
+using namespace audit;
+
 namespace {
 
 template <class T>
@@ -319,11 +321,6 @@ double by_check(const SurfaceCase& c) {
 }
 
 }  // namespace
-}  // namespace barycert::audit
-
-namespace barycert {
-
-using namespace audit;
 
 const std::vector<SurfaceRule>& surface_rules() {
     using enum SurfaceQuestion;
