@@ -1,4 +1,5 @@
 #include "barycert/audit.hpp"
+#include "barycert/audit_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,6 +73,9 @@ TEST(Thresholds, SilenceIsNotAccuracy) {
         c.counts[static_cast<std::size_t>(f)] = 1;
         s.add(c, Region::interior, 0);
         EXPECT_EQ(violations(r, {{"worst_weight_ulp", 1e300}}).size(), 1U) << name(f);
+        SearchReport search;
+        search.finds.emplace_back().reason = name(f);
+        EXPECT_EQ(violations(search, {{"worst_weight_ulp", 1e300}}).size(), 1U) << name(f);
     }
     // Nor is a kernel that was given up before its first case; parts are added.
     AuditReport r = audit_of({kernel_named("tetrahedron.kahan")}, {family_named("random.inside")}, 1);

@@ -22,13 +22,9 @@ double as_rules_have_it(std::size_t figure, const KernelStatistics& s) {
     const auto seen = [&](Finding x) { return s.counts[static_cast<std::size_t>(x)] != 0; };
     const double value = figures()[figure].value(s);
     // A kernel that was given up before it was wrong, for want of a process, has not passed. One that gives no finite
-    // weight where there is one to give has no error to measure: it is worse than any. (One that touched memory beside
-    // its arrays may have died of it.)
-    const bool mute = figure == 0
-                          ? value == 0 && s.not_run != 0
-                          : value < 0 && (seen(Finding::not_finite) || seen(Finding::false_declaration) ||
-                                          seen(Finding::crashed) || seen(Finding::raised) || seen(Finding::hung) ||
-                                          seen(Finding::out_of_bounds) || s.not_run != 0);
+    // weight where there is one to give has no error to measure: it is worse than any.
+    const bool mute = figure == 0 ? value == 0 && s.not_run != 0
+                                  : value < 0 && (std::ranges::any_of(mute_findings, seen) || s.not_run != 0);
     return mute ? std::numeric_limits<double>::infinity() : value;
 }
 
