@@ -180,9 +180,10 @@ std::vector<std::size_t> kept_places(const ElementType& type) {
 void read_shapes(const Target& to, std::span<const Run> runs) {
     Mesh::Shapes& shapes = to.cells.mesh.shapes;
     constexpr std::array<std::uint8_t, 8> linear_types{0, 0, 5, 9, 10, 12, 13, 14};  // VTK's
+    std::map<const ElementType*, std::vector<std::size_t>> kept;
     for (const Run& run : runs) {
         const ElementType& own = *to.elements.blocks[run.id].type;
-        const bool whole = !kept_places(own).empty();
+        const bool whole = !kept.try_emplace(&own, kept_places(own)).first->second.empty();
         const std::uint8_t linear = linear_types[static_cast<std::size_t>(own.family)],
                            curved = own.dimension() == 3 ? 71 : 69, type = whole ? curved : linear;
         const auto corners = static_cast<std::int64_t>(whole ? own.nodes : mesh::shape_of(type).corners);
@@ -191,9 +192,6 @@ void read_shapes(const Target& to, std::span<const Run> runs) {
             shapes.ends.push_back((shapes.ends.empty() ? 0 : shapes.ends.back()) + corners);
     }
     shapes.nodes.resize(static_cast<std::size_t>(shapes.ends.back()));
-    std::map<const ElementType*, std::vector<std::size_t>> kept;
-    for (const Run& run : runs)
-        kept.try_emplace(to.elements.blocks[run.id].type, kept_places(*to.elements.blocks[run.id].type));
     parse_runs(to.file, "Elements", runs, [&](auto& row, const Run& run, std::size_t i) {
         const ElementBlock& block = to.elements.blocks[run.id];
         if (!to.take_head_of(row, block, i)) return false;
