@@ -35,20 +35,13 @@ constexpr std::array<std::string_view, 8> family_names{"point",       "line",   
 
 /// "8 points, 120 lines": of types whose dimension is at least `low` and at most `high`.
 std::string counted_types(const TypeCounts& counts, int low, int high) {
-    std::string text;
-    for (const ElementType& type : element_types) {
+    return base::joined(element_types, ", ", [&](const ElementType& type) {
         const std::size_t count = counts[static_cast<std::size_t>(type.number)];
-        if (count == 0 || type.dimension() < low || type.dimension() > high) continue;
+        if (count == 0 || type.dimension() < low || type.dimension() > high) return std::string();
         std::string name(family_names[static_cast<std::size_t>(type.family)]);
-        if (count != 1 && name.ends_with("on")) {
-            name.replace(name.size() - 2, 2, "a");
-        } else if (count != 1) {
-            name += 's';
-        }
-        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
-        if (type.order > 1) text += " of order " + std::to_string(type.order);
-    }
-    return text;
+        if (count != 1) name.ends_with("on") ? name.replace(name.size() - 2, 2, "a") : name += 's';
+        return std::to_string(count) + " " + name + (type.order > 1 ? " of order " + std::to_string(type.order) : "");
+    });
 }
 
 std::vector<const ElementType*> choose(const MshFile& file, const TypeCounts& counts) {

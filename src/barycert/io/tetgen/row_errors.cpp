@@ -10,13 +10,11 @@ template <class... Parts>
 
 /// "5 columns: id, 3 coordinates, 1 marker".
 std::string described_columns(const TextTable& table) {
-    std::string text;
-    for (const Columns& columns : table.columns) {
-        if (columns.count == 0) continue;
-        text += text.empty() ? ": " : ", ";
-        text += columns.kind == ColumnKind::id ? columns.name : base::counted(columns.count, columns.name);
-    }
-    return base::counted(table.column_count(), "column") + text;
+    const auto described = [](const Columns& columns) {
+        if (columns.count == 0) return std::string();
+        return columns.kind == ColumnKind::id ? columns.name : base::counted(columns.count, columns.name);
+    };
+    return base::counted(table.column_count(), "column") + ": " + base::joined(table.columns, ", ", described);
 }
 
 /// Digits, and nothing but digits and what else is allowed.
