@@ -72,7 +72,7 @@ Status RowSink::write(const TableView& rows) {
 
 TableSink::~TableSink() = default;
 
-Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format) {
+Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const TableFormat& format) try {
     const ExactEnvironment environment;
     if (format.dimension != 2 && format.dimension != 3)
         return file_error(path, "points of rows can have 2 or 3 coordinates", "2 or 3",
@@ -90,11 +90,9 @@ Result<std::unique_ptr<TableSink>> open_table(const std::string& path, const Tab
         return file_error(path, "cannot write rows in the format of that suffix",
                           ".csv, .npy or .vtu, or - for CSV on the standard output",
                           kind ? "a format for points alone" : kind.error().found, "name a .csv, .npy or .vtu file");
-    try {
-        return *kind == io::FileFormat::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);
-    } catch (const Exception& problem) {
-        return problem.error();
-    }
+    return *kind == io::FileFormat::csv ? io::open_csv_sink(path, format) : io::open_npy_sink(path, format);
+} catch (const Exception& problem) {
+    return problem.error();
 }
 
 }  // namespace barycert

@@ -269,15 +269,13 @@ Mesh checked(const Json& answer, const MeshioFile& file, const std::string& path
 
 }  // namespace
 
-Result<Mesh> read_converted(const std::string& path, const std::string& format) {
-    try {
-        const MeshioFile file = run_meshio(path, format);
-        return checked(Json::parse(file.answer), file, path, format);
-    } catch (const Exception& problem) {
-        return problem.error();
-    } catch (const Json::exception&) {
-        return file_error(path, "meshio gave no answer that can be read");
-    }
+Result<Mesh> read_converted(const std::string& path, const std::string& format) try {
+    const MeshioFile file = run_meshio(path, format);
+    return checked(Json::parse(file.answer), file, path, format);
+} catch (const Exception& problem) {
+    return problem.error();
+} catch (const Json::exception&) {
+    return file_error(path, "meshio gave no answer that can be read");
 }
 
 std::vector<std::string> converted_files(const std::string& path) {
