@@ -209,9 +209,7 @@ Source points_of_table(PointTable table, const std::string& file, int dimension,
 Result<PointTable> read_vtk_table(const std::string& path, bool arrays,
                                   NonfinitePoints nonfinite = NonfinitePoints::error);
 
-// Fields from files of their own: a row of numbers for each node or cell.
-
-/// One field of any number of rows, all of as many components.
+/// One field from a file of its own: any number of rows, all of as many components.
 ///
 /// Text: a row a line, numbers between blanks, tabs, commas or semicolons, rounded to nearest; nan and inf are taken as
 /// they are. Blank lines, and what follows a #, are passed over. With `column`, CSV, whose first line settles the

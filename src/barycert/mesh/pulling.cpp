@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "barycert/base/arena.hpp"
+#include "barycert/mesh/cell_types.hpp"
 #include "barycert/mesh/columns.hpp"
 #include "barycert/mesh/part.hpp"
 
@@ -17,18 +18,18 @@ using Index = Mesh::Index;
 
 constexpr auto known_shapes = [] {
     std::array<Shape, 72> all{};
-    all[5] = all[22] = all[69] = {2, 3, "012"};
-    all[strip] = all[7] = {2, 0, {}};
+    all[vtk_triangle] = all[vtk_quadratic_triangle] = all[69] = {2, 3, "012"};
+    all[vtk_triangle_strip] = all[vtk_polygon] = {2, 0, {}};
     all[8] = {2, 4, "0132"};
-    all[9] = {2, 4, "0123"};
-    all[10] = all[24] = all[71] = {3, 4, "013 123 203 021"};
+    all[vtk_quad] = {2, 4, "0123"};
+    all[vtk_tetra] = all[vtk_quadratic_tetra] = all[71] = {3, 4, "013 123 203 021"};
     all[11] = {3, 8, "0462 1375 0154 2673 0231 4576"};
     all[12] = {3, 8, "0473 1265 0154 3762 0321 4567"};
     all[13] = {3, 6, "012 354 0341 1452 2530"};
     all[14] = {3, 5, "0321 014 124 234 304"};
     all[15] = {3, 10, "04321 56789 0165 1276 2387 3498 4059"};
     all[16] = {3, 12, "054321 6789ab 0176 1287 2398 34a9 45ba 506b"};
-    all[polyhedron] = {3, 0, {}};
+    all[vtk_polyhedron] = {3, 0, {}};
     return all;
 }();
 
@@ -144,10 +145,10 @@ template <class Rank>
 Parts cut_polygon(std::uint8_t type, std::vector<Index> nodes, Rank rank) {
     Parts parts;
     const std::size_t n = nodes.size();
-    if (type != strip) nodes = from_lowest(std::move(nodes), rank);
+    if (type != vtk_triangle_strip) nodes = from_lowest(std::move(nodes), rank);
     for (std::size_t i = 1; i + 1 < n; ++i) {
         const bool first = i == 1, last = i + 2 == n;
-        if (type == strip) {
+        if (type == vtk_triangle_strip) {
             // Every other triangle is turned.
             const std::size_t odd = (i + 1) % 2;
             parts.corners.push_back({nodes[i - 1 + odd], nodes[i - odd], nodes[i + 1], -1});
@@ -181,7 +182,7 @@ public:
         if (is_curved_simplex(type)) nodes = nodes.first(mesh_.corners());
         const auto& of_type = rings_of(type);
         any_ = nodes.empty() ? 0 : nodes.front();
-        if (type == polyhedron) return cut_rings(cell, rings_of_polyhedron(cell), true);
+        if (type == vtk_polyhedron) return cut_rings(cell, rings_of_polyhedron(cell), true);
         if (mesh_.dimension == 2 && of_type.empty()) {
             const auto own = [](Index node) { return node; };
             return add(cut_polygon(type, {nodes.begin(), nodes.end()}, own), own);

@@ -17,9 +17,6 @@
 
 namespace barycert::mesh {
 
-/// VTK's number of the type of polyhedra, and of strips.
-inline constexpr std::uint8_t polyhedron = 42, strip = 6;
-
 struct Shape {
     int dimension = 0;            ///< 2, 3; 0: none that can be cut
     std::size_t corners = 0;      ///< 0: any number

@@ -74,7 +74,6 @@ void take_entity(Walk& walk, std::int64_t dimension, int reals, bool parts, MshG
     if (!entity.physical.empty() || entity.whole != tag) groups.entities[{dimension, tag}] = std::move(entity);
 }
 
-/// `parts`: of $PartitionedEntities.
 void take_entities(const MshFile& file, const MshSection& section, bool parts, MshGroups& groups) {
     Walk walk(file, section);
     if (parts) {
