@@ -232,12 +232,8 @@ Status OutputFile::commit() {
         if (in_place || !error_.what.empty()) return status();
     }
     if (begun_ == nullptr) return Done{};
-    if (std::rename(begun_->path.c_str(), real_path_.c_str()) != 0) {
-        fail(put_in_place, errno);
-        return error_;
-    }
-    forget_name();
-    return Done{};
+    std::rename(begun_->path.c_str(), real_path_.c_str()) == 0 ? forget_name() : fail(put_in_place, errno);
+    return status();
 }
 
 void OutputFile::fail(const char* what, int error_number) {

@@ -255,7 +255,7 @@ std::vector<FieldChoice> SampledMesh::fields_of_part() {
     part_->mesh.cell_fields.reserve(fields_.size());
     for (const FieldChoice& choice : fields_) {
         auto& of_part = choice.of_cells ? part_->mesh.cell_fields : part_->mesh.point_fields;
-        of_part.push_back(part_->field(*choice.field, choice.of_cells));
+        of_part.push_back(mesh::rows_of(*choice.field, choice.of_cells ? part_->cells : part_->nodes));
         fields.push_back({&of_part.back(), choice.of_cells, choice.steps, choice.name});
     }
     return fields;

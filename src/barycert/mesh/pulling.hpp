@@ -9,7 +9,6 @@
 #include <array>
 #include <bit>
 #include <optional>
-#include <span>
 #include <string_view>
 
 #include "barycert/mesh.hpp"
