@@ -13,8 +13,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "barycert/io/formats.hpp"
-#include "barycert/io/parallel.hpp"
 #include "barycert/io/vtk/raw_grid.hpp"
 
 namespace barycert::io::medit {
