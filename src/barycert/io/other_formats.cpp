@@ -117,9 +117,8 @@ std::string by_paraview(const std::string& path) {
     if (has_suffix(path, ".vtkhdf"))
         return "convert it with `cp " + shell_word(path) + " " + shell_word(stem + ".hdf") + "` and " +
                paraview_command(stem + ".hdf", stem + "-grid.vtu");
-    for (const char* const known : {".cgns", ".cas", ".foam", ".openfoam"}) {
-        if (has_suffix(path, known)) return "convert it with " + paraview_command(path, stem + "-grid.vtu");
-    }
+    if (has_one_of(path, {".cgns", ".cas", ".foam", ".openfoam"}))
+        return "convert it with " + paraview_command(path, stem + "-grid.vtu");
     return "name the folder of the case";
 }
 

@@ -70,8 +70,7 @@ public:
         for (std::size_t first = 0; first < rings_.size(); ++first) {
             if (known[first] != 0) continue;
             known[first] = 1;
-            next.push_back(first);
-            while (!next.empty()) {
+            for (next = {first}; !next.empty();) {
                 const std::size_t own = next.back();
                 next.pop_back();
                 for (std::size_t i = 0; i < rings_[own].size(); ++i) {
